@@ -1,0 +1,1 @@
+//! Quantum counting: the distribution `P(theta~ | theta)`, draws from it, and estimators.

@@ -1,0 +1,2 @@
+//! Machines, quantum counting and rendering.
+pub mod counting;

@@ -1,0 +1,2 @@
+//! The `qrt` command.
+fn main() {}
