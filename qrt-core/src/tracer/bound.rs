@@ -14,7 +14,10 @@ pub(crate) fn colour<const C: usize>(
     scatters: &[ScatterStage<C>],
 ) -> [f64; C] {
     std::array::from_fn(|c| {
-        let most = radiance.iter().map(|radiance| radiance[c]).fold(0.0, f64::max);
+        let most = radiance
+            .iter()
+            .map(|radiance| radiance[c])
+            .fold(0.0, f64::max);
         // From the last vertex back to the first.
         scatters.iter().rev().fold(most, |beyond, scatter| {
             (0..surfaces.len())

@@ -37,14 +37,25 @@ struct Basis {
 impl Basis {
     fn new(camera: &Camera) -> Self {
         let (eye, target, up, half, perspective) = match camera {
-            Camera::Perspective(c) => {
-                (c.eye, c.target, c.up, libm::tan(0.5 * c.vfov.to_radians()), true)
-            }
+            Camera::Perspective(c) => (
+                c.eye,
+                c.target,
+                c.up,
+                libm::tan(0.5 * c.vfov.to_radians()),
+                true,
+            ),
             Camera::Orthographic(c) => (c.eye, c.target, c.up, 0.5 * c.height, false),
         };
         let forward = (target - eye).normalize();
         let right = forward.cross(up.normalize()).normalize();
-        Self { eye, forward, right, up: right.cross(forward), half, perspective }
+        Self {
+            eye,
+            forward,
+            right,
+            up: right.cross(forward),
+            half,
+            perspective,
+        }
     }
 
     fn corners(&self, film: Film) -> [DVec3; 4] {
@@ -60,7 +71,11 @@ pub(crate) fn reach(camera: &Camera, film: Film) -> Vec<DVec3> {
     if basis.perspective {
         vec![basis.eye]
     } else {
-        basis.corners(film).iter().map(|&corner| basis.eye + corner).collect()
+        basis
+            .corners(film)
+            .iter()
+            .map(|&corner| basis.eye + corner)
+            .collect()
     }
 }
 
@@ -96,8 +111,14 @@ impl CameraStage {
     /// The primary ray of a path: the paper's *Generate Ray* over `primaryRayId`.
     #[inline(always)]
     pub(crate) fn ray<A: Arith>(&self, cx: &mut A, bits: [u32; 2]) -> Ray<A> {
-        let u = cx.coordinate(Coordinate { depth: 0, axis: Axis::U });
-        let v = cx.coordinate(Coordinate { depth: 0, axis: Axis::V });
+        let u = cx.coordinate(Coordinate {
+            depth: 0,
+            axis: Axis::U,
+        });
+        let v = cx.coordinate(Coordinate {
+            depth: 0,
+            axis: Axis::V,
+        });
         let u = cx.centre(u, bits[0]);
         let v = cx.centre(v, bits[1]);
         let [column, row] = cx.pixel();
@@ -117,10 +138,22 @@ impl CameraStage {
         let fixed = vector::constant(cx, self.fixed);
         let from = from_nowhere(cx);
         if self.perspective {
-            let direction = if self.unit { vector::normalize(cx, &moving) } else { moving };
-            Ray { origin: fixed, direction, from }
+            let direction = if self.unit {
+                vector::normalize(cx, &moving)
+            } else {
+                moving
+            };
+            Ray {
+                origin: fixed,
+                direction,
+                from,
+            }
         } else {
-            Ray { origin: moving, direction: fixed, from }
+            Ray {
+                origin: moving,
+                direction: fixed,
+                from,
+            }
         }
     }
 }

@@ -81,7 +81,11 @@ pub fn trace<A: Arith, N: Nearest<A>, const C: usize>(
         let scattered = scatter.scatter(cx, &vertex);
         let point = point_at(cx, &ray, hit.distance);
         let from = cx.entry(&stage.geometry.plane_of, hit.face);
-        ray = Ray { origin: inward(cx, &point, &[gx, gy, gz]), direction: scattered.direction, from };
+        ray = Ray {
+            origin: inward(cx, &point, &[gx, gy, gz]),
+            direction: scattered.direction,
+            from,
+        };
         throughput = Some(match throughput {
             Some(old) => std::array::from_fn(|c| cx.mul(old[c], scattered.weight[c])),
             None => scattered.weight,

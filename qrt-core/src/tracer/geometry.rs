@@ -9,6 +9,9 @@ use glam::DVec3;
 use std::collections::HashMap;
 use std::ops::Range;
 
+/// The face that a ray meets where it meets none.
+pub const NO_FACE: u32 = u32::MAX;
+
 /// The plane that a camera ray leaves: none.
 pub const NO_PLANE: u32 = u32::MAX;
 
@@ -24,43 +27,36 @@ pub(crate) const INWARD: f64 = 1.0 / (1_u64 << 32) as f64;
 /// Planes nearer than this to each other (in coefficients and offset) are one.
 const SAME_PLANE: f64 = 1.0 / (1_u64 << 42) as f64;
 
-/// `v[axis] + next v[axis + 1] + last v[axis + 2]`, axes counted cyclically.
+/// `c . v`, with a greatest coefficient of 1: coefficients of 0 and 1 cost a circuit nothing.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Linear {
-    /// The axis whose coefficient is 1.
-    pub axis: usize,
-    /// Coefficient of the axis after it.
-    pub next: f64,
-    /// Coefficient of the axis after that.
-    pub last: f64,
-}
+pub struct Linear(
+    /// The coefficients of x, y and z.
+    pub [f64; 3],
+);
 
 impl Linear {
-    /// The form proportional to `normal` whose greatest coefficient is 1, and the factor from
-    /// `normal` to it.
-    fn along(normal: DVec3) -> (Self, f64) {
-        let axis = largest(normal);
-        let factor = 1.0 / normal[axis];
-        let coefficient = |k: usize| {
-            let c = normal[(axis + k) % 3] * factor;
-            // What a rotation by a multiple of 90 degrees leaves behind is not a slope.
-            if c.abs() < f64::EPSILON { 0.0 } else { c }
-        };
-        (Self { axis, next: coefficient(1), last: coefficient(2) }, factor)
+    /// The form proportional to `normal` whose greatest coefficient is 1.
+    fn along(normal: DVec3) -> Self {
+        let scaled = normal / normal[largest(normal)];
+        // What a rotation by a multiple of 90 degrees leaves behind is not a slope.
+        Self(
+            scaled
+                .to_array()
+                .map(|c| if c.abs() < f64::EPSILON { 0.0 } else { c }),
+        )
     }
 
     /// Its value at `v`.
     pub fn at_point(&self, v: DVec3) -> f64 {
-        v[self.axis] + self.next * v[(self.axis + 1) % 3] + self.last * v[(self.axis + 2) % 3]
+        v.dot(DVec3::from_array(self.0))
     }
 
-    /// Its coefficients by axis.
-    pub fn coefficients(&self) -> [f64; 3] {
-        let mut c = [0.0; 3];
-        c[self.axis] = 1.0;
-        c[(self.axis + 1) % 3] = self.next;
-        c[(self.axis + 2) % 3] = self.last;
-        c
+    /// Is `other` within `tolerance` of it, coefficient by coefficient?
+    fn near(&self, other: &Self, tolerance: f64) -> bool {
+        self.0
+            .iter()
+            .zip(&other.0)
+            .all(|(a, b)| (a - b).abs() <= tolerance)
     }
 }
 
@@ -113,8 +109,8 @@ pub struct Frame {
 pub struct Geometry {
     /// Distinct planes, in the order of their first face.
     pub planes: Vec<Plane>,
-    /// Faces, grouped by plane. Where faces of one plane overlap, the one listed first in the
-    /// scene stands last here, and wins.
+    /// Faces, grouped by plane, in the order of the scene: where faces of one plane overlap, the
+    /// one listed first wins.
     pub faces: Vec<Face>,
     /// Frames by face label.
     pub frames: Vec<Frame>,
@@ -133,7 +129,10 @@ impl Geometry {
     pub fn new(polygons: &[Polygon], reach: &[DVec3]) -> Self {
         let (centre, scale) = stage_units(polygons);
         let staged = |p: DVec3| (p - centre) * scale;
-        let far = reach.iter().map(|&p| staged(p).abs().max_element()).fold(1.0, f64::max);
+        let far = reach
+            .iter()
+            .map(|&p| staged(p).abs().max_element())
+            .fold(1.0, f64::max);
         let tolerance = TOLERANCE * far;
         let mut geometry = Self {
             planes: Vec::new(),
@@ -147,10 +146,12 @@ impl Geometry {
         let mut on_plane: Vec<Vec<Face>> = Vec::new();
         let mut known: HashMap<[i64; 4], Vec<u32>> = HashMap::new();
         for (label, polygon) in polygons.iter().enumerate() {
-            let corners: Vec<DVec3> =
-                polygon.vertices[..polygon.corners as usize].iter().map(|&v| staged(v)).collect();
+            let corners: Vec<DVec3> = polygon.vertices[..polygon.corners as usize]
+                .iter()
+                .map(|&v| staged(v))
+                .collect();
             let frame = frame(&corners);
-            let (form, _) = Linear::along(frame.normal);
+            let form = Linear::along(frame.normal);
             let offset =
                 corners.iter().map(|&c| form.at_point(c)).sum::<f64>() / corners.len() as f64;
             let plane = geometry.find_plane(form, offset, &mut known, &mut on_plane);
@@ -161,11 +162,13 @@ impl Geometry {
             let faces = &mut on_plane[plane as usize];
             // A second copy of a face is hidden by the first.
             if !faces.iter().any(|face| face.slabs == slabs) {
-                faces.push(Face { label: label as u32, slabs });
+                faces.push(Face {
+                    label: label as u32,
+                    slabs,
+                });
             }
         }
-        for (plane, mut faces) in geometry.planes.iter_mut().zip(on_plane) {
-            faces.reverse();
+        for (plane, faces) in geometry.planes.iter_mut().zip(on_plane) {
             let start = geometry.faces.len();
             geometry.faces.extend(faces);
             plane.faces = start..geometry.faces.len();
@@ -184,30 +187,39 @@ impl Geometry {
         // bucket beyond it, too.
         let width = SAME_PLANE * 1024.0;
         let keys = |shift: f64| {
-            let bucket = |x: f64| ((x + shift) / width).floor() as i64;
-            [form.axis as i64, bucket(form.next), bucket(form.last), bucket(offset)]
+            let [x, y, z] = form.0;
+            [x, y, z, offset].map(|c| ((c + shift) / width).floor() as i64)
         };
         let same = |plane: &Plane| {
-            plane.form.axis == form.axis
-                && (plane.form.next - form.next).abs() <= SAME_PLANE
-                && (plane.form.last - form.last).abs() <= SAME_PLANE
-                && (plane.offset - offset).abs() <= SAME_PLANE
+            plane.form.near(&form, SAME_PLANE) && (plane.offset - offset).abs() <= SAME_PLANE
         };
-        let (below, home, above) = (keys(-SAME_PLANE), keys(0.0), keys(SAME_PLANE));
-        for code in 0..8_usize {
-            let pick = |k: usize| if code >> (k - 1) & 1 == 0 { below[k] } else { above[k] };
-            let key = [home[0], pick(1), pick(2), pick(3)];
+        let (below, above) = (keys(-SAME_PLANE), keys(SAME_PLANE));
+        for code in 0..16_usize {
+            let key = std::array::from_fn(|k| {
+                if code >> k & 1 == 0 {
+                    below[k]
+                } else {
+                    above[k]
+                }
+            });
             let found = known.get(&key).and_then(|planes| {
-                planes.iter().copied().find(|&plane| same(&self.planes[plane as usize]))
+                planes
+                    .iter()
+                    .copied()
+                    .find(|&plane| same(&self.planes[plane as usize]))
             });
             if let Some(plane) = found {
                 return plane;
             }
         }
         let plane = self.planes.len() as u32;
-        self.planes.push(Plane { form, offset, faces: 0..0 });
+        self.planes.push(Plane {
+            form,
+            offset,
+            faces: 0..0,
+        });
         on_plane.push(Vec::new());
-        known.entry(home).or_default().push(plane);
+        known.entry(keys(0.0)).or_default().push(plane);
         plane
     }
 }
@@ -236,17 +248,23 @@ fn frame(corners: &[DVec3]) -> Frame {
         Some(&d) => (c - a).cross(d - b),
         None => (b - a).cross(c - a),
     };
-    let (form, factor) = Linear::along(normal.normalize());
-    let normal = (DVec3::from_array(form.coefficients()) / factor).normalize();
+    let unit = normal.normalize();
+    let axis = largest(unit);
+    let normal = DVec3::from_array(Linear::along(unit).0).normalize() * unit[axis].signum();
     // A tangent along a coordinate axis where the plane allows it: fewer products.
-    let away = match form.axis {
+    let away = match axis {
         0 => DVec3::Y,
         1 => DVec3::Z,
         _ => DVec3::X,
     };
     let tangent = (away - normal * normal.dot(away)).normalize();
     let centre = corners.iter().sum::<DVec3>() / corners.len() as f64;
-    Frame { tangent, bitangent: normal.cross(tangent), normal, centre }
+    Frame {
+        tangent,
+        bitangent: normal.cross(tangent),
+        normal,
+        centre,
+    }
 }
 
 fn largest(v: DVec3) -> usize {
@@ -268,21 +286,19 @@ fn slabs(corners: &[DVec3], normal: DVec3, centre: DVec3, tolerance: f64) -> Vec
         let end = corners[(i + 1) % corners.len()];
         let mut across = (end - start).cross(DVec3::AXES[main]);
         across[main] = 0.0;
-        let (form, _) = Linear::along(across);
+        let form = Linear::along(across);
         let edge = 0.5 * (form.at_point(start) + form.at_point(end));
         let spread = 0.5 * (form.at_point(start) - form.at_point(end)).abs();
-        let reach = (1.0 + form.next.abs() + form.last.abs()) * tolerance + spread;
+        let reach = form.0.iter().map(|c| c.abs()).sum::<f64>() * tolerance + spread;
         let (low, high) = if form.at_point(centre) >= edge {
             (edge - reach, f64::INFINITY)
         } else {
             (f64::NEG_INFINITY, edge + reach)
         };
-        let parallel = slabs.iter_mut().find(|slab| {
-            slab.form.axis == form.axis
-                && (slab.form.next - form.next).abs() <= tolerance
-                && (slab.form.last - form.last).abs() <= tolerance
-        });
-        match parallel {
+        match slabs
+            .iter_mut()
+            .find(|slab| slab.form.near(&form, tolerance))
+        {
             Some(slab) => {
                 slab.low = slab.low.max(low);
                 slab.high = slab.high.min(high);

@@ -4,7 +4,7 @@
 //! that it leaves and cannot meet that plane again: two distinct points of a line on a plane put
 //! the whole line there. So no epsilon is needed to leave a surface.
 
-use super::geometry::{Geometry, Linear, NO_PLANE, Slab};
+use super::geometry::{Geometry, Linear, NO_FACE, NO_PLANE, Slab};
 use super::vector::Vector;
 use super::{Arith, vector};
 
@@ -31,7 +31,7 @@ pub struct Hit<A: Arith> {
     pub found: A::Bool,
     /// Distance, in lengths of the ray's direction.
     pub distance: A::Real,
-    /// The face; anything where there is none.
+    /// The face; the first where there is none.
     pub face: A::Index,
 }
 
@@ -41,6 +41,22 @@ impl<A: Arith> Clone for Hit<A> {
     }
 }
 impl<A: Arith> Copy for Hit<A> {}
+
+impl<A: Arith> Hit<A> {
+    /// The hit on `face`, or none where that is [`NO_FACE`] or the path is not `wanted`.
+    #[inline(always)]
+    pub fn new(cx: &mut A, distance: A::Real, face: A::Index, wanted: A::Bool) -> Self {
+        let none = cx.is(face, NO_FACE);
+        let found = cx.not(none);
+        let zero = cx.index(0);
+        let face = cx.select_index(none, zero, face);
+        Self {
+            found: cx.and(found, wanted),
+            distance,
+            face,
+        }
+    }
+}
 
 /// What finds the nearest intersection.
 pub trait Nearest<A: Arith> {
@@ -57,22 +73,11 @@ pub trait Form<A: Arith> {
 impl<A: Arith> Form<A> for Linear {
     #[inline(always)]
     fn at(&self, cx: &mut A, v: &Vector<A>) -> A::Real {
-        // Zero coefficients cost nothing: an axis-aligned wall has no products.
-        let (main, next, last) = match self.axis {
-            0 => (v[0], v[1], v[2]),
-            1 => (v[1], v[2], v[0]),
-            _ => (v[2], v[0], v[1]),
-        };
-        let mut sum = main;
-        if self.next != 0.0 {
-            let term = cx.scale(next, self.next);
-            sum = cx.add(sum, term);
-        }
-        if self.last != 0.0 {
-            let term = cx.scale(last, self.last);
-            sum = cx.add(sum, term);
-        }
-        sum
+        let x = cx.scale(v[0], self.0[0]);
+        let y = cx.scale(v[1], self.0[1]);
+        let z = cx.scale(v[2], self.0[2]);
+        let xy = cx.add(x, y);
+        cx.add(xy, z)
     }
 }
 
@@ -86,95 +91,86 @@ impl<A: Arith> SlabTest<A> for Slab {
     #[inline(always)]
     fn holds(&self, cx: &mut A, point: &Vector<A>) -> A::Bool {
         let value = self.form.at(cx, point);
-        let above = if self.low > f64::NEG_INFINITY {
-            let low = cx.real(self.low);
-            Some(cx.less_equal(low, value))
-        } else {
-            None
-        };
-        if self.high < f64::INFINITY {
-            let high = cx.real(self.high);
-            let under = cx.less_equal(value, high);
-            above.map_or(under, |above| cx.and(above, under))
-        } else {
-            above.unwrap_or_else(|| cx.truth(true))
-        }
+        let (low, high) = (cx.real(self.low), cx.real(self.high));
+        let above = cx.less_equal(low, value);
+        let under = cx.less_equal(value, high);
+        cx.and(above, under)
     }
 }
 
-/// Where `ray` crosses the plane `form.p = offset`: whether at a distance in `(0, limit)`, and
-/// that distance.
+/// Where `ray` crosses the plane `form.p = offset`: whether ahead, and at which distance.
 #[inline(always)]
 pub fn cross_plane<A: Arith>(
     cx: &mut A,
     form: &impl Form<A>,
     offset: A::Real,
     ray: &Ray<A>,
-    limit: A::Real,
 ) -> (A::Bool, A::Real) {
     let slope = form.at(cx, &ray.direction);
     let height = form.at(cx, &ray.origin);
     let rise = cx.sub(offset, height);
     let distance = cx.div(rise, slope);
     let zero = cx.real(0.0);
-    let ahead = cx.less(zero, distance);
-    let near = cx.less(distance, limit);
-    (cx.and(ahead, near), distance)
+    (cx.less(zero, distance), distance)
 }
 
 /// The point of `ray` at `distance`.
 #[inline(always)]
-pub(crate) fn point_at<A: Arith>(cx: &mut A, ray: &Ray<A>, distance: A::Real) -> Vector<A> {
+pub fn point_at<A: Arith>(cx: &mut A, ray: &Ray<A>, distance: A::Real) -> Vector<A> {
     let way = vector::scale(cx, &ray.direction, distance);
     vector::add(cx, &ray.origin, &way)
 }
 
-/// Does the point of `ray` at `distance` pass every slab?
+/// Does `point` pass every slab?
 #[inline(always)]
-pub fn within<A: Arith, T: SlabTest<A>>(
-    cx: &mut A,
-    slabs: &[T],
-    ray: &Ray<A>,
-    distance: A::Real,
-) -> A::Bool {
-    let point = point_at(cx, ray, distance);
-    let mut inside = None;
-    for slab in slabs {
-        let holds = slab.holds(cx, &point);
-        inside = Some(inside.map_or(holds, |inside| cx.and(inside, holds)));
+pub fn within<A: Arith, T: SlabTest<A>>(cx: &mut A, slabs: &[T], point: &Vector<A>) -> A::Bool {
+    // The usual cases without a loop: truth values then stay in mask registers.
+    match slabs {
+        [a, b] => {
+            let (a, b) = (a.holds(cx, point), b.holds(cx, point));
+            cx.and(a, b)
+        }
+        [a, b, c] => {
+            let (a, b, c) = (a.holds(cx, point), b.holds(cx, point), c.holds(cx, point));
+            let ab = cx.and(a, b);
+            cx.and(ab, c)
+        }
+        [first, rest @ ..] => {
+            let mut inside = first.holds(cx, point);
+            for slab in rest {
+                let holds = slab.holds(cx, point);
+                inside = cx.and(inside, holds);
+            }
+            inside
+        }
+        [] => cx.truth(true),
     }
-    inside.unwrap_or_else(|| cx.truth(true))
 }
 
 impl<A: Arith> Nearest<A> for Geometry {
     /// All planes in turn, with a running nearest.
     #[inline(always)]
     fn nearest(&self, cx: &mut A, ray: &Ray<A>, wanted: A::Bool) -> Hit<A> {
-        let mut nearest = Hit {
-            found: cx.truth(false),
-            distance: cx.real(f64::MAX),
-            face: cx.index(0),
-        };
+        let mut nearest = cx.real(f64::MAX);
+        let mut label = cx.index(NO_FACE);
         for (number, plane) in self.planes.iter().enumerate() {
             let offset = cx.real(plane.offset);
-            let (crosses, distance) = cross_plane(cx, &plane.form, offset, ray, nearest.distance);
+            let (ahead, distance) = cross_plane(cx, &plane.form, offset, ray);
             let left = cx.is(ray.from, number as u32);
             let other = cx.not(left);
-            let open = cx.and(crosses, other);
-            let open = cx.and(open, wanted);
-            if !cx.possible(open) {
-                continue;
-            }
+            let ahead = cx.and(ahead, other);
+            let point = point_at(cx, ray, distance);
             for face in &self.faces[plane.faces.clone()] {
-                let inside = within(cx, &face.slabs, ray, distance);
-                let hit = cx.and(open, inside);
-                let label = cx.index(face.label);
-                nearest.found = cx.or(nearest.found, hit);
-                nearest.distance = cx.select(hit, distance, nearest.distance);
-                nearest.face = cx.select_index(hit, label, nearest.face);
+                let inside = within(cx, &face.slabs, &point);
+                let meets = cx.and(ahead, inside);
+                let nearer = cx.less(distance, nearest);
+                let hit = cx.and(meets, nearer);
+                let new = cx.index(face.label);
+                nearest = cx.select(hit, distance, nearest);
+                label = cx.select_index(hit, new, label);
             }
         }
-        nearest
+        Hit::new(cx, nearest, label, wanted)
     }
 }
 

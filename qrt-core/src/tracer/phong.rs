@@ -84,7 +84,12 @@ impl<const C: usize> PhongStage<C> {
                 lobe: pick(specular).map(|ks| if p < 1.0 { ks * gain / (1.0 - p) } else { 0.0 }),
             }
         });
-        Self { diffuse: pick(diffuse), specular: pick(specular), exponent, lobes }
+        Self {
+            diffuse: pick(diffuse),
+            specular: pick(specular),
+            exponent,
+            lobes,
+        }
     }
 
     /// Does the surface bring a map of its own at this depth?

@@ -24,9 +24,13 @@ pub struct Sampled {
 impl Sampled {
     /// A function of the index, `0..2^bits`.
     pub fn of_index(bits: u32, function: impl Fn(u32) -> f64 + Send + Sync + 'static) -> Self {
-        let table =
-            if bits <= TABLE_BITS { (0..1 << bits).map(&function).collect() } else { Arc::new([]) };
-        Self { bits, table, function: Arc::new(function) }
+        let entries = if bits <= TABLE_BITS { 1 << bits } else { 0 };
+        let table = (0..entries).map(&function).collect();
+        Self {
+            bits,
+            table,
+            function: Arc::new(function),
+        }
     }
 
     /// A function of the cell centre `(index + 1/2) / 2^bits`.
@@ -60,7 +64,10 @@ impl Sampled {
 
 impl fmt::Debug for Sampled {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Sampled").field("bits", &self.bits).field("table", &self.table).finish()
+        f.debug_struct("Sampled")
+            .field("bits", &self.bits)
+            .field("table", &self.table)
+            .finish()
     }
 }
 
@@ -117,7 +124,10 @@ struct Compiler {
 impl Compiled {
     /// Compiles `expressions` for coordinates of `bits`; `cos_i` is `|phi_z|`.
     pub(crate) fn new(expressions: &[&Expr], bits: [u32; 2], cos_i: Option<&Expr>) -> Self {
-        let mut compiler = Compiler { bits, steps: Vec::new() };
+        let mut compiler = Compiler {
+            bits,
+            steps: Vec::new(),
+        };
         let cos_i = cos_i.map(Expr::abs);
         let roots = expressions
             .iter()
@@ -126,7 +136,10 @@ impl Compiled {
                 None => compiler.expression(expr),
             })
             .collect();
-        Self { steps: compiler.steps, roots }
+        Self {
+            steps: compiler.steps,
+            roots,
+        }
     }
 
     /// The value of expression `root`, if it is the same for all paths.
@@ -145,8 +158,14 @@ impl Compiled {
         depth: usize,
         angles: Option<Angles<A::Real>>,
     ) -> [A::Real; K] {
-        let u = cx.coordinate(Coordinate { depth, axis: Axis::U });
-        let v = cx.coordinate(Coordinate { depth, axis: Axis::V });
+        let u = cx.coordinate(Coordinate {
+            depth,
+            axis: Axis::U,
+        });
+        let v = cx.coordinate(Coordinate {
+            depth,
+            axis: Axis::V,
+        });
         let zero = cx.real(0.0);
         let mut few = [zero; 12];
         let mut many = Vec::new();
@@ -156,7 +175,10 @@ impl Compiled {
             many.resize(self.steps.len(), zero);
             &mut many
         };
-        let angles = angles.unwrap_or(Angles { cos_o: zero, cos_a: zero });
+        let angles = angles.unwrap_or(Angles {
+            cos_o: zero,
+            cos_a: zero,
+        });
         for (number, step) in self.steps.iter().enumerate() {
             values[number] = match step {
                 Step::Constant(value) => cx.real(*value),
@@ -222,8 +244,10 @@ impl Compiler {
                 continue;
             }
             let node = &expr.nodes()[id.index()];
-            let missing: Vec<Id> =
-                node.operands().filter(|operand| !done.contains_key(operand)).collect();
+            let missing: Vec<Id> = node
+                .operands()
+                .filter(|operand| !done.contains_key(operand))
+                .collect();
             if missing.is_empty() {
                 let step = self.arithmetic(node, &done);
                 done.insert(id, step);
@@ -240,12 +264,20 @@ impl Compiler {
         if !needs.is_subset(VariableSet::SQUARE) || needs == VariableSet::SQUARE {
             return None;
         }
-        let axis = if needs.contains(Variable::V) { Axis::V } else { Axis::U };
+        let axis = if needs.contains(Variable::V) {
+            Axis::V
+        } else {
+            Axis::U
+        };
         let bits = self.bits[usize::from(axis == Axis::V)];
         let owned = expr.clone();
         let value = move |coordinate: f64| {
             let mut values = Vec::new();
-            let at = Variables { u: coordinate, v: coordinate, ..Variables::default() };
+            let at = Variables {
+                u: coordinate,
+                v: coordinate,
+                ..Variables::default()
+            };
             owned.eval_in(&at, &mut values);
             values[id.index()]
         };

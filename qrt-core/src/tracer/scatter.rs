@@ -9,8 +9,8 @@ use super::sampled::{Angles, Compiled};
 use super::vector::{self, Vector};
 use super::{Arith, Axis, Coordinate, Sampled};
 use crate::expr::Expr;
-use crate::scene::{Map, Rgb};
 use crate::sampling::maps;
+use crate::scene::{Map, Rgb};
 use crate::valid::{CustomBsdf, Scatter, Surface};
 use std::f64::consts::{PI, TAU};
 use std::ops::Range;
@@ -21,10 +21,13 @@ pub(crate) type Kind = Range<u32>;
 /// What scatters towards one depth's ray, made ready.
 #[derive(Clone, Debug)]
 pub(crate) struct ScatterStage<const C: usize> {
-    pub(crate) depth: usize,
+    depth: usize,
     bits: [u32; 2],
     /// `phi` and `J |phi_z| / pi` of the depth's own map: the cosine map under `auto`.
     map: Compiled,
+    /// The greatest `J |phi_z| / pi` of that map.
+    factor_bound: f64,
+    channels: [usize; C],
     /// Does the depth's map replace the materials' own?
     replaces: bool,
     azimuth: [Sampled; 2],
@@ -99,14 +102,20 @@ impl<const C: usize> ScatterStage<C> {
     ) -> Self {
         let pick = |rgb: Rgb| channels.map(|channel| rgb[channel]);
         let run = |kind: u32| {
-            let is = |surface: &&&Surface| rank(&surface.scatter) == kind;
-            let start = surfaces.iter().position(|s| is(&s)).unwrap_or(0);
-            start as u32..(start + surfaces.iter().filter(is).count()) as u32
+            let is = |surface: &&Surface| rank(&surface.scatter) == kind;
+            let start = surfaces.iter().position(is).unwrap_or(0);
+            let count = surfaces.iter().copied().filter(is).count();
+            start as u32..(start + count) as u32
         };
         let replaces = map != Map::Auto;
         let builtin = maps::builtin(map);
         let own = Compiled::new(
-            &[&builtin.map[0], &builtin.map[1], &builtin.map[2], &over_pi(&builtin.projected)],
+            &[
+                &builtin.map[0],
+                &builtin.map[1],
+                &builtin.map[2],
+                &over_pi(&builtin.projected),
+            ],
             bits,
             None,
         );
@@ -114,13 +123,20 @@ impl<const C: usize> ScatterStage<C> {
         let mut custom = Vec::new();
         for (number, surface) in surfaces.iter().enumerate() {
             match &surface.scatter {
-                Scatter::Phong { diffuse, specular, exponent } => phong.push((
+                Scatter::Phong {
+                    diffuse,
+                    specular,
+                    exponent,
+                } => phong.push((
                     number as u32,
                     PhongStage::new(*diffuse, *specular, *exponent, channels, bits[0]),
                 )),
                 Scatter::Custom(bsdf) => {
                     let replacement = replaces.then_some(&builtin);
-                    custom.push((number as u32, CustomStage::new(bsdf, replacement, channels, bits)));
+                    custom.push((
+                        number as u32,
+                        CustomStage::new(bsdf, replacement, channels, bits),
+                    ));
                 }
                 _ => {}
             }
@@ -131,6 +147,12 @@ impl<const C: usize> ScatterStage<C> {
             depth,
             bits,
             map: own,
+            factor_bound: if map == Map::UniformHemisphere {
+                2.0
+            } else {
+                1.0
+            },
+            channels,
             replaces,
             azimuth: [
                 Sampled::of_centre(bits[1], |v| libm::cos(TAU * v)),
@@ -140,7 +162,10 @@ impl<const C: usize> ScatterStage<C> {
             mirror: run(2),
             dielectric: run(3),
             ggx,
-            tint: surfaces.iter().map(|surface| pick(tint(&surface.scatter))).collect(),
+            tint: surfaces
+                .iter()
+                .map(|surface| pick(tint(&surface.scatter)))
+                .collect(),
             refraction: surfaces
                 .iter()
                 .map(|surface| match surface.scatter {
@@ -158,6 +183,35 @@ impl<const C: usize> ScatterStage<C> {
             phong,
             custom,
             local,
+        }
+    }
+
+    /// The greatest weight of surface `number` in channel `c` towards this depth.
+    pub(crate) fn weight_bound(&self, surfaces: &[&Surface], number: u32, c: usize) -> f64 {
+        let tint = self.tint[number as usize][c];
+        match &surfaces[number as usize].scatter {
+            Scatter::Black => 0.0,
+            Scatter::Lambertian { .. } => tint * self.factor_bound,
+            Scatter::Mirror { .. } => tint,
+            Scatter::Dielectric { ior } => (ior * ior).max(1.0 / (ior * ior)),
+            Scatter::Ggx { alpha, .. } if self.replaces => {
+                // pi f: D is at most 1 / (pi alpha^2), and the masking's denominator at least
+                // alpha^2; both at once at grazing angles.
+                tint * self.factor_bound / alpha.powi(4)
+            }
+            Scatter::Ggx { .. } => tint,
+            Scatter::Phong { .. } => self
+                .phong
+                .iter()
+                .filter(|(surface, _)| *surface == number)
+                .map(
+                    |(_, phong)| match phong.bound().filter(|_| !self.replaces) {
+                        Some(bound) => bound[c],
+                        None => PI * phong.value_bound()[c] * self.factor_bound,
+                    },
+                )
+                .fold(0.0, f64::max),
+            Scatter::Custom(bsdf) => bsdf.weight_bound[self.channels[c]],
         }
     }
 
@@ -180,7 +234,15 @@ impl<const C: usize> ScatterStage<C> {
         if let Some(mask) = members(cx, at, &self.mirror) {
             let mirrored = vector::mirror(cx, &at.arriving, &at.normal);
             let direction = vector::neg(cx, &mirrored);
-            choose(cx, &mut chosen, mask, Scattered { direction, weight: tint });
+            choose(
+                cx,
+                &mut chosen,
+                mask,
+                Scattered {
+                    direction,
+                    weight: tint,
+                },
+            );
         }
         if let Some(mask) = members(cx, at, &self.dielectric) {
             let scattered = self.dielectric(cx, at);
@@ -206,7 +268,10 @@ impl<const C: usize> ScatterStage<C> {
             if let Some(mask) = members(cx, at, &(*surface..surface + 1)) {
                 let map = custom.direction.as_ref().unwrap_or(&self.map);
                 let incoming = map.evaluate(cx, self.depth, None);
-                let angles = Angles { cos_o: local.outgoing[2], cos_a: local.cos_a(cx, &incoming) };
+                let angles = Angles {
+                    cos_o: local.outgoing[2],
+                    cos_a: local.cos_a(cx, &incoming),
+                };
                 let weight = custom.weight.evaluate(cx, self.depth, Some(angles));
                 let direction = to_scene(cx, at, &incoming);
                 choose(cx, &mut chosen, mask, Scattered { direction, weight });
@@ -217,8 +282,14 @@ impl<const C: usize> ScatterStage<C> {
 
     #[inline(always)]
     fn azimuth<A: Arith>(&self, cx: &mut A) -> [A::Real; 2] {
-        let v = cx.coordinate(Coordinate { depth: self.depth, axis: Axis::V });
-        [cx.sampled(&self.azimuth[0], v), cx.sampled(&self.azimuth[1], v)]
+        let v = cx.coordinate(Coordinate {
+            depth: self.depth,
+            axis: Axis::V,
+        });
+        [
+            cx.sampled(&self.azimuth[0], v),
+            cx.sampled(&self.azimuth[1], v),
+        ]
     }
 
     /// Smooth glass: `u` below the Fresnel reflectance reflects, else the ray is refracted and
@@ -239,7 +310,10 @@ impl<const C: usize> ScatterStage<C> {
         let rest = cx.max(rest, zero);
         let cos_t = cx.sqrt(rest);
         let reflectance = fresnel(cx, eta, cos_o, cos_t);
-        let u = cx.coordinate(Coordinate { depth: self.depth, axis: Axis::U });
+        let u = cx.coordinate(Coordinate {
+            depth: self.depth,
+            axis: Axis::U,
+        });
         let u = cx.centre(u, self.bits[0]);
         let below = cx.less(u, reflectance);
         let reflects = cx.or(total, below);
@@ -256,7 +330,10 @@ impl<const C: usize> ScatterStage<C> {
         let sideways = vector::scale(cx, &at.normal, across);
         let direction = vector::add(cx, &forward, &sideways);
         let weight = cx.select(reflects, one, eta_squared);
-        Scattered { direction, weight: [weight; C] }
+        Scattered {
+            direction,
+            weight: [weight; C],
+        }
     }
 
     #[inline(always)]
@@ -274,7 +351,10 @@ impl<const C: usize> ScatterStage<C> {
             let value = cx.scale(value, PI);
             (incoming, cx.mul(value, factor))
         } else {
-            let u = cx.coordinate(Coordinate { depth: self.depth, axis: Axis::U });
+            let u = cx.coordinate(Coordinate {
+                depth: self.depth,
+                axis: Axis::U,
+            });
             let u = cx.centre(u, self.bits[0]);
             let azimuth = self.azimuth(cx);
             microfacet::sample(cx, alpha, &local.outgoing, u, azimuth)
@@ -289,7 +369,10 @@ impl<const C: usize> ScatterStage<C> {
         local: &LocalFrame<A>,
     ) -> (Vector<A>, [A::Real; C]) {
         if !self.replaces && phong.has_map() {
-            let u = cx.coordinate(Coordinate { depth: self.depth, axis: Axis::U });
+            let u = cx.coordinate(Coordinate {
+                depth: self.depth,
+                axis: Axis::U,
+            });
             let azimuth = self.azimuth(cx);
             if let Some(sampled) = phong.sample(cx, &local.outgoing, u, azimuth) {
                 return sampled;
@@ -337,7 +420,9 @@ impl<A: Arith> LocalFrame<A> {
         let x = vector::dot(cx, &at.arriving, &at.tangent);
         let y = vector::dot(cx, &at.arriving, &at.bitangent);
         let z = cx.abs(at.slope);
-        Self { outgoing: [cx.neg(x), cx.neg(y), z] }
+        Self {
+            outgoing: [cx.neg(x), cx.neg(y), z],
+        }
     }
 
     /// `incoming.mirror(outgoing)`
@@ -362,7 +447,9 @@ fn tint(scatter: &Scatter) -> Rgb {
     match scatter {
         Scatter::Lambertian { albedo: tint }
         | Scatter::Mirror { reflectance: tint }
-        | Scatter::Ggx { reflectance: tint, .. } => *tint,
+        | Scatter::Ggx {
+            reflectance: tint, ..
+        } => *tint,
         _ => [0.0; 3],
     }
 }
@@ -391,7 +478,7 @@ pub(crate) fn fresnel<A: Arith>(
 
 /// The paths on a surface of this kind, if there may be any.
 #[inline(always)]
-fn members<A: Arith>(cx: &mut A, at: &Vertex<A>, kind: &Kind) -> Option<A::Bool> {
+pub(crate) fn members<A: Arith>(cx: &mut A, at: &Vertex<A>, kind: &Kind) -> Option<A::Bool> {
     if kind.is_empty() {
         return None;
     }
@@ -425,7 +512,10 @@ fn choose<A: Arith, const C: usize>(
 #[inline(always)]
 fn nothing<A: Arith, const C: usize>(cx: &mut A, at: &Vertex<A>) -> Scattered<A, C> {
     let zero = cx.real(0.0);
-    Scattered { direction: at.arriving, weight: [zero; C] }
+    Scattered {
+        direction: at.arriving,
+        weight: [zero; C],
+    }
 }
 
 /// From the local frame to the scene's: `x T + y B + z N` on the viewer's side.

@@ -66,15 +66,24 @@ impl<const C: usize> Stage<C> {
             })
             .collect();
         let unit = depths.len() > 1 && surfaces.iter().any(|s| needs_angles(&s.scatter));
-        let radiance: Vec<[f64; C]> =
-            surfaces.iter().map(|surface| channels.map(|c| surface.radiance[c])).collect();
+        let radiance: Vec<[f64; C]> = surfaces
+            .iter()
+            .map(|surface| channels.map(|c| surface.radiance[c]))
+            .collect();
         let bound = bound::colour(&surfaces, &radiance, &scatters);
         let frames = geometry.frames.iter();
         Self {
             camera: CameraStage::new(&written.camera, written.film, &geometry, unit),
             film_bits: depths.first().map_or([0, 0], |primary| primary.bits),
-            surface_of: scene.polygons().iter().map(|p| place[p.surface as usize]).collect(),
-            normals: frames.clone().map(|frame| frame.normal.to_array()).collect(),
+            surface_of: scene
+                .polygons()
+                .iter()
+                .map(|p| place[p.surface as usize])
+                .collect(),
+            normals: frames
+                .clone()
+                .map(|frame| frame.normal.to_array())
+                .collect(),
             frames: frames.map(frame_row).collect(),
             radiance,
             emitters,
@@ -123,7 +132,14 @@ fn emits(surface: &Surface) -> bool {
 /// By kind, and so that emitters (which are black or Lambertian) are neighbours.
 fn sort_key(surface: &Surface) -> (u32, bool) {
     let kind = rank(&surface.scatter);
-    (kind, if kind == 0 { emits(surface) } else { !emits(surface) })
+    (
+        kind,
+        if kind == 0 {
+            emits(surface)
+        } else {
+            !emits(surface)
+        },
+    )
 }
 
 /// Does the material ask for the cosine of the arriving ray?

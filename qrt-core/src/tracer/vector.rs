@@ -40,13 +40,12 @@ pub(crate) fn neg<A: Arith>(cx: &mut A, a: &Vector<A>) -> Vector<A> {
 }
 
 #[inline(always)]
-pub(crate) fn select<A: Arith>(
-    cx: &mut A,
-    c: A::Bool,
-    a: &Vector<A>,
-    b: &Vector<A>,
-) -> Vector<A> {
-    [cx.select(c, a[0], b[0]), cx.select(c, a[1], b[1]), cx.select(c, a[2], b[2])]
+pub(crate) fn select<A: Arith>(cx: &mut A, c: A::Bool, a: &Vector<A>, b: &Vector<A>) -> Vector<A> {
+    [
+        cx.select(c, a[0], b[0]),
+        cx.select(c, a[1], b[1]),
+        cx.select(c, a[2], b[2]),
+    ]
 }
 
 #[inline(always)]

@@ -29,11 +29,24 @@ pub struct Surface {
 pub enum Scatter {
     /// Nothing leaves: the path ends here.
     Black,
-    Lambertian { albedo: Rgb },
-    Mirror { reflectance: Rgb },
-    Dielectric { ior: f64 },
-    Ggx { alpha: f64, reflectance: Rgb },
-    Phong { diffuse: Rgb, specular: Rgb, exponent: f64 },
+    Lambertian {
+        albedo: Rgb,
+    },
+    Mirror {
+        reflectance: Rgb,
+    },
+    Dielectric {
+        ior: f64,
+    },
+    Ggx {
+        alpha: f64,
+        reflectance: Rgb,
+    },
+    Phong {
+        diffuse: Rgb,
+        specular: Rgb,
+        exponent: f64,
+    },
     Custom(Box<CustomBsdf>),
 }
 
