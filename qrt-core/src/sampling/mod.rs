@@ -1,1 +1,2 @@
 //! (sampling)
+pub mod maps;

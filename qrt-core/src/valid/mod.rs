@@ -1,5 +1,7 @@
 //! `Scene` -> [`ValidScene`], or every error at once.
 
+pub mod bsdf;
+
 use crate::expr::Expr;
 use crate::scene::{Rgb, Scene};
 use glam::DVec3;
@@ -29,11 +31,24 @@ pub struct Surface {
 pub enum Scatter {
     /// Nothing leaves: the path ends here.
     Black,
-    Lambertian { albedo: Rgb },
-    Mirror { reflectance: Rgb },
-    Dielectric { ior: f64 },
-    Ggx { alpha: f64, reflectance: Rgb },
-    Phong { diffuse: Rgb, specular: Rgb, exponent: f64 },
+    Lambertian {
+        albedo: Rgb,
+    },
+    Mirror {
+        reflectance: Rgb,
+    },
+    Dielectric {
+        ior: f64,
+    },
+    Ggx {
+        alpha: f64,
+        reflectance: Rgb,
+    },
+    Phong {
+        diffuse: Rgb,
+        specular: Rgb,
+        exponent: f64,
+    },
     Custom(Box<CustomBsdf>),
 }
 
