@@ -55,7 +55,7 @@ impl Rules {
     /// The derivative of `node`, which is `id`, from those of its operands.
     fn of(&mut self, id: Id, node: Node, [da, db, dx, dy]: [Option<Id>; 4]) -> Option<Id> {
         match node {
-            Node::Number(_) | Node::Variable(_) => None,
+            Node::Number(_) | Node::Variable(_) | Node::Powi(_, 0) => None,
             Node::Neg(_) => self.neg(da),
             Node::Add(..) => self.add(da, db),
             Node::Sub(..) => self.sub(da, db),
@@ -71,7 +71,6 @@ impl Rules {
                 let right = self.over(right, b);
                 self.sub(left, right)
             }
-            Node::Powi(_, 0) => None,
             Node::Powi(a, n) => {
                 let lower = match n.checked_sub(1) {
                     Some(1) => a,

@@ -406,8 +406,8 @@ impl Interval {
     /// Sine or cosine, which is 1 at `peak` turns and -1 half a turn later.
     fn wave(self, f: Function, peak: f64) -> Self {
         let all = Self { lo: -1.0, hi: 1.0 };
-        // Beyond this, the turns that follow are no longer known to a part of 1e-6.
-        if !(self.lo.abs().max(self.hi.abs()) < 1e6) {
+        // Beyond this, the phase is no longer known to the slack that is left below.
+        if self.lo.abs().max(self.hi.abs()) >= 1e6 {
             return all;
         }
         let turns = |x: f64| x / std::f64::consts::TAU;

@@ -83,7 +83,7 @@ fn problem(code: &'static str, range: Range<usize>, message: impl Into<String>) 
     Problem::new(code, Path::root(), message).within(range)
 }
 
-impl<'a> Parser<'a> {
+impl Parser<'_> {
     fn whole(&mut self) -> Fallible<Id> {
         self.advance()?;
         if self.token == Token::End {

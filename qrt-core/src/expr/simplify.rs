@@ -10,9 +10,11 @@
 //! original has none, the result may have one: `x/x` becomes 1. So whoever cares whether a formula
 //! is defined checks it as written.
 
-use super::arena::Arena;
 use super::{Domain, Expr, Function, Id, Interval, Node, Variable};
 use std::collections::HashMap;
+
+mod rules;
+mod write;
 
 /// More parts than any formula of a scene has: beyond, an expression is left as it is.
 const MAX_PARTS: usize = 200_000;
@@ -67,6 +69,29 @@ struct Product {
     factors: Vec<Factor>,
 }
 
+impl Factor {
+    fn new(atom: Atoms, exponent: f64) -> Self {
+        Self { atom, exponent }
+    }
+}
+
+impl Product {
+    fn new(coefficient: f64, factors: Vec<Factor>) -> Self {
+        Self {
+            coefficient,
+            factors,
+        }
+    }
+
+    /// The atom, if one to the power 1 is all there is beside the coefficient.
+    fn lone(&self) -> Option<Atoms> {
+        match self.factors[..] {
+            [factor] if factor.exponent == 1.0 => Some(factor.atom),
+            _ => None,
+        }
+    }
+}
+
 /// Products with distinct factors, in order, no coefficient 0.
 type Sum = Vec<Product>;
 
@@ -111,12 +136,7 @@ fn canonical(expr: &Expr) -> Option<Expr> {
         sums.push(sum);
     }
     let root = &sums[expr.root().index()];
-    Writer {
-        canon: &canon,
-        arena: Arena::default(),
-        written: vec![None; canon.atoms.len()],
-    }
-    .write(root)
+    write::write(&canon, root)
 }
 
 fn number(value: f64) -> Option<Sum> {
@@ -126,10 +146,7 @@ fn number(value: f64) -> Option<Sum> {
     Some(if value == 0.0 {
         Vec::new()
     } else {
-        vec![Product {
-            coefficient: value,
-            factors: Vec::new(),
-        }]
+        vec![Product::new(value, Vec::new())]
     })
 }
 
@@ -152,20 +169,15 @@ fn is_integer(exponent: f64) -> bool {
 fn scaled(sum: &Sum, by: f64) -> Option<Sum> {
     let scale = |p: &Product| {
         let coefficient = p.coefficient * by;
-        (coefficient.is_finite() && coefficient != 0.0).then(|| Product {
-            coefficient,
-            factors: p.factors.clone(),
-        })
+        (coefficient.is_finite() && coefficient != 0.0)
+            .then(|| Product::new(coefficient, p.factors.clone()))
     };
     sum.iter().map(scale).collect()
 }
 
 fn negated(sum: &Sum) -> Sum {
     sum.iter()
-        .map(|p| Product {
-            coefficient: -p.coefficient,
-            factors: p.factors.clone(),
-        })
+        .map(|p| Product::new(-p.coefficient, p.factors.clone()))
         .collect()
 }
 
@@ -174,10 +186,7 @@ impl Canon {
         let of = |id: Id| &sums[id.index()];
         match node {
             Node::Number(value) => number(value),
-            Node::Variable(variable) => {
-                let atom = self.atom(Atom::Variable(variable));
-                Some(power_of(atom, 1.0))
-            }
+            Node::Variable(variable) => Some(self.single(Atom::Variable(variable))),
             Node::Neg(a) => Some(negated(of(a))),
             Node::Add(a, b) => self.add(of(a).clone(), of(b)),
             Node::Sub(a, b) => self.add(of(a).clone(), &negated(of(b))),
@@ -185,13 +194,12 @@ impl Canon {
             Node::Div(a, b) => self.divide(of(a), of(b)),
             Node::Powi(a, n) => self.raise(of(a), n.into()),
             Node::Sqrt(a) => self.raise(of(a), 0.5),
-            Node::Pow(a, b) => match constant(of(b)) {
-                Some(exponent) => self.raise(of(a), exponent),
-                None => {
-                    let atom = self.atom(Atom::Pow(of(a).clone(), of(b).clone()));
-                    Some(power_of(atom, 1.0))
+            Node::Pow(a, b) => {
+                if let Some(exponent) = constant(of(b)) {
+                    return self.raise(of(a), exponent);
                 }
-            },
+                Some(self.single(Atom::Pow(of(a).clone(), of(b).clone())))
+            }
             Node::Abs(a) => self.abs(of(a)),
             Node::Min(a, b) => {
                 let (below, above) = (self.range(of(a)), self.range(of(b)));
@@ -201,8 +209,7 @@ impl Canon {
                 if above.hi <= below.lo {
                     return Some(of(b).clone());
                 }
-                let atom = self.atom(Atom::Min(of(a).clone(), of(b).clone()));
-                Some(power_of(atom, 1.0))
+                Some(self.single(Atom::Min(of(a).clone(), of(b).clone())))
             }
             Node::Max(a, b) => {
                 let (below, above) = (self.range(of(a)), self.range(of(b)));
@@ -212,8 +219,7 @@ impl Canon {
                 if above.lo >= below.hi {
                     return Some(of(b).clone());
                 }
-                let atom = self.atom(Atom::Max(of(a).clone(), of(b).clone()));
-                Some(power_of(atom, 1.0))
+                Some(self.single(Atom::Max(of(a).clone(), of(b).clone())))
             }
             Node::IfLess(a, b, x, y) => {
                 let (left, right) = (self.range(of(a)), self.range(of(b)));
@@ -224,16 +230,14 @@ impl Canon {
                     return Some(of(y).clone());
                 }
                 let parts = [a, b, x, y].map(|id| of(id).clone());
-                let atom = self.atom(Atom::IfLess(Box::new(parts)));
-                Some(power_of(atom, 1.0))
+                Some(self.single(Atom::IfLess(Box::new(parts))))
             }
-            Node::Atan2(a, b) => match (constant(of(a)), constant(of(b))) {
-                (Some(a), Some(b)) => number(libm::atan2(a, b)),
-                _ => {
-                    let atom = self.atom(Atom::Atan2(of(a).clone(), of(b).clone()));
-                    Some(power_of(atom, 1.0))
+            Node::Atan2(a, b) => {
+                if let (Some(a), Some(b)) = (constant(of(a)), constant(of(b))) {
+                    return number(libm::atan2(a, b));
                 }
-            },
+                Some(self.single(Atom::Atan2(of(a).clone(), of(b).clone())))
+            }
             Node::Function(f, a) => self.function(f, of(a)),
         }
     }
@@ -242,10 +246,7 @@ impl Canon {
     /// that is the same for all multiples of it. The atom is not negative if that can be known.
     fn product(&mut self, sum: &Sum) -> Option<Product> {
         match &sum[..] {
-            [] => Some(Product {
-                coefficient: 0.0,
-                factors: Vec::new(),
-            }),
+            [] => Some(Product::new(0.0, Vec::new())),
             [product] => Some(product.clone()),
             terms => {
                 let mut content = terms[0].coefficient;
@@ -261,21 +262,12 @@ impl Canon {
                 }
                 let scale = |p: &Product| {
                     let coefficient = p.coefficient / content;
-                    (coefficient != 0.0).then(|| Product {
-                        coefficient,
-                        factors: p.factors.clone(),
-                    })
+                    (coefficient != 0.0).then(|| Product::new(coefficient, p.factors.clone()))
                 };
                 let primitive = terms.iter().map(scale).collect::<Option<Sum>>()?;
                 let atom = self.atom(Atom::Sum(primitive));
-                let factors = vec![Factor {
-                    atom,
-                    exponent: 1.0,
-                }];
-                Some(Product {
-                    coefficient: content,
-                    factors,
-                })
+                let factors = vec![Factor::new(atom, 1.0)];
+                Some(Product::new(content, factors))
             }
         }
     }
@@ -290,18 +282,18 @@ impl Canon {
     /// Like terms become one, sums that stand alone in a term are opened, and squares of sine and
     /// cosine meet.
     fn collect(&mut self, terms: Vec<Product>) -> Option<Sum> {
+        let mut sum = self.merged(terms)?;
+        while let Some(shorter) = self.pythagoras(&sum) {
+            sum = self.merged(shorter)?;
+        }
+        Some(sum)
+    }
+
+    fn merged(&self, terms: Vec<Product>) -> Option<Sum> {
         let mut open: Vec<Product> = Vec::with_capacity(terms.len());
         for term in terms {
-            match &term.factors[..] {
-                [
-                    Factor {
-                        atom,
-                        exponent: 1.0,
-                    },
-                ] => match &self.atoms[*atom] {
-                    Atom::Sum(inner) => open.extend(scaled(inner, term.coefficient)?),
-                    _ => open.push(term),
-                },
+            match term.lone().map(|atom| &self.atoms[atom]) {
+                Some(Atom::Sum(inner)) => open.extend(scaled(inner, term.coefficient)?),
                 _ => open.push(term),
             }
         }
@@ -327,10 +319,7 @@ impl Canon {
             }
         }
         sum.retain(|term| term.coefficient != 0.0);
-        match self.pythagoras(&sum) {
-            Some(shorter) => self.collect(shorter),
-            None => Some(sum),
-        }
+        Some(sum)
     }
 
     /// With R any product: c R sin^2 + c R cos^2 = c R, and c R - c R sin^2 = c R cos^2.
@@ -352,27 +341,15 @@ impl Canon {
                 };
                 let angle = angle.clone();
                 let other = self.atom(Atom::Function(other, angle));
-                let square = Factor {
-                    atom: factor.atom,
-                    exponent: -2.0,
-                };
+                let square = Factor::new(factor.atom, -2.0);
                 let rest = self.joined(term, &[square])?;
-                let partner = self.joined(
-                    &rest,
-                    &[Factor {
-                        atom: other,
-                        exponent: 2.0,
-                    }],
-                )?;
+                let partner = self.joined(&rest, &[Factor::new(other, 2.0)])?;
                 for (j, candidate) in sum.iter().enumerate().filter(|(j, _)| *j != i) {
                     let (a, b) = (term.coefficient, candidate.coefficient);
                     let replacement = if candidate.factors == partner.factors && alike(a, b) {
                         &rest
                     } else if candidate.factors == rest.factors && alike(-a, b) {
-                        &Product {
-                            coefficient: b,
-                            factors: partner.factors.clone(),
-                        }
+                        &Product::new(b, partner.factors.clone())
                     } else {
                         continue;
                     };
@@ -426,10 +403,9 @@ impl Canon {
         if coefficient == 0.0 {
             factors.clear();
         }
-        coefficient.is_finite().then_some(Product {
-            coefficient,
-            factors,
-        })
+        coefficient
+            .is_finite()
+            .then_some(Product::new(coefficient, factors))
     }
 
     fn multiply(&mut self, a: &Sum, b: &Sum) -> Option<Sum> {
@@ -449,10 +425,7 @@ impl Canon {
         }
         let a = self.product(a)?;
         let b = self.product(b)?;
-        let scale = Product {
-            coefficient: a.coefficient * b.coefficient,
-            factors: a.factors,
-        };
+        let scale = Product::new(a.coefficient * b.coefficient, a.factors);
         let product = self.joined(&scale, &b.factors)?;
         self.opened(product)
     }
@@ -466,15 +439,9 @@ impl Canon {
         let inverse: Vec<Factor> = b
             .factors
             .iter()
-            .map(|f| Factor {
-                atom: f.atom,
-                exponent: -f.exponent,
-            })
+            .map(|f| Factor::new(f.atom, -f.exponent))
             .collect();
-        let scale = Product {
-            coefficient: a.coefficient / b.coefficient,
-            factors: a.factors,
-        };
+        let scale = Product::new(a.coefficient / b.coefficient, a.factors);
         let product = self.joined(&scale, &inverse)?;
         self.opened(product)
     }
@@ -503,148 +470,9 @@ impl Canon {
         self.opened(power)
     }
 
-    /// A product to a power. A root may be taken of a factor alone only if the factor is known
-    /// not to be negative; those of unknown sign stay together.
-    fn power(&mut self, base: &Product, exponent: f64) -> Option<Product> {
-        let raised = |factor: &Factor| Factor {
-            atom: factor.atom,
-            exponent: factor.exponent * exponent,
-        };
-        if is_integer(exponent) {
-            let coefficient = libm::pow(base.coefficient, exponent);
-            if coefficient == 0.0 {
-                return None;
-            }
-            let factors: Vec<Factor> = base.factors.iter().map(raised).collect();
-            return self.joined(
-                &Product {
-                    coefficient,
-                    factors: Vec::new(),
-                },
-                &factors,
-            );
-        }
-        let mut factors = Vec::new();
-        let mut unknown = Vec::new();
-        for factor in &base.factors {
-            if self.ranges[factor.atom].lo >= 0.0 || !is_integer(factor.exponent) {
-                factors.push(raised(factor));
-            } else if is_even(factor.exponent) {
-                let atom = self.atom(Atom::Abs(factor.atom));
-                factors.push(raised(&Factor {
-                    atom,
-                    exponent: factor.exponent,
-                }));
-            } else {
-                unknown.push(*factor);
-            }
-        }
-        let size = base.coefficient.abs();
-        match &unknown[..] {
-            [] if base.coefficient < 0.0 => return None,
-            [] => {}
-            // x^n has a root only where x has one, for n odd.
-            [factor] if base.coefficient > 0.0 => factors.push(raised(factor)),
-            _ => {
-                let coefficient = base.coefficient.signum();
-                let atom = self.atom(Atom::Sum(vec![Product {
-                    coefficient,
-                    factors: unknown,
-                }]));
-                factors.push(Factor { atom, exponent });
-            }
-        }
-        let exact = libm::pow(size, exponent);
-        let mut coefficient = 1.0;
-        if exponent.abs() == 0.5
-            && libm::pow(exact, 1.0 / exponent) == size
-            && exact * 8.0 % 1.0 == 0.0
-        {
-            coefficient = exact;
-        } else if size != 1.0 {
-            factors.push(Factor {
-                atom: self.atom(Atom::Number(size)),
-                exponent,
-            });
-        }
-        self.joined(
-            &Product {
-                coefficient,
-                factors: Vec::new(),
-            },
-            &factors,
-        )
-    }
-
-    fn abs(&mut self, sum: &Sum) -> Option<Sum> {
-        let range = self.range(sum);
-        if range.lo >= 0.0 {
-            return Some(sum.clone());
-        }
-        if range.hi <= 0.0 {
-            return Some(negated(sum));
-        }
-        let product = self.product(sum)?;
-        let mut factors = product.factors;
-        for factor in &mut factors {
-            let positive = self.ranges[factor.atom].lo >= 0.0;
-            if !(positive || is_even(factor.exponent) || !is_integer(factor.exponent)) {
-                factor.atom = self.atom(Atom::Abs(factor.atom));
-            }
-        }
-        let size = Product {
-            coefficient: product.coefficient.abs(),
-            factors: Vec::new(),
-        };
-        let product = self.joined(&size, &factors)?;
-        self.opened(product)
-    }
-
-    fn function(&mut self, f: Function, operand: &Sum) -> Option<Sum> {
-        if let Some(value) = constant(operand) {
-            return number(f.value(value));
-        }
-        if f == Function::Tan {
-            let sin = self.function(Function::Sin, operand)?;
-            let cos = self.function(Function::Cos, operand)?;
-            return self.divide(&sin, &cos);
-        }
-        // Odd and even functions of -x are those of x.
-        let odd = matches!(f, Function::Sin | Function::Asin | Function::Atan);
-        if operand[0].coefficient < 0.0 && (odd || f == Function::Cos) {
-            let positive = self.function(f, &negated(operand))?;
-            return Some(if odd { negated(&positive) } else { positive });
-        }
-        if let [
-            Product {
-                coefficient: 1.0,
-                factors,
-            },
-        ] = &operand[..]
-            && let [
-                Factor {
-                    atom,
-                    exponent: 1.0,
-                },
-            ] = factors[..]
-            && let Atom::Function(inner, angle) = &self.atoms[atom]
-        {
-            let (inner, angle) = (*inner, angle.clone());
-            match (f, inner) {
-                (Function::Sin, Function::Asin)
-                | (Function::Cos, Function::Acos)
-                | (Function::Exp, Function::Log)
-                | (Function::Log, Function::Exp) => return Some(angle),
-                (Function::Sin, Function::Acos) | (Function::Cos, Function::Asin) => {
-                    let square = self.raise(&angle, 2.0)?;
-                    let rest = self.add(number(1.0)?, &negated(&square))?;
-                    return self.raise(&rest, 0.5);
-                }
-                _ => {}
-            }
-        }
-        let atom = self.atom(Atom::Function(f, operand.clone()));
-        Some(power_of(atom, 1.0))
+    fn single(&mut self, atom: Atom) -> Sum {
+        let atom = self.atom(atom);
+        vec![Product::new(1.0, vec![Factor::new(atom, 1.0)])]
     }
 
     /// The number of `atom`, an old one if there is an equal.
@@ -704,13 +532,6 @@ impl Canon {
     }
 }
 
-fn power_of(atom: Atoms, exponent: f64) -> Sum {
-    vec![Product {
-        coefficient: 1.0,
-        factors: vec![Factor { atom, exponent }],
-    }]
-}
-
 fn alike(a: f64, b: f64) -> bool {
     (a - b).abs() <= ROUNDING * a.abs()
 }
@@ -751,189 +572,8 @@ fn key(atom: &Atom) -> Vec<u64> {
         Atom::IfLess(parts) => (9, 0, parts.iter().collect()),
     };
     let mut key = vec![tag, word];
-    sums.into_iter().for_each(|sum| put(&mut key, sum));
+    for sum in sums {
+        put(&mut key, sum);
+    }
     key
-}
-
-/// From the canonical form back to nodes.
-struct Writer<'a> {
-    canon: &'a Canon,
-    arena: Arena,
-    written: Vec<Option<Id>>,
-}
-
-impl Writer<'_> {
-    fn write(mut self, root: &Sum) -> Option<Expr> {
-        // Atoms contain only earlier ones, so writing those in use in order needs no recursion.
-        let mut used = vec![false; self.canon.atoms.len()];
-        mark(&mut used, root);
-        for index in (0..used.len()).rev() {
-            if used[index] {
-                match &self.canon.atoms[index] {
-                    Atom::Variable(_) | Atom::Number(_) => {}
-                    Atom::Abs(inner) => used[*inner] = true,
-                    Atom::Sum(sum) | Atom::Function(_, sum) => mark(&mut used, sum),
-                    Atom::Pow(a, b) | Atom::Min(a, b) | Atom::Max(a, b) | Atom::Atan2(a, b) => {
-                        mark(&mut used, a);
-                        mark(&mut used, b);
-                    }
-                    Atom::IfLess(parts) => parts.iter().for_each(|sum| mark(&mut used, sum)),
-                }
-            }
-        }
-        for index in 0..used.len() {
-            if used[index] {
-                self.written[index] = self.atom(&self.canon.atoms[index]);
-            }
-        }
-        let root = self.sum(root)?;
-        Some(self.arena.finish(root))
-    }
-
-    /// A number's power is written into the coefficient, so such an atom has no node.
-    fn atom(&mut self, atom: &Atom) -> Option<Id> {
-        let node = match atom {
-            Atom::Number(_) => return None,
-            Atom::Sum(sum) => return self.sum(sum),
-            Atom::Variable(variable) => Node::Variable(*variable),
-            Atom::Abs(inner) => Node::Abs(self.written[*inner]?),
-            Atom::Function(f, operand) => Node::Function(*f, self.sum(operand)?),
-            Atom::Pow(a, b) => Node::Pow(self.sum(a)?, self.sum(b)?),
-            Atom::Min(a, b) => Node::Min(self.sum(a)?, self.sum(b)?),
-            Atom::Max(a, b) => Node::Max(self.sum(a)?, self.sum(b)?),
-            Atom::Atan2(a, b) => Node::Atan2(self.sum(a)?, self.sum(b)?),
-            Atom::IfLess(parts) => {
-                let [a, b, x, y] = &**parts;
-                Node::IfLess(self.sum(a)?, self.sum(b)?, self.sum(x)?, self.sum(y)?)
-            }
-        };
-        Some(self.arena.push(node))
-    }
-
-    fn sum(&mut self, sum: &Sum) -> Option<Id> {
-        // 2 - 2u is written 2 (1 - u), which is exact to the last bit where 1 - u is small.
-        if let [first, rest @ ..] = &sum[..]
-            && !rest.is_empty()
-        {
-            let size = first.coefficient.abs();
-            if size != 1.0 && rest.iter().all(|term| term.coefficient.abs() == size) {
-                let signs: Sum = sum
-                    .iter()
-                    .map(|term| Product {
-                        coefficient: term.coefficient.signum(),
-                        factors: term.factors.clone(),
-                    })
-                    .collect();
-                let number = self.arena.number(size);
-                let signs = self.sum(&signs)?;
-                return Some(self.arena.push(Node::Mul(number, signs)));
-            }
-        }
-        // A positive term first spares a sign.
-        let first = sum
-            .iter()
-            .position(|term| term.coefficient > 0.0)
-            .unwrap_or(0);
-        let Some(term) = sum.get(first) else {
-            return Some(self.arena.number(0.0));
-        };
-        let mut total = self.product(term)?;
-        for (_, term) in sum.iter().enumerate().filter(|(i, _)| *i != first) {
-            let size = Product {
-                coefficient: term.coefficient.abs(),
-                factors: term.factors.clone(),
-            };
-            let size = self.product(&size)?;
-            total = self.arena.push(if term.coefficient < 0.0 {
-                Node::Sub(total, size)
-            } else {
-                Node::Add(total, size)
-            });
-        }
-        Some(total)
-    }
-
-    fn product(&mut self, product: &Product) -> Option<Id> {
-        let mut coefficient = product.coefficient;
-        let mut above = Vec::new();
-        let mut below = Vec::new();
-        let mut root_above = Vec::new();
-        let mut root_below = Vec::new();
-        for factor in &product.factors {
-            if let Atom::Number(value) = self.canon.atoms[factor.atom] {
-                coefficient *= match factor.exponent {
-                    0.5 => value.sqrt(),
-                    -0.5 => 1.0 / value.sqrt(),
-                    exponent => libm::pow(value, exponent),
-                };
-                continue;
-            }
-            let base = self.written[factor.atom]?;
-            let exponent = factor.exponent.abs();
-            let (side, roots) = if factor.exponent > 0.0 {
-                (&mut above, &mut root_above)
-            } else {
-                (&mut below, &mut root_below)
-            };
-            let whole = if exponent % 1.0 == 0.5 && exponent < 64.0 {
-                roots.push(base);
-                exponent.trunc()
-            } else {
-                exponent
-            };
-            if whole == 1.0 {
-                side.push(base);
-            } else if is_integer(whole) && whole < i32::MAX.into() {
-                if whole != 0.0 {
-                    side.push(self.arena.push(Node::Powi(base, whole as i32)));
-                }
-            } else {
-                let exponent = self.arena.number(whole);
-                side.push(self.arena.push(Node::Pow(base, exponent)));
-            }
-        }
-        if !coefficient.is_finite() || coefficient == 0.0 {
-            return (product.coefficient == 0.0).then(|| self.arena.number(0.0));
-        }
-        for (roots, side) in [(root_above, &mut above), (root_below, &mut below)] {
-            if let Some(product) = self.chain(&roots) {
-                side.push(self.arena.push(Node::Sqrt(product)));
-            }
-        }
-        let below = self.chain(&below);
-        let mut factors = Vec::new();
-        if coefficient.abs() != 1.0 || (above.is_empty() && (coefficient == 1.0 || below.is_some()))
-        {
-            factors.push(self.arena.number(coefficient));
-        }
-        factors.extend(above);
-        let mut value = match self.chain(&factors) {
-            Some(value) => value,
-            None => self.arena.number(coefficient),
-        };
-        if let Some(below) = below {
-            value = self.arena.push(Node::Div(value, below));
-        }
-        if coefficient == -1.0 && !matches!(self.arena.node(value), Node::Number(_)) {
-            let signed = matches!(self.arena.node(value), Node::Div(a, _)
-                if matches!(self.arena.node(a), Node::Number(_)));
-            if !signed {
-                value = self.arena.push(Node::Neg(value));
-            }
-        }
-        Some(value)
-    }
-
-    fn chain(&mut self, factors: &[Id]) -> Option<Id> {
-        let (first, rest) = factors.split_first()?;
-        Some(rest.iter().fold(*first, |product, id| {
-            self.arena.push(Node::Mul(product, *id))
-        }))
-    }
-}
-
-fn mark(used: &mut [bool], sum: &Sum) {
-    for factor in sum.iter().flat_map(|product| &product.factors) {
-        used[factor.atom] = true;
-    }
 }

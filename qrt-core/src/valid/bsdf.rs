@@ -127,13 +127,11 @@ pub fn weight_bound(map: &[Expr; 3], projected_jacobian: &Expr, value: &[Expr; 3
     let cos_i = map[2].abs();
     let mut bounds: Rgb = [0.0; 3];
     for i in 0..3 {
-        let same = (0..i).find(|j| value[*j] == value[i]);
-        bounds[i] = match same {
-            Some(j) => bounds[j],
-            None => {
-                let f = value[i].substitute(Variable::CosI, &cos_i);
-                checks::supremum(&(&f * projected_jacobian).simplify())
-            }
+        bounds[i] = if let Some(same) = (0..i).find(|j| value[*j] == value[i]) {
+            bounds[same]
+        } else {
+            let f = value[i].substitute(Variable::CosI, &cos_i);
+            checks::supremum(&(&f * projected_jacobian).simplify())
         };
     }
     bounds

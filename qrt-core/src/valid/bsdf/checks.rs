@@ -132,8 +132,10 @@ pub(super) fn jacobian(map: &[Expr; 3], stated: &Expr) -> Option<Problem> {
             [0, 1].map(|axis| slopes.each_ref().map(|slope| slope[axis].eval(at)));
         norm(cross(along_u, along_v))
     };
-    let off =
-        |given: f64, right: f64| !((given - right).abs() <= OFF_JACOBIAN * right.abs().max(FLAT));
+    let off = |given: f64, right: f64| {
+        let error = (given - right).abs();
+        error.is_nan() || error > OFF_JACOBIAN * right.abs().max(FLAT)
+    };
     let at = points().find(|at| off(stated.eval(at), right(at)))?;
     let message = format!(
         "the stated Jacobian is {} at {}, but |dphi/du x dphi/dv| = {}",
