@@ -33,6 +33,8 @@ mod display;
 mod eval;
 mod interval;
 mod parse;
+#[cfg(test)]
+mod properties;
 mod simplify;
 mod suggest;
 #[cfg(test)]
