@@ -17,6 +17,7 @@
 mod joe_kuo;
 mod lattice;
 mod linear;
+pub mod maps;
 mod net;
 #[cfg(test)]
 mod tests;

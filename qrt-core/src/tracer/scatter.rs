@@ -11,6 +11,7 @@ use super::{Arith, Axis, Coordinate, Sampled};
 use crate::expr::Expr;
 use crate::sampling::maps;
 use crate::scene::{Map, Rgb};
+use crate::valid::bsdf::weight_bound;
 use crate::valid::{CustomBsdf, Scatter, Surface};
 use std::f64::consts::{PI, TAU};
 use std::ops::Range;
@@ -54,6 +55,8 @@ struct CustomStage {
     direction: Option<Compiled>,
     /// Weights of the channels.
     weight: Compiled,
+    /// The greatest weight, in red, green and blue.
+    bound: Rgb,
 }
 
 /// Where a path stands when it scatters.
@@ -109,12 +112,13 @@ impl<const C: usize> ScatterStage<C> {
         };
         let replaces = map != Map::Auto;
         let builtin = maps::builtin(map);
+        let projected = maps::projected_jacobian(&builtin);
         let own = Compiled::new(
             &[
-                &builtin.map[0],
-                &builtin.map[1],
-                &builtin.map[2],
-                &over_pi(&builtin.projected),
+                &builtin[0],
+                &builtin[1],
+                &builtin[2],
+                &over_pi(&projected),
             ],
             bits,
             None,
@@ -132,7 +136,7 @@ impl<const C: usize> ScatterStage<C> {
                     PhongStage::new(*diffuse, *specular, *exponent, channels, bits[0]),
                 )),
                 Scatter::Custom(bsdf) => {
-                    let replacement = replaces.then_some(&builtin);
+                    let replacement = replaces.then_some((&builtin, &projected));
                     custom.push((
                         number as u32,
                         CustomStage::new(bsdf, replacement, channels, bits),
@@ -211,7 +215,12 @@ impl<const C: usize> ScatterStage<C> {
                     },
                 )
                 .fold(0.0, f64::max),
-            Scatter::Custom(bsdf) => bsdf.weight_bound[self.channels[c]],
+            Scatter::Custom(_) => self
+                .custom
+                .iter()
+                .filter(|(surface, _)| *surface == number)
+                .map(|(_, custom)| custom.bound[self.channels[c]])
+                .fold(0.0, f64::max),
         }
     }
 
@@ -390,13 +399,15 @@ impl<const C: usize> ScatterStage<C> {
 impl CustomStage {
     fn new<const C: usize>(
         bsdf: &CustomBsdf,
-        replacement: Option<&maps::Builtin>,
+        replacement: Option<(&[Expr; 3], &Expr)>,
         channels: [usize; C],
         bits: [u32; 2],
     ) -> Self {
-        let (map, projected) = match replacement {
-            Some(builtin) => (&builtin.map, &builtin.projected),
-            None => (&bsdf.map, &bsdf.projected_jacobian),
+        let own = (&bsdf.map, &bsdf.projected_jacobian);
+        let (map, projected) = replacement.unwrap_or(own);
+        let bound = match replacement {
+            Some((map, projected)) => weight_bound(map, projected, &bsdf.value),
+            None => bsdf.weight_bound,
         };
         let weights = channels.map(|channel| (&bsdf.value[channel] * projected).simplify());
         let weights: Vec<&Expr> = weights.iter().collect();
@@ -405,6 +416,7 @@ impl CustomStage {
                 .is_none()
                 .then(|| Compiled::new(&[&map[0], &map[1], &map[2]], bits, None)),
             weight: Compiled::new(&weights, bits, Some(&map[2])),
+            bound,
         }
     }
 }

@@ -1,5 +1,7 @@
 //! `Scene` -> [`ValidScene`], or every error at once.
 
+pub mod bsdf;
+
 use crate::expr::Expr;
 use crate::scene::{Rgb, Scene};
 use glam::DVec3;
