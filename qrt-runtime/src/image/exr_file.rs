@@ -1,8 +1,8 @@
 //! OpenEXR: linear 32-bit float RGB, with the metadata as string attributes.
 //!
 //! Written here rather than by a library: one part, scan lines, no compression is a page of code,
-//! needs none of a library's thirty dependencies, and gives the same bytes on every run (the `exr`
-//! crate writes attributes in a hash map's order). Layout after "OpenEXR File Layout",
+//! brings no dependencies, and gives the same bytes on every run (the `exr` crate, which the tests
+//! read it with, writes attributes in a hash map's order). Layout after "OpenEXR File Layout",
 //! <https://openexr.com/en/latest/OpenEXRFileLayout.html>; all numbers are little-endian.
 
 use super::Image;
