@@ -7,10 +7,11 @@ fn header() -> Header {
     Header {
         scene_hash: "9f86d081".into(),
         seed: 7,
-        options: vec![
+        options: [
             ("model".into(), "real".into()),
             ("estimator".into(), "sine".into()),
-        ],
+        ]
+        .into(),
         width: 8,
         height: 6,
         crop: [2, 1, 5, 4],
@@ -117,10 +118,11 @@ fn another_render_is_told_in_what_it_differs() {
     asked.scene_hash = "60303ae2".into();
     asked.seed = 8;
     asked.crop = [0, 0, 8, 6];
-    asked.options = vec![
+    asked.options = [
         ("model".into(), "fixed".into()),
         ("phase_bits".into(), "9".into()),
-    ];
+    ]
+    .into();
     let message = Checkpoint::open(&path, &asked).unwrap_err().to_string();
     let lines: Vec<&str> = message.lines().skip(1).collect();
     assert_eq!(
@@ -129,8 +131,8 @@ fn another_render_is_told_in_what_it_differs() {
             "  scene: there 9f86d081, here 60303ae2",
             "  seed: there 7, here 8",
             "  crop: there 2,1,5,4, here 0,0,8,6",
-            "  model: there real, here fixed",
             "  estimator: there sine, here not set",
+            "  model: there real, here fixed",
             "  phase_bits: there not set, here 9",
         ]
     );
