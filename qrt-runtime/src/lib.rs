@@ -1,2 +1,3 @@
 //! Machines, quantum counting and rendering.
 pub mod counting;
+pub mod random;
