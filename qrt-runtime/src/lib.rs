@@ -7,3 +7,4 @@ pub mod peak_memory;
 pub mod replace_file;
 #[cfg(test)]
 mod scratch;
+pub mod random;
