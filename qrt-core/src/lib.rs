@@ -1,8 +1,11 @@
 //! From a scene to what the machines run.
+pub mod codes;
+pub mod diagnostics;
 pub mod expr;
 pub mod front;
 pub mod report;
 pub mod sampling;
 pub mod scene;
+pub mod schema;
 pub mod tracer;
 pub mod valid;

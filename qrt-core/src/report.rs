@@ -4,6 +4,7 @@
 //! A problem names its place by [`Path`], never by line: the front end that read the scene turns
 //! the path into file, line and column (or a token's span).
 
+use std::collections::HashSet;
 use std::fmt;
 use std::ops::Range;
 
@@ -39,6 +40,14 @@ impl Path {
     pub fn item(&self, index: usize) -> Self {
         self.with(Step::Item(index))
     }
+    /// The same place, values in place of names.
+    fn values(&self) -> Self {
+        let value = |step: &Step| match step {
+            Step::Name(name) => Step::Key(name.clone()),
+            other => other.clone(),
+        };
+        Self(self.0.iter().map(value).collect())
+    }
     fn with(&self, step: Step) -> Self {
         let mut steps = self.0.clone();
         steps.push(step);
@@ -56,6 +65,36 @@ impl fmt::Display for Path {
             }
         }
         Ok(())
+    }
+}
+
+/// Places whose values are already known to be wrong.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Faulty {
+    places: HashSet<Path>,
+    above: HashSet<Path>,
+}
+
+impl Faulty {
+    /// Of these places.
+    pub(crate) fn of<'a>(paths: impl IntoIterator<Item = &'a Path>) -> Self {
+        let mut faulty = Self::default();
+        for path in paths {
+            let path = path.values();
+            for length in 0..path.0.len() {
+                faulty.above.insert(Path(path.0[..length].to_vec()));
+            }
+            faulty.places.insert(path);
+        }
+        faulty
+    }
+
+    /// Whether `path` is one of the places, or within one, or holds one: what is said of it then
+    /// may only follow from what is already known.
+    pub(crate) fn touches(&self, path: &Path) -> bool {
+        let path = path.values();
+        let within = (0..=path.0.len()).any(|n| self.places.contains(&Path(path.0[..n].to_vec())));
+        within || self.above.contains(&path)
     }
 }
 

@@ -1,1 +1,179 @@
-//! (front)
+//! From text to a scene: YAML, overrides of the command line, meshes.
+
+pub mod obj;
+pub mod overrides;
+pub mod tree;
+pub mod yaml;
+
+use crate::codes;
+use crate::diagnostics::{Report, Source};
+use crate::report::{Faulty, Path, Problem};
+use crate::scene::Scene;
+use crate::scene::decode::{Decoder, Place};
+use crate::scene::shape::Part;
+use crate::valid::{ValidScene, validate};
+use std::io::Read as _;
+use tree::Node;
+use yaml::Reading;
+
+/// Bytes that a scene file may have.
+pub const MAX_BYTES: u64 = 16 << 20;
+
+/// A scene that was read and checked, with the text it came from.
+#[derive(Clone, Debug)]
+pub struct Loaded {
+    /// The scene.
+    pub valid: ValidScene,
+    /// Its text as written.
+    pub source: Source,
+}
+
+/// The scene of the file at `path`, with overrides such as `film.width=8`, meshes and all.
+///
+/// # Errors
+/// Everything that is wrong with it, with places.
+pub fn load(path: &std::path::Path, sets: &[String]) -> Result<Loaded, Report> {
+    let source = read_file(path)?;
+    let folder = path.parent().unwrap_or(std::path::Path::new(""));
+    from_source(source, sets, folder)
+}
+
+/// The scene of a YAML text; `folder` is where its meshes are.
+///
+/// # Errors
+/// Everything that is wrong with it, with places.
+///
+/// ```
+/// let report = qrt_core::front::parse("name: 7", "seven.yaml", &[], "".as_ref()).unwrap_err();
+/// assert!(report.to_string().contains("--> seven.yaml:1:7"));
+/// ```
+pub fn parse(
+    text: &str,
+    name: &str,
+    sets: &[String],
+    folder: &std::path::Path,
+) -> Result<Loaded, Report> {
+    from_source(Source::new(name, text), sets, folder)
+}
+
+fn from_source(
+    source: Source,
+    sets: &[String],
+    folder: &std::path::Path,
+) -> Result<Loaded, Report> {
+    let mut sources = vec![source];
+    let Reading {
+        mut tree,
+        mut problems,
+    } = yaml::read(&sources[0], 0..sources[0].text.len(), 0);
+    for text in sets {
+        let number = sources.len() as u32;
+        let source = Source::new("<--set>", text.as_str());
+        match (overrides::read(&source, number), &mut tree) {
+            (Ok(set), Some(tree)) => {
+                problems.extend(overrides::apply(tree, set).err().map(|placed| *placed));
+            }
+            (Ok(_), None) => {}
+            (Err(found), _) => problems.extend(found),
+        }
+        sources.push(source);
+    }
+    let Some(tree) = tree else {
+        return Err(Report::of_placed(sources, problems));
+    };
+    match of_tree(&tree, folder) {
+        Ok(valid) if problems.is_empty() => Ok(Loaded {
+            valid,
+            source: sources.swap_remove(0),
+        }),
+        Ok(_) => Err(Report::of_placed(sources, problems)),
+        Err(found) => Err(Report::of_tree(sources, &tree, problems, found)),
+    }
+}
+
+/// The scene of a tree, whatever front end made it.
+///
+/// # Errors
+/// Everything that is wrong with it.
+pub fn of_tree(tree: &Node, folder: &std::path::Path) -> Result<ValidScene, Vec<Problem>> {
+    let mut decoder = Decoder::default();
+    let scene = Scene::decode(tree, &Place::ROOT, &mut decoder);
+    let checked = validate(scene, folder);
+    let Decoder {
+        mut problems,
+        replaced,
+    } = decoder;
+    match checked {
+        Ok(valid) if problems.is_empty() => return Ok(valid),
+        Ok(_) => {}
+        Err(found) => {
+            let faulty = Faulty::of(&replaced);
+            problems.extend(
+                found
+                    .into_iter()
+                    .filter(|problem| !faulty.touches(&problem.path)),
+            );
+        }
+    }
+    Err(problems)
+}
+
+fn read_file(path: &std::path::Path) -> Result<Source, Report> {
+    let name = path.display().to_string();
+    let fail = |code, message: String, help: Option<&str>| {
+        let mut problem = Problem::new(code, Path::root(), message);
+        problem.help = help.map(str::to_owned);
+        Report::of_file(&name, problem)
+    };
+    let unreadable = |error: &std::io::Error| {
+        use std::io::ErrorKind;
+        match error.kind() {
+            ErrorKind::NotFound => fail(
+                codes::UNREADABLE,
+                "there is no such file".into(),
+                Some("check the path, or start a scene with `qrt new NAME`"),
+            ),
+            ErrorKind::PermissionDenied => {
+                fail(codes::UNREADABLE, "you may not read this file".into(), None)
+            }
+            _ => fail(
+                codes::UNREADABLE,
+                format!("the file cannot be read: {error}"),
+                None,
+            ),
+        }
+    };
+    let kind = std::fs::metadata(path).map_err(|error| unreadable(&error))?;
+    if !kind.is_file() {
+        let what = if kind.is_dir() {
+            "this is a folder"
+        } else {
+            "this is not a regular file"
+        };
+        return Err(fail(
+            codes::UNREADABLE,
+            what.into(),
+            Some("name a scene file"),
+        ));
+    }
+    let mut bytes = Vec::new();
+    let file = std::fs::File::open(path).map_err(|error| unreadable(&error))?;
+    file.take(MAX_BYTES + 1)
+        .read_to_end(&mut bytes)
+        .map_err(|error| unreadable(&error))?;
+    if bytes.len() as u64 > MAX_BYTES {
+        let message = format!("the file is larger than {} MiB", MAX_BYTES >> 20);
+        return Err(fail(
+            codes::TOO_LARGE,
+            message,
+            Some("put large geometry into OBJ meshes"),
+        ));
+    }
+    let text = String::from_utf8(bytes).map_err(|error| {
+        let at = error.utf8_error().valid_up_to();
+        let line = error.as_bytes()[..at].split(|&byte| byte == b'\n').count();
+        let message = format!("the file is not UTF-8 text: byte {at}, on line {line}");
+        fail(codes::NOT_UTF8, message, Some("save it as UTF-8"))
+    })?;
+    Ok(Source::new(name, text))
+}

@@ -1,147 +1,200 @@
 //! The scene as its author wrote it: plain data, one definition for YAML and macro.
 //!
-//! Nothing here is checked. [`crate::valid::validate`] turns a [`Scene`] into the
+//! Each part is defined once, by `record!`, `variant!` or `keyword!`: its type, keys, defaults and
+//! ranges, and with them the decoder, the printer and the JSON Schema. Nothing here is checked
+//! against anything else: [`crate::valid::validate`] turns a [`Scene`] into the
 //! [`crate::valid::ValidScene`] that everything downstream demands.
 
+pub(crate) mod decode;
+mod record;
+pub(crate) mod settle;
+pub(crate) mod shape;
+pub mod text;
+
+use crate::codes;
+use crate::front::tree::{Node, Span, Value};
+use decode::{Decoder, Place};
 use glam::DVec3;
+use record::{keyword, record, variant};
+use shape::{
+    Array, AutoOr, Channels, Expression, LARGEST, List, Maybe, Named, Number, Part, Text, number,
+    part, point, whole, word,
+};
+use text::{Data, Fingerprint};
 
 /// Linear RGB.
 pub type Rgb = [f64; 3];
 
-/// A whole scene.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Scene {
+const REFLECTANCE: Array<Number, 3> = Array(number(0.0, 1.0).coded(codes::ALBEDO));
+const RADIANCE: Array<Number, 3> = Array(number(0.0, LARGEST).coded(codes::RADIANCE));
+const LENGTH: Number = number(0.0, LARGEST).above();
+
+record! {
+    /// A scene of qrt: what is seen, and how its circuit traces and counts it.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct Scene = "the scene", settle = settle::scene;
     /// What the scene is called.
-    pub name: String,
+    pub name: String = Text;
     /// The camera.
-    pub camera: Camera,
+    pub camera: Camera = part::<Camera>();
     /// The film.
-    pub film: Film,
-    /// Materials in the order written.
-    pub materials: Vec<(String, Material)>,
-    /// Primitives in the order written.
-    pub geometry: Vec<Geometry>,
-    /// The paths.
-    pub sampling: Sampling,
-    /// Width of the fixed-point numbers.
-    pub precision: Precision,
+    pub film: Film = part::<Film>();
+    /// Materials by name.
+    pub materials: Vec<(String, Material)> = Named(part::<Material>());
+    /// Primitives and meshes.
+    pub geometry: Vec<Geometry> = List {
+        item: part::<Geometry>(), least: 0, code: codes::WRONG_LENGTH
+    };
+    /// The paths of a pixel.
+    pub sampling: Sampling = part::<Sampling>(), or Sampling::default();
+    /// Width of the circuit's fixed-point numbers.
+    pub precision: Precision = part::<Precision>(), or Precision::default();
     /// The comparator register.
-    pub comparator: Comparator,
+    pub comparator: Comparator = part::<Comparator>(), or Comparator::default();
     /// How the good ids are counted.
-    pub counting: Counting,
+    pub counting: Counting = part::<Counting>(), or Counting::default();
     /// How the circuit is laid out.
-    pub circuit: Circuit,
-    /// Asked accuracy, instead of the knobs.
-    pub accuracy: Option<Accuracy>,
+    pub circuit: Circuit = part::<Circuit>(), or Circuit::default();
+    /// Asked accuracy, instead of path_bits, precision, comparator and counting.
+    pub accuracy: Option<Accuracy> = Maybe(part::<Accuracy>()), or None;
     /// Limits on the circuit's cost.
-    pub budget: Option<Budget>,
+    pub budget: Option<Budget> = Maybe(part::<Budget>()), or None;
 }
 
-/// The camera.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Camera {
-    /// `perspective`
-    Perspective(Perspective),
-    /// `orthographic`
-    Orthographic(Orthographic),
+variant! {
+    /// The camera. Right-handed: right is forward x up, film rows go from the top.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub enum Camera = "a camera";
+    /// A pinhole.
+    Perspective(Perspective) = "perspective";
+    /// Parallel rays.
+    Orthographic(Orthographic) = "orthographic";
 }
 
-/// A pinhole. `up` defaults to `[0, 1, 0]`; `vfov` is in degrees.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[allow(missing_docs)]
-pub struct Perspective {
-    pub eye: DVec3,
-    pub target: DVec3,
-    pub up: DVec3,
-    pub vfov: f64,
+record! {
+    /// A pinhole.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Perspective = "a perspective camera";
+    /// The pinhole, in scene units.
+    pub eye: DVec3 = point();
+    /// The point at the centre of the film.
+    pub target: DVec3 = point();
+    /// A direction that points up in the picture; default [0, 1, 0].
+    pub up: DVec3 = point(), or DVec3::Y;
+    /// The vertical field of view in degrees.
+    pub vfov: f64 = number(0.0, 180.0).above().below();
 }
 
-/// Parallel rays. `height` is the film's height in scene units.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[allow(missing_docs)]
-pub struct Orthographic {
-    pub eye: DVec3,
-    pub target: DVec3,
-    pub up: DVec3,
-    pub height: f64,
+record! {
+    /// Parallel rays.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Orthographic = "an orthographic camera";
+    /// The centre of the film, where its rays start.
+    pub eye: DVec3 = point();
+    /// A point straight ahead.
+    pub target: DVec3 = point();
+    /// A direction that points up in the picture; default [0, 1, 0].
+    pub up: DVec3 = point(), or DVec3::Y;
+    /// The height of the film in scene units.
+    pub height: f64 = LENGTH;
 }
 
-/// Pixel counts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
-pub struct Film {
-    pub width: u32,
-    pub height: u32,
+record! {
+    /// The size of the picture.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Film = "the film";
+    /// Pixels from left to right.
+    pub width: u32 = whole::<u32>(1, 65_536);
+    /// Pixels from top to bottom.
+    pub height: u32 = whole::<u32>(1, 65_536);
 }
 
-/// A material.
-#[derive(Clone, Debug, PartialEq)]
-#[allow(missing_docs)]
-pub enum Material {
-    Lambertian(Lambertian),
-    Emitter(Emitter),
-    Mirror(Mirror),
-    Dielectric(Dielectric),
-    Ggx(Ggx),
-    Phong(Phong),
-    Bsdf(Bsdf),
+variant! {
+    /// What a surface does to light.
+    #[derive(Clone, Debug, PartialEq)]
+    pub enum Material = "a material";
+    /// Matte, on both sides: albedo / pi.
+    Lambertian(Lambertian) = "lambertian";
+    /// Emits on the side of (v1 - v0) x (v2 - v0); reflects as a Lambertian.
+    Emitter(Emitter) = "emitter";
+    /// A perfect mirror, on both sides.
+    Mirror(Mirror) = "mirror";
+    /// Smooth glass with Fresnel reflectance.
+    Dielectric(Dielectric) = "dielectric";
+    /// GGX with Fresnel 1 and separable Smith masking.
+    Ggx(Ggx) = "ggx";
+    /// kd / pi + ks (n + 2) / (2 pi) max(0, cos a)^n about the mirror direction.
+    Phong(Phong) = "phong";
+    /// The author's own BSDF.
+    Bsdf(Bsdf) = "bsdf";
 }
 
-/// `albedo / pi`, on both sides.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[allow(missing_docs)]
-pub struct Lambertian {
-    pub albedo: Rgb,
+record! {
+    /// Matte, on both sides: albedo / pi.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Lambertian = "a lambertian material";
+    /// The share of light that is reflected, in linear RGB.
+    pub albedo: Rgb = REFLECTANCE;
 }
 
-/// Emits on the side of `(v1 - v0) x (v2 - v0)`; reflects as a Lambertian (both sides). `albedo` defaults to black.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[allow(missing_docs)]
-pub struct Emitter {
-    pub radiance: Rgb,
-    pub albedo: Rgb,
+record! {
+    /// Emits on the side of (v1 - v0) x (v2 - v0); reflects as a Lambertian on both sides.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Emitter = "an emitter";
+    /// What leaves the front, in linear RGB.
+    pub radiance: Rgb = RADIANCE;
+    /// The share of light that is reflected; default black.
+    pub albedo: Rgb = REFLECTANCE, or [0.0; 3];
 }
 
-/// A perfect mirror, on both sides.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[allow(missing_docs)]
-pub struct Mirror {
-    pub reflectance: Rgb,
+record! {
+    /// A perfect mirror, on both sides.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Mirror = "a mirror";
+    /// The share of light that is reflected, in linear RGB.
+    pub reflectance: Rgb = REFLECTANCE;
 }
 
-/// Smooth glass with Fresnel reflectance. `ior` is of the side opposite to the normal.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[allow(missing_docs)]
-pub struct Dielectric {
-    pub ior: f64,
+record! {
+    /// Smooth glass with Fresnel reflectance.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Dielectric = "a dielectric";
+    /// The index of refraction of the side opposite to the normal, relative to the other.
+    pub ior: f64 = number(1e-3, 1e3);
 }
 
-/// GGX, Fresnel 1, separable Smith masking.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[allow(missing_docs)]
-pub struct Ggx {
-    pub alpha: f64,
-    pub reflectance: Rgb,
+record! {
+    /// GGX with Fresnel 1 and separable Smith masking.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Ggx = "a ggx material";
+    /// Roughness: above 0 (a mirror) and at most 1.
+    pub alpha: f64 = number(0.0, 1.0).above();
+    /// The colour of the reflection, in linear RGB.
+    pub reflectance: Rgb = REFLECTANCE;
 }
 
-/// `diffuse / pi + specular (n + 2) / (2 pi) max(0, cos a)^n`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[allow(missing_docs)]
-pub struct Phong {
-    pub diffuse: Rgb,
-    pub specular: Rgb,
-    pub exponent: f64,
+record! {
+    /// kd / pi + ks (n + 2) / (2 pi) max(0, cos a)^n about the mirror direction.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Phong = "a phong material";
+    /// kd, in linear RGB.
+    pub diffuse: Rgb = REFLECTANCE;
+    /// ks, in linear RGB; diffuse + specular is at most 1.
+    pub specular: Rgb = REFLECTANCE;
+    /// n.
+    pub exponent: f64 = number(0.0, 1e6);
 }
 
-/// The user's own BSDF: expressions as source text.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Bsdf {
-    /// `phi(u, v)`: the components x, y, z of a unit vector, z along the normal.
-    pub map: [String; 3],
-    /// `auto` (symbolic) by default, or an expression in `u`, `v` that is then checked.
-    pub jacobian: Jacobian,
-    /// RGB in `cos_i`, `cos_o`, `cos_a`, `u`, `v`; one expression means grey.
-    pub value: Vec<String>,
+record! {
+    /// The author's own BSDF, by expressions.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct Bsdf = "a bsdf";
+    /// phi(u, v), from the unit square to unit vectors x, y, z with z along the normal.
+    pub map: [String; 3] = Array::<_, 3>(Expression);
+    /// auto (differentiated), or an expression in u, v that is then checked.
+    pub jacobian: Jacobian = settle::JacobianShape, or Jacobian::Auto;
+    /// f in cos_i, cos_o, cos_a, u, v: one expression (grey) or three (red, green, blue).
+    pub value: Vec<String> = Channels;
 }
 
 /// Where a map's Jacobian comes from.
@@ -153,180 +206,265 @@ pub enum Jacobian {
     Stated(String),
 }
 
-/// A primitive or a mesh of them.
-#[derive(Clone, Debug, PartialEq)]
-#[allow(missing_docs)]
-pub enum Geometry {
-    Quad(Quad),
-    Triangle(Triangle),
-    Mesh(Mesh),
+variant! {
+    /// A primitive or a mesh of them.
+    #[derive(Clone, Debug, PartialEq)]
+    pub enum Geometry = "a primitive";
+    /// A convex quadrilateral.
+    Quad(Quad) = "quad";
+    /// A triangle.
+    Triangle(Triangle) = "triangle";
+    /// Triangles and polygons from a Wavefront OBJ file.
+    Mesh(Mesh) = "mesh";
 }
 
-/// A convex quadrilateral; one that is not planar splits along v0-v2.
-#[derive(Clone, Debug, PartialEq)]
-#[allow(missing_docs)]
-pub struct Quad {
-    pub vertices: [DVec3; 4],
-    pub material: String,
+record! {
+    /// A convex quadrilateral; one that is not planar splits along v0-v2.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct Quad = "a quad";
+    /// Four points around the outline; (v1 - v0) x (v2 - v0) is the front.
+    pub vertices: [DVec3; 4] = Array::<_, 4>(point());
+    /// The name of a material.
+    pub material: String = Text;
 }
 
-/// A triangle.
-#[derive(Clone, Debug, PartialEq)]
-#[allow(missing_docs)]
-pub struct Triangle {
-    pub vertices: [DVec3; 3],
-    pub material: String,
+record! {
+    /// A triangle.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct Triangle = "a triangle";
+    /// Three points; (v1 - v0) x (v2 - v0) is the front.
+    pub vertices: [DVec3; 3] = Array::<_, 3>(point());
+    /// The name of a material.
+    pub material: String = Text;
 }
 
-/// A Wavefront OBJ file, beside the scene's. Transformed by scale, then rotate (degrees about x,
-/// then y, then z), then translate. Without a material, the file's MTL gives them.
-#[derive(Clone, Debug, PartialEq)]
-#[allow(missing_docs)]
-pub struct Mesh {
-    pub obj: String,
-    pub material: Option<String>,
-    pub scale: f64,
-    pub rotate: DVec3,
-    pub translate: DVec3,
+record! {
+    /// A Wavefront OBJ file, scaled, then rotated, then translated.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct Mesh = "a mesh";
+    /// The file, relative to the scene's folder.
+    pub obj: String = Text;
+    /// The name of a material for all of it; without one, the MTL file's materials.
+    pub material: Option<String> = Maybe(Text), or None;
+    /// The factor of its size; default 1.
+    pub scale: f64 = LENGTH, or 1.0;
+    /// Degrees about x, then y, then z; default none.
+    pub rotate: DVec3 = point(), or DVec3::ZERO;
+    /// Added to every point; default none.
+    pub translate: DVec3 = point(), or DVec3::ZERO;
 }
 
-/// The paths of a pixel.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Sampling {
-    /// Digital net (default) or the paper's product lattice.
-    pub sequence: Sequence,
-    /// `R = 2^path_bits`. Default 12; under `product-lattice` the sum of all bits, and only that.
-    pub path_bits: u32,
-    /// One entry per ray; its length is D. Default: three of `bits: [8, 8]`.
-    pub depths: Vec<DepthSampling>,
+record! {
+    /// The paths of a pixel.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct Sampling = "sampling", settle = settle::path_bits;
+    /// How path ids become points.
+    pub sequence: Sequence = word::<Sequence>(), or Sequence::DigitalNet;
+    /// R = 2^path_bits paths; default 12. Under product-lattice it is the sum of all bits, and
+    /// only that.
+    pub path_bits: u32 = whole::<u32>(0, 52), or 12;
+    /// One entry per ray of a path, the primary ray first; default three.
+    pub depths: Vec<DepthSampling> = List {
+        item: part::<DepthSampling>(), least: 1, code: codes::NO_DEPTH
+    }, or vec![DepthSampling { bits: [8, 8], map: Map::Auto }; 3];
 }
 
-/// How path ids become points.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Sequence {
-    /// `digital-net`
-    DigitalNet,
-    /// `product-lattice`
-    ProductLattice,
+keyword! {
+    /// How path ids become points.
+    pub enum Sequence = "a sequence";
+    /// One digital net over all coordinates, shifted per pixel.
+    DigitalNet = "digital-net";
+    /// The paper's product of a lattice per depth.
+    ProductLattice = "product-lattice";
 }
 
-/// Sampling of one ray.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct DepthSampling {
+record! {
+    /// Sampling of one ray.
+    #[derive(Clone, Debug, PartialEq, Eq)]
+    pub struct DepthSampling = "a depth";
     /// Resolution of each coordinate, in bits.
-    pub bits: [u32; 2],
-    /// The map from the unit square to directions; ignored for the primary ray, where it is an error to give one.
-    pub map: Map,
+    pub bits: [u32; 2] = Array::<_, 2>(whole::<u32>(0, 24));
+    /// The map from the unit square to directions; not for the primary ray.
+    pub map: Map = word::<Map>(), or Map::Auto;
 }
 
-/// The map from the unit square to directions.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Map {
-    /// `auto`: each material's own.
-    Auto,
-    /// `cosine-hemisphere`
-    CosineHemisphere,
-    /// `uniform-hemisphere`
-    UniformHemisphere,
+keyword! {
+    /// The map from the unit square to directions.
+    pub enum Map = "a map";
+    /// Each material's own.
+    Auto = "auto";
+    /// Density proportional to the cosine.
+    CosineHemisphere = "cosine-hemisphere";
+    /// Constant density.
+    UniformHemisphere = "uniform-hemisphere";
 }
 
-/// Fraction bits of the circuit's numbers; `auto` is `None`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
-pub struct Precision {
-    pub fraction: Option<u32>,
+record! {
+    /// Width of the circuit's fixed-point numbers.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Precision = "precision";
+    /// Fraction bits, or auto.
+    pub fraction: Option<u32> = AutoOr(whole::<u32>(4, 30)), or None;
 }
 
-/// The comparator register.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
-pub struct Comparator {
-    pub bits: u32,
-    pub at: ComparatorAt,
+record! {
+    /// The comparator register.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Comparator = "the comparator";
+    /// Its qubits; default 10.
+    pub bits: u32 = whole::<u32>(1, 30), or 10;
+    /// Where the comparators stand.
+    pub at: ComparatorAt = word::<ComparatorAt>(), or ComparatorAt::Midpoints;
 }
 
-/// Where the comparators stand: at `(y + 1/2) h` or at `y h`, with `h = scale / 2^bits`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
-pub enum ComparatorAt {
-    Midpoints,
-    Edges,
+keyword! {
+    /// Where the comparators stand, with h = scale / 2^bits.
+    pub enum ComparatorAt = "a comparator position";
+    /// At (y + 1/2) h.
+    Midpoints = "midpoints";
+    /// At y h, as in the paper.
+    Edges = "edges";
 }
 
-/// How the good ids are counted.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
-pub struct Counting {
-    pub phase_bits: u32,
-    pub repetitions: u32,
-    pub window: Window,
-    pub estimator: Estimator,
+record! {
+    /// How the good ids are counted.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Counting = "counting";
+    /// T = 2^phase_bits; default 8.
+    pub phase_bits: u32 = whole::<u32>(1, 40), or 8;
+    /// B, the number of runs; default 1.
+    pub repetitions: u32 = whole::<u32>(1, 1_000_000), or 1;
+    /// The window on the counting register.
+    pub window: Window = word::<Window>(), or Window::Sine;
+    /// How outcomes become an amplitude.
+    pub estimator: Estimator = word::<Estimator>(), or Estimator::Sine;
 }
 
-/// The window on the counting register.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
-pub enum Window {
-    Rect,
-    Sine,
+keyword! {
+    /// The window on the counting register.
+    pub enum Window = "a window";
+    /// Equal amplitudes, as in the paper.
+    Rect = "rect";
+    /// w_j proportional to sin(pi (j + 1) / (T + 1)).
+    Sine = "sine";
 }
 
-/// Estimators by their names in scenes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
-pub enum Estimator {
-    Exact,
-    MonteCarlo,
-    Paper,
-    PosteriorMean,
-    Sine,
-    AdaptiveBayes,
-    RandomDepth,
-    Mlae,
-    Iqae,
-    Miqae,
-    Chebyshev,
-    Qss,
-    Qcoin,
-    AbramsWilliams,
+keyword! {
+    /// How the amplitude is estimated.
+    pub enum Estimator = "an estimator";
+    /// The amplitude itself.
+    Exact = "exact";
+    /// Classical sampling of paths.
+    MonteCarlo = "monte-carlo";
+    /// The paper's: repetitions of counting, maximum likelihood over S.
+    Paper = "paper";
+    /// The posterior mean of the paper's counting.
+    PosteriorMean = "posterior-mean";
+    /// Counting with a sine window.
+    Sine = "sine";
+    /// Adaptive Bayesian estimation.
+    AdaptiveBayes = "adaptive-bayes";
+    /// Random depths.
+    RandomDepth = "random-depth";
+    /// Maximum likelihood amplitude estimation.
+    Mlae = "mlae";
+    /// Iterative amplitude estimation.
+    Iqae = "iqae";
+    /// Modified iterative amplitude estimation.
+    Miqae = "miqae";
+    /// Chebyshev amplitude estimation.
+    Chebyshev = "chebyshev";
+    /// Quantum supersampling.
+    Qss = "qss";
+    /// Quantum coin.
+    Qcoin = "qcoin";
+    /// Abrams and Williams.
+    AbramsWilliams = "abrams-williams";
 }
 
-/// How the circuit is laid out.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
-pub struct Circuit {
-    pub uncompute: Uncompute,
-    pub nearest: Nearest,
+record! {
+    /// How the circuit is laid out.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Circuit = "the circuit";
+    /// When work registers are uncomputed.
+    pub uncompute: Uncompute = word::<Uncompute>(), or Uncompute::Keep;
+    /// How the nearest intersection is kept.
+    pub nearest: Nearest = word::<Nearest>(), or Nearest::Running;
 }
 
-/// When work registers are uncomputed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
-pub enum Uncompute {
-    Keep,
-    Scoped,
+keyword! {
+    /// When work registers are uncomputed.
+    pub enum Uncompute = "a strategy";
+    /// All at the end: fewest gates, most qubits.
+    Keep = "keep";
+    /// After each search for an intersection: fewer qubits, more gates.
+    Scoped = "scoped";
 }
 
-/// How the nearest intersection is kept.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
-pub enum Nearest {
-    Running,
-    Paper,
+keyword! {
+    /// How the nearest intersection is kept.
+    pub enum Nearest = "a way to keep the nearest hit";
+    /// One record, and a flag per primitive.
+    Running = "running";
+    /// All intersections and nearest records, as in the paper.
+    Paper = "paper";
 }
 
-/// Asked accuracy.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[allow(missing_docs)]
-pub struct Accuracy {
-    pub error: f64,
-    pub confidence: f64,
+record! {
+    /// Asked accuracy; qrt chooses the knobs.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Accuracy = "accuracy";
+    /// Relative to the colour scale.
+    pub error: f64 = number(0.0, 1.0).above().below();
+    /// The probability that the error holds.
+    pub confidence: f64 = number(0.0, 1.0).above().below();
 }
 
-/// Limits on the circuit's cost.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
-pub struct Budget {
-    pub qubits: Option<u64>,
-    pub toffoli: Option<u64>,
+record! {
+    /// Limits on the circuit's cost; beyond them, an error.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Budget = "the budget";
+    /// At most so many qubits.
+    pub qubits: Option<u64> = Maybe(whole::<u64>(1, 1 << 53)), or None;
+    /// At most so many Toffoli gates.
+    pub toffoli: Option<u64> = Maybe(whole::<u64>(1, 1 << 53)), or None;
+}
+
+/// A block whose keys may all be left out.
+fn of_defaults<T: Part>() -> T {
+    let node = Node {
+        span: Span::default(),
+        value: Value::Map(Vec::new()),
+    };
+    T::decode(&node, &Place::ROOT, &mut Decoder::default())
+}
+
+macro_rules! defaults {
+    ($($name:ident),*) => {
+        $(impl Default for $name {
+            fn default() -> Self {
+                of_defaults()
+            }
+        })*
+    };
+}
+defaults!(Sampling, Precision, Comparator, Counting, Circuit);
+
+impl Scene {
+    /// The scene as data: what it prints from.
+    pub fn encode(&self) -> Data {
+        Part::encode(self)
+    }
+
+    /// The scene as YAML, every default written out. Read back, it is the same scene.
+    pub fn to_yaml(&self) -> String {
+        self.encode().to_yaml()
+    }
+
+    /// FNV-1a, 128 bits, of the scene's canonical text with every default written out: equal for
+    /// equal scenes, however they were written. Meshes count by the names of their files;
+    /// [`crate::valid::ValidScene::fingerprint`] adds their contents.
+    pub fn fingerprint(&self) -> Fingerprint {
+        Fingerprint::EMPTY.and(self.encode().canonical().as_bytes())
+    }
 }

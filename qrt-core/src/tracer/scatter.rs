@@ -114,12 +114,7 @@ impl<const C: usize> ScatterStage<C> {
         let builtin = maps::builtin(map);
         let projected = maps::projected_jacobian(&builtin);
         let own = Compiled::new(
-            &[
-                &builtin[0],
-                &builtin[1],
-                &builtin[2],
-                &over_pi(&projected),
-            ],
+            &[&builtin[0], &builtin[1], &builtin[2], &over_pi(&projected)],
             bits,
             None,
         );

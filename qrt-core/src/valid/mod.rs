@@ -1,9 +1,22 @@
 //! `Scene` -> [`ValidScene`], or every error at once.
+//!
+//! What a value may be by itself (its range) is part of its definition in [`crate::scene`]; here it
+//! is checked, along with what values must be to each other: names that lead somewhere, primitives
+//! with an area, ids that fit into a word.
 
 pub mod bsdf;
+mod camera;
+mod geometry;
+mod sampling;
+
+pub use sampling::{MAX_ID_BITS, MAX_NET_DEPTHS, MAX_PATH_BITS};
 
 use crate::expr::Expr;
-use crate::scene::{Rgb, Scene};
+use crate::report::{Faulty, Path, Problem};
+use crate::scene::decode::Place;
+use crate::scene::shape::Part;
+use crate::scene::text::Fingerprint;
+use crate::scene::{Bsdf, Material, Rgb, Scene};
 use glam::DVec3;
 
 /// A checked scene: the only way on. It can be made by [`validate`] alone.
@@ -89,5 +102,168 @@ impl ValidScene {
     /// All polygons.
     pub fn polygons(&self) -> &[Polygon] {
         &self.polygons
+    }
+
+    /// FNV-1a, 128 bits, of the scene's canonical text (see [`Scene::fingerprint`]), of every
+    /// polygon's corners, bit for bit, and of the surfaces that MTL files add: equal for scenes
+    /// that make equal pictures, whatever their files are called or how they are laid out.
+    pub fn fingerprint(&self) -> Fingerprint {
+        let mut print = self.scene.fingerprint();
+        for surface in self.materials.iter().skip(self.scene.materials.len()) {
+            let albedo = match surface.scatter {
+                Scatter::Lambertian { albedo } => albedo,
+                _ => [0.0; 3],
+            };
+            for value in surface.radiance.into_iter().chain(albedo) {
+                print = print.and(&value.to_bits().to_le_bytes());
+            }
+        }
+        for polygon in &self.polygons {
+            print = print
+                .and(&[polygon.corners])
+                .and(&polygon.surface.to_le_bytes());
+            for value in polygon.vertices.iter().flat_map(DVec3::to_array) {
+                print = print.and(&value.to_bits().to_le_bytes());
+            }
+        }
+        print
+    }
+}
+
+/// Checks a scene and reads its meshes, whose files are relative to `folder`.
+///
+/// # Errors
+/// Everything that is wrong with it.
+///
+/// ```
+/// use qrt_core::scene::*;
+/// let scene = Scene {
+///     name: "dark".into(),
+///     camera: Camera::Perspective(Perspective {
+///         eye: [0.0, 0.0, 5.0].into(),
+///         target: [0.0; 3].into(),
+///         up: [0.0, 1.0, 0.0].into(),
+///         vfov: 40.0,
+///     }),
+///     film: Film { width: 4, height: 0 },
+///     materials: vec![],
+///     geometry: vec![],
+///     sampling: Sampling::default(),
+///     precision: Precision::default(),
+///     comparator: Comparator::default(),
+///     counting: Counting::default(),
+///     circuit: Circuit::default(),
+///     accuracy: None,
+///     budget: None,
+/// };
+/// let problems = qrt_core::valid::validate(scene, "".as_ref()).unwrap_err();
+/// assert_eq!(problems[0].path.to_string(), "film.height");
+/// ```
+pub fn validate(scene: Scene, folder: &std::path::Path) -> Result<ValidScene, Vec<Problem>> {
+    let mut problems = Vec::new();
+    scene.check(&Place::ROOT, &mut problems);
+    // What is out of range by itself is not measured against anything else.
+    let faulty = Faulty::of(problems.iter().map(|problem| &problem.path));
+    let mut more = Vec::new();
+    camera::check(&scene.camera, &mut more);
+    sampling::check(&scene, &mut more);
+    let mut materials = surfaces(&scene, &mut more);
+    let polygons = geometry::polygons(&scene, folder, &mut materials, &mut more);
+    more.retain(|problem| !faulty.touches(&problem.path));
+    problems.extend(more);
+    if problems.is_empty() {
+        Ok(ValidScene {
+            scene,
+            materials,
+            polygons,
+        })
+    } else {
+        Err(problems)
+    }
+}
+
+fn surfaces(scene: &Scene, problems: &mut Vec<Problem>) -> Vec<Surface> {
+    let materials = Path::root().key("materials");
+    let surface = |(name, material): &(String, Material)| {
+        let path = materials.key(name.as_str());
+        let (radiance, scatter) = match material {
+            Material::Lambertian(part) => ([0.0; 3], matte(part.albedo)),
+            Material::Emitter(part) => (part.radiance, matte(part.albedo)),
+            Material::Mirror(part) => (
+                [0.0; 3],
+                Scatter::Mirror {
+                    reflectance: part.reflectance,
+                },
+            ),
+            Material::Dielectric(part) => ([0.0; 3], Scatter::Dielectric { ior: part.ior }),
+            Material::Ggx(part) => {
+                let (alpha, reflectance) = (part.alpha, part.reflectance);
+                ([0.0; 3], Scatter::Ggx { alpha, reflectance })
+            }
+            Material::Phong(part) => {
+                problems.extend(phong_energy(part, &path));
+                let (diffuse, specular) = (part.diffuse, part.specular);
+                (
+                    [0.0; 3],
+                    Scatter::Phong {
+                        diffuse,
+                        specular,
+                        exponent: part.exponent,
+                    },
+                )
+            }
+            Material::Bsdf(part) => ([0.0; 3], custom(part, &path.key("bsdf"), problems)),
+        };
+        Surface {
+            name: name.clone(),
+            radiance,
+            scatter,
+        }
+    };
+    scene.materials.iter().map(surface).collect()
+}
+
+/// A Lambertian, or black where nothing is reflected: the path then ends.
+pub(crate) fn matte(albedo: Rgb) -> Scatter {
+    if albedo == [0.0; 3] {
+        Scatter::Black
+    } else {
+        Scatter::Lambertian { albedo }
+    }
+}
+
+/// At normal incidence the lobe `(n + 2) / (2 pi) cos^n` has the albedo 1, at any other less; so
+/// kd + ks is the most that is reflected.
+fn phong_energy(phong: &crate::scene::Phong, path: &Path) -> Option<Problem> {
+    let sums = phong
+        .diffuse
+        .iter()
+        .zip(&phong.specular)
+        .map(|(kd, ks)| kd + ks);
+    // 0.7 + 0.3 is 1 up to a rounding.
+    let (channel, sum) = sums
+        .enumerate()
+        .find(|(_, sum)| *sum > 1.0 + f64::EPSILON)?;
+    let name = ["red", "green", "blue"][channel];
+    let message = format!("diffuse + specular is {sum} in {name}: more than arrives");
+    let path = path.key("phong");
+    let problem = Problem::new(crate::codes::PHONG_ENERGY, path.key("specular"), message)
+        .also(path.key("diffuse"), "the diffuse part")
+        .help("keep the sum at 1 or below in every channel");
+    Some(problem)
+}
+
+fn custom(bsdf: &Bsdf, path: &Path, problems: &mut Vec<Problem>) -> Scatter {
+    match bsdf::compile(bsdf) {
+        Ok(compiled) => Scatter::Custom(Box::new(compiled)),
+        Err(found) => {
+            let within = |inner: Path| Path(path.0.iter().cloned().chain(inner.0).collect());
+            problems.extend(found.into_iter().map(|mut problem| {
+                problem.path = within(problem.path);
+                problem.also = problem.also.map(|(inner, why)| (within(inner), why));
+                problem
+            }));
+            Scatter::Black
+        }
     }
 }

@@ -1,0 +1,139 @@
+//! Every error code, once: what it means and what to do about it.
+//!
+//! Codes are stable: a number, once given, keeps its meaning. `QRT01..` is about the text and its
+//! structure, `QRT02..` about values and names, `QRT03..` about geometry and meshes, `QRT04..`
+//! about expressions and BSDFs, `QRT05..` about sampling and limits, `QRT09..` about the use of
+//! the command line.
+
+/// A row of the table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Code {
+    /// `QRT0101`
+    pub code: &'static str,
+    /// What is wrong, in a few words.
+    pub title: &'static str,
+    /// What to do.
+    pub advice: &'static str,
+}
+
+macro_rules! codes {
+    ($($name:ident = $code:literal, $title:literal, $advice:literal;)*) => {
+        $(#[doc = concat!($code, ": ", $title, ". ", $advice, ".")] pub const $name: &str = $code;)*
+
+        /// All codes, in order.
+        pub const TABLE: &[Code] =
+            &[$(Code { code: $code, title: $title, advice: $advice }),*];
+    };
+}
+
+codes! {
+    UNREADABLE = "QRT0101", "the scene file cannot be read",
+        "Check the path; it must be a file that you may read";
+    NOT_UTF8 = "QRT0102", "the scene file is not UTF-8 text",
+        "Save it as UTF-8";
+    SYNTAX = "QRT0103", "the text is not YAML",
+        "Look at the marked place and just before it: indentation, a missing colon, bracket or quote";
+    EMPTY = "QRT0104", "the scene is empty",
+        "Start from `qrt new NAME`";
+    DUPLICATE_KEY = "QRT0105", "a key is written twice in one map",
+        "Keep one of the two";
+    SECOND_DOCUMENT = "QRT0106", "the file holds more than one YAML document",
+        "Keep one scene per file";
+    TAG = "QRT0107", "a YAML tag",
+        "Remove it: a value's type follows from its place in the scene";
+    MERGE_KEY = "QRT0108", "a YAML merge key",
+        "Write the entries out, or alias whole values";
+    COMPLEX_KEY = "QRT0109", "a key that is not a plain name",
+        "Use a word or a text as the key";
+    ALIAS = "QRT0110", "an alias to nothing or to itself",
+        "Define the anchor, complete, before the alias";
+    ALIAS_BUDGET = "QRT0111", "aliases expand to too much",
+        "Write the scene with fewer or smaller aliases";
+    TOO_DEEP = "QRT0112", "the text nests too deeply",
+        "A scene needs fewer than ten levels";
+    TOO_LARGE = "QRT0113", "the scene file is too large",
+        "Put large geometry into OBJ meshes";
+    UNKNOWN_KEY = "QRT0120", "an unknown key",
+        "Compare with the nearest name, or remove the key";
+    MISSING_KEY = "QRT0121", "a required key is missing",
+        "Add it";
+    WRONG_TYPE = "QRT0122", "a value of the wrong type",
+        "Write what is expected there";
+    WRONG_LENGTH = "QRT0123", "a list of the wrong length",
+        "Write as many elements as are expected";
+    ONE_VARIANT = "QRT0124", "not exactly one kind where one is to be chosen",
+        "Write a map with a single key, such as `{ lambertian: { ... } }`";
+    UNKNOWN_VARIANT = "QRT0125", "an unknown kind",
+        "Choose one of the listed kinds";
+    UNKNOWN_WORD = "QRT0126", "an unknown word",
+        "Choose one of the listed words";
+    UNREPRESENTABLE = "QRT0127", "a number beyond 64-bit floating point",
+        "Write a number between 1e-307 and 1e308 in size, or 0";
+    OUT_OF_RANGE = "QRT0201", "a number out of its range",
+        "Choose one within the range";
+    NOT_FINITE = "QRT0202", "NaN or infinity",
+        "Write a finite number";
+    ALBEDO = "QRT0203", "an albedo or reflectance outside [0, 1]",
+        "A surface cannot reflect less than nothing or more than it receives";
+    RADIANCE = "QRT0204", "a negative or overlarge radiance",
+        "Write 0 or more";
+    DUPLICATE_NAME = "QRT0205", "two materials of one name",
+        "Rename one of them";
+    UNKNOWN_MATERIAL = "QRT0206", "a material that is not defined",
+        "Define it under `materials`, or correct the name";
+    EMPTY_NAME = "QRT0207", "an empty name or text",
+        "Give it at least one character";
+    PHONG_ENERGY = "QRT0208", "a Phong surface that reflects more than it receives",
+        "Keep diffuse + specular at 1 or below in every channel";
+    CAMERA_TARGET = "QRT0209", "a camera that looks at the point it stands on",
+        "Move `eye` or `target`";
+    CAMERA_UP = "QRT0210", "a camera whose `up` does not say which way is up",
+        "Choose an `up` that is neither zero nor along the view";
+    COINCIDENT = "QRT0301", "two vertices at one point",
+        "Move one of them, or use a triangle";
+    ZERO_AREA = "QRT0302", "a primitive without area",
+        "Move a vertex off the line through the others";
+    NOT_CONVEX = "QRT0303", "a quad that is not convex",
+        "Split it into triangles";
+    CROSSING = "QRT0304", "a quad whose edges cross",
+        "List the vertices in order around the outline";
+    MESH_ZERO_AREA = "QRT0305", "a mesh with faces without area",
+        "Remove them with the tool that made the mesh";
+    MESH_MATERIAL = "QRT0306", "a mesh with faces without a material",
+        "Give the mesh a `material`, or complete its MTL";
+    MESH_RANGE = "QRT0307", "a mesh that its transform takes out of range",
+        "Use a smaller scale or translation";
+    NO_DEPTH = "QRT0501", "a path without rays",
+        "Give `depths` at least one entry";
+    PATH_BITS_SUM = "QRT0502", "path_bits that is not the sum of the lattice's bits",
+        "Leave `path_bits` out under `product-lattice`, or change the bits";
+    TOO_MANY_IDS = "QRT0503", "more ids than fit into a word",
+        "Use fewer path bits or comparator bits";
+    TOO_MANY_DIMENSIONS = "QRT0504", "more dimensions than the digital net has",
+        "Use fewer depths, or `product-lattice`";
+    PRIMARY_MAP = "QRT0505", "a map of directions for the primary ray",
+        "Remove it: the primary ray samples the pixel square";
+    ACCURACY_CONFLICT = "QRT0506", "an accuracy beside a knob that it replaces",
+        "Keep one of the two";
+    SET_SYNTAX = "QRT0901", "an override that is not key=value",
+        "Write `--set sampling.path_bits=14` or `--set 'film={ width: 8, height: 8 }'`";
+    SET_PLACE = "QRT0902", "an override of something that is not there",
+        "Name a key of the scene format, and list elements that exist";
+}
+
+/// The row of a code.
+pub fn lookup(code: &str) -> Option<&'static Code> {
+    TABLE.iter().find(|row| row.code == code)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn codes_are_distinct_and_in_order() {
+        assert!(TABLE.windows(2).all(|pair| pair[0].code < pair[1].code));
+        assert_eq!(lookup("QRT0302").map(|row| row.code), Some(ZERO_AREA));
+        assert_eq!(lookup("QRT0000"), None);
+    }
+}

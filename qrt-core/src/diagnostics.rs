@@ -1,0 +1,351 @@
+//! Problems shown in their source, as a compiler shows them: file, line and column, the source
+//! line, a caret, the code, and the right thing to write.
+
+use crate::front::tree::{Node, Span};
+use crate::report::Problem;
+use annotate_snippets::renderer::DecorStyle;
+use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
+use std::fmt;
+use std::ops::Range;
+
+/// A text that problems point into.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Source {
+    /// What stands before the line number: a file's path, or `<--set>`.
+    pub name: String,
+    /// The text, without a byte order mark.
+    pub text: String,
+}
+
+impl Source {
+    /// A named text. A byte order mark at its start is dropped.
+    pub fn new(name: impl Into<String>, text: impl Into<String>) -> Self {
+        let mut text = text.into();
+        if text.starts_with('\u{feff}') {
+            text.drain(..'\u{feff}'.len_utf8());
+        }
+        Self {
+            name: name.into(),
+            text,
+        }
+    }
+}
+
+/// A problem and where it is, if it is anywhere.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Placed {
+    /// What is wrong.
+    pub problem: Problem,
+    /// Where; nowhere when a file cannot be read.
+    pub span: Option<Span>,
+    /// The other place that matters.
+    pub also: Option<Span>,
+}
+
+/// Everything that is wrong with a scene.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Report {
+    /// The scene's text first, then that of each override.
+    pub sources: Vec<Source>,
+    /// In the order of their places; at most [`MOST`].
+    pub problems: Vec<Placed>,
+    /// Further problems that were found and left out.
+    pub omitted: usize,
+}
+
+/// Problems that a report lists.
+pub const MOST: usize = 1000;
+
+impl Report {
+    /// A report of one problem about a file as a whole.
+    pub fn of_file(name: &str, problem: Problem) -> Self {
+        Self {
+            sources: vec![Source::new(name, "")],
+            problems: vec![Placed {
+                problem,
+                span: None,
+                also: None,
+            }],
+            omitted: 0,
+        }
+    }
+
+    /// Problems that already have their places, and problems placed by the scene's tree.
+    pub fn of_tree(
+        sources: Vec<Source>,
+        tree: &Node,
+        mut placed: Vec<Placed>,
+        mut problems: Vec<Problem>,
+    ) -> Self {
+        let omitted = problems.len().saturating_sub(MOST);
+        problems.truncate(MOST);
+        placed.extend(
+            problems
+                .into_iter()
+                .map(|problem| place(&sources, tree, problem)),
+        );
+        let report = Self::of_placed(sources, placed);
+        Self {
+            omitted: report.omitted + omitted,
+            ..report
+        }
+    }
+
+    /// Problems that already have their places.
+    pub fn of_placed(sources: Vec<Source>, mut problems: Vec<Placed>) -> Self {
+        let omitted = problems.len().saturating_sub(MOST);
+        problems.truncate(MOST);
+        problems.sort_by_key(|placed| placed.span.map(|span| (span.source, span.start, span.end)));
+        let mut kept: Vec<Placed> = Vec::with_capacity(problems.len());
+        for placed in problems {
+            let same = |other: &&Placed| {
+                other.problem.code == placed.problem.code
+                    && other.problem.message == placed.problem.message
+            };
+            let twin = kept
+                .iter()
+                .rev()
+                .take_while(|o| o.span == placed.span)
+                .find(same);
+            if twin.is_none() {
+                kept.push(placed);
+            }
+        }
+        Self {
+            sources,
+            problems: kept,
+            omitted,
+        }
+    }
+
+    /// The codes, in order.
+    pub fn codes(&self) -> Vec<&'static str> {
+        self.problems
+            .iter()
+            .map(|placed| placed.problem.code)
+            .collect()
+    }
+
+    /// All problems as text; with `colour`, in a terminal's escape codes.
+    pub fn render(&self, colour: bool) -> String {
+        let renderer = if colour {
+            Renderer::styled()
+        } else {
+            Renderer::plain()
+        };
+        let renderer = renderer.decor_style(DecorStyle::Ascii);
+        let mut out = String::new();
+        let lines: Vec<_> = self
+            .sources
+            .iter()
+            .map(|source| Lines::of(&source.text))
+            .collect();
+        for placed in &self.problems {
+            out.push_str(&self.render_one(&renderer, &lines, placed));
+            out.push_str("\n\n");
+        }
+        let name = self
+            .sources
+            .first()
+            .map_or("scene", |source| source.name.as_str());
+        let count = self.problems.len() + self.omitted;
+        let plural = if count == 1 { "" } else { "s" };
+        let shown = match self.omitted {
+            0 => String::new(),
+            _ => format!(", the first {} of them above", self.problems.len()),
+        };
+        let closing = format!("{name}: {count} error{plural}{shown}");
+        let last = Level::ERROR.no_name().primary_title(closing.as_str());
+        out.push_str(&renderer.render(&[Group::with_title(last)]));
+        out.push('\n');
+        out
+    }
+
+    fn render_one(&self, renderer: &Renderer, lines: &[Lines<'_>], placed: &Placed) -> String {
+        let problem = &placed.problem;
+        let title = Level::ERROR
+            .primary_title(problem.message.as_str())
+            .id(problem.code);
+        let mut group = Group::with_title(title);
+        let primary = placed
+            .span
+            .and_then(|span| Some((lines.get(span.source as usize)?, span)));
+        if let Some((lines_here, span)) = primary {
+            let other = placed.also.zip(problem.also.as_ref());
+            let other = other.map(|(also, (_, why))| (also, why.as_str()));
+            let near = other.filter(|(also, _)| also.source == span.source);
+            let excerpt = match near {
+                Some((also, _)) => lines_here.excerpt(&[span, also]),
+                None => lines_here.excerpt(&[span]),
+            };
+            let mut marks = vec![(
+                AnnotationKind::Primary,
+                excerpt.within(span),
+                problem.label.as_str(),
+            )];
+            if let Some((also, why)) = near {
+                marks.push((AnnotationKind::Context, excerpt.within(also), why));
+            }
+            group = group.element(excerpt.snippet(self.name(span), marks));
+            if let Some((also, why)) = other.filter(|(also, _)| also.source != span.source)
+                && let Some(lines) = lines.get(also.source as usize)
+            {
+                let excerpt = lines.excerpt(&[also]);
+                let marks = vec![(AnnotationKind::Context, excerpt.within(also), why)];
+                group = group.element(excerpt.snippet(self.name(also), marks));
+            }
+        } else {
+            let name = self
+                .sources
+                .first()
+                .map_or("", |source| source.name.as_str());
+            group = group.element(annotate_snippets::Origin::path(name));
+        }
+        if let Some(help) = &problem.help {
+            group = group.element(Level::HELP.message(help.as_str()));
+        }
+        renderer.render(&[group])
+    }
+
+    fn name(&self, span: Span) -> &str {
+        self.sources
+            .get(span.source as usize)
+            .map_or("", |source| source.name.as_str())
+    }
+}
+
+impl fmt::Display for Report {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.render(false))
+    }
+}
+
+impl std::error::Error for Report {}
+
+/// A source with the starts of its lines.
+struct Lines<'a> {
+    text: &'a str,
+    starts: Vec<usize>,
+}
+
+impl<'a> Lines<'a> {
+    fn of(text: &'a str) -> Self {
+        let feeds = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n');
+        Self {
+            text,
+            starts: std::iter::once(0)
+                .chain(feeds.map(|(at, _)| at + 1))
+                .collect(),
+        }
+    }
+
+    /// The lines from the first to the last of the spans.
+    fn excerpt(&self, spans: &[Span]) -> Excerpt<'a> {
+        let shown = spans.iter().map(|span| visible(self.text, *span));
+        let (start, end) = shown.fold((self.text.len(), 0), |(start, end), range| {
+            (start.min(range.start), end.max(range.end))
+        });
+        let first = self.starts.partition_point(|&at| at <= start).max(1) - 1;
+        let after = self.starts.partition_point(|&at| at <= end);
+        let end = self.starts.get(after).map_or(self.text.len(), |at| at - 1);
+        let start = self.starts[first];
+        Excerpt {
+            first_line: first + 1,
+            start,
+            text: &self.text[start..end],
+        }
+    }
+}
+
+/// The lines of a source that are shown: enough for the spans, however long the source.
+struct Excerpt<'a> {
+    first_line: usize,
+    start: usize,
+    text: &'a str,
+}
+
+impl<'a> Excerpt<'a> {
+    /// The visible part of `span`, counted from the excerpt's start.
+    fn within(&self, span: Span) -> Range<usize> {
+        let start = span.start.saturating_sub(self.start);
+        let end = span.end.saturating_sub(self.start);
+        visible(
+            self.text,
+            Span {
+                source: span.source,
+                start,
+                end,
+            },
+        )
+    }
+
+    fn snippet(
+        &self,
+        name: &'a str,
+        marks: Vec<(AnnotationKind, Range<usize>, &'a str)>,
+    ) -> Snippet<'a, annotate_snippets::Annotation<'a>> {
+        let annotations = marks.into_iter().map(|(kind, range, label)| {
+            let annotation = kind.span(range);
+            if label.is_empty() {
+                annotation
+            } else {
+                annotation.label(label)
+            }
+        });
+        Snippet::source(self.text)
+            .path(name)
+            .line_start(self.first_line)
+            .annotations(annotations)
+    }
+}
+
+/// The bytes of `span` that are shown: on character boundaries, within the text, its first line
+/// only, without the blanks at its end.
+fn visible(text: &str, span: Span) -> Range<usize> {
+    let start = text.floor_char_boundary(span.start.min(text.len()));
+    let end = text
+        .floor_char_boundary(span.end.min(text.len()))
+        .max(start);
+    let line = text[start..end]
+        .split(['\n', '\r'])
+        .next()
+        .unwrap_or_default();
+    start..start + line.trim_end().len()
+}
+
+fn place(sources: &[Source], tree: &Node, problem: Problem) -> Placed {
+    let found = tree.resolve(&problem.path);
+    let mut span = found.span;
+    if let (Some(within), true) = (&problem.within, found.exact) {
+        span = inner(sources, found.node, within).unwrap_or(span);
+    }
+    let also = problem
+        .also
+        .as_ref()
+        .map(|(path, _)| tree.resolve(path).span);
+    Placed {
+        problem,
+        span: Some(span),
+        also,
+    }
+}
+
+/// Bytes within a scalar's text as bytes of its source, where the source has the text verbatim.
+fn inner(sources: &[Source], node: &Node, within: &Range<usize>) -> Option<Span> {
+    let crate::front::tree::Value::Scalar(scalar) = &node.value else {
+        return None;
+    };
+    let written = sources
+        .get(node.span.source as usize)?
+        .text
+        .get(node.span.start..node.span.end)?;
+    let quote = usize::from(scalar.quoted);
+    let body = written.get(quote..written.len().checked_sub(quote)?)?;
+    let verbatim = body == scalar.text && within.end <= body.len() && within.start <= within.end;
+    let start = node.span.start + quote;
+    verbatim.then_some(Span {
+        source: node.span.source,
+        start: start + within.start,
+        end: start + within.end,
+    })
+}

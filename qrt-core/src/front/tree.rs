@@ -1,0 +1,345 @@
+//! The tree that every front end makes of its text, each node with the place it stands at.
+//!
+//! YAML text and the tokens of the `qrt!` macro both become such a tree; everything after it (the
+//! decoder of [`crate::scene`], the checks of [`crate::valid`], the rendering of errors) is shared.
+
+use crate::report::{Path, Step};
+
+/// A place in a source. Only the front end that made it knows what the numbers mean: for text they
+/// are byte offsets into source number `source`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Span {
+    /// Which source: 0 is the scene itself, then one for each override.
+    pub source: u32,
+    /// First byte.
+    pub start: usize,
+    /// One past the last byte.
+    pub end: usize,
+}
+
+/// A value and its place.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Node {
+    /// Where it stands.
+    pub span: Span,
+    /// What it is.
+    pub value: Value,
+}
+
+/// A value without a meaning yet.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    /// Nothing written, `~` or `null`.
+    Null,
+    /// A number, a word or a text; [`Scalar::kind`] tells which.
+    Scalar(Scalar),
+    /// Elements in order.
+    List(Vec<Node>),
+    /// Entries in the order written; keys are distinct.
+    Map(Vec<Entry>),
+}
+
+/// The text of a scalar.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Scalar {
+    /// Without quotes, escapes resolved.
+    pub text: String,
+    /// In quotes or in a block: text whatever it looks like.
+    pub quoted: bool,
+}
+
+/// What a scalar is by the core schema of YAML 1.2.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Kind {
+    /// A number, whole or not; it is infinite where the text is beyond the range of 64 bits.
+    Number(f64),
+    /// `true` or `false`.
+    Bool(bool),
+    /// Anything else.
+    Text,
+}
+
+impl Scalar {
+    /// What the scalar is by the core schema of YAML 1.2 (section 10.3.2).
+    pub fn kind(&self) -> Kind {
+        if self.quoted {
+            return Kind::Text;
+        }
+        match self.text.as_str() {
+            "true" | "True" | "TRUE" => Kind::Bool(true),
+            "false" | "False" | "FALSE" => Kind::Bool(false),
+            text => number(text).map_or(Kind::Text, Kind::Number),
+        }
+    }
+
+    /// Whether this number is written with a digit other than 0 in its mantissa.
+    pub fn has_digits(&self) -> bool {
+        let mantissa = self.text.split(['e', 'E']).next().unwrap_or_default();
+        mantissa.bytes().any(|b| b.is_ascii_digit() && b != b'0')
+    }
+}
+
+/// Whether plain text means "nothing".
+pub fn is_null(text: &str) -> bool {
+    matches!(text, "" | "~" | "null" | "Null" | "NULL")
+}
+
+/// `[-+]?(.inf|.Inf|.INF)`, `.nan`, `0o` and `0x` integers, decimal integers and floats.
+fn number(text: &str) -> Option<f64> {
+    if matches!(text, ".nan" | ".NaN" | ".NAN") {
+        return Some(f64::NAN);
+    }
+    let (negative, body) = match text.as_bytes().first()? {
+        b'-' => (true, &text[1..]),
+        b'+' => (false, &text[1..]),
+        _ => (false, text),
+    };
+    let sign = if negative { -1.0 } else { 1.0 };
+    if matches!(body, ".inf" | ".Inf" | ".INF") {
+        return Some(sign * f64::INFINITY);
+    }
+    if text.len() == body.len() {
+        for (prefix, radix) in [("0o", 8), ("0x", 16)] {
+            if let Some(digits) = body.strip_prefix(prefix) {
+                return radix_number(digits, radix);
+            }
+        }
+    }
+    if !is_decimal(body) {
+        return None;
+    }
+    // The grammar of YAML's floats is a part of what `f64::from_str` reads.
+    body.parse::<f64>().ok().map(|value| sign * value)
+}
+
+fn radix_number(digits: &str, radix: u32) -> Option<f64> {
+    if digits.is_empty() {
+        return None;
+    }
+    digits.chars().try_fold(0.0, |value: f64, c| {
+        Some(value * f64::from(radix) + f64::from(c.to_digit(radix)?))
+    })
+}
+
+/// `( \. [0-9]+ | [0-9]+ ( \. [0-9]* )? ) ( [eE] [-+]? [0-9]+ )?`
+fn is_decimal(text: &str) -> bool {
+    let digits = |s: &str| s.bytes().take_while(u8::is_ascii_digit).count();
+    let whole = digits(text);
+    let mut rest = &text[whole..];
+    let mut fraction = 0;
+    if let Some(after) = rest.strip_prefix('.') {
+        fraction = digits(after);
+        rest = &after[fraction..];
+    }
+    if whole + fraction == 0 {
+        return false;
+    }
+    match rest.strip_prefix(['e', 'E']) {
+        None => rest.is_empty(),
+        Some(exponent) => {
+            let exponent = exponent.strip_prefix(['-', '+']).unwrap_or(exponent);
+            !exponent.is_empty() && digits(exponent) == exponent.len()
+        }
+    }
+}
+
+/// A key and its value.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Entry {
+    /// The key.
+    pub key: String,
+    /// Where the key stands.
+    pub key_span: Span,
+    /// The value.
+    pub value: Node,
+}
+
+impl Node {
+    /// The entry of `key`, if this is a map that has it.
+    pub fn entry(&self, key: &str) -> Option<&Entry> {
+        match &self.value {
+            Value::Map(entries) => entries.iter().find(|entry| entry.key == key),
+            _ => None,
+        }
+    }
+
+    /// What this is, for "expected a number, found ...".
+    pub fn found(&self) -> String {
+        match &self.value {
+            Value::Null => "nothing".into(),
+            Value::List(items) if items.len() == 1 => "a list of one".into(),
+            Value::List(items) => format!("a list of {}", items.len()),
+            Value::Map(_) => "a map".into(),
+            Value::Scalar(scalar) => match scalar.kind() {
+                Kind::Number(_) => format!("the number {}", scalar.text),
+                Kind::Bool(_) => format!("the truth value {}", scalar.text),
+                Kind::Text => format!("the text \"{}\"", shorten(&scalar.text)),
+            },
+        }
+    }
+
+    /// The node at `path`, or the nearest one above it that is written (a default is written
+    /// nowhere), with the span to show: that of the key where the path ends in a name.
+    pub fn resolve(&self, path: &Path) -> Found<'_> {
+        let mut found = Found {
+            node: self,
+            span: self.span,
+            exact: true,
+        };
+        for step in &path.0 {
+            let node = found.node;
+            match (step, &node.value) {
+                (Step::Key(key), Value::Map(_)) => match node.entry(key) {
+                    Some(entry) => {
+                        found = Found {
+                            node: &entry.value,
+                            span: entry.value.span,
+                            exact: true,
+                        };
+                        if matches!(entry.value.value, Value::Null) {
+                            found.span = entry.key_span;
+                        }
+                    }
+                    None => {
+                        return Found {
+                            exact: false,
+                            ..found
+                        };
+                    }
+                },
+                (Step::Name(key), Value::Map(_)) => match node.entry(key) {
+                    Some(entry) => {
+                        found = Found {
+                            node: &entry.value,
+                            span: entry.key_span,
+                            exact: true,
+                        };
+                    }
+                    None => {
+                        return Found {
+                            exact: false,
+                            ..found
+                        };
+                    }
+                },
+                (Step::Item(index), Value::List(items)) => match items.get(*index) {
+                    Some(item) => {
+                        found = Found {
+                            node: item,
+                            span: item.span,
+                            exact: true,
+                        }
+                    }
+                    None => {
+                        return Found {
+                            exact: false,
+                            ..found
+                        };
+                    }
+                },
+                // A list of one may be written without its brackets.
+                (Step::Item(0), Value::Scalar(_)) => {}
+                _ => {
+                    return Found {
+                        exact: false,
+                        ..found
+                    };
+                }
+            }
+        }
+        found
+    }
+
+    /// Nodes in this tree, itself included.
+    pub fn count(&self) -> usize {
+        1 + match &self.value {
+            Value::Null | Value::Scalar(_) => 0,
+            Value::List(items) => items.iter().map(Node::count).sum(),
+            Value::Map(entries) => entries.iter().map(|entry| entry.value.count()).sum(),
+        }
+    }
+
+    /// Levels of lists and maps in this tree.
+    pub fn height(&self) -> usize {
+        match &self.value {
+            Value::Null | Value::Scalar(_) => 0,
+            Value::List(items) => 1 + items.iter().map(Node::height).max().unwrap_or(0),
+            Value::Map(entries) => {
+                1 + entries
+                    .iter()
+                    .map(|entry| entry.value.height())
+                    .max()
+                    .unwrap_or(0)
+            }
+        }
+    }
+}
+
+/// Where a path leads.
+#[derive(Clone, Copy, Debug)]
+pub struct Found<'a> {
+    /// The node, or the nearest above.
+    pub node: &'a Node,
+    /// The place to show.
+    pub span: Span,
+    /// Whether the whole path is written.
+    pub exact: bool,
+}
+
+/// At most 40 characters of `text`.
+pub(crate) fn shorten(text: &str) -> String {
+    let mut short: String = text.chars().take(40).collect();
+    if short.len() < text.len() {
+        short.push_str("...");
+    }
+    short
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn kind(text: &str) -> Kind {
+        Scalar {
+            text: text.into(),
+            quoted: false,
+        }
+        .kind()
+    }
+
+    #[test]
+    fn scalars_follow_the_core_schema() {
+        for (text, value) in [
+            ("0", 0.0),
+            ("-19", -19.0),
+            ("+12", 12.0),
+            ("010", 10.0),
+            ("0o14", 12.0),
+            ("0x3A", 58.0),
+            ("0.", 0.0),
+            ("-0.0", 0.0),
+            (".5", 0.5),
+            ("+12e03", 12000.0),
+            ("-2E+05", -200_000.0),
+            ("1e999", f64::INFINITY),
+            ("-.INF", f64::NEG_INFINITY),
+        ] {
+            assert_eq!(kind(text), Kind::Number(value), "{text}");
+        }
+        assert!(matches!(kind(".nan"), Kind::Number(v) if v.is_nan()));
+        for text in [
+            "", ".", "-", "e3", "1e", "1e+", "1_000", "inf", "nan", "-0x1", "0x", "1.2.3", "1 2",
+        ] {
+            assert_eq!(kind(text), Kind::Text, "{text}");
+        }
+        assert_eq!(kind("True"), Kind::Bool(true));
+        assert_eq!(
+            Scalar {
+                text: "1".into(),
+                quoted: true
+            }
+            .kind(),
+            Kind::Text
+        );
+    }
+}

@@ -1,0 +1,223 @@
+//! One definition of each part of a scene: the Rust type, how it is read, its defaults, its ranges,
+//! how it is written back and what the JSON Schema says of it.
+
+/// A map of known keys. `field: Type = shape;` must be written; `field: Type = shape, or default;`
+/// may be left out. `settle = f` names a last step after reading, with the node at hand.
+macro_rules! record {
+    (
+        $(#[doc = $doc:literal])*
+        #[derive($($derive:ident),*)]
+        pub struct $name:ident = $noun:literal $(, settle = $settle:path)? ;
+        $(
+            $(#[doc = $field_doc:literal])*
+            pub $field:ident : $type:ty = $shape:expr $(, or $default:expr)? ;
+        )*
+    ) => {
+        $(#[doc = $doc])*
+        #[derive($($derive),*)]
+        pub struct $name {
+            $( $(#[doc = $field_doc])* pub $field: $type, )*
+        }
+
+        impl $crate::scene::shape::Part for $name {
+            fn decode(
+                node: &$crate::front::tree::Node,
+                at: &$crate::scene::decode::Place<'_>,
+                decoder: &mut $crate::scene::decode::Decoder,
+            ) -> Self {
+                use $crate::scene::decode::Field;
+                #[allow(unused_imports)]
+                use $crate::scene::shape::{Part as _, Shape as _};
+                const FIELDS: &[Field] = &[$(Field {
+                    name: stringify!($field),
+                    required: record!(@required $($default)?),
+                }),*];
+                if !decoder.record(node, at, $noun, FIELDS) {
+                    return Self::fallback();
+                }
+                let value = Self { $( $field: {
+                    let at = at.key(stringify!($field));
+                    match node.entry(stringify!($field)) {
+                        Some(entry) => $shape.decode(&entry.value, &at, decoder),
+                        None => record!(@absent $shape, at, decoder $(, $default)?),
+                    }
+                } ),* };
+                $( let value = $settle(value, node, at, decoder); )?
+                value
+            }
+
+            fn fallback() -> Self {
+                use $crate::scene::shape::Shape as _;
+                Self { $( $field: $shape.fallback() ),* }
+            }
+
+            fn check(
+                &self,
+                at: &$crate::scene::decode::Place<'_>,
+                problems: &mut Vec<$crate::report::Problem>,
+            ) {
+                use $crate::scene::shape::Shape as _;
+                $( $shape.check(&self.$field, &at.key(stringify!($field)), problems); )*
+            }
+
+            fn encode(&self) -> $crate::scene::text::Data {
+                use $crate::scene::shape::Shape as _;
+                let mut entries = Vec::new();
+                $( if let Some(value) = $shape.encode(&self.$field) {
+                    entries.push((stringify!($field).to_owned(), value));
+                } )*
+                $crate::scene::text::Data::Map(entries)
+            }
+
+            fn schema() -> $crate::scene::text::Data {
+                use $crate::scene::shape::Shape as _;
+                $crate::scene::shape::record_schema(concat!($($doc),*), vec![$((
+                    stringify!($field),
+                    concat!($($field_doc),*),
+                    record!(@required $($default)?),
+                    $shape.schema(),
+                    record!(@default $type, $shape $(, $default)?),
+                )),*])
+            }
+        }
+    };
+
+    (@required) => { true };
+    (@required $default:expr) => { false };
+
+    (@absent $shape:expr, $at:ident, $decoder:ident) => {{
+        $decoder.replaced.push($at.path());
+        $shape.fallback()
+    }};
+    (@absent $shape:expr, $at:ident, $decoder:ident, $default:expr) => { $default };
+
+    (@default $type:ty, $shape:expr) => { None };
+    (@default $type:ty, $shape:expr, $default:expr) => {{
+        let default: $type = $default;
+        $shape.encode(&default)
+    }};
+}
+
+/// A map with exactly one of the keys, each leading to a part.
+macro_rules! variant {
+    (
+        $(#[doc = $doc:literal])*
+        #[derive($($derive:ident),*)]
+        pub enum $name:ident = $noun:literal;
+        $( $(#[doc = $kind_doc:literal])* $kind:ident($part:ty) = $key:literal; )*
+    ) => {
+        $(#[doc = $doc])*
+        #[derive($($derive),*)]
+        pub enum $name {
+            $( $(#[doc = $kind_doc])* $kind($part), )*
+        }
+
+        impl $name {
+            /// The names of the kinds in a scene.
+            pub const NAMES: &'static [&'static str] = &[$($key),*];
+
+            /// The name of this kind in a scene.
+            pub const fn kind(&self) -> &'static str {
+                match self { $( Self::$kind(_) => $key, )* }
+            }
+        }
+
+        impl $crate::scene::shape::Part for $name {
+            fn decode(
+                node: &$crate::front::tree::Node,
+                at: &$crate::scene::decode::Place<'_>,
+                decoder: &mut $crate::scene::decode::Decoder,
+            ) -> Self {
+                match decoder.variant(node, at, $noun, Self::NAMES) {
+                    $( Some(($key, node)) => {
+                        let part = <$part as $crate::scene::shape::Part>::decode(
+                            node, &at.key($key), decoder,
+                        );
+                        Self::$kind(part)
+                    } )*
+                    _ => Self::fallback(),
+                }
+            }
+
+            #[allow(unreachable_code)]
+            fn fallback() -> Self {
+                // The first kind stands for all.
+                $( return Self::$kind($crate::scene::shape::Part::fallback()); )*
+            }
+
+            fn check(
+                &self,
+                at: &$crate::scene::decode::Place<'_>,
+                problems: &mut Vec<$crate::report::Problem>,
+            ) {
+                match self {
+                    $( Self::$kind(part) => {
+                        $crate::scene::shape::Part::check(part, &at.key($key), problems);
+                    } )*
+                }
+            }
+
+            fn encode(&self) -> $crate::scene::text::Data {
+                match self {
+                    $( Self::$kind(part) => $crate::scene::text::Data::map([
+                        ($key, $crate::scene::shape::Part::encode(part)),
+                    ]), )*
+                }
+            }
+
+            fn schema() -> $crate::scene::text::Data {
+                $crate::scene::shape::variant_schema(concat!($($doc),*), vec![$((
+                    $key,
+                    concat!($($kind_doc),*),
+                    <$part as $crate::scene::shape::Part>::schema(),
+                )),*])
+            }
+        }
+    };
+}
+
+/// One of several words.
+macro_rules! keyword {
+    (
+        $(#[doc = $doc:literal])*
+        pub enum $name:ident = $noun:literal;
+        $( $(#[doc = $word_doc:literal])* $word:ident = $text:literal; )*
+    ) => {
+        $(#[doc = $doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        pub enum $name {
+            $( $(#[doc = $word_doc])* $word, )*
+        }
+
+        impl $name {
+            /// All of them.
+            pub const ALL: &'static [Self] = &[$(Self::$word),*];
+            /// Their names in scenes, in the order of [`Self::ALL`].
+            pub const NAMES: &'static [&'static str] = &[$($text),*];
+
+            /// The name in a scene.
+            pub const fn name(self) -> &'static str {
+                match self { $( Self::$word => $text, )* }
+            }
+
+            /// The one called `name`.
+            pub fn from_name(name: &str) -> Option<Self> {
+                match name { $( $text => Some(Self::$word), )* _ => None }
+            }
+        }
+
+        impl std::fmt::Display for $name {
+            fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                f.write_str(self.name())
+            }
+        }
+
+        impl $crate::scene::shape::Keyword for $name {
+            const NOUN: &'static str = $noun;
+            const NAMES: &'static [&'static str] = Self::NAMES;
+            const VALUES: &'static [Self] = Self::ALL;
+        }
+    };
+}
+
+pub(crate) use {keyword, record, variant};

@@ -1,0 +1,376 @@
+//! Primitives to polygons: each must have an area, and a quad must be convex.
+//!
+//! Sizes are relative to the primitive, so that a scene of 1e-6 units or one 1e9 units from the
+//! origin is judged as any other.
+
+use crate::codes;
+use crate::front::obj;
+use crate::report::{Path, Problem};
+use crate::scene::decode::nearest;
+use crate::scene::shape::LARGEST;
+use crate::scene::{Geometry, Mesh, Scene};
+use crate::valid::{Polygon, Surface, matte};
+use glam::DVec3;
+use std::collections::HashMap;
+
+/// Twice the area over the square of the longest edge: below it, rounding decides where the normal
+/// points.
+const LEAST_AREA: f64 = 1e-12;
+/// Distance of a corner from the plane of the others over the longest edge: below it, a quad is
+/// planar.
+const PLANAR: f64 = 1e-9;
+
+pub(super) fn polygons(
+    scene: &Scene,
+    folder: &std::path::Path,
+    surfaces: &mut Vec<Surface>,
+    problems: &mut Vec<Problem>,
+) -> Vec<Polygon> {
+    let names = HashMap::new();
+    let mut build = Build {
+        scene,
+        folder,
+        surfaces,
+        problems,
+        names,
+        out: vec![],
+        unknown: 0,
+    };
+    for (index, (name, _)) in scene.materials.iter().enumerate() {
+        build.names.entry(name.as_str()).or_insert(index as u32);
+    }
+    let geometry = Path::root().key("geometry");
+    for (index, primitive) in scene.geometry.iter().enumerate() {
+        let path = geometry.item(index).key(primitive.kind());
+        match primitive {
+            Geometry::Quad(quad) => {
+                let surface = build.surface(&quad.material, &path);
+                build.quad(&quad.vertices, surface, &path);
+            }
+            Geometry::Triangle(triangle) => {
+                let surface = build.surface(&triangle.material, &path);
+                build.triangle(&triangle.vertices, surface, &path);
+            }
+            Geometry::Mesh(mesh) => build.mesh(mesh, &path),
+        }
+    }
+    build.out
+}
+
+struct Build<'a> {
+    scene: &'a Scene,
+    folder: &'a std::path::Path,
+    surfaces: &'a mut Vec<Surface>,
+    problems: &'a mut Vec<Problem>,
+    names: HashMap<&'a str, u32>,
+    out: Vec<Polygon>,
+    /// Unknown materials so far.
+    unknown: usize,
+}
+
+impl Build<'_> {
+    /// The surface called `name`. An unknown one is reported, and the first stands for it, so that
+    /// the primitive's shape is still checked.
+    fn surface(&mut self, name: &str, path: &Path) -> u32 {
+        if let Some(&surface) = self.names.get(name) {
+            return surface;
+        }
+        // Where very much is wrong, only the first get advice: it takes time.
+        self.unknown += 1;
+        let advised = if self.unknown <= 100 {
+            &self.scene.materials[..]
+        } else {
+            &[]
+        };
+        let names: Vec<&str> = advised
+            .iter()
+            .take(1000)
+            .map(|(name, _)| name.as_str())
+            .collect();
+        let short = crate::front::tree::shorten(name);
+        let message = format!("no material is called `{short}`");
+        let mut problem = Problem::new(codes::UNKNOWN_MATERIAL, path.key("material"), message);
+        problem.help = Some(match nearest(name, &names) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None if self.scene.materials.is_empty() || names.is_empty() => {
+                "define it under `materials`".into()
+            }
+            None => {
+                let some = &names[..names.len().min(8)];
+                let more = if names.len() > 8 { " and more" } else { "" };
+                format!(
+                    "defined are {}{more}",
+                    crate::scene::decode::listed(some, "and")
+                )
+            }
+        });
+        self.problems.push(problem);
+        0
+    }
+
+    fn fault(&mut self, path: &Path, fault: &Fault) {
+        let path = path.key("vertices");
+        let problem = match *fault {
+            Fault::Coincident(a, b) => {
+                let message = format!("vertices {a} and {b} are one point");
+                Problem::new(codes::COINCIDENT, path.item(b), message)
+                    .label(format!("same as vertex {a}"))
+                    .also(path.item(a), "the other")
+            }
+            Fault::Flat => Problem::new(codes::ZERO_AREA, path, "this primitive has no area")
+                .label("the vertices lie on a line"),
+            Fault::Straight(at) => {
+                let message = format!("the quad has no corner at vertex {at}");
+                Problem::new(codes::ZERO_AREA, path.item(at), message)
+                    .label("on a line with its neighbours")
+                    .help("write a triangle, or move this vertex")
+            }
+            Fault::Reflex(at) => {
+                let message =
+                    format!("the quad is not convex: its corner at vertex {at} is dented");
+                Problem::new(codes::NOT_CONVEX, path.item(at), message)
+                    .help("split it into two triangles")
+            }
+            Fault::Crossing => Problem::new(codes::CROSSING, path, "the quad's edges cross")
+                .help("list the vertices in order around the outline"),
+        };
+        self.problems.push(problem);
+    }
+
+    fn triangle(&mut self, vertices: &[DVec3; 3], surface: u32, path: &Path) {
+        match triangle_fault(vertices) {
+            Some(fault) => self.fault(path, &fault),
+            None => self.out.push(triangle(*vertices, surface)),
+        }
+    }
+
+    fn quad(&mut self, vertices: &[DVec3; 4], surface: u32, path: &Path) {
+        match quad_fault(vertices) {
+            Some(fault) => self.fault(path, &fault),
+            None if is_planar(vertices) => {
+                self.out.push(Polygon {
+                    vertices: *vertices,
+                    corners: 4,
+                    surface,
+                });
+            }
+            None => {
+                let [a, b, c, d] = *vertices;
+                self.out.push(triangle([a, b, c], surface));
+                self.out.push(triangle([a, c, d], surface));
+            }
+        }
+    }
+
+    fn mesh(&mut self, mesh: &Mesh, path: &Path) {
+        let named = mesh.material.as_ref().map(|name| self.surface(name, path));
+        let file = self.folder.join(&mesh.obj);
+        let read = match obj::load(&file, mesh.material.is_none()) {
+            Ok(read) => read,
+            Err(error) => {
+                let mut problem = Problem::new(error.code, path.key("obj"), error.message);
+                problem.help = error.help;
+                self.problems.push(problem);
+                return;
+            }
+        };
+        let transform = Transform::of(mesh);
+        let first = self.surfaces.len() as u32;
+        if named.is_none() {
+            self.surfaces
+                .extend(read.materials.into_iter().map(|material| Surface {
+                    name: material.name,
+                    radiance: material.radiance,
+                    scatter: matte(material.albedo),
+                }));
+        }
+        let mut flat = Vec::new();
+        let mut bare = Vec::new();
+        let mut far = Vec::new();
+        for (index, face) in read.faces.iter().enumerate() {
+            let own = || face.material.map(|material| first + material as u32);
+            let Some(surface) = named.or_else(own) else {
+                bare.push(index);
+                continue;
+            };
+            let vertices = face.vertices.map(|vertex| transform.apply(vertex));
+            if !vertices
+                .iter()
+                .all(|vertex| vertex.abs().cmple(DVec3::splat(LARGEST)).all())
+            {
+                far.push(index);
+            } else if triangle_fault(&vertices).is_some() {
+                flat.push(index);
+            } else {
+                self.out.push(triangle(vertices, surface));
+            }
+        }
+        let all = read.faces.len();
+        let counts = [
+            (
+                &bare,
+                codes::MESH_MATERIAL,
+                "without a material",
+                "give the mesh a `material`",
+            ),
+            (
+                &flat,
+                codes::MESH_ZERO_AREA,
+                "without area",
+                "remove them in the tool that made it",
+            ),
+            (
+                &far,
+                codes::MESH_RANGE,
+                "out of range once transformed",
+                "use a smaller transform",
+            ),
+        ];
+        for (faces, code, what, help) in counts {
+            if let Some(first) = faces.first() {
+                let count = faces.len();
+                let message =
+                    format!("{count} of {all} faces are {what}; the first is face {first}");
+                let problem = Problem::new(code, path.key("obj"), message);
+                self.problems
+                    .push(problem.help(format!("{help}; faces count from 0, as triangles")));
+            }
+        }
+    }
+}
+
+fn triangle([a, b, c]: [DVec3; 3], surface: u32) -> Polygon {
+    Polygon {
+        vertices: [a, b, c, c],
+        corners: 3,
+        surface,
+    }
+}
+
+enum Fault {
+    /// Two vertices at one point.
+    Coincident(usize, usize),
+    /// No area at all.
+    Flat,
+    /// A corner of 180 degrees.
+    Straight(usize),
+    /// A corner of more.
+    Reflex(usize),
+    /// An outline that crosses itself.
+    Crossing,
+}
+
+fn coincident(vertices: &[DVec3]) -> Option<Fault> {
+    (0..vertices.len())
+        .flat_map(|b| (0..b).map(move |a| (a, b)))
+        .find(|&(a, b)| vertices[a] == vertices[b])
+        .map(|(a, b)| Fault::Coincident(a, b))
+}
+
+/// The vertices relative to the first, in units of the longest extent, so that nothing over- or
+/// underflows.
+fn unit<const N: usize>(vertices: &[DVec3; N]) -> [DVec3; N] {
+    let edges = vertices.map(|vertex| vertex - vertices[0]);
+    let size = edges
+        .iter()
+        .map(|edge| edge.abs().max_element())
+        .fold(0.0, f64::max);
+    edges.map(|edge| edge / size)
+}
+
+fn triangle_fault(vertices: &[DVec3; 3]) -> Option<Fault> {
+    if let Some(fault) = coincident(vertices) {
+        return Some(fault);
+    }
+    let [_, b, c] = unit(vertices);
+    let area = b.cross(c).length();
+    let longest = b
+        .length_squared()
+        .max(c.length_squared())
+        .max((c - b).length_squared());
+    let sound = area > LEAST_AREA * longest;
+    (!sound).then_some(Fault::Flat)
+}
+
+fn quad_fault(vertices: &[DVec3; 4]) -> Option<Fault> {
+    if let Some(fault) = coincident(vertices) {
+        return Some(fault);
+    }
+    let corner = unit(vertices);
+    let turn = |at: usize| {
+        let (before, here, after) = (corner[(at + 3) % 4], corner[at], corner[(at + 1) % 4]);
+        (here - before).cross(after - here)
+    };
+    let turns: [DVec3; 4] = std::array::from_fn(turn);
+    let edge = |at: usize| (corner[(at + 1) % 4] - corner[at]).length_squared();
+    let longest = (0..4).map(edge).fold(0.0, f64::max);
+    let least = LEAST_AREA * longest;
+    let straight: Vec<usize> = (0..4).filter(|&at| turns[at].length() <= least).collect();
+    match straight[..] {
+        [] => {}
+        [at] => return Some(Fault::Straight(at)),
+        _ => return Some(Fault::Flat),
+    }
+    // Twice the vector area; zero for a symmetric bow tie, where any corner will do.
+    let area = (corner[2] - corner[0]).cross(corner[3] - corner[1]);
+    let normal = if area.length() > least {
+        area
+    } else {
+        turns[0]
+    };
+    let against: Vec<usize> = (0..4).filter(|&at| turns[at].dot(normal) <= 0.0).collect();
+    match against[..] {
+        [] => None,
+        [at] => Some(Fault::Reflex(at)),
+        _ => Some(Fault::Crossing),
+    }
+}
+
+fn is_planar(vertices: &[DVec3; 4]) -> bool {
+    let [_, b, c, d] = unit(vertices);
+    let normal = b.cross(c);
+    d.dot(normal).abs() <= PLANAR * normal.length()
+}
+
+/// Scale, then rotation about x, then y, then z, then translation.
+struct Transform {
+    columns: [DVec3; 3],
+    translate: DVec3,
+}
+
+impl Transform {
+    fn of(mesh: &Mesh) -> Self {
+        let [x, y, z] = mesh.rotate.to_array().map(sin_cos_degrees);
+        let turn = |v: DVec3| {
+            let v = DVec3::new(v.x, x.1 * v.y - x.0 * v.z, x.0 * v.y + x.1 * v.z);
+            let v = DVec3::new(y.1 * v.x + y.0 * v.z, v.y, y.1 * v.z - y.0 * v.x);
+            DVec3::new(z.1 * v.x - z.0 * v.y, z.0 * v.x + z.1 * v.y, v.z)
+        };
+        let columns = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| turn(axis) * mesh.scale);
+        Self {
+            columns,
+            translate: mesh.translate,
+        }
+    }
+
+    fn apply(&self, v: DVec3) -> DVec3 {
+        self.columns[0] * v.x + self.columns[1] * v.y + self.columns[2] * v.z + self.translate
+    }
+}
+
+/// Sine and cosine of an angle in degrees, exact at multiples of 90, so that what is parallel to an
+/// axis stays so.
+fn sin_cos_degrees(degrees: f64) -> (f64, f64) {
+    let turn = libm::fmod(degrees, 360.0);
+    let turn = if turn < 0.0 { turn + 360.0 } else { turn };
+    match turn {
+        0.0 | 360.0 => (0.0, 1.0),
+        90.0 => (1.0, 0.0),
+        180.0 => (0.0, -1.0),
+        270.0 => (-1.0, 0.0),
+        _ => {
+            let radians = turn.to_radians();
+            (libm::sin(radians), libm::cos(radians))
+        }
+    }
+}
