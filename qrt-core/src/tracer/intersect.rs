@@ -4,7 +4,7 @@
 //! that it leaves and cannot meet that plane again: two distinct points of a line on a plane put
 //! the whole line there. So no epsilon is needed to leave a surface.
 
-use super::geometry::{Geometry, Linear, NO_FACE, NO_PLANE, Slab};
+use super::geometry::{Geometry, NO_FACE, NO_PLANE, Slab};
 use super::vector::Vector;
 use super::{Arith, vector};
 
@@ -64,54 +64,38 @@ pub trait Nearest<A: Arith> {
     fn nearest(&self, cx: &mut A, ray: &Ray<A>, wanted: A::Bool) -> Hit<A>;
 }
 
-/// A linear form on vectors.
-pub trait Form<A: Arith> {
-    /// Its value at `v`.
-    fn at(&self, cx: &mut A, v: &Vector<A>) -> A::Real;
-}
-
-impl<A: Arith> Form<A> for Linear {
-    #[inline(always)]
-    fn at(&self, cx: &mut A, v: &Vector<A>) -> A::Real {
-        let x = cx.scale(v[0], self.0[0]);
-        let y = cx.scale(v[1], self.0[1]);
-        let z = cx.scale(v[2], self.0[2]);
-        let xy = cx.add(x, y);
-        cx.add(xy, z)
-    }
-}
-
-/// A test that a point of a plane lies on the inner side of one or two parallel edges.
-pub trait SlabTest<A: Arith> {
-    /// Does `point` pass?
-    fn holds(&self, cx: &mut A, point: &Vector<A>) -> A::Bool;
-}
-
-impl<A: Arith> SlabTest<A> for Slab {
-    #[inline(always)]
-    fn holds(&self, cx: &mut A, point: &Vector<A>) -> A::Bool {
-        let value = self.form.at(cx, point);
-        let (low, high) = (cx.real(self.low), cx.real(self.high));
-        let above = cx.less_equal(low, value);
-        let under = cx.less_equal(value, high);
-        cx.and(above, under)
-    }
-}
-
-/// Where `ray` crosses the plane `form.p = offset`: whether ahead, and at which distance.
+/// Where a ray crosses a plane that it approaches by `slope` per length of its direction and from
+/// which `rise` parts it: whether ahead, and at which distance.
 #[inline(always)]
-pub fn cross_plane<A: Arith>(
-    cx: &mut A,
-    form: &impl Form<A>,
-    offset: A::Real,
-    ray: &Ray<A>,
-) -> (A::Bool, A::Real) {
-    let slope = form.at(cx, &ray.direction);
-    let height = form.at(cx, &ray.origin);
-    let rise = cx.sub(offset, height);
+pub fn cross_plane<A: Arith>(cx: &mut A, slope: A::Real, rise: A::Real) -> (A::Bool, A::Real) {
     let distance = cx.div(rise, slope);
     let zero = cx.real(0.0);
     (cx.less(zero, distance), distance)
+}
+
+/// `low <= value <= high`
+#[inline(always)]
+pub fn between<A: Arith>(cx: &mut A, low: A::Real, value: A::Real, high: A::Real) -> A::Bool {
+    let above = cx.less_equal(low, value);
+    let under = cx.less_equal(value, high);
+    cx.and(above, under)
+}
+
+/// `a x + b y`
+#[inline(always)]
+fn weighted<A: Arith>(cx: &mut A, [a, b]: [f64; 2], [x, y]: [A::Real; 2]) -> A::Real {
+    let ax = cx.scale(x, a);
+    let by = cx.scale(y, b);
+    cx.add(ax, by)
+}
+
+impl Slab {
+    #[inline(always)]
+    fn holds<A: Arith>(&self, cx: &mut A, point: [A::Real; 2]) -> A::Bool {
+        let value = weighted(cx, self.form, point);
+        let (low, high) = (cx.real(self.low), cx.real(self.high));
+        between(cx, low, value, high)
+    }
 }
 
 /// The point of `ray` at `distance`.
@@ -123,7 +107,7 @@ pub fn point_at<A: Arith>(cx: &mut A, ray: &Ray<A>, distance: A::Real) -> Vector
 
 /// Does `point` pass every slab?
 #[inline(always)]
-pub fn within<A: Arith, T: SlabTest<A>>(cx: &mut A, slabs: &[T], point: &Vector<A>) -> A::Bool {
+fn within<A: Arith>(cx: &mut A, slabs: &[Slab], point: [A::Real; 2]) -> A::Bool {
     // The usual cases without a loop: truth values then stay in mask registers.
     match slabs {
         [a, b] => {
@@ -135,15 +119,65 @@ pub fn within<A: Arith, T: SlabTest<A>>(cx: &mut A, slabs: &[T], point: &Vector<
             let ab = cx.and(a, b);
             cx.and(ab, c)
         }
-        [first, rest @ ..] => {
-            let mut inside = first.holds(cx, point);
-            for slab in rest {
+        [a, b, c, d] => {
+            let (a, b) = (a.holds(cx, point), b.holds(cx, point));
+            let (c, d) = (c.holds(cx, point), d.holds(cx, point));
+            let (ab, cd) = (cx.and(a, b), cx.and(c, d));
+            cx.and(ab, cd)
+        }
+        _ => {
+            let mut inside = cx.truth(true);
+            for slab in slabs {
                 let holds = slab.holds(cx, point);
                 inside = cx.and(inside, holds);
             }
             inside
         }
-        [] => cx.truth(true),
+    }
+}
+
+/// The nearest face so far.
+struct Running<A: Arith> {
+    distance: A::Real,
+    face: A::Index,
+}
+
+impl Geometry {
+    /// The planes whose main axis is `AXIS`, in turn.
+    #[inline(always)]
+    fn along<A: Arith, const AXIS: usize>(
+        &self,
+        cx: &mut A,
+        ray: &Ray<A>,
+        nearest: &mut Running<A>,
+    ) {
+        let parts = |v: &Vector<A>| (v[AXIS], [v[(AXIS + 1) % 3], v[(AXIS + 2) % 3]]);
+        let (start, origin) = parts(&ray.origin);
+        let (step, direction) = parts(&ray.direction);
+        for number in self.by_axis[AXIS].clone() {
+            let plane = &self.planes[number];
+            let slope = weighted(cx, plane.form, direction);
+            let slope = cx.add(step, slope);
+            let height = weighted(cx, plane.form, origin);
+            let height = cx.add(start, height);
+            let offset = cx.real(plane.offset);
+            let rise = cx.sub(offset, height);
+            let (ahead, distance) = cross_plane(cx, slope, rise);
+            let left = cx.is(ray.from, number as u32);
+            let other = cx.not(left);
+            let ahead = cx.and(ahead, other);
+            let way = direction.map(|d| cx.mul(d, distance));
+            let point = [cx.add(origin[0], way[0]), cx.add(origin[1], way[1])];
+            for face in &self.faces[plane.faces.clone()] {
+                let inside = within(cx, &face.slabs, point);
+                let meets = cx.and(ahead, inside);
+                let nearer = cx.less(distance, nearest.distance);
+                let hit = cx.and(meets, nearer);
+                let label = cx.index(face.label);
+                nearest.distance = cx.select(hit, distance, nearest.distance);
+                nearest.face = cx.select_index(hit, label, nearest.face);
+            }
+        }
     }
 }
 
@@ -151,26 +185,14 @@ impl<A: Arith> Nearest<A> for Geometry {
     /// All planes in turn, with a running nearest.
     #[inline(always)]
     fn nearest(&self, cx: &mut A, ray: &Ray<A>, wanted: A::Bool) -> Hit<A> {
-        let mut nearest = cx.real(f64::MAX);
-        let mut label = cx.index(NO_FACE);
-        for (number, plane) in self.planes.iter().enumerate() {
-            let offset = cx.real(plane.offset);
-            let (ahead, distance) = cross_plane(cx, &plane.form, offset, ray);
-            let left = cx.is(ray.from, number as u32);
-            let other = cx.not(left);
-            let ahead = cx.and(ahead, other);
-            let point = point_at(cx, ray, distance);
-            for face in &self.faces[plane.faces.clone()] {
-                let inside = within(cx, &face.slabs, &point);
-                let meets = cx.and(ahead, inside);
-                let nearer = cx.less(distance, nearest);
-                let hit = cx.and(meets, nearer);
-                let new = cx.index(face.label);
-                nearest = cx.select(hit, distance, nearest);
-                label = cx.select_index(hit, new, label);
-            }
-        }
-        Hit::new(cx, nearest, label, wanted)
+        let mut nearest = Running {
+            distance: cx.real(f64::MAX),
+            face: cx.index(NO_FACE),
+        };
+        self.along::<A, 0>(cx, ray, &mut nearest);
+        self.along::<A, 1>(cx, ray, &mut nearest);
+        self.along::<A, 2>(cx, ray, &mut nearest);
+        Hit::new(cx, nearest.distance, nearest.face, wanted)
     }
 }
 
