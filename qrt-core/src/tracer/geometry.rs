@@ -59,6 +59,10 @@ pub struct Plane {
 pub struct Face {
     /// Its number in the order of the scene.
     pub label: u32,
+    /// Does it emit?
+    pub emits: bool,
+    /// Does a later face of its plane emit? Then this one hides it where they overlap.
+    pub hides_emitter: bool,
     /// Pairs of parallel edges share a slab: two for a parallelogram, three for a triangle.
     pub slabs: Vec<Slab>,
 }
@@ -83,6 +87,8 @@ pub struct Geometry {
     pub planes: Vec<Plane>,
     /// The planes with main axis x, y, z.
     pub by_axis: [Range<usize>; 3],
+    /// The planes of each main axis that have an emitting face.
+    pub emitting: [Vec<usize>; 3],
     /// Faces, grouped by plane, in the order of the scene: where faces of one plane overlap, the
     /// one listed first wins.
     pub faces: Vec<Face>,
@@ -99,8 +105,9 @@ pub struct Geometry {
 }
 
 impl Geometry {
-    /// Lowers `polygons`; `reach` are points (the eye) from which rays start too.
-    pub fn new(polygons: &[Polygon], reach: &[DVec3]) -> Self {
+    /// Lowers `polygons`; `emits` tells which emit, and `reach` are points (the eye) from which
+    /// rays start too.
+    pub fn new(polygons: &[Polygon], emits: impl Fn(&Polygon) -> bool, reach: &[DVec3]) -> Self {
         let (centre, scale) = stage_units(polygons);
         let staged = |p: DVec3| (p - centre) * scale;
         let far = reach
@@ -111,6 +118,7 @@ impl Geometry {
         let mut geometry = Self {
             planes: Vec::new(),
             by_axis: [0..0, 0..0, 0..0],
+            emitting: [Vec::new(), Vec::new(), Vec::new()],
             faces: Vec::new(),
             frames: Vec::with_capacity(polygons.len()),
             plane_of: Vec::with_capacity(polygons.len()),
@@ -135,14 +143,27 @@ impl Geometry {
             let faces = &mut on_plane[plane as usize];
             // A second copy of a face is hidden by the first.
             if !faces.iter().any(|face| face.slabs == slabs) {
+                let emits = emits(polygon);
+                if emits {
+                    faces
+                        .iter_mut()
+                        .for_each(|face| face.hides_emitter = !face.emits);
+                }
                 faces.push(Face {
                     label: label as u32,
+                    emits,
+                    hides_emitter: false,
                     slabs,
                 });
             }
         }
         geometry.arrange(on_plane);
         geometry
+    }
+
+    /// The faces on plane number `plane`.
+    pub fn faces_of(&self, plane: usize) -> &[Face] {
+        &self.faces[self.planes[plane].faces.clone()]
     }
 
     fn find_plane(
@@ -211,6 +232,11 @@ impl Geometry {
         }
         let first = |axis: usize| self.planes.partition_point(|plane| plane.axis < axis);
         self.by_axis = [0, 1, 2].map(|axis| first(axis)..first(axis + 1));
+        let emits = |plane: &usize| self.faces_of(*plane).iter().any(|face| face.emits);
+        self.emitting = self
+            .by_axis
+            .clone()
+            .map(|range| range.filter(emits).collect());
     }
 }
 

@@ -3,7 +3,7 @@
 use super::lanes::{BLOCK, Inputs, Lanes, lanes};
 use pulp::{Arch, WithSimd};
 use qrt_core::sampling::PathPoints;
-use qrt_core::tracer::{Arith, Geometry, Hit, Nearest, Ray, Stage, trace};
+use qrt_core::tracer::{Stage, trace};
 use qrt_core::valid::ValidScene;
 
 /// Which lanes to use. All give the same bits.
@@ -226,57 +226,10 @@ impl WithSimd for TraceBlock<'_> {
                 inputs: self.inputs,
                 first,
             };
-            let colour = trace(&mut cx, self.stage, &Apart(self.stage.geometry()));
+            let colour = trace(&mut cx, self.stage, self.stage.geometry());
             for (out, colour) in self.colours.iter_mut().zip(&colour) {
                 out[first..first + Lanes::<S>::COUNT].copy_from_slice(lanes(colour));
             }
         }
-    }
-}
-
-/// A search for the nearest hit as a function of its own: it has the registers to itself.
-struct Apart<'a>(&'a Geometry);
-
-struct Search<'a, 'b, S: pulp::Simd> {
-    cx: Lanes<'a, S>,
-    geometry: &'b Geometry,
-    ray: &'b Ray<Lanes<'a, S>>,
-    hit: &'b mut Option<Hit<Lanes<'a, S>>>,
-    wanted: <Lanes<'a, S> as Arith>::Bool,
-}
-
-impl<'a, S: pulp::Simd> Nearest<Lanes<'a, S>> for Apart<'_> {
-    #[inline(always)]
-    fn nearest(
-        &self,
-        cx: &mut Lanes<'a, S>,
-        ray: &Ray<Lanes<'a, S>>,
-        wanted: <Lanes<'a, S> as Arith>::Bool,
-    ) -> Hit<Lanes<'a, S>> {
-        let mut hit = None;
-        apart(Search {
-            cx: *cx,
-            geometry: self.0,
-            ray,
-            hit: &mut hit,
-            wanted,
-        });
-        match hit {
-            Some(hit) => hit,
-            None => unreachable!(),
-        }
-    }
-}
-
-#[inline(never)]
-fn apart<S: pulp::Simd>(search: Search<'_, '_, S>) {
-    search.cx.simd.vectorize(search);
-}
-
-impl<'a, S: pulp::Simd> WithSimd for Search<'a, '_, S> {
-    type Output = ();
-    #[inline(always)]
-    fn with_simd<T: pulp::Simd>(mut self, _: T) -> Self::Output {
-        *self.hit = Some(self.geometry.nearest(&mut self.cx, self.ray, self.wanted));
     }
 }
