@@ -1,7 +1,7 @@
 //! The nearest right name.
 
 /// The candidate that takes fewest edits, if that is few for its length.
-pub(super) fn nearest<'a>(
+pub(crate) fn nearest<'a>(
     name: &str,
     candidates: impl IntoIterator<Item = &'a str>,
 ) -> Option<&'a str> {
