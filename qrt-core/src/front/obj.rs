@@ -19,6 +19,7 @@ use crate::scene::Rgb;
 use glam::DVec3;
 use std::fmt;
 use std::io::Read;
+use std::iter::Enumerate;
 use std::path::{Path, PathBuf};
 
 /// The largest file that is read, in bytes: about five million triangles.
@@ -214,12 +215,11 @@ fn parse(
             }));
         }
     }
-    let materials = materials
-        .into_iter()
-        .map(|m| ObjMaterial {
-            name: m.name,
-            radiance: m.emissive.unwrap_or_default(),
-            albedo: m.diffuse.unwrap_or_default(),
+    let materials = std::iter::zip(scan.names, materials)
+        .map(|(name, material)| ObjMaterial {
+            name,
+            radiance: material.emissive.unwrap_or_default(),
+            albedo: material.diffuse.unwrap_or_default(),
         })
         .collect();
     Ok(ObjMesh { faces, materials })
@@ -228,8 +228,10 @@ fn parse(
 /// Lines as statements: comments and blank lines left out, continued lines joined.
 struct Statements<'a> {
     path: &'a Path,
-    lines: std::iter::Enumerate<std::slice::Split<'a, u8, fn(&u8) -> bool>>,
+    lines: Enumerate<Lines<'a>>,
 }
+
+type Lines<'a> = std::slice::Split<'a, u8, fn(&u8) -> bool>;
 
 /// One statement: the line it starts in, and its text without blanks around it.
 struct Statement<'a> {
@@ -254,7 +256,7 @@ impl<'a> Statements<'a> {
             if text.starts_with('#') {
                 continue;
             }
-            while let Some(part) = text.strip_suffix('\\') {
+            while text.ends_with('\\') {
                 let Some((index, bytes)) = self.lines.next() else {
                     let message = "the file ends within a continued line";
                     return Err(ObjError::new("QRT0332", self.path, message)
@@ -262,7 +264,13 @@ impl<'a> Statements<'a> {
                         .help("is the file whole?"));
                 };
                 let next = self.text(index + 1, bytes)?;
-                text = format!("{} {next}", part.trim_end()).into();
+                let joined = text.to_mut();
+                joined.pop();
+                joined.truncate(joined.trim_end().len());
+                if !(joined.is_empty() || next.is_empty()) {
+                    joined.push(' ');
+                }
+                joined.push_str(&next);
             }
             if !text.is_empty() {
                 return Ok(Some(Statement { line, text }));

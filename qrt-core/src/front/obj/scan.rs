@@ -7,10 +7,13 @@ use std::path::Path;
 
 /// What a checked file says.
 pub(super) struct Scan {
-    /// The mesh, as only `mtllib`, `v x y z [w]`, `f` with positive vertex indices and `usemtl`.
+    /// The mesh, as only `mtllib`, `v x y z [w]`, `f` with positive vertex indices and `usemtl`
+    /// with a material's number.
     pub(super) plain: String,
-    /// All materials in use or not, as only `newmtl`, `Kd` and `Ke`.
+    /// All materials in use or not, as only `newmtl` with their numbers, `Kd` and `Ke`.
     pub(super) library: String,
+    /// `FILE.mtl:NAME` of each material.
+    pub(super) names: Vec<String>,
     /// The line of each face.
     pub(super) face_lines: Vec<usize>,
 }
@@ -103,8 +106,7 @@ impl Scanner<'_> {
                 self.numbers(line, keyword, rest, 3, 3).map(drop)
             }
             "f" | "fo" => self.face(line, rest),
-            "mtllib" => self.name(line, keyword, rest),
-            "usemtl" => self.name(line, keyword, rest),
+            "mtllib" | "usemtl" => self.name(line, keyword, rest),
             "l" | "p" => {
                 let what = if keyword == "l" { "lines" } else { "points" };
                 Err(self
@@ -218,7 +220,7 @@ impl Scanner<'_> {
         let counts = [self.vertices, self.texture, self.normals];
         let mut vertex = None;
         for (kind, part) in corner.split('/').enumerate() {
-            if part.is_empty() && kind == 1 {
+            if part.is_empty() && (1..3).contains(&kind) {
                 continue;
             }
             let index = part.parse::<i64>().ok().filter(|_| kind < 3);
@@ -254,7 +256,10 @@ impl Scanner<'_> {
                 vertex = Some(absolute);
             }
         }
-        vertex.ok_or_else(|| self.error("QRT0328", line, "a corner without a vertex"))
+        vertex.ok_or_else(|| {
+            let message = format!("`{}` is not a corner of a face", shown(corner));
+            self.error("QRT0328", line, message)
+        })
     }
 
     fn name(&mut self, line: usize, keyword: &str, name: &str) -> Result<(), ObjError> {
@@ -298,13 +303,11 @@ impl Scanner<'_> {
         }
         let materials = self.materials(library)?;
         let mut plain = String::new();
-        let mut text = String::new();
         if self.wants_materials {
             plain.push_str("mtllib all\n");
-            text = mtl::plain(&materials);
         }
         plain.push_str(&self.points);
-        // Where `usemtl` names a material by its use, put the name.
+        // Now that all libraries are known, names after `usemtl` become numbers.
         for statement in self.faces.lines() {
             let used = statement
                 .strip_prefix("usemtl ")
@@ -312,29 +315,31 @@ impl Scanner<'_> {
             match used.and_then(|n| self.uses.get(n)) {
                 None => plain.push_str(statement),
                 Some((name, line)) => {
-                    let Some(material) = materials.iter().find(|m| m.name == *name) else {
+                    let Some(number) = materials.find(name) else {
                         return Err(self.unknown(name, *line, &materials));
                     };
-                    plain.push_str("usemtl ");
-                    plain.push_str(&material.full_name());
+                    // Writing to a string cannot fail.
+                    let _ = write!(plain, "usemtl {number}");
                 }
             }
             plain.push('\n');
         }
+        let library = materials.plain();
         Ok(Scan {
             plain,
-            library: text,
+            library,
+            names: materials.full_names(),
             face_lines: self.face_lines,
         })
     }
 
-    fn materials(&self, library: Library<'_>) -> Result<Vec<mtl::Material>, ObjError> {
-        let mut materials: Vec<mtl::Material> = Vec::new();
+    fn materials(&self, library: Library<'_>) -> Result<mtl::Materials, ObjError> {
+        let mut materials = mtl::Materials::default();
         let mut files: Vec<&str> = Vec::new();
         for (name, line) in &self.libraries {
             // A statement may name several files, and a file's name may hold blanks.
-            let whole = library(&self.beside(name));
-            let names: Vec<&str> = if whole.is_ok() {
+            let whole = files.contains(&name.as_str()) || library(&self.beside(name)).is_ok();
+            let names: Vec<&str> = if whole {
                 vec![name]
             } else {
                 name.split_whitespace().collect()
@@ -350,7 +355,7 @@ impl Scanner<'_> {
                     line: Some(*line),
                     ..error
                 })?;
-                mtl::read(&path, name, &bytes, &mut materials)?;
+                materials.read(&path, name, &bytes)?;
             }
         }
         Ok(materials)
@@ -360,7 +365,7 @@ impl Scanner<'_> {
         self.path.parent().unwrap_or(Path::new("")).join(name)
     }
 
-    fn unknown(&self, name: &str, line: usize, materials: &[mtl::Material]) -> ObjError {
+    fn unknown(&self, name: &str, line: usize, materials: &mtl::Materials) -> ObjError {
         let error = self.error("QRT0335", line, format!("no material `{}`", shown(name)));
         if self.libraries.is_empty() {
             return ObjError {
@@ -369,7 +374,7 @@ impl Scanner<'_> {
             }
             .help("the file names no material library: a `mtllib` statement is missing");
         }
-        match nearest(name, materials.iter().map(|m| m.name.as_str())) {
+        match nearest(name, materials.names()) {
             Some(near) => error.help(format!("did you mean `{near}`?")),
             None => error.help("`newmtl` in a material library names it"),
         }
