@@ -15,9 +15,12 @@ use crate::report::{Path, Problem};
 use crate::sampling::maps;
 use crate::scene::{Bsdf, Jacobian, Rgb};
 
-mod checks;
+mod bound;
+mod light;
+mod shape;
 #[cfg(test)]
 mod tests;
+mod text;
 
 /// Reads and checks a BSDF. Paths of problems are relative to it: `map[0]`, `jacobian`, `value[2]`.
 ///
@@ -25,7 +28,8 @@ mod tests;
 /// `QRT0411` a map that leaves the unit sphere, `QRT0412` a map or slope without a finite value,
 /// `QRT0413` a map of whole areas to points or lines, `QRT0414` a Jacobian that is not the map's,
 /// `QRT0415` a negative value, `QRT0416` a value that is not finite, `QRT0417` a BSDF that gains
-/// energy, `QRT0418` a weight without a bound.
+/// energy, `QRT0418` a weight without a bound,
+/// `QRT0419` a map that reaches directions more than once.
 pub fn compile(bsdf: &Bsdf) -> Result<CustomBsdf, Vec<Problem>> {
     let mut problems = Vec::new();
     let root = Path::root();
@@ -62,7 +66,7 @@ pub fn compile(bsdf: &Bsdf) -> Result<CustomBsdf, Vec<Problem>> {
         return Err(problems);
     };
     let map = [x, y, z];
-    problems.extend(checks::map(&map));
+    problems.extend(shape::map(&map));
     if !problems.is_empty() {
         return Err(problems);
     }
@@ -70,7 +74,7 @@ pub fn compile(bsdf: &Bsdf) -> Result<CustomBsdf, Vec<Problem>> {
         None => maps::projected_jacobian(&map),
         Some(None) => return Err(problems),
         Some(Some(jacobian)) => {
-            problems.extend(checks::jacobian(&map, &jacobian));
+            problems.extend(shape::jacobian(&map, &jacobian));
             (&jacobian * &map[2].abs()).simplify()
         }
     };
@@ -84,10 +88,10 @@ pub fn compile(bsdf: &Bsdf) -> Result<CustomBsdf, Vec<Problem>> {
         Err(_) => return Err(problems),
     };
     let before = problems.len();
+    let quadrature = light::Quadrature::new(&map, &projected_jacobian);
     for (i, f) in own.iter().enumerate() {
         let path = root.key("value").item(i);
-        let wrong = checks::value(&map, f, &path)
-            .or_else(|| checks::energy(&map, &projected_jacobian, f, &path));
+        let wrong = light::value(&map, f, &path).or_else(|| quadrature.energy(f, &path));
         problems.extend(wrong);
     }
     if problems.len() > before {
@@ -99,8 +103,9 @@ pub fn compile(bsdf: &Bsdf) -> Result<CustomBsdf, Vec<Problem>> {
             let message = "no bound of the weight value * |phi_z| * J can be shown";
             problems.push(
                 Problem::new("QRT0418", root.key("value").item(i), message).help(
-                    "choose a map that sends more points where the value is large, so that their \
-                     product stays finite up to the border of the unit square",
+                    "choose a map that sends more points where the value is large; a denominator \
+                     that vanishes at grazing angles needs a small number more, as in \
+                     1/(cos_i + cos_o + 1e-3)",
                 ),
             );
         }
@@ -131,7 +136,7 @@ pub fn weight_bound(map: &[Expr; 3], projected_jacobian: &Expr, value: &[Expr; 3
             bounds[same]
         } else {
             let f = value[i].substitute(Variable::CosI, &cos_i);
-            checks::supremum(&(&f * projected_jacobian).simplify())
+            bound::supremum(&(&f * projected_jacobian).simplify())
         };
     }
     bounds
