@@ -138,7 +138,7 @@ fn twice(map: &[Expr; 3], slopes: &Slopes) -> Option<Variables> {
             };
             let [x, y, z] = map.each_ref().map(|c| c.eval_in(&at, &mut room));
             let turn = libm::atan2(y, x) / std::f64::consts::TAU + 0.5;
-            let height = ((z + 1.0) / 2.0 * HEIGHTS as f64) as usize;
+            let height = (f64::midpoint(z, 1.0) * HEIGHTS as f64) as usize;
             let turn = (turn * TURNS as f64) as usize;
             let slot = height.min(HEIGHTS - 1) * TURNS + turn.min(TURNS - 1);
             let [along_u, along_v] = slopes
