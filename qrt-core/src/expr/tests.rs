@@ -238,3 +238,24 @@ fn a_root_of_what_may_be_negative_keeps_its_domain() {
         }
     }
 }
+
+#[test]
+fn bounds_are_tight_where_they_are_easy_and_infinite_where_there_is_none() {
+    let whole = Domain::default();
+    let range = |text| read(text).range(&whole).map(|r| (r.lo, r.hi));
+    assert_eq!(range("1 - u"), Some((0.0, 1.0)));
+    assert_eq!(range("2*u - 1"), Some((-1.0, 1.0)));
+    assert_eq!(range("(2*u - 1)^2"), Some((0.0, 1.0)));
+    assert_eq!(range("sqrt(1 - u)"), Some((0.0, 1.0)));
+    assert_eq!(range("cos(2*pi*u)"), Some((-1.0, 1.0)));
+    assert_eq!(range("abs(cos_a)"), Some((0.0, 1.0)));
+    assert_eq!(range("1/u"), Some((1.0, f64::INFINITY)));
+    assert_eq!(range("1/cos_a"), Some((f64::NEG_INFINITY, f64::INFINITY)));
+    assert_eq!(range("sqrt(-1 - u)"), None);
+    assert_eq!(range("if_less(u, 2, v, 1/cos_a)"), Some((0.0, 1.0)));
+    // The base's least value is -0, whose odd powers are negative.
+    assert_eq!(
+        range("pow(abs(cos_o - 1), cos_a)").map(|r| r.1),
+        Some(f64::INFINITY)
+    );
+}
