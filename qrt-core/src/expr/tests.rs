@@ -259,3 +259,47 @@ fn bounds_are_tight_where_they_are_easy_and_infinite_where_there_is_none() {
         Some(f64::INFINITY)
     );
 }
+
+#[test]
+fn hostile_formulas_take_little_time() {
+    let fill = |part: &str| part.repeat((MAX_LENGTH - 200) / part.len());
+    let texts = [
+        fill("(u+v)*") + "u",
+        fill("(u+2*v)/") + "u",
+        fill("sin(u)^2+cos(v)*") + "u",
+        fill("sin(u)*cos(v)+") + "u",
+        (0..300)
+            .map(|i| format!("sin(u*{i})^2+"))
+            .collect::<String>()
+            + "u",
+        (0..90)
+            .map(|i| format!("sqrt(u*{i}+v)*"))
+            .collect::<String>()
+            + "u",
+        "(".repeat(100) + "u" + &"^2+v)".repeat(100),
+        "sqrt(".repeat(100) + "u" + &"+v)*u".repeat(100),
+        "abs(".repeat(100) + "u" + &"-v)/u".repeat(100),
+        "if_less(u,v,".repeat(100) + "u,v)" + &"*u,v)".repeat(99),
+        "2^".repeat(100) + "u",
+        "exp(".repeat(100) + "u" + &")".repeat(100),
+    ];
+    let at = Variables {
+        u: 0.3,
+        v: 0.6,
+        ..Variables::default()
+    };
+    for text in texts {
+        let e = read(&text);
+        let slope = e.diff(Variable::U);
+        for e in [&e, &slope] {
+            let started = std::time::Instant::now();
+            let short = e.simplify();
+            let _ = (
+                short.eval(&at),
+                short.range(&Domain::default()),
+                short.written_nodes(),
+            );
+            assert!(started.elapsed().as_secs() < 5, "{text}");
+        }
+    }
+}

@@ -208,7 +208,12 @@ pub(super) fn jacobian(map: &[Expr; 3], stated: &Expr) -> Option<Problem> {
     } else if ratio.is_finite() && explains(&|j, _| j / ratio) {
         format!("multiply it by {}", short(ratio))
     } else {
-        format!("write `{}`, or `auto`", maps::jacobian(map))
+        let right = maps::jacobian(map);
+        if right.written_nodes() <= 60 {
+            format!("write `{right}`, or `auto`")
+        } else {
+            "`jacobian: auto` works it out".to_owned()
+        }
     };
     Some(Problem::new("QRT0414", Path::root().key("jacobian"), message).help(help))
 }
