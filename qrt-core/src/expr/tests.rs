@@ -270,11 +270,13 @@ fn hostile_formulas_take_little_time() {
         fill("sin(u)*cos(v)+") + "u",
         (0..300)
             .map(|i| format!("sin(u*{i})^2+"))
-            .collect::<String>()
+            .collect::<Vec<_>>()
+            .concat()
             + "u",
         (0..90)
             .map(|i| format!("sqrt(u*{i}+v)*"))
-            .collect::<String>()
+            .collect::<Vec<_>>()
+            .concat()
             + "u",
         "(".repeat(100) + "u" + &"^2+v)".repeat(100),
         "sqrt(".repeat(100) + "u" + &"+v)*u".repeat(100),
