@@ -177,3 +177,5 @@ fn read_file(path: &std::path::Path) -> Result<Source, Report> {
     })?;
     Ok(Source::new(name, text))
 }
+//! (front)
+pub mod obj;
