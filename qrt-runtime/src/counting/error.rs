@@ -39,7 +39,7 @@ pub enum CountingError {
     NoOutcomes,
     /// No number of good ids could have given these outcomes.
     ImpossibleOutcomes,
-    /// A comparator register that is not in `0..=31` bits.
+    /// A comparator register that is not in `0..=30` bits.
     ComparatorBitsOutOfRange(u32),
     /// A colour scale that is negative, not finite, or too small for its comparators.
     ScaleOutOfRange(f64),
@@ -96,7 +96,7 @@ impl fmt::Display for CountingError {
                 write!(f, "no number of good ids could have given these outcomes")
             }
             Self::ComparatorBitsOutOfRange(bits) => {
-                write!(f, "{bits} comparator bits are not in 0..=31")
+                write!(f, "{bits} comparator bits are not in 0..=30")
             }
             Self::ScaleOutOfRange(scale) => write!(
                 f,
