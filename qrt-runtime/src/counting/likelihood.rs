@@ -90,6 +90,56 @@ pub fn ln_likelihood(
     Ok(likelihood.at(Phase::of(good, total, &likelihood.register)))
 }
 
+/// The most ids over which [`posterior`] is computed.
+const MAX_POSTERIOR_IDS: u64 = 1 << 24;
+
+/// P(S | outcomes) for S = 0 ..= `total` and a prior that is uniform over them: N+1 numbers that
+/// sum to 1. Formed from logarithms, so that no number of outcomes underflows.
+///
+/// # Errors
+///
+/// As [`maximum_likelihood`], and more than 2^24 ids.
+///
+/// ```
+/// use qrt_core::scene::Window;
+/// use qrt_runtime::counting::posterior;
+/// // T = 4, read as 1: half of the four ids, or, less likely, one or three of them.
+/// let posterior = posterior(&[1], 4, 2, Window::Rect)?;
+/// assert_eq!(posterior[0], 0.0);
+/// assert!(posterior[2] > posterior[1]);
+/// # Ok::<(), qrt_runtime::counting::CountingError>(())
+/// ```
+pub fn posterior(
+    outcomes: &[u64],
+    total: u64,
+    phase_bits: u32,
+    window: Window,
+) -> Result<Vec<f64>, CountingError> {
+    check_counts(0, total)?;
+    if total > MAX_POSTERIOR_IDS {
+        return Err(CountingError::TooManyIds {
+            total,
+            most: MAX_POSTERIOR_IDS,
+        });
+    }
+    let likelihood = Likelihood::new(outcomes, register(phase_bits, window)?)?;
+    let mut values: Vec<f64> = (0..=total)
+        .map(|good| likelihood.at(Phase::of(good, total, &likelihood.register)))
+        .collect();
+    let largest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    if largest == f64::NEG_INFINITY {
+        return Err(CountingError::ImpossibleOutcomes);
+    }
+    for value in &mut values {
+        *value = libm::exp(*value - largest);
+    }
+    let sum: f64 = values.iter().sum();
+    for value in &mut values {
+        *value /= sum;
+    }
+    Ok(values)
+}
+
 struct Likelihood {
     register: Register,
     /// Outcome and how often, the most frequent first.
