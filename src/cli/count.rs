@@ -43,7 +43,7 @@ pub(crate) struct CountArgs {
     /// Only these outcomes; otherwise all of them, or above 16 phase bits those about the peak
     #[arg(long, value_name = "Y,Y,...", value_delimiter = ',')]
     outcomes: Vec<u64>,
-    /// Draw B outcomes, and estimate S from them
+    /// Draw B outcomes and estimate S from them; up to N = 65536 also S's posterior
     #[arg(
         long,
         value_name = "B",

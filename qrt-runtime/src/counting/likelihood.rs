@@ -212,6 +212,8 @@ struct Search<'a> {
     likelihood: &'a Likelihood,
     total: u64,
     best: MaximumLikelihood,
+    /// B.
+    shots: f64,
     visited: HashSet<u64>,
 }
 
@@ -221,10 +223,12 @@ impl<'a> Search<'a> {
             good: 0,
             ln_likelihood: f64::NEG_INFINITY,
         };
+        let shots = likelihood.outcomes.iter().map(|&(_, count)| count).sum();
         Self {
             likelihood,
             total,
             best,
+            shots,
             visited: HashSet::new(),
         }
     }
@@ -292,8 +296,13 @@ impl<'a> Search<'a> {
             if last == self.total {
                 self.consider(last);
             }
-            for remainder in self.peaks(cell, low, high) {
-                self.climb(self.good_at(cell, remainder));
+            // A tenth of the distance between integers is as fine as it need be.
+            let tolerance = (0.1 / (last - first) as f64).max(1e-10);
+            let slack = 0.01 * self.shots;
+            for (remainder, value) in self.peaks(cell, low, high, tolerance) {
+                if value + slack >= self.best.ln_likelihood {
+                    self.climb(self.good_at(cell, remainder));
+                }
             }
         }
         // Where the neighbouring cells hold no integer, on to the one that does.
@@ -357,8 +366,8 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Where in the cell L has its peaks; at the least, the highest of them.
-    fn peaks(&self, cell: u64, low: f64, high: f64) -> Vec<f64> {
+    /// Where in the cell L has its peaks, and how high; at the least, the highest of them.
+    fn peaks(&self, cell: u64, low: f64, high: f64, tolerance: f64) -> Vec<(f64, f64)> {
         let value = |remainder: f64| {
             let value = self.likelihood.at(Phase::at(cell, remainder));
             if value == f64::NEG_INFINITY {
@@ -368,17 +377,11 @@ impl<'a> Search<'a> {
             }
         };
         if self.likelihood.register.window == Window::Rect {
-            return vec![maximise(value, low, high)];
+            return vec![maximise(value, low, high, tolerance)];
         }
         let mut edges = self.zeros(cell, low, high);
         edges.extend([low, high]);
         edges.sort_by(f64::total_cmp);
-        let shots: f64 = self
-            .likelihood
-            .outcomes
-            .iter()
-            .map(|&(_, count)| count)
-            .sum();
         let mut peaks = Vec::new();
         for pair in edges.windows(2) {
             let (low, high) = (pair[0], pair[1]);
@@ -386,8 +389,13 @@ impl<'a> Search<'a> {
                 // Between two zeros so close, no place gains more than a factor 4 a shot on the
                 // middle, if all else changes little.
                 let middle = 0.5 * (low + high);
-                if value(middle) + 2.0 * shots >= self.best.ln_likelihood {
-                    peaks.push(maximise(value, low, high));
+                if value(middle) + 2.0 * self.shots >= self.best.ln_likelihood {
+                    peaks.push(maximise(
+                        value,
+                        low,
+                        high,
+                        tolerance.min(0.1 * (high - low)),
+                    ));
                 }
                 continue;
             }
@@ -397,7 +405,7 @@ impl<'a> Search<'a> {
             for i in 0..=PLACES {
                 let (left, right) = (i.saturating_sub(1), (i + 1).min(PLACES));
                 if values[i] >= values[left] && values[i] >= values[right] {
-                    peaks.push(maximise(value, place(left), place(right)));
+                    peaks.push(maximise(value, place(left), place(right), tolerance));
                 }
             }
         }
@@ -426,10 +434,9 @@ impl<'a> Search<'a> {
 }
 
 /// Brent's maximum of a unimodal function (*Algorithms for minimization without derivatives*,
-/// 1973, chapter 5): parabolas, and golden sections where they fail.
-fn maximise(value: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
+/// 1973, chapter 5): parabolas, and golden sections where they fail. Its place and its value.
+fn maximise(value: impl Fn(f64) -> f64, mut low: f64, mut high: f64, tolerance: f64) -> (f64, f64) {
     const GOLDEN: f64 = 0.381_966_011_250_105_1;
-    const TOLERANCE: f64 = 1e-10;
     let mut best = low + GOLDEN * (high - low);
     let (mut second, mut third) = (best, best);
     let mut best_value = value(best);
@@ -437,11 +444,11 @@ fn maximise(value: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
     let (mut step, mut before_last) = (0.0_f64, 0.0_f64);
     for _ in 0..80 {
         let middle = 0.5 * (low + high);
-        if (best - middle).abs() <= 2.0 * TOLERANCE - 0.5 * (high - low) {
+        if (best - middle).abs() <= 2.0 * tolerance - 0.5 * (high - low) {
             break;
         }
         let mut parabolic = false;
-        if before_last.abs() > TOLERANCE {
+        if before_last.abs() > tolerance {
             let r = (best - second) * (best_value - third_value);
             let q = (best - third) * (best_value - second_value);
             let p = (best - third) * q - (best - second) * r;
@@ -455,8 +462,8 @@ fn maximise(value: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
                 before_last = step;
                 step = p / q;
                 let next = best + step;
-                if next - low < 2.0 * TOLERANCE || high - next < 2.0 * TOLERANCE {
-                    step = TOLERANCE.copysign(middle - best);
+                if next - low < 2.0 * tolerance || high - next < 2.0 * tolerance {
+                    step = tolerance.copysign(middle - best);
                 }
             }
         }
@@ -469,10 +476,10 @@ fn maximise(value: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
             step = GOLDEN * before_last;
         }
         let next = best
-            + if step.abs() >= TOLERANCE {
+            + if step.abs() >= tolerance {
                 step
             } else {
-                TOLERANCE.copysign(step)
+                tolerance.copysign(step)
             };
         let next_value = value(next);
         if next_value >= best_value {
@@ -498,5 +505,5 @@ fn maximise(value: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
             }
         }
     }
-    best
+    (best, best_value)
 }

@@ -7,7 +7,7 @@ use qrt_core::scene::{Counting, Estimator, Window};
 
 use crate::counting::{
     AVAILABLE, CountingError, PhaseDistribution, Problem, WindowedCounting, estimate,
-    estimator_name, ln_likelihood, maximum_likelihood,
+    estimator_name, ln_likelihood, maximum_likelihood, posterior,
 };
 use crate::random::Stream;
 
@@ -99,6 +99,35 @@ proptest! {
             }
         }
     }
+}
+
+/// Two peaks of the sine window's likelihood within one step of the register.
+#[test]
+fn neighbouring_peaks_of_one_cell_are_told_apart() {
+    same_maximum(&[4, 2, 2, 2, 0, 0], 591, 3, Window::Sine);
+}
+
+/// Bayes' rule with a uniform prior, by hand: ratios of products of probabilities.
+#[test]
+fn posteriors_are_normalised_products_of_probabilities() {
+    let outcomes = [3, 3, 2, 5];
+    for window in [Window::Rect, Window::Sine] {
+        let found = posterior(&outcomes, 40, 5, window).unwrap();
+        let product = |good| -> f64 {
+            let distribution = PhaseDistribution::new(good, 40, 5, window).unwrap();
+            outcomes
+                .iter()
+                .map(|&y| distribution.probability(y))
+                .product()
+        };
+        let evidence: f64 = (0..=40).map(product).sum();
+        assert!((found.iter().sum::<f64>() - 1.0).abs() < 1e-12);
+        for (good, p) in (0..=40).zip(&found) {
+            assert!((p - product(good) / evidence).abs() < 1e-12);
+        }
+    }
+    let error = posterior(&[1], 1 << 40, 5, Window::Rect).unwrap_err();
+    assert!(error.to_string().contains("at most 16777216"));
 }
 
 #[test]
