@@ -184,6 +184,22 @@ mod tests {
         }
     }
 
+    /// Where the division rounds to the wrong side of a threshold.
+    #[test]
+    fn every_threshold_of_awkward_scales_is_exact() {
+        for tenths in 1..60 {
+            let scale = f64::from(tenths) / 10.0;
+            for (at, start) in [(ComparatorAt::Midpoints, 0.5), (ComparatorAt::Edges, 0.0)] {
+                let found = comparators(scale, 9, at);
+                for y in 0..512_u32 {
+                    let threshold = (f64::from(y) + start) * found.step();
+                    assert_eq!(found.good(threshold), y, "{scale} {y}");
+                    assert_eq!(found.good(threshold.next_up()), y + 1, "{scale} {y}");
+                }
+            }
+        }
+    }
+
     #[test]
     fn edges_err_to_one_side_and_midpoints_do_not() {
         let edges = comparators(1.0, 4, ComparatorAt::Edges);

@@ -236,7 +236,8 @@ impl<'a> Search<'a> {
     fn run(mut self) -> Result<MaximumLikelihood, CountingError> {
         let last = self.last_cell();
         for &(outcome, _) in &self.likelihood.outcomes {
-            let mut cell = Some(outcome.min(last));
+            // No cell lies above T/2; below it, the second walk starts.
+            let mut cell = (outcome <= last).then_some(outcome);
             while let Some(current) = cell {
                 cell = self.step(current, true);
             }

@@ -101,6 +101,12 @@ proptest! {
     }
 }
 
+/// The walk down from the last outcome, past cells without an integer.
+#[test]
+fn the_walk_from_the_last_outcome_goes_down() {
+    same_maximum(&[0, 32, 15, 32], 478, 6, Window::Rect);
+}
+
 /// Two peaks of the sine window's likelihood within one step of the register.
 #[test]
 fn neighbouring_peaks_of_one_cell_are_told_apart() {
