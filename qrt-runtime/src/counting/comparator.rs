@@ -9,8 +9,8 @@
 //!   [0, h).
 //!
 //! Thresholds are the `f64` nearest to their definition, and the comparison is strict: exact at
-//! every boundary. A count is a product, a truncation and two comparisons, without a branch: it runs
-//! for every path (about 2 ns).
+//! every boundary. A count is a product, a truncation and a comparison, without a branch: it runs for
+//! every path.
 
 use qrt_core::scene::{Comparator, ComparatorAt};
 
@@ -86,10 +86,13 @@ impl Comparators {
     #[inline]
     pub fn good(&self, x: f64) -> u32 {
         let count = 1_i32 << self.bits;
-        // The threshold at or below x, but for a rounding; the truncation sends NaN to 0.
+        // Thresholds below number `at` are exceeded, and none above it. A colour above a threshold
+        // is so by at least half a unit in the last place, which outweighs the rounding of the
+        // inverse; one at or below may be rounded up to it, and the comparison decides. The cast
+        // sends NaN to 0.
         let at = (x * self.inverse - self.start).clamp(0.0, f64::from(count)) as i32;
-        let exceeds = |y: i32| y < count && x > (f64::from(y) + self.start) * self.step;
-        at as u32 + u32::from(exceeds(at)) + u32::from(exceeds(at + 1))
+        let threshold = (f64::from(at) + self.start) * self.step;
+        at as u32 + u32::from(at < count && x > threshold)
     }
 
     /// Good ids of all `colours`' paths.
