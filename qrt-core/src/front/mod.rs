@@ -177,5 +177,3 @@ fn read_file(path: &std::path::Path) -> Result<Source, Report> {
     })?;
     Ok(Source::new(name, text))
 }
-//! (front)
-pub mod obj;
