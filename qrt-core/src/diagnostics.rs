@@ -13,16 +13,20 @@ use std::ops::Range;
 pub struct Source {
     /// What stands before the line number: a file's path, or `<--set>`.
     pub name: String,
-    /// The text, without a byte order mark.
+    /// The text, without a byte order mark, its lines ended by LF.
     pub text: String,
 }
 
 impl Source {
-    /// A named text. A byte order mark at its start is dropped.
+    /// A named text. A byte order mark at its start is dropped, and CR LF becomes LF, which is the
+    /// same to YAML.
     pub fn new(name: impl Into<String>, text: impl Into<String>) -> Self {
         let mut text = text.into();
         if text.starts_with('\u{feff}') {
             text.drain(..'\u{feff}'.len_utf8());
+        }
+        if text.contains("\r\n") {
+            text = text.replace("\r\n", "\n");
         }
         Self {
             name: name.into(),

@@ -225,7 +225,12 @@ impl Shape for Number {
             let message = format!("{} is not a finite number", number_text(*value));
             problems.push(Problem::new(codes::NOT_FINITE, at.path(), message));
         } else if !self.holds(*value) {
-            let what = format!("{} is out of range", number_text(*value));
+            let value = number_text(*value);
+            let what = match self.code {
+                codes::ALBEDO => format!("{value} is not an albedo or reflectance"),
+                codes::RADIANCE => format!("{value} is not a radiance"),
+                _ => format!("{value} is out of range"),
+            };
             let problem = Problem::new(self.code, at.path(), what);
             problems.push(problem.label(format!("must be {}", self.interval())));
         }
@@ -505,8 +510,8 @@ impl Shape for Vector {
 pub(crate) struct List<S> {
     pub(crate) item: S,
     pub(crate) least: usize,
-    /// The code for fewer.
-    pub(crate) code: &'static str,
+    /// The code and the words for fewer.
+    pub(crate) fewer: (&'static str, &'static str),
 }
 
 impl<S: Shape> Shape for List<S> {
@@ -526,8 +531,8 @@ impl<S: Shape> Shape for List<S> {
     }
     fn check(&self, value: &Self::Value, at: &Place<'_>, problems: &mut Vec<Problem>) {
         if value.len() < self.least {
-            let message = format!("this list needs at least {} element", self.least);
-            problems.push(Problem::new(self.code, at.path(), message));
+            let (code, message) = self.fewer;
+            problems.push(Problem::new(code, at.path(), message));
         }
         for (i, item) in value.iter().enumerate() {
             self.item.check(item, &at.item(i), problems);
