@@ -374,3 +374,6 @@ fn sin_cos_degrees(degrees: f64) -> (f64, f64) {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -267,3 +267,6 @@ fn custom(bsdf: &Bsdf, path: &Path, problems: &mut Vec<Problem>) -> Scatter {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;
