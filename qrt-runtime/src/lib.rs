@@ -1,2 +1,10 @@
 //! Machines, quantum counting and rendering.
+pub mod checkpoint;
 pub mod counting;
+pub mod image;
+pub mod machines;
+pub mod peak_memory;
+pub mod random;
+pub mod replace_file;
+#[cfg(test)]
+mod scratch;

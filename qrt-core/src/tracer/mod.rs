@@ -1,1 +1,40 @@
-//! (tracer)
+//! The paper's Path Tracing frame, stated once.
+//!
+//! [`trace`] is the whole of it: *Generate Ray*, then per depth *Find Intersection*, emission and
+//! scattering. It is written over the trait [`Arith`], so that one text has several readings:
+//! over lanes of `f64` it renders pictures, over a circuit builder it records a reversible
+//! program. The readings cannot drift apart, because there is nothing to drift.
+//!
+//! A [`Stage`] is the scene made ready for it: planes with the polygons that lie on them,
+//! shading frames, tables over sample indices, and the bound on a path's colour.
+//!
+//! The colour of a path (the paper's `color_id`) is
+//!
+//! ```text
+//! colour = sum_k  Le(hit_k) * prod_{j<k} W_j,      W = f(i, o) |n.i| J
+//! ```
+//!
+//! where `i` is the sampled direction towards the light, `o` the direction towards the viewer,
+//! `f` the BSDF and `J = |phi_u x phi_v|` the Jacobian of the map `phi` from the unit square to
+//! directions.
+
+mod arith;
+mod bound;
+mod camera;
+mod frame;
+mod geometry;
+mod intersect;
+mod microfacet;
+mod phong;
+mod sampled;
+mod scatter;
+mod stage;
+pub(crate) mod vector;
+
+pub use arith::{Arith, Axis, Coordinate};
+pub use camera::CameraStage;
+pub use frame::trace;
+pub use geometry::{Face, Frame, Geometry, Linear, NO_FACE, NO_PLANE, Plane, Slab, TOLERANCE};
+pub use intersect::{Form, Hit, Nearest, Ray, SlabTest, cross_plane, point_at, within};
+pub use sampled::Sampled;
+pub use stage::Stage;

@@ -1,1 +1,34 @@
-//! Quantum counting: the distribution `P(theta~ | theta)`, draws from it, and estimators.
+//! Quantum counting: how many ids the oracle calls good, as the paper's counting circuit would
+//! find out.
+//!
+//! After the oracle, the Grover operator lives in the plane of the good and the bad ids, where it
+//! turns by `2 theta` turns, `theta = asin(sqrt(S/N))/pi`. Everything that its phase estimation can
+//! measure follows from S, N and the counting register alone: this module draws from that
+//! distribution exactly, without a state vector, for registers of up to 40 bits.
+//!
+//! * [`PhaseDistribution`]: `P(theta~ | theta)`, rectangular and sine window, and draws from it;
+//! * [`maximum_likelihood`]: the paper's inference, over every S in `0 ..= N`;
+//! * [`estimate`]: the estimators by name, in one unit (queries) and with one result;
+//! * [`Comparators`]: from colours to good ids, and from amplitudes to pixels.
+
+mod binomial;
+mod comparator;
+mod distribution;
+mod double;
+mod draw;
+mod error;
+mod estimate;
+mod kernel;
+mod likelihood;
+#[cfg(test)]
+mod tests;
+
+pub use comparator::{Comparators, MAX_COMPARATOR_BITS};
+pub use distribution::PhaseDistribution;
+pub use draw::Sampler;
+pub use error::{CountingError, MAX_PHASE_BITS, MAX_REPETITIONS, estimator_name};
+pub use estimate::{
+    AVAILABLE, AmplitudeEstimator, Estimate, Exact, MonteCarlo, Problem, WindowedCounting,
+    estimate, estimator,
+};
+pub use likelihood::{MaximumLikelihood, ln_likelihood, maximum_likelihood};

@@ -1,0 +1,100 @@
+//! Writing an expression so that parsing it gives it back.
+
+use super::{Expr, Id, Node};
+use std::fmt;
+
+const SUM: u8 = 1;
+const PRODUCT: u8 = 2;
+const SIGN: u8 = 3;
+const POWER: u8 = 4;
+const ATOM: u8 = 5;
+
+enum Piece {
+    Text(&'static str),
+    Integer(i32),
+    /// A node, in parentheses if it binds less than this.
+    Node(Id, u8),
+}
+
+impl fmt::Display for Expr {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        // A stack of its own: a long sum is as deep as it is long.
+        let mut stack = vec![Piece::Node(self.root, SUM)];
+        while let Some(piece) = stack.pop() {
+            match piece {
+                Piece::Text(text) => f.write_str(text)?,
+                Piece::Integer(n) => write!(f, "{n}")?,
+                Piece::Node(id, least) => {
+                    let node = self.nodes[id.index()];
+                    let (binds, pieces) = layout(node);
+                    if binds < least {
+                        f.write_str("(")?;
+                        stack.push(Piece::Text(")"));
+                    }
+                    match node {
+                        Node::Number(value) => write!(f, "{}", Number(value))?,
+                        Node::Variable(variable) => f.write_str(variable.name())?,
+                        _ => stack.extend(pieces.into_iter().rev()),
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// How tightly a node binds, and its pieces; a number or a variable has none.
+fn layout(node: Node) -> (u8, Vec<Piece>) {
+    use Piece::{Integer, Text};
+    let operand = Piece::Node;
+    let call = |name, operands: &[Id]| {
+        let mut pieces = vec![Text(name), Text("(")];
+        for (i, id) in operands.iter().enumerate() {
+            if i > 0 {
+                pieces.push(Text(", "));
+            }
+            pieces.push(operand(*id, SUM));
+        }
+        pieces.push(Text(")"));
+        (ATOM, pieces)
+    };
+    match node {
+        Node::Number(value) if value.is_sign_negative() => (SIGN, Vec::new()),
+        Node::Number(_) | Node::Variable(_) => (ATOM, Vec::new()),
+        Node::Neg(a) => (SIGN, vec![Text("-"), operand(a, SIGN)]),
+        Node::Add(a, b) => (SUM, vec![operand(a, SUM), Text(" + "), operand(b, PRODUCT)]),
+        Node::Sub(a, b) => (SUM, vec![operand(a, SUM), Text(" - "), operand(b, PRODUCT)]),
+        Node::Mul(a, b) => (
+            PRODUCT,
+            vec![operand(a, PRODUCT), Text("*"), operand(b, SIGN)],
+        ),
+        Node::Div(a, b) => (
+            PRODUCT,
+            vec![operand(a, PRODUCT), Text("/"), operand(b, SIGN)],
+        ),
+        Node::Powi(a, n) => (POWER, vec![operand(a, ATOM), Text("^"), Integer(n)]),
+        Node::Pow(a, b) => call("pow", &[a, b]),
+        Node::Sqrt(a) => call("sqrt", &[a]),
+        Node::Abs(a) => call("abs", &[a]),
+        Node::Min(a, b) => call("min", &[a, b]),
+        Node::Max(a, b) => call("max", &[a, b]),
+        Node::Function(f, a) => call(f.name(), &[a]),
+        Node::Atan2(a, b) => call("atan2", &[a, b]),
+        Node::IfLess(a, b, x, y) => call("if_less", &[a, b, x, y]),
+    }
+}
+
+/// The shortest digits that give the number back, without a row of zeros.
+struct Number(f64);
+
+impl fmt::Display for Number {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.0.abs() == std::f64::consts::PI {
+            f.write_str(if self.0 < 0.0 { "-pi" } else { "pi" })
+        } else if self.0 != 0.0 && !(1e-4..1e15).contains(&self.0.abs()) {
+            write!(f, "{:e}", self.0)
+        } else {
+            write!(f, "{}", self.0)
+        }
+    }
+}

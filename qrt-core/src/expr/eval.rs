@@ -1,0 +1,118 @@
+//! The value of an expression at a point.
+//!
+//! Transcendental functions are libm's, so that the same scene gives the same bits on every machine.
+
+use super::{Expr, Function, Id, Node, VariableSet, Variables};
+
+impl Expr {
+    /// Its value: NaN or infinite where it has none.
+    pub fn eval(&self, at: &Variables) -> f64 {
+        self.eval_in(at, &mut Vec::new())
+    }
+
+    /// As [`Expr::eval`], with room for the values of its nodes that can be used again.
+    pub fn eval_in(&self, at: &Variables, values: &mut Vec<f64>) -> f64 {
+        values.clear();
+        for node in &self.nodes {
+            let value = node.value(at, |id| values[id.index()]);
+            values.push(value);
+        }
+        values[self.root.index()]
+    }
+
+    /// The variables that node `id` depends on.
+    pub fn variables(&self, id: Id) -> VariableSet {
+        self.node_variables()[id.index()]
+    }
+
+    /// The variables that each node depends on.
+    pub fn node_variables(&self) -> Vec<VariableSet> {
+        let mut sets: Vec<VariableSet> = Vec::with_capacity(self.nodes.len());
+        for node in &self.nodes {
+            let own = match *node {
+                Node::Variable(variable) => VariableSet::of(variable),
+                _ => VariableSet::EMPTY,
+            };
+            sets.push(
+                node.operands()
+                    .fold(own, |set, id| set.union(sets[id.index()])),
+            );
+        }
+        sets
+    }
+}
+
+impl Node {
+    /// Its value, given those of its operands.
+    pub fn value(&self, at: &Variables, of: impl Fn(Id) -> f64) -> f64 {
+        match *self {
+            Self::Number(value) => value,
+            Self::Variable(variable) => at.get(variable),
+            Self::Neg(a) => -of(a),
+            Self::Add(a, b) => of(a) + of(b),
+            Self::Sub(a, b) => of(a) - of(b),
+            Self::Mul(a, b) => of(a) * of(b),
+            Self::Div(a, b) => of(a) / of(b),
+            Self::Powi(a, n) => powi(of(a), n),
+            Self::Pow(a, b) => libm::pow(of(a), of(b)),
+            Self::Sqrt(a) => of(a).sqrt(),
+            Self::Abs(a) => of(a).abs(),
+            Self::Min(a, b) => least(of(a), of(b)),
+            Self::Max(a, b) => -least(-of(a), -of(b)),
+            Self::Function(f, a) => f.value(of(a)),
+            Self::Atan2(a, b) => libm::atan2(of(a), of(b)),
+            Self::IfLess(a, b, x, y) => {
+                let (a, b) = (of(a), of(b));
+                if a.is_nan() || b.is_nan() {
+                    f64::NAN
+                } else if a < b {
+                    of(x)
+                } else {
+                    of(y)
+                }
+            }
+        }
+    }
+}
+
+impl Function {
+    /// Its value.
+    pub fn value(self, x: f64) -> f64 {
+        match self {
+            Self::Sin => libm::sin(x),
+            Self::Cos => libm::cos(x),
+            Self::Tan => libm::tan(x),
+            Self::Asin => libm::asin(x),
+            Self::Acos => libm::acos(x),
+            Self::Atan => libm::atan(x),
+            Self::Exp => libm::exp(x),
+            Self::Log => libm::log(x),
+        }
+    }
+}
+
+/// The smaller of both; NaN if either is, unlike `f64::min`.
+fn least(a: f64, b: f64) -> f64 {
+    if a.is_nan() || b.is_nan() {
+        f64::NAN
+    } else if a < b {
+        a
+    } else {
+        b
+    }
+}
+
+/// `x^n` by repeated squaring, least significant bit of `n` first; the reciprocal for `n < 0`.
+fn powi(x: f64, n: i32) -> f64 {
+    let mut result = 1.0;
+    let mut square = x;
+    let mut bits = n.unsigned_abs();
+    while bits != 0 {
+        if bits & 1 != 0 {
+            result *= square;
+        }
+        square *= square;
+        bits >>= 1;
+    }
+    if n < 0 { 1.0 / result } else { result }
+}

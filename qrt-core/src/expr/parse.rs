@@ -1,0 +1,440 @@
+//! From text to [`Expr`], or all that is wrong with the text.
+
+use super::arena::Arena;
+use super::suggest::nearest;
+use super::{Expr, Function, Id, Node, Variable};
+use crate::report::{Path, Problem};
+use std::ops::Range;
+
+/// The longest expression, in bytes.
+pub const MAX_LENGTH: usize = 4096;
+
+/// How deep parentheses, signs and powers may stand within each other.
+pub const MAX_DEPTH: usize = 128;
+
+impl Expr {
+    /// Reads an expression that may use the variables `allowed`.
+    ///
+    /// Problems name their bytes in `text` (`within`), at an empty path: the caller puts them in
+    /// their place. Codes: `QRT0400` not an expression, `QRT0401` unknown name, `QRT0402` a
+    /// variable that has no value here, `QRT0403` wrong number of operands, `QRT0404` not a number,
+    /// `QRT0405` too long or too deep, `QRT0406` empty.
+    ///
+    /// ```
+    /// use qrt_core::expr::{Expr, Variable};
+    /// let problems = Expr::parse("2*cosi", &Variable::ALL).unwrap_err();
+    /// assert_eq!(problems[0].message, "unknown name `cosi`");
+    /// assert_eq!(problems[0].help.as_deref(), Some("did you mean `cos_i`?"));
+    /// assert_eq!(problems[0].within, Some(2..6));
+    /// ```
+    pub fn parse(text: &str, allowed: &[Variable]) -> Result<Self, Vec<Problem>> {
+        if text.len() > MAX_LENGTH {
+            let message = format!(
+                "expression of {} bytes; the limit is {MAX_LENGTH}",
+                text.len()
+            );
+            return Err(vec![Problem::new("QRT0405", Path::root(), message)]);
+        }
+        let mut parser = Parser {
+            text,
+            at: 0,
+            token: Token::End,
+            range: 0..0,
+            depth: 0,
+            allowed,
+            arena: Arena::default(),
+            problems: Vec::new(),
+        };
+        let root = parser.whole();
+        match root {
+            Ok(root) if parser.problems.is_empty() => Ok(parser.arena.finish(root)),
+            Ok(_) => Err(parser.problems),
+            Err(problem) => {
+                parser.problems.push(*problem);
+                Err(parser.problems)
+            }
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Token<'a> {
+    Number(f64),
+    Name(&'a str),
+    Symbol(char),
+    End,
+}
+
+/// What ends the reading; unknown names do not, so that all of them are told at once.
+type Fallible<T> = Result<T, Box<Problem>>;
+
+struct Parser<'a> {
+    text: &'a str,
+    at: usize,
+    token: Token<'a>,
+    range: Range<usize>,
+    depth: usize,
+    allowed: &'a [Variable],
+    arena: Arena,
+    problems: Vec<Problem>,
+}
+
+fn problem(code: &'static str, range: Range<usize>, message: impl Into<String>) -> Problem {
+    Problem::new(code, Path::root(), message).within(range)
+}
+
+impl Parser<'_> {
+    fn whole(&mut self) -> Fallible<Id> {
+        self.advance()?;
+        if self.token == Token::End {
+            let empty = problem("QRT0406", 0..self.text.len(), "the expression is empty");
+            return Err(Box::new(empty));
+        }
+        let root = self.sum()?;
+        if self.token == Token::End {
+            return Ok(root);
+        }
+        let found = problem(
+            "QRT0400",
+            self.range.clone(),
+            format!("unexpected {}", self.found()),
+        );
+        Err(Box::new(match self.token {
+            Token::Symbol(')') => found.help("there is no `(` for this `)`"),
+            Token::Symbol(',') => found.help("a comma stands only between a function's operands"),
+            Token::Symbol('=') => found.help("write the value alone, without an equation"),
+            _ => found.help("a product is written with `*`"),
+        }))
+    }
+
+    fn sum(&mut self) -> Fallible<Id> {
+        let mut left = self.product()?;
+        while let Token::Symbol(symbol @ ('+' | '-')) = self.token {
+            self.advance()?;
+            let right = self.product()?;
+            left = self.arena.push(match symbol {
+                '+' => Node::Add(left, right),
+                _ => Node::Sub(left, right),
+            });
+        }
+        Ok(left)
+    }
+
+    fn product(&mut self) -> Fallible<Id> {
+        let mut left = self.signed()?;
+        while let Token::Symbol(symbol @ ('*' | '/')) = self.token {
+            let start = self.range.start;
+            self.advance()?;
+            if self.token == Token::Symbol('*') {
+                let power = problem("QRT0400", start..self.range.end, "unexpected `**`");
+                return Err(Box::new(power.help("a power is written with `^`")));
+            }
+            let right = self.signed()?;
+            left = self.arena.push(match symbol {
+                '*' => Node::Mul(left, right),
+                _ => Node::Div(left, right),
+            });
+        }
+        Ok(left)
+    }
+
+    fn signed(&mut self) -> Fallible<Id> {
+        match self.token {
+            Token::Symbol('-') => {
+                self.enter()?;
+                let operand = self.signed()?;
+                self.depth -= 1;
+                Ok(match self.arena.node(operand) {
+                    Node::Number(value) => self.arena.number(-value),
+                    _ => self.arena.push(Node::Neg(operand)),
+                })
+            }
+            Token::Symbol('+') => {
+                self.enter()?;
+                let operand = self.signed()?;
+                self.depth -= 1;
+                Ok(operand)
+            }
+            _ => self.power(),
+        }
+    }
+
+    fn power(&mut self) -> Fallible<Id> {
+        let base = self.atom()?;
+        if self.token != Token::Symbol('^') {
+            return Ok(base);
+        }
+        self.enter()?;
+        let exponent = self.signed()?;
+        self.depth -= 1;
+        Ok(self.raise(base, exponent))
+    }
+
+    fn raise(&mut self, base: Id, exponent: Id) -> Id {
+        match self.arena.node(exponent) {
+            Node::Number(n) if n == n.trunc() && n.abs() <= i32::MAX.into() => {
+                self.arena.push(Node::Powi(base, n as i32))
+            }
+            _ => self.arena.push(Node::Pow(base, exponent)),
+        }
+    }
+
+    fn atom(&mut self) -> Fallible<Id> {
+        match self.token {
+            Token::Number(value) => {
+                self.advance()?;
+                Ok(self.arena.number(value))
+            }
+            Token::Name(name) => {
+                let range = self.range.clone();
+                self.advance()?;
+                if self.token == Token::Symbol('(') {
+                    self.call(name, range)
+                } else {
+                    Ok(self.name(name, range))
+                }
+            }
+            Token::Symbol('(') => {
+                let open = self.range.clone();
+                self.enter()?;
+                let inner = self.sum()?;
+                self.close(open)?;
+                Ok(inner)
+            }
+            _ => {
+                let expected = format!("expected a value, found {}", self.found());
+                Err(Box::new(problem("QRT0400", self.range.clone(), expected)))
+            }
+        }
+    }
+
+    fn name(&mut self, name: &str, range: Range<usize>) -> Id {
+        if name == "pi" {
+            return self.arena.number(std::f64::consts::PI);
+        }
+        match Variable::ALL.into_iter().find(|v| v.name() == name) {
+            Some(variable) if self.allowed.contains(&variable) => {
+                return self.arena.push(Node::Variable(variable));
+            }
+            Some(_) => {
+                let message = format!("`{name}` has no value here");
+                let mut wrong = problem("QRT0402", range, message);
+                if !self.allowed.is_empty() {
+                    let names: Vec<_> = self.allowed.iter().map(|v| v.name()).collect();
+                    wrong = wrong.help(format!("this may depend on {}", names.join(", ")));
+                }
+                self.problems.push(wrong);
+            }
+            None if is_function(name) => {
+                let message = format!("the function `{name}` has no operands");
+                let example = match operand_count(name) {
+                    2 => format!("write `{name}(u, v)`"),
+                    4 => format!("write `{name}(a, b, x, y)`: x where a < b, y elsewhere"),
+                    _ => format!("write `{name}(u)`"),
+                };
+                self.problems
+                    .push(problem("QRT0403", range, message).help(example));
+            }
+            None => {
+                let names = self.allowed.iter().map(|v| v.name()).chain(["pi"]);
+                let mut unknown = problem("QRT0401", range, format!("unknown name `{name}`"));
+                let guess = nearest(name, names.chain(function_names()));
+                unknown = match (name, guess) {
+                    ("e", _) => unknown.help("Euler's number is `exp(1)`"),
+                    (_, Some(guess)) => unknown.help(format!("did you mean `{guess}`?")),
+                    (_, None) => {
+                        let names: Vec<_> = self.allowed.iter().map(|v| v.name()).collect();
+                        unknown.help(format!("this may depend on {}, pi", names.join(", ")))
+                    }
+                };
+                self.problems.push(unknown);
+            }
+        }
+        self.arena.number(1.0)
+    }
+
+    fn call(&mut self, name: &str, range: Range<usize>) -> Fallible<Id> {
+        let open = self.range.clone();
+        self.enter()?;
+        let mut operands = Vec::new();
+        if self.token != Token::Symbol(')') {
+            operands.push(self.sum()?);
+            while self.token == Token::Symbol(',') {
+                self.advance()?;
+                operands.push(self.sum()?);
+            }
+        }
+        let end = self.range.end;
+        self.close(open)?;
+        if !is_function(name) {
+            let is_value = name == "pi" || Variable::ALL.iter().any(|v| v.name() == name);
+            let wrong = if is_value {
+                problem("QRT0403", range, format!("`{name}` is not a function"))
+                    .help("a product is written with `*`")
+            } else {
+                let unknown = problem("QRT0401", range, format!("unknown function `{name}`"));
+                match (name, nearest(name, function_names())) {
+                    ("ln", _) => unknown.help("the natural logarithm is `log`"),
+                    (_, Some(guess)) => unknown.help(format!("did you mean `{guess}`?")),
+                    (_, None) => {
+                        let names: Vec<_> = function_names().collect();
+                        unknown.help(format!("there are {}", names.join(", ")))
+                    }
+                }
+            };
+            self.problems.push(wrong);
+            return Ok(self.arena.number(1.0));
+        }
+        if let Some(f) = Function::ALL.into_iter().find(|f| f.name() == name)
+            && let [a] = operands[..]
+        {
+            return Ok(self.arena.push(Node::Function(f, a)));
+        }
+        Ok(match (name, &operands[..]) {
+            ("sqrt", [a]) => self.arena.push(Node::Sqrt(*a)),
+            ("abs", [a]) => self.arena.push(Node::Abs(*a)),
+            ("atan2", [a, b]) => self.arena.push(Node::Atan2(*a, *b)),
+            ("min", [a, b]) => self.arena.push(Node::Min(*a, *b)),
+            ("max", [a, b]) => self.arena.push(Node::Max(*a, *b)),
+            ("pow", [a, b]) => self.raise(*a, *b),
+            ("if_less", [a, b, x, y]) => self.arena.push(Node::IfLess(*a, *b, *x, *y)),
+            _ => {
+                let (wanted, given) = (operand_count(name), operands.len());
+                let s = if wanted == 1 { "" } else { "s" };
+                let message = format!("`{name}` takes {wanted} operand{s}, not {given}");
+                self.problems
+                    .push(problem("QRT0403", range.start..end, message));
+                self.arena.number(1.0)
+            }
+        })
+    }
+
+    /// Steps over the symbol at hand, one level down.
+    fn enter(&mut self) -> Fallible<()> {
+        if self.depth == MAX_DEPTH {
+            let message = format!("expression nested deeper than {MAX_DEPTH}");
+            return Err(Box::new(problem("QRT0405", self.range.clone(), message)));
+        }
+        self.depth += 1;
+        self.advance()
+    }
+
+    /// Steps over the parenthesis that closes the one at `open`, one level up.
+    fn close(&mut self, open: Range<usize>) -> Fallible<()> {
+        if self.token != Token::Symbol(')') {
+            let found = self.found();
+            let wrong = if self.token == Token::End {
+                problem("QRT0400", open, "this `(` is never closed")
+            } else {
+                problem(
+                    "QRT0400",
+                    self.range.clone(),
+                    format!("expected `)`, found {found}"),
+                )
+                .help("a product is written with `*`")
+            };
+            return Err(Box::new(wrong));
+        }
+        self.depth -= 1;
+        self.advance()
+    }
+
+    fn found(&self) -> String {
+        match self.token {
+            Token::End => "the end".to_owned(),
+            _ => format!("`{}`", &self.text[self.range.clone()]),
+        }
+    }
+
+    fn advance(&mut self) -> Fallible<()> {
+        let rest = &self.text[self.at..];
+        let trimmed = rest.trim_start();
+        let start = self.at + rest.len() - trimmed.len();
+        let Some(first) = trimmed.chars().next() else {
+            self.token = Token::End;
+            self.at = self.text.len();
+            self.range = self.at..self.at;
+            return Ok(());
+        };
+        let (token, length) = if first.is_ascii_digit() || first == '.' {
+            let length = number_length(trimmed.as_bytes());
+            (Token::Number(number(&trimmed[..length], start)?), length)
+        } else if first.is_alphabetic() || first == '_' {
+            let ends = |c: char| !(c.is_alphanumeric() || c == '_');
+            let length = trimmed.find(ends).unwrap_or(trimmed.len());
+            (Token::Name(&trimmed[..length]), length)
+        } else {
+            (Token::Symbol(first), first.len_utf8())
+        };
+        self.token = token;
+        self.range = start..start + length;
+        self.at = start + length;
+        Ok(())
+    }
+}
+
+/// The bytes that belong to the number, right or wrong, at the start of `text`: `1.2.3` is one.
+fn number_length(text: &[u8]) -> usize {
+    let mut length = 0;
+    while let Some(byte) = text.get(length) {
+        let sign_of_exponent = matches!(byte, b'+' | b'-')
+            && matches!(text[length - 1], b'e' | b'E')
+            && text.get(length + 1).is_some_and(u8::is_ascii_digit);
+        let exponent = matches!(byte, b'e' | b'E')
+            && match text.get(length + 1) {
+                Some(b'+' | b'-') => text.get(length + 2).is_some_and(u8::is_ascii_digit),
+                next => next.is_some_and(u8::is_ascii_digit),
+            };
+        if !(byte.is_ascii_digit() || *byte == b'.' || exponent || sign_of_exponent) {
+            break;
+        }
+        length += 1;
+    }
+    length
+}
+
+fn number(text: &str, start: usize) -> Fallible<f64> {
+    let range = start..start + text.len();
+    match text.parse::<f64>() {
+        Ok(value) if value.is_finite() => Ok(value),
+        Ok(_) => Err(Box::new(problem(
+            "QRT0404",
+            range,
+            format!("`{text}` is too large"),
+        ))),
+        Err(_) => Err(Box::new(problem(
+            "QRT0404",
+            range,
+            format!("`{text}` is not a number"),
+        ))),
+    }
+}
+
+const OTHERS: [(&str, usize); 7] = [
+    ("sqrt", 1),
+    ("abs", 1),
+    ("atan2", 2),
+    ("pow", 2),
+    ("min", 2),
+    ("max", 2),
+    ("if_less", 4),
+];
+
+fn function_names() -> impl Iterator<Item = &'static str> {
+    OTHERS
+        .iter()
+        .map(|(name, _)| *name)
+        .chain(Function::ALL.iter().map(|f| f.name()))
+}
+
+fn is_function(name: &str) -> bool {
+    function_names().any(|f| f == name)
+}
+
+/// How many operands the function takes.
+fn operand_count(name: &str) -> usize {
+    OTHERS
+        .iter()
+        .find(|(other, _)| *other == name)
+        .map_or(1, |(_, count)| *count)
+}

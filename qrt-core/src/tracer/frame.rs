@@ -1,0 +1,104 @@
+//! The frame itself: the paper's `Path Tracing` box.
+
+use super::geometry::INWARD;
+use super::intersect::{Nearest, Ray, point_at};
+use super::scatter::{Vertex, members};
+use super::vector::{self, Vector};
+use super::{Arith, Stage};
+
+/// The colour of each path, per channel, in radiance.
+///
+/// *Generate Ray*, and for each depth *Find Intersection*, emission and scattering. Reads sample
+/// coordinates and the pixel from `cx`; `nearest` is the stage's own geometry, or something
+/// faster in front of it.
+#[inline(always)]
+pub fn trace<A: Arith, N: Nearest<A>, const C: usize>(
+    cx: &mut A,
+    stage: &Stage<C>,
+    nearest: &N,
+) -> [A::Real; C] {
+    let zero = cx.real(0.0);
+    let mut colour = [zero; C];
+    if stage.surface_of.is_empty() {
+        return colour;
+    }
+    let mut ray = stage.camera.ray(cx, stage.film_bits);
+    let mut alive = cx.truth(true);
+    let mut throughput: Option<[A::Real; C]> = None;
+    for depth in 0..stage.depths() {
+        let hit = nearest.nearest(cx, &ray, alive);
+        alive = cx.and(alive, hit.found);
+        if !cx.possible(alive) {
+            break;
+        }
+        let surface = cx.entry(&stage.surface_of, hit.face);
+        let scatter = stage.scatters.get(depth);
+        let mut vertex = Vertex::<A> {
+            arriving: ray.direction,
+            tangent: [zero; 3],
+            bitangent: [zero; 3],
+            normal: [zero; 3],
+            slope: zero,
+            front: alive,
+            surface,
+            alive,
+        };
+        let emits = members(cx, &vertex, &stage.emitters);
+        if emits.is_none() && scatter.is_none() {
+            break;
+        }
+        vertex.normal = cx.rows(&stage.normals, hit.face);
+        vertex.slope = vector::dot(cx, &ray.direction, &vertex.normal);
+        vertex.front = cx.less(vertex.slope, zero);
+        if let Some(emits) = emits {
+            let shows = cx.and(emits, vertex.front);
+            let shows = cx.and(shows, alive);
+            let radiance = cx.rows(&stage.radiance, surface);
+            for c in 0..C {
+                let arriving = match throughput {
+                    Some(throughput) => cx.mul(throughput[c], radiance[c]),
+                    None => radiance[c],
+                };
+                let seen = cx.select(shows, arriving, zero);
+                colour[c] = cx.add(colour[c], seen);
+            }
+        }
+        let Some(scatter) = scatter else {
+            break;
+        };
+        if stage.black > 0 {
+            let ends = cx.below(surface, stage.black);
+            let goes_on = cx.not(ends);
+            alive = cx.and(alive, goes_on);
+        }
+        if !cx.possible(alive) {
+            break;
+        }
+        vertex.alive = alive;
+        let [tx, ty, tz, bx, by, bz, gx, gy, gz] = cx.rows(&stage.frames, hit.face);
+        vertex.tangent = [tx, ty, tz];
+        vertex.bitangent = [bx, by, bz];
+        let scattered = scatter.scatter(cx, &vertex);
+        let point = point_at(cx, &ray, hit.distance);
+        let from = cx.entry(&stage.geometry.plane_of, hit.face);
+        ray = Ray {
+            origin: inward(cx, &point, &[gx, gy, gz]),
+            direction: scattered.direction,
+            from,
+        };
+        throughput = Some(match throughput {
+            Some(old) => std::array::from_fn(|c| cx.mul(old[c], scattered.weight[c])),
+            None => scattered.weight,
+        });
+    }
+    colour
+}
+
+/// `point`, drawn a little towards the `centre` of its face.
+#[inline(always)]
+fn inward<A: Arith>(cx: &mut A, point: &Vector<A>, centre: &Vector<A>) -> Vector<A> {
+    let way = vector::sub(cx, centre, point);
+    let inward = cx.real(INWARD);
+    let step = vector::scale(cx, &way, inward);
+    vector::add(cx, point, &step)
+}

@@ -1,0 +1,158 @@
+//! A scene made ready for the tracer.
+
+use super::camera::{self, CameraStage};
+use super::geometry::Geometry;
+use super::scatter::{Kind, ScatterStage, rank};
+use super::{bound, geometry};
+use crate::expr::{Expr, Variable};
+use crate::valid::{Scatter, Surface, ValidScene};
+
+/// A scene made ready for the tracer, for `C` colour channels that share their paths.
+#[derive(Clone, Debug)]
+pub struct Stage<const C: usize> {
+    pub(crate) geometry: Geometry,
+    pub(crate) camera: CameraStage,
+    /// Sample bits of the primary ray.
+    pub(crate) film_bits: [u32; 2],
+    /// By face: its surface.
+    pub(crate) surface_of: Vec<u32>,
+    /// By face: the unit normal.
+    pub(crate) normals: Vec<[f64; 3]>,
+    /// By face: tangent, bitangent and centre.
+    pub(crate) frames: Vec<[f64; 9]>,
+    /// By surface: what its front emits.
+    pub(crate) radiance: Vec<[f64; C]>,
+    /// Surfaces that emit.
+    pub(crate) emitters: Kind,
+    /// Surfaces below this number scatter nothing.
+    pub(crate) black: u32,
+    /// What scatters towards each ray but the first.
+    pub(crate) scatters: Vec<ScatterStage<C>>,
+    bound: [f64; C],
+}
+
+impl Stage<3> {
+    /// All three channels at once, in the order red, green, blue.
+    pub fn rgb(scene: &ValidScene) -> Self {
+        Self::new(scene, [0, 1, 2])
+    }
+}
+
+impl<const C: usize> Stage<C> {
+    /// The given channels (0 red, 1 green, 2 blue).
+    pub fn new(scene: &ValidScene, channels: [usize; C]) -> Self {
+        let written = scene.scene();
+        let depths = &written.sampling.depths;
+        let used = used(scene);
+        let mut order: Vec<usize> = (0..scene.surfaces().len()).filter(|&s| used[s]).collect();
+        order.sort_by_key(|&surface| sort_key(&scene.surfaces()[surface]));
+        let surfaces: Vec<&Surface> = order.iter().map(|&s| &scene.surfaces()[s]).collect();
+        let mut place = vec![0; scene.surfaces().len()];
+        for (new, &old) in order.iter().enumerate() {
+            place[old] = new as u32;
+        }
+        let emits = |surface: &&Surface| emits(surface);
+        let first = surfaces.iter().position(emits).unwrap_or(0) as u32;
+        let emitters = first..first + surfaces.iter().copied().filter(emits).count() as u32;
+        let black = surfaces.iter().filter(|s| rank(&s.scatter) == 0).count() as u32;
+        let reach = camera::reach(&written.camera, written.film);
+        let geometry = Geometry::new(scene.polygons(), &reach);
+        let scatters: Vec<_> = depths
+            .iter()
+            .enumerate()
+            .skip(1)
+            .map(|(depth, sampling)| {
+                ScatterStage::new(&surfaces, channels, depth, sampling.bits, sampling.map)
+            })
+            .collect();
+        let unit = depths.len() > 1 && surfaces.iter().any(|s| needs_angles(&s.scatter));
+        let radiance: Vec<[f64; C]> = surfaces
+            .iter()
+            .map(|surface| channels.map(|c| surface.radiance[c]))
+            .collect();
+        let bound = bound::colour(&surfaces, &radiance, &scatters);
+        let frames = geometry.frames.iter();
+        Self {
+            camera: CameraStage::new(&written.camera, written.film, &geometry, unit),
+            film_bits: depths.first().map_or([0, 0], |primary| primary.bits),
+            surface_of: scene
+                .polygons()
+                .iter()
+                .map(|p| place[p.surface as usize])
+                .collect(),
+            normals: frames
+                .clone()
+                .map(|frame| frame.normal.to_array())
+                .collect(),
+            frames: frames.map(frame_row).collect(),
+            radiance,
+            emitters,
+            black,
+            scatters,
+            bound,
+            geometry,
+        }
+    }
+
+    /// D: rays on a path.
+    pub fn depths(&self) -> usize {
+        self.scatters.len() + 1
+    }
+
+    /// The tightest proven bound on a path's colour, per channel: the colour scale, in the
+    /// paper `2^b`.
+    pub fn bound(&self) -> [f64; C] {
+        self.bound
+    }
+
+    /// The polygons.
+    pub fn geometry(&self) -> &Geometry {
+        &self.geometry
+    }
+}
+
+fn frame_row(frame: &geometry::Frame) -> [f64; 9] {
+    let (t, b, c) = (frame.tangent, frame.bitangent, frame.centre);
+    [t.x, t.y, t.z, b.x, b.y, b.z, c.x, c.y, c.z]
+}
+
+/// Surfaces that some polygon has: the others cost nothing.
+fn used(scene: &ValidScene) -> Vec<bool> {
+    let mut used = vec![false; scene.surfaces().len()];
+    for polygon in scene.polygons() {
+        used[polygon.surface as usize] = true;
+    }
+    used
+}
+
+fn emits(surface: &Surface) -> bool {
+    surface.radiance.iter().any(|&channel| channel > 0.0)
+}
+
+/// By kind, and so that emitters (which are black or Lambertian) are neighbours.
+fn sort_key(surface: &Surface) -> (u32, bool) {
+    let kind = rank(&surface.scatter);
+    (
+        kind,
+        if kind == 0 {
+            emits(surface)
+        } else {
+            !emits(surface)
+        },
+    )
+}
+
+/// Does the material ask for the cosine of the arriving ray?
+fn needs_angles(scatter: &Scatter) -> bool {
+    match scatter {
+        // A mirror keeps a direction's length for whoever asks next, and asks for nothing itself.
+        Scatter::Black | Scatter::Lambertian { .. } | Scatter::Mirror { .. } => false,
+        Scatter::Dielectric { .. } | Scatter::Ggx { .. } | Scatter::Phong { .. } => true,
+        Scatter::Custom(bsdf) => bsdf.value.iter().any(asks_for_angles),
+    }
+}
+
+fn asks_for_angles(value: &Expr) -> bool {
+    let variables = value.variables(value.root());
+    variables.contains(Variable::CosO) || variables.contains(Variable::CosA)
+}

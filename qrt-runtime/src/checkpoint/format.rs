@@ -1,0 +1,213 @@
+//! The bytes of a checkpoint.
+//!
+//! Layout, all numbers little-endian, floats as their bits:
+//!
+//! ```text
+//! header  "QRTTILES", u32 version, u32 length of the body, body, u32 CRC-32 of all before
+//! body    width, height, crop x, y, width, height (u32 each), u64 seed, scene hash, u32 count of
+//!         options, and for each its name and value; texts as u32 length and UTF-8
+//! record  x, y, width, height (u32 each), pixels (3 f64 each, rows from the top),
+//!         queries (u64 each), u32 CRC-32 of all before
+//! ```
+
+use super::{CheckpointError, Difference, Header, Tile};
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+pub(super) const MAGIC: &[u8; 8] = b"QRTTILES";
+pub(super) const VERSION: u32 = 1;
+/// Bytes of a tile's record beside its pixels, and for each pixel.
+const RECORD: u64 = 20;
+const PIXEL: u64 = 32;
+
+impl Header {
+    pub(super) fn encode(&self) -> Vec<u8> {
+        let mut body = Vec::new();
+        for number in [self.width, self.height].iter().chain(&self.crop) {
+            body.extend(number.to_le_bytes());
+        }
+        body.extend(self.seed.to_le_bytes());
+        put_text(&mut body, &self.scene_hash);
+        body.extend((self.options.len() as u32).to_le_bytes());
+        for (name, value) in &self.options {
+            put_text(&mut body, name);
+            put_text(&mut body, value);
+        }
+        let mut bytes = MAGIC.to_vec();
+        bytes.extend(VERSION.to_le_bytes());
+        bytes.extend((body.len() as u32).to_le_bytes());
+        bytes.extend(body);
+        seal(bytes)
+    }
+
+    /// Takes a header off `bytes`.
+    pub(super) fn decode(bytes: &mut &[u8], path: &Path) -> Result<Self, CheckpointError> {
+        let foreign = || CheckpointError::Foreign {
+            path: path.to_path_buf(),
+        };
+        let damaged = || CheckpointError::Damaged {
+            path: path.to_path_buf(),
+        };
+        let all = *bytes;
+        if take(bytes, MAGIC.len() as u64) != Some(MAGIC) {
+            return Err(foreign());
+        }
+        let version = take_u32(bytes).ok_or_else(damaged)?;
+        if version != VERSION {
+            return Err(CheckpointError::Version {
+                path: path.to_path_buf(),
+                version,
+            });
+        }
+        let length = take_u32(bytes).ok_or_else(damaged)?;
+        let mut body = take(bytes, length.into()).ok_or_else(damaged)?;
+        take_seal(bytes, all).ok_or_else(damaged)?;
+        let body = &mut body;
+        let mut read = || {
+            let [width, height] = [take_u32(body)?, take_u32(body)?];
+            let crop = [
+                take_u32(body)?,
+                take_u32(body)?,
+                take_u32(body)?,
+                take_u32(body)?,
+            ];
+            let seed = take_u64(body)?;
+            let scene_hash = take_text(body)?;
+            let mut options = BTreeMap::new();
+            for _ in 0..take_u32(body)? {
+                options.insert(take_text(body)?, take_text(body)?);
+            }
+            Some(Self {
+                scene_hash,
+                seed,
+                options,
+                width,
+                height,
+                crop,
+            })
+        };
+        read().ok_or_else(damaged)
+    }
+
+    pub(super) fn differences(&self, asked: &Self) -> Vec<Difference> {
+        let fields = |h: &Self| {
+            [
+                ("scene", h.scene_hash.clone()),
+                ("seed", h.seed.to_string()),
+                ("film", format!("{} x {}", h.width, h.height)),
+                ("crop", h.crop.map(|v| v.to_string()).join(",")),
+            ]
+        };
+        let fields = fields(self).into_iter().zip(fields(asked));
+        let fields = fields.map(|((what, found), (_, asked))| (what, Some(found), Some(asked)));
+        let names: BTreeSet<&String> = self.options.keys().chain(asked.options.keys()).collect();
+        let option = |h: &Self, name| h.options.get(name).cloned();
+        let options = names
+            .into_iter()
+            .map(|name| (name.as_str(), option(self, name), option(asked, name)));
+        fields
+            .chain(options)
+            .filter(|(_, found, asked)| found != asked)
+            .map(|(what, found, asked)| Difference {
+                what: what.to_owned(),
+                found,
+                asked,
+            })
+            .collect()
+    }
+}
+
+impl Tile {
+    /// How many pixels the tile has, if it lies in the crop.
+    pub(super) fn area_within(&self, [x, y, width, height]: [u32; 4]) -> Option<u64> {
+        let inside = |at: u32, size: u32, low: u32, room: u32| {
+            size > 0
+                && at >= low
+                && u64::from(at) + u64::from(size) <= u64::from(low) + u64::from(room)
+        };
+        let inside = inside(self.x, self.width, x, width) && inside(self.y, self.height, y, height);
+        inside.then(|| u64::from(self.width) * u64::from(self.height))
+    }
+
+    pub(super) fn encode(&self) -> Vec<u8> {
+        let size = RECORD as usize + PIXEL as usize * self.pixels.len();
+        let mut bytes = Vec::with_capacity(size);
+        for number in [self.x, self.y, self.width, self.height] {
+            bytes.extend(number.to_le_bytes());
+        }
+        for value in self.pixels.iter().flatten() {
+            bytes.extend(value.to_bits().to_le_bytes());
+        }
+        for queries in &self.queries {
+            bytes.extend(queries.to_le_bytes());
+        }
+        seal(bytes)
+    }
+
+    /// Takes a tile off `bytes`; `None` at the end, and if it is torn.
+    pub(super) fn decode(bytes: &mut &[u8], crop: [u32; 4]) -> Option<Self> {
+        let all = *bytes;
+        let [x, y, width, height] = [
+            take_u32(bytes)?,
+            take_u32(bytes)?,
+            take_u32(bytes)?,
+            take_u32(bytes)?,
+        ];
+        let mut tile = Self {
+            x,
+            y,
+            width,
+            height,
+            pixels: Vec::new(),
+            queries: Vec::new(),
+        };
+        let area = tile.area_within(crop)?;
+        let mut payload = take(bytes, area.checked_mul(PIXEL)?)?;
+        take_seal(bytes, all)?;
+        let payload = &mut payload;
+        for _ in 0..area {
+            let mut value = || take_u64(payload).map(f64::from_bits);
+            tile.pixels.push([value()?, value()?, value()?]);
+        }
+        for _ in 0..area {
+            tile.queries.push(take_u64(payload)?);
+        }
+        Some(tile)
+    }
+}
+
+fn seal(mut bytes: Vec<u8>) -> Vec<u8> {
+    let sum = crc32fast::hash(&bytes);
+    bytes.extend(sum.to_le_bytes());
+    bytes
+}
+
+/// Takes the sum of everything that was taken off `all`.
+fn take_seal(bytes: &mut &[u8], all: &[u8]) -> Option<()> {
+    let sum = crc32fast::hash(&all[..all.len() - bytes.len()]);
+    (take_u32(bytes)? == sum).then_some(())
+}
+
+fn put_text(bytes: &mut Vec<u8>, text: &str) {
+    bytes.extend((text.len() as u32).to_le_bytes());
+    bytes.extend(text.as_bytes());
+}
+
+fn take<'a>(bytes: &mut &'a [u8], count: u64) -> Option<&'a [u8]> {
+    let (taken, rest) = bytes.split_at_checked(usize::try_from(count).ok()?)?;
+    *bytes = rest;
+    Some(taken)
+}
+
+fn take_u32(bytes: &mut &[u8]) -> Option<u32> {
+    Some(u32::from_le_bytes(take(bytes, 4)?.try_into().ok()?))
+}
+
+fn take_u64(bytes: &mut &[u8]) -> Option<u64> {
+    Some(u64::from_le_bytes(take(bytes, 8)?.try_into().ok()?))
+}
+
+fn take_text(bytes: &mut &[u8]) -> Option<String> {
+    let length = take_u32(bytes)?;
+    String::from_utf8(take(bytes, length.into())?.to_vec()).ok()
+}

@@ -1,0 +1,248 @@
+use super::*;
+use crate::scratch::Scratch;
+use proptest::prelude::*;
+use std::fs;
+
+fn header() -> Header {
+    Header {
+        scene_hash: "9f86d081".into(),
+        seed: 7,
+        options: [
+            ("model".into(), "real".into()),
+            ("estimator".into(), "sine".into()),
+        ]
+        .into(),
+        width: 8,
+        height: 6,
+        crop: [2, 1, 5, 4],
+    }
+}
+
+fn tile(x: u32, y: u32, width: u32, height: u32) -> Tile {
+    let area = width * height;
+    let pixels = (0..area)
+        .map(|i| [f64::from(i) / 3.0, f64::from(x), -0.0])
+        .collect();
+    let queries = (0..area).map(|i| u64::MAX - u64::from(i)).collect();
+    Tile {
+        x,
+        y,
+        width,
+        height,
+        pixels,
+        queries,
+    }
+}
+
+fn tiles() -> [Tile; 3] {
+    [tile(4, 3, 3, 2), tile(2, 1, 2, 2), tile(4, 1, 1, 1)]
+}
+
+fn written(path: &Path) -> Vec<u8> {
+    let mut checkpoint = Checkpoint::create(path, &header()).unwrap();
+    for tile in &tiles() {
+        checkpoint.append(tile).unwrap();
+    }
+    drop(checkpoint);
+    fs::read(path).unwrap()
+}
+
+#[test]
+fn finished_tiles_come_back_and_the_render_goes_on() {
+    let folder = Scratch::new();
+    let path = folder.path("c");
+    written(&path);
+    let (mut checkpoint, finished) = Checkpoint::open(&path, &header()).unwrap();
+    assert_eq!(finished, tiles());
+    assert!(finished[0].pixels[0][2].is_sign_negative());
+    checkpoint.append(&tile(6, 1, 1, 1)).unwrap();
+    drop(checkpoint);
+    let (_, finished) = Checkpoint::open(&path, &header()).unwrap();
+    assert_eq!(finished[..3], tiles());
+    assert_eq!(finished[3..], [tile(6, 1, 1, 1)]);
+}
+
+#[test]
+fn wherever_the_file_is_cut_the_whole_tiles_survive_and_a_new_one_can_follow() {
+    let folder = Scratch::new();
+    let path = folder.path("c");
+    let bytes = written(&path);
+    let start = header().encode().len();
+    let ends: Vec<usize> = tiles()
+        .iter()
+        .scan(start, |end, tile| {
+            *end += tile.encode().len();
+            Some(*end)
+        })
+        .collect();
+    assert_eq!(ends[2], bytes.len());
+    for length in 0..=bytes.len() {
+        fs::write(&path, &bytes[..length]).unwrap();
+        let (mut checkpoint, finished) = Checkpoint::open(&path, &header()).unwrap();
+        let whole = ends.iter().filter(|&&end| end <= length).count();
+        assert_eq!(finished, tiles()[..whole], "cut at {length}");
+        checkpoint.append(&tile(6, 4, 1, 1)).unwrap();
+        drop(checkpoint);
+        let (_, finished) = Checkpoint::open(&path, &header()).unwrap();
+        assert_eq!(finished.len(), whole + 1, "cut at {length}");
+        assert_eq!(finished[whole], tile(6, 4, 1, 1));
+    }
+}
+
+#[test]
+fn a_changed_byte_anywhere_is_noticed() {
+    let folder = Scratch::new();
+    let path = folder.path("c");
+    let bytes = written(&path);
+    let start = header().encode().len();
+    for at in 0..bytes.len() {
+        let mut changed = bytes.clone();
+        changed[at] ^= 0x10;
+        fs::write(&path, &changed).unwrap();
+        match Checkpoint::open(&path, &header()) {
+            Ok((_, finished)) => {
+                assert!(at >= start && finished.len() < 3, "byte {at}");
+                assert_eq!(finished, tiles()[..finished.len()], "byte {at}");
+            }
+            Err(_) => assert!(at < start, "byte {at}"),
+        }
+    }
+}
+
+#[test]
+fn another_render_is_told_in_what_it_differs() {
+    let folder = Scratch::new();
+    let path = folder.path("c");
+    let bytes = written(&path);
+    let mut asked = header();
+    asked.scene_hash = "60303ae2".into();
+    asked.seed = 8;
+    asked.crop = [0, 0, 8, 6];
+    asked.options = [
+        ("model".into(), "fixed".into()),
+        ("phase_bits".into(), "9".into()),
+    ]
+    .into();
+    let message = Checkpoint::open(&path, &asked).unwrap_err().to_string();
+    let lines: Vec<&str> = message.lines().skip(1).collect();
+    assert_eq!(
+        lines,
+        [
+            "  scene: there 9f86d081, here 60303ae2",
+            "  seed: there 7, here 8",
+            "  crop: there 2,1,5,4, here 0,0,8,6",
+            "  estimator: there sine, here not set",
+            "  model: there real, here fixed",
+            "  phase_bits: there not set, here 9",
+        ]
+    );
+    assert_eq!(
+        fs::read(&path).unwrap(),
+        bytes,
+        "a refused file is left as it was"
+    );
+    asked = Header {
+        width: 9,
+        ..header()
+    };
+    let message = Checkpoint::open(&path, &asked).unwrap_err().to_string();
+    assert!(message.ends_with("\n  film: there 8 x 6, here 9 x 6"));
+}
+
+#[test]
+fn what_is_no_checkpoint_of_ours_is_left_alone() {
+    let folder = Scratch::new();
+    let path = folder.path("c");
+    assert!(matches!(
+        Checkpoint::open(&path, &header()),
+        Err(CheckpointError::Io { .. })
+    ));
+    assert!(folder.names().is_empty());
+    fs::write(&path, "a thesis").unwrap();
+    for result in [
+        Checkpoint::create(&path, &header()).err(),
+        Checkpoint::open(&path, &header()).err(),
+    ] {
+        assert!(matches!(result, Some(CheckpointError::Foreign { .. })));
+    }
+    assert_eq!(fs::read(&path).unwrap(), b"a thesis");
+    let mut newer = header().encode();
+    newer[8] = 2;
+    fs::write(&path, newer).unwrap();
+    let message = Checkpoint::open(&path, &header()).unwrap_err().to_string();
+    assert!(
+        message.ends_with("is a checkpoint of format 2; this qrt reads 1"),
+        "{message}"
+    );
+}
+
+#[test]
+fn creating_forgets_what_was_there() {
+    let folder = Scratch::new();
+    let path = folder.path("c");
+    written(&path);
+    drop(Checkpoint::create(&path, &header()).unwrap());
+    assert_eq!(Checkpoint::open(&path, &header()).unwrap().1, []);
+}
+
+#[test]
+fn two_renders_cannot_write_one_checkpoint() {
+    let folder = Scratch::new();
+    let path = folder.path("c");
+    let first = Checkpoint::create(&path, &header()).unwrap();
+    for second in [
+        Checkpoint::create(&path, &header()).err(),
+        Checkpoint::open(&path, &header()).err(),
+    ] {
+        assert!(matches!(second, Some(CheckpointError::InUse { .. })));
+    }
+    drop(first);
+    assert!(Checkpoint::open(&path, &header()).is_ok());
+}
+
+#[test]
+fn a_tile_that_does_not_fit_is_refused() {
+    let folder = Scratch::new();
+    let path = folder.path("c");
+    let mut checkpoint = Checkpoint::create(&path, &header()).unwrap();
+    let mut short = tile(2, 1, 2, 2);
+    short.queries.pop();
+    let huge = Tile {
+        width: u32::MAX,
+        height: u32::MAX,
+        ..tile(2, 1, 1, 1)
+    };
+    for bad in [
+        tile(1, 1, 1, 1),
+        tile(2, 0, 1, 1),
+        tile(6, 1, 2, 1),
+        tile(2, 4, 1, 2),
+        short,
+        huge,
+    ] {
+        assert!(matches!(
+            checkpoint.append(&bad),
+            Err(CheckpointError::Tile { .. })
+        ));
+    }
+    drop(checkpoint);
+    assert_eq!(Checkpoint::open(&path, &header()).unwrap().1, []);
+}
+
+proptest! {
+    #[test]
+    fn no_file_makes_it_panic_or_promise_tiles_that_are_not_there(
+        tail in proptest::collection::vec(any::<u8>(), 0..200),
+        keep in 0usize..=200,
+    ) {
+        let folder = Scratch::new();
+        let path = folder.path("c");
+        let mut bytes = header().encode();
+        bytes.truncate(keep);
+        bytes.extend(tail);
+        fs::write(&path, &bytes).unwrap();
+        if let Ok((_, tiles)) = Checkpoint::open(&path, &header()) {
+            prop_assert_eq!(tiles, []);
+        }
+    }
+}

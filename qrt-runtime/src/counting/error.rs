@@ -1,0 +1,122 @@
+//! What counting refuses.
+
+use std::fmt;
+
+use qrt_core::scene::Estimator;
+
+/// The largest counting register.
+pub const MAX_PHASE_BITS: u32 = 40;
+/// The most repetitions of one estimate.
+pub const MAX_REPETITIONS: u32 = 1_000_000;
+
+/// Why counting cannot be done as asked.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum CountingError {
+    /// There are no ids.
+    NoIds,
+    /// More good ids than ids.
+    MoreGoodThanTotal {
+        /// Good ids.
+        good: u64,
+        /// All ids.
+        total: u64,
+    },
+    /// The amplitude is not in [0, 1].
+    AmplitudeOutOfRange(f64),
+    /// The counting register has no size in `1..=40` bits.
+    PhaseBitsOutOfRange(u32),
+    /// The repetitions are not in `1..=1000000`.
+    RepetitionsOutOfRange(u32),
+    /// An outcome beyond T/2.
+    OutcomeOutOfRange {
+        /// The outcome.
+        outcome: u64,
+        /// The largest outcome, T/2.
+        largest: u64,
+    },
+    /// Nothing was measured, so nothing can be inferred.
+    NoOutcomes,
+    /// No number of good ids could have given these outcomes.
+    ImpossibleOutcomes,
+    /// A comparator register that is not in `0..=31` bits.
+    ComparatorBitsOutOfRange(u32),
+    /// A colour scale that is negative, not finite, or too small for its comparators.
+    ScaleOutOfRange(f64),
+    /// An estimator that this version does not have.
+    UnavailableEstimator(Estimator),
+}
+
+/// An estimator's name in scenes and on the command line.
+pub fn estimator_name(estimator: Estimator) -> &'static str {
+    match estimator {
+        Estimator::Exact => "exact",
+        Estimator::MonteCarlo => "monte-carlo",
+        Estimator::Paper => "paper",
+        Estimator::PosteriorMean => "posterior-mean",
+        Estimator::Sine => "sine",
+        Estimator::AdaptiveBayes => "adaptive-bayes",
+        Estimator::RandomDepth => "random-depth",
+        Estimator::Mlae => "mlae",
+        Estimator::Iqae => "iqae",
+        Estimator::Miqae => "miqae",
+        Estimator::Chebyshev => "chebyshev",
+        Estimator::Qss => "qss",
+        Estimator::Qcoin => "qcoin",
+        Estimator::AbramsWilliams => "abrams-williams",
+    }
+}
+
+impl fmt::Display for CountingError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::NoIds => write!(f, "the total number of ids is 0; it must be at least 1"),
+            Self::MoreGoodThanTotal { good, total } => {
+                write!(
+                    f,
+                    "{good} good ids out of {total}: there cannot be more good ids than ids"
+                )
+            }
+            Self::AmplitudeOutOfRange(amplitude) => {
+                write!(f, "an amplitude of {amplitude} is not in [0, 1]")
+            }
+            Self::PhaseBitsOutOfRange(bits) => {
+                write!(f, "{bits} phase bits are not in 1..={MAX_PHASE_BITS}")
+            }
+            Self::RepetitionsOutOfRange(count) => {
+                write!(f, "{count} repetitions are not in 1..={MAX_REPETITIONS}")
+            }
+            Self::OutcomeOutOfRange { outcome, largest } => write!(
+                f,
+                "outcome {outcome} is beyond T/2 = {largest}; outcomes y and T - y are folded \
+                 onto 0..={largest}"
+            ),
+            Self::NoOutcomes => write!(f, "no outcome to infer anything from"),
+            Self::ImpossibleOutcomes => {
+                write!(f, "no number of good ids could have given these outcomes")
+            }
+            Self::ComparatorBitsOutOfRange(bits) => {
+                write!(f, "{bits} comparator bits are not in 0..=31")
+            }
+            Self::ScaleOutOfRange(scale) => write!(
+                f,
+                "a colour scale of {scale} is negative, not finite, or too small to be divided \
+                 among its comparators"
+            ),
+            Self::UnavailableEstimator(estimator) => {
+                write!(
+                    f,
+                    "no estimator `{}` in this version; there are ",
+                    estimator_name(estimator)
+                )?;
+                for (index, &available) in super::AVAILABLE.iter().enumerate() {
+                    let separator = if index == 0 { "" } else { ", " };
+                    write!(f, "{separator}`{}`", estimator_name(available))?;
+                }
+                Ok(())
+            }
+        }
+    }
+}
+
+impl std::error::Error for CountingError {}

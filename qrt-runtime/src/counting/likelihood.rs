@@ -1,0 +1,406 @@
+//! Maximum likelihood over the number of good ids.
+//!
+//! The paper's estimator: uniform prior over the N+1 values of theta_S, B outcomes, the likeliest
+//! S. `L(S) = sum_y c_y ln P(y | theta_S)`, in logarithms throughout; where P is zero (theta_S on
+//! the grid, and not at y) L is negative infinity and S is out.
+//!
+//! # Finding the maximum without trying every S
+//!
+//! For the rectangular window, in the amplitude s = sin^2(pi theta) and with p = sin^2(pi y/T),
+//!
+//! ```text
+//! P(y) = sin^2(pi T theta)/T^2 * 2 (s + p - 2 s p)/(s - p)^2,
+//! ```
+//!
+//! and sin^2(pi T theta) is a polynomial in s with its zeros on the grid, one pair of which cancels
+//! against each outcome's poles. L is therefore a sum of logarithms of linear functions of s, with
+//! weights that are not negative: concave in every cell between neighbouring grid points. Across a
+//! gap without outcomes, from cell to cell at a fixed place within them, L is convex (sums of
+//! log-convex csc^2). So it is enough to walk outwards from every observed outcome, in both
+//! directions, until a bound of the cell falls below the best value found; and within a cell to
+//! maximise one smooth function and look at the integers beside its maximum. Where cells are
+//! narrower than the distance between integers, the walk goes from integer to integer instead.
+//!
+//! The sine window has no such product form; its lobes end half a step off the grid, its cells are
+//! those between, and its bound falls with the fourth power, so that the same walk is short.
+
+use std::collections::{BTreeMap, HashSet};
+
+use qrt_core::scene::Window;
+
+use super::distribution::{Phase, check_counts, ln_probability, register};
+use super::double::{self, Double};
+use super::error::CountingError;
+use super::kernel::Register;
+
+/// Up to this many integers of a cell are tried one by one.
+const FEW: u64 = 24;
+
+/// The likeliest number of good ids.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MaximumLikelihood {
+    /// S. Where several are equally likely to the last bit, the one farthest from N/2 (and the
+    /// smaller of two as far), so that counting the bad ids instead mirrors the answer.
+    pub good: u64,
+    /// ln of the probability of the outcomes, in their order, given S.
+    pub ln_likelihood: f64,
+}
+
+/// The number of good ids among `total` under which `outcomes` (folded, `0 ..= T/2`, in any order)
+/// are likeliest.
+///
+/// # Errors
+///
+/// No outcomes, an outcome beyond T/2, no ids, a register out of range, or outcomes that no number
+/// of good ids could have given.
+///
+/// ```
+/// use qrt_core::scene::Window;
+/// use qrt_runtime::counting::maximum_likelihood;
+/// // T = 8: outcome 2 is theta = 1/4, half of the ids.
+/// assert_eq!(maximum_likelihood(&[2, 2, 2], 1000, 3, Window::Rect)?.good, 500);
+/// # Ok::<(), qrt_runtime::counting::CountingError>(())
+/// ```
+pub fn maximum_likelihood(
+    outcomes: &[u64],
+    total: u64,
+    phase_bits: u32,
+    window: Window,
+) -> Result<MaximumLikelihood, CountingError> {
+    check_counts(0, total)?;
+    let likelihood = Likelihood::new(outcomes, register(phase_bits, window)?)?;
+    Search::new(&likelihood, total).run()
+}
+
+/// ln of the probability of `outcomes`, in their order, given `good` of `total` ids; negative
+/// infinity where it is zero.
+///
+/// # Errors
+///
+/// As [`maximum_likelihood`], and `good` above `total`.
+pub fn ln_likelihood(
+    outcomes: &[u64],
+    good: u64,
+    total: u64,
+    phase_bits: u32,
+    window: Window,
+) -> Result<f64, CountingError> {
+    check_counts(good, total)?;
+    let likelihood = Likelihood::new(outcomes, register(phase_bits, window)?)?;
+    Ok(likelihood.at(Phase::of(good, total, &likelihood.register)))
+}
+
+struct Likelihood {
+    register: Register,
+    /// Outcome and how often, the most frequent first.
+    outcomes: Vec<(u64, f64)>,
+}
+
+impl Likelihood {
+    fn new(outcomes: &[u64], register: Register) -> Result<Self, CountingError> {
+        let largest = register.size() / 2;
+        let mut counts = BTreeMap::new();
+        for &outcome in outcomes {
+            if outcome > largest {
+                return Err(CountingError::OutcomeOutOfRange { outcome, largest });
+            }
+            *counts.entry(outcome).or_insert(0_u64) += 1;
+        }
+        if counts.is_empty() {
+            return Err(CountingError::NoOutcomes);
+        }
+        let mut outcomes: Vec<_> = counts.into_iter().map(|(y, c)| (y, c as f64)).collect();
+        outcomes.sort_by(|a, b| b.1.total_cmp(&a.1));
+        Ok(Self { register, outcomes })
+    }
+
+    fn at(&self, phase: Phase) -> f64 {
+        self.outcomes
+            .iter()
+            .map(|&(y, c)| c * ln_probability(&self.register, phase, y))
+            .sum()
+    }
+
+    /// A bound of L over a cell, from its distances to the outcomes and to their mirror images;
+    /// exact only in not being exceeded. Stops as soon as it is below `floor`.
+    fn bound(&self, cell: u64, floor: f64) -> f64 {
+        let size = self.register.size();
+        let mut bound = 0.0;
+        for &(y, count) in &self.outcomes {
+            let (near, far) = match self.register.window {
+                Window::Rect => {
+                    let near = if y <= cell { cell - y } else { y - cell - 1 };
+                    (near as f64, (y + cell).min(size - y - cell - 1) as f64)
+                }
+                Window::Sine => {
+                    let far = (y + cell).min(size - y - cell);
+                    (y.abs_diff(cell) as f64 - 0.5, far as f64 - 0.5)
+                }
+            };
+            let near = self.register.envelope(near.max(0.0));
+            let far = if y == 0 || y == size / 2 {
+                0.0
+            } else {
+                self.register.envelope(far.max(0.0))
+            };
+            bound += count * libm::log((near * near + far * far).min(1.0));
+            if bound < floor {
+                break;
+            }
+        }
+        bound
+    }
+}
+
+struct Search<'a> {
+    likelihood: &'a Likelihood,
+    total: u64,
+    best: MaximumLikelihood,
+    visited: HashSet<u64>,
+}
+
+impl<'a> Search<'a> {
+    fn new(likelihood: &'a Likelihood, total: u64) -> Self {
+        let best = MaximumLikelihood {
+            good: 0,
+            ln_likelihood: f64::NEG_INFINITY,
+        };
+        Self {
+            likelihood,
+            total,
+            best,
+            visited: HashSet::new(),
+        }
+    }
+
+    fn run(mut self) -> Result<MaximumLikelihood, CountingError> {
+        let last = self.last_cell();
+        for &(outcome, _) in &self.likelihood.outcomes {
+            let mut cell = Some(outcome.min(last));
+            while let Some(current) = cell {
+                cell = self.step(current, true);
+            }
+            let mut cell = outcome.checked_sub(1);
+            while let Some(current) = cell {
+                cell = self.step(current, false);
+            }
+        }
+        if self.best.ln_likelihood == f64::NEG_INFINITY {
+            return Err(CountingError::ImpossibleOutcomes);
+        }
+        Ok(self.best)
+    }
+
+    fn last_cell(&self) -> u64 {
+        let half = self.likelihood.register.size() / 2;
+        match self.likelihood.register.window {
+            Window::Rect => half - 1,
+            Window::Sine => half,
+        }
+    }
+
+    /// A cell's ends relative to the grid point of its number.
+    fn ends(&self, cell: u64) -> (f64, f64) {
+        match self.likelihood.register.window {
+            Window::Rect => (0.0, 1.0),
+            Window::Sine => (
+                if cell == 0 { 0.0 } else { -0.5 },
+                if cell == self.last_cell() { 0.0 } else { 0.5 },
+            ),
+        }
+    }
+
+    /// Looks at one cell; the next in the same direction, unless the walk ends here.
+    fn step(&mut self, cell: u64, upwards: bool) -> Option<u64> {
+        if self.visited.contains(&cell) {
+            return None;
+        }
+        let floor = self.best.ln_likelihood;
+        if self.likelihood.bound(cell, floor) < floor {
+            return None;
+        }
+        self.visited.insert(cell);
+        let (low, high) = self.ends(cell);
+        // One integer beyond either end, so that no rounding loses one.
+        let first = self.good_at(cell, low);
+        let last = self.good_at(cell, high).saturating_add(1).min(self.total);
+        if last - first <= FEW {
+            for good in first..=last {
+                self.consider(good);
+            }
+        } else {
+            self.consider(first);
+            self.consider(last);
+            let remainder = self.peak(cell, low, high);
+            self.climb(self.good_at(cell, remainder));
+        }
+        // Where the neighbouring cells hold no integer, on to the one that does.
+        if upwards {
+            let next = (cell + 1).max(self.cell_of(last).min(self.last_cell()));
+            (cell < self.last_cell()).then_some(next)
+        } else {
+            Some(cell.checked_sub(1)?.min(self.cell_of(first)))
+        }
+    }
+
+    /// The largest S whose phase is not above the given one.
+    fn good_at(&self, cell: u64, remainder: f64) -> u64 {
+        let steps = Double::from(cell) + Double::from(remainder);
+        let theta = steps.scale(1.0 / self.likelihood.register.size() as f64);
+        (double::sine_squared(theta) * Double::from(self.total))
+            .floor()
+            .min(self.total)
+    }
+
+    fn cell_of(&self, good: u64) -> u64 {
+        let phase = Phase::of(good, self.total, &self.likelihood.register);
+        match self.likelihood.register.window {
+            Window::Rect if phase.offset < 0.0 => phase.cell - 1,
+            _ => phase.cell,
+        }
+    }
+
+    fn consider(&mut self, good: u64) -> bool {
+        let phase = Phase::of(good, self.total, &self.likelihood.register);
+        let value = self.likelihood.at(phase);
+        let better = value > self.best.ln_likelihood;
+        let rank = |good: u64| (good.min(self.total - good), good);
+        if better || (value == self.best.ln_likelihood && rank(good) < rank(self.best.good)) {
+            self.best = MaximumLikelihood {
+                good,
+                ln_likelihood: value,
+            };
+        }
+        better
+    }
+
+    /// The integers around `good`, on for as long as they improve.
+    fn climb(&mut self, good: u64) {
+        self.consider(good);
+        for upwards in [true, false] {
+            let mut current = good;
+            for _ in 0..FEW {
+                let next = if upwards {
+                    current.checked_add(1)
+                } else {
+                    current.checked_sub(1)
+                };
+                let Some(next) = next.filter(|&next| next <= self.total) else {
+                    break;
+                };
+                if !self.consider(next) && next.abs_diff(good) > 1 {
+                    break;
+                }
+                current = next;
+            }
+        }
+    }
+
+    /// Where in the cell L is largest.
+    fn peak(&self, cell: u64, low: f64, high: f64) -> f64 {
+        let value = |remainder: f64| {
+            let value = self.likelihood.at(Phase::at(cell, remainder));
+            if value == f64::NEG_INFINITY {
+                f64::MIN
+            } else {
+                value
+            }
+        };
+        match self.likelihood.register.window {
+            Window::Rect => maximise(value, low, high),
+            Window::Sine => {
+                // Not provably unimodal: bracket the best of several places first.
+                const PLACES: u32 = 8;
+                let place = |i: u32| low + (high - low) * f64::from(i) / f64::from(PLACES);
+                let mut best = (0, f64::NEG_INFINITY);
+                for i in 0..=PLACES {
+                    let found = value(place(i));
+                    if found > best.1 {
+                        best = (i, found);
+                    }
+                }
+                maximise(
+                    value,
+                    place(best.0.saturating_sub(1)),
+                    place((best.0 + 1).min(PLACES)),
+                )
+            }
+        }
+    }
+}
+
+/// Brent's maximum of a unimodal function (*Algorithms for minimization without derivatives*,
+/// 1973, chapter 5): parabolas, and golden sections where they fail.
+fn maximise(value: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
+    const GOLDEN: f64 = 0.381_966_011_250_105_1;
+    const TOLERANCE: f64 = 1e-10;
+    let mut best = low + GOLDEN * (high - low);
+    let (mut second, mut third) = (best, best);
+    let mut best_value = value(best);
+    let (mut second_value, mut third_value) = (best_value, best_value);
+    let (mut step, mut before_last) = (0.0_f64, 0.0_f64);
+    for _ in 0..80 {
+        let middle = 0.5 * (low + high);
+        if (best - middle).abs() <= 2.0 * TOLERANCE - 0.5 * (high - low) {
+            break;
+        }
+        let mut parabolic = false;
+        if before_last.abs() > TOLERANCE {
+            let r = (best - second) * (best_value - third_value);
+            let q = (best - third) * (best_value - second_value);
+            let p = (best - third) * q - (best - second) * r;
+            let q = 2.0 * (q - r);
+            let (p, q) = if q > 0.0 { (-p, q) } else { (p, -q) };
+            // Comparisons with an overflown or undefined parabola are false: a golden section.
+            parabolic = p.abs() < (0.5 * q * before_last).abs()
+                && p > q * (low - best)
+                && p < q * (high - best);
+            if parabolic {
+                before_last = step;
+                step = p / q;
+                let next = best + step;
+                if next - low < 2.0 * TOLERANCE || high - next < 2.0 * TOLERANCE {
+                    step = TOLERANCE.copysign(middle - best);
+                }
+            }
+        }
+        if !parabolic {
+            before_last = if best < middle {
+                high - best
+            } else {
+                low - best
+            };
+            step = GOLDEN * before_last;
+        }
+        let next = best
+            + if step.abs() >= TOLERANCE {
+                step
+            } else {
+                TOLERANCE.copysign(step)
+            };
+        let next_value = value(next);
+        if next_value >= best_value {
+            if next < best {
+                high = best;
+            } else {
+                low = best;
+            }
+            (third, third_value) = (second, second_value);
+            (second, second_value) = (best, best_value);
+            (best, best_value) = (next, next_value);
+        } else {
+            if next < best {
+                low = next;
+            } else {
+                high = next;
+            }
+            if next_value >= second_value || second == best {
+                (third, third_value) = (second, second_value);
+                (second, second_value) = (next, next_value);
+            } else if next_value >= third_value || third == best || third == second {
+                (third, third_value) = (next, next_value);
+            }
+        }
+    }
+    best
+}

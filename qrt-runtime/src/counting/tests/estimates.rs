@@ -1,0 +1,300 @@
+//! What the estimators promise: the true maximum, the stated coverage, the stated cost.
+
+use std::f64::consts::PI;
+
+use proptest::prelude::*;
+use qrt_core::scene::{Counting, Estimator, Window};
+
+use crate::counting::{
+    AVAILABLE, CountingError, PhaseDistribution, Problem, WindowedCounting, estimate,
+    estimator_name, ln_likelihood, maximum_likelihood,
+};
+use crate::random::Stream;
+
+fn counting(phase_bits: u32, repetitions: u32) -> Counting {
+    Counting {
+        phase_bits,
+        repetitions,
+        window: Window::Sine,
+        estimator: Estimator::Paper,
+    }
+}
+
+fn window() -> impl Strategy<Value = Window> {
+    prop_oneof![Just(Window::Rect), Just(Window::Sine)]
+}
+
+/// Every S, one by one.
+fn brute(outcomes: &[u64], total: u64, bits: u32, window: Window) -> (u64, f64) {
+    let mut best = (0, f64::NEG_INFINITY);
+    for good in 0..=total {
+        let value = ln_likelihood(outcomes, good, total, bits, window).unwrap();
+        if value > best.1 {
+            best = (good, value);
+        }
+    }
+    best
+}
+
+fn same_maximum(outcomes: &[u64], total: u64, bits: u32, window: Window) {
+    let (good, value) = brute(outcomes, total, bits, window);
+    let Ok(found) = maximum_likelihood(outcomes, total, bits, window) else {
+        assert_eq!(value, f64::NEG_INFINITY);
+        return;
+    };
+    // Where roundings tie two values of S, either will do.
+    assert!(
+        found.good == good || (found.ln_likelihood - value).abs() <= 1e-12 * (1.0 + value.abs()),
+        "{found:?}, not S = {good} with {value}: {outcomes:?} N={total} t={bits} {window:?}"
+    );
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(150))]
+
+    #[test]
+    fn the_likeliest_count_is_found_without_trying_them_all(
+        total in 1..=4096_u64, fraction in 0.0..=1.0_f64, bits in 1..=14_u32, shots in 1..24_u32,
+        window in window(), seed in any::<u64>(),
+    ) {
+        let good = (fraction * total as f64).round() as u64;
+        let run = WindowedCounting { phase_bits: bits, repetitions: shots, window };
+        let mut stream = Stream::new(seed, 0, 0, 0);
+        let outcomes = run.outcomes(Problem { good, total }, &mut stream).unwrap();
+        same_maximum(&outcomes, total, bits, window);
+    }
+
+    /// Not what any one theta would give: several peaks, gaps and ties.
+    #[test]
+    fn the_likeliest_count_is_found_for_arbitrary_outcomes(
+        total in 1..=600_u64, bits in 1..=9_u32,
+        outcomes in proptest::collection::vec(0.0..=1.0_f64, 1..8),
+    ) {
+        let half = (1_u64 << bits) / 2;
+        let outcomes: Vec<u64> =
+            outcomes.into_iter().map(|y| (y * half as f64).round() as u64).collect();
+        same_maximum(&outcomes, total, bits, Window::Rect);
+        same_maximum(&outcomes, total, bits, Window::Sine);
+    }
+
+    #[test]
+    fn no_neighbour_of_the_likeliest_count_is_likelier_at_any_size(
+        total in 1..=(1_u64 << 60), power in 0..60_u32, fraction in 0.0..=1.0_f64,
+        bits in 1..=40_u32, shots in 1..9_u32, window in window(), seed in any::<u64>(),
+    ) {
+        let total = (total >> power).max(1);
+        let good = ((fraction * total as f64) as u64).min(total);
+        let run = WindowedCounting { phase_bits: bits, repetitions: shots, window };
+        let mut stream = Stream::new(seed, 1, 0, 0);
+        let outcomes = run.outcomes(Problem { good, total }, &mut stream).unwrap();
+        let found = maximum_likelihood(&outcomes, total, bits, window).unwrap();
+        let value = |good| ln_likelihood(&outcomes, good, total, bits, window).unwrap();
+        let slack = 1e-9 * (1.0 + found.ln_likelihood.abs());
+        // The truth is a candidate like any other.
+        prop_assert!(value(good) <= found.ln_likelihood + slack);
+        let step = (total >> bits).max(1);
+        for distance in [1, 2, 3, step, 3 * step, 10 * step] {
+            for other in [found.good.saturating_sub(distance), found.good.saturating_add(distance)] {
+                prop_assert!(value(other.min(total)) <= found.ln_likelihood + slack);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_million_repetitions_neither_underflow_nor_miss() {
+    let total = 1_u64 << 60;
+    let good = total / 7 * 2;
+    for (name, bits) in [
+        (Estimator::Paper, 6),
+        (Estimator::Sine, 6),
+        (Estimator::Sine, 20),
+    ] {
+        let mut stream = Stream::new(2, 0, 0, 0);
+        let found = estimate(name, &counting(bits, 1_000_000), good, total, &mut stream).unwrap();
+        let error = (found.amplitude - 2.0 / 7.0).abs();
+        assert!(
+            error < 0.02 / f64::from(1_u32 << bits),
+            "{name:?} {bits}: {error}"
+        );
+        assert!(found.ln_likelihood.unwrap().is_finite());
+        assert_eq!(found.queries, ((1 << bits) - 1) * 1_000_000);
+        assert!(found.interval.0 <= 2.0 / 7.0 && 2.0 / 7.0 <= found.interval.1);
+    }
+}
+
+/// |S~ - S| <= 2 pi sqrt(S (N-S))/T + pi^2 N/T^2 with probability at least 8/pi^2: exactly, from
+/// the distribution, for S~ = N sin^2(pi y/T). The paper's bound has no N in its second term.
+#[test]
+fn the_bound_on_the_count_holds_with_its_n_and_fails_without() {
+    let mut failures = 0;
+    let mut stream = Stream::new(8, 0, 0, 0);
+    for _ in 0..400 {
+        let total = 1 + stream.next_u64() % (1 << (1 + stream.next_u64() % 20));
+        let good = stream.next_u64() % (total + 1);
+        let bits = 1 + (stream.next_u64() % 10) as u32;
+        let size = f64::from(1_u32 << bits);
+        let (s, n) = (good as f64, total as f64);
+        let first = 2.0 * PI * (s * (n - s)).sqrt() / size;
+        for window in [Window::Rect, Window::Sine] {
+            let found = PhaseDistribution::new(good, total, bits, window).unwrap();
+            let within = |bound: f64| -> f64 {
+                (0..=found.largest_outcome())
+                    .filter(|&y| {
+                        let sine = libm::sin(PI * y as f64 / size);
+                        (n * sine * sine - s).abs() <= bound * (1.0 + 1e-12)
+                    })
+                    .map(|y| found.probability(y))
+                    .sum()
+            };
+            let least = 8.0 / (PI * PI) - 1e-12;
+            let right = within(first + PI * PI * n / (size * size));
+            assert!(
+                right >= least,
+                "{good} of {total}, {bits} bits, {window:?}: {right}"
+            );
+            failures += u32::from(within(first + PI * PI / (size * size)) < least);
+        }
+    }
+    assert!(failures > 0);
+}
+
+/// A grid of phases finer than any feature of the kernel.
+#[test]
+fn one_outcome_is_within_a_step_with_the_stated_probability() {
+    for bits in [1, 2, 3, 4, 7, 12] {
+        for window in [Window::Rect, Window::Sine] {
+            for i in 0..=2000 {
+                let theta = f64::from(i) / 4000.0;
+                let sine = libm::sin(PI * theta);
+                let found = PhaseDistribution::from_amplitude(sine * sine, bits, window).unwrap();
+                let steps = found.theta() * f64::from(1_u32 << bits);
+                let sum: f64 = (0..=found.largest_outcome())
+                    .filter(|&y| (y as f64 - steps).abs() <= 1.0 + 1e-9)
+                    .map(|y| found.probability(y))
+                    .sum();
+                assert!(
+                    sum >= 8.0 / (PI * PI) - 1e-9,
+                    "{bits} {window:?} {theta}: {sum}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn intervals_cover_as_often_as_they_say() {
+    let mut choice = Stream::new(77, 0, 0, 0);
+    for name in [Estimator::Paper, Estimator::Sine, Estimator::MonteCarlo] {
+        for repetitions in [1, 2, 3, 6] {
+            let (mut covered, mut confidence) = (0.0, 0.0);
+            let runs = 2000;
+            for run in 0..runs {
+                let total = 1 + choice.next_u64() % (1 << 22);
+                let good = (choice.uniform() * choice.uniform() * total as f64) as u64;
+                let mut stream = Stream::new(5, run, repetitions, 0);
+                let settings = counting(4 + run % 5, repetitions);
+                let found = estimate(name, &settings, good, total, &mut stream).unwrap();
+                let truth = good as f64 / total as f64;
+                let (low, high) = found.interval;
+                assert!(0.0 <= low && low <= found.amplitude);
+                assert!(found.amplitude <= high && high <= 1.0);
+                covered += f64::from(u8::from(low - 1e-12 <= truth && truth <= high + 1e-12));
+                confidence = found.confidence;
+            }
+            let share = covered / f64::from(runs);
+            let deviation = (confidence * (1.0 - confidence) / f64::from(runs)).sqrt();
+            assert!(
+                share >= confidence - 4.0 * deviation,
+                "{name:?} B={repetitions}: {share}"
+            );
+        }
+    }
+}
+
+/// Measured elsewhere for a uniform in [0, 1] (root mean square errors): single-shot counting
+/// 0.50/sqrt(T), the sine window 1.28/T, Monte Carlo 0.41/sqrt(n).
+#[test]
+fn errors_scale_as_the_literature_says() {
+    let rmse = |name, bits: u32| {
+        let runs = 4000;
+        let mut sum = 0.0;
+        for run in 0..runs {
+            let mut stream = Stream::new(31, run, bits, 0);
+            let total = 1_u64 << 40;
+            let good = (stream.uniform() * total as f64) as u64;
+            let found = estimate(name, &counting(bits, 1), good, total, &mut stream).unwrap();
+            let error = found.amplitude - good as f64 / total as f64;
+            sum += error * error;
+        }
+        (sum / f64::from(runs)).sqrt()
+    };
+    for bits in [6, 8] {
+        let size = f64::from(1_u32 << bits);
+        let monte_carlo = rmse(Estimator::MonteCarlo, bits) * (size - 1.0).sqrt();
+        let paper = rmse(Estimator::Paper, bits) * size.sqrt();
+        let sine = rmse(Estimator::Sine, bits) * size;
+        assert!((monte_carlo - 0.41).abs() < 0.02, "{monte_carlo}");
+        assert!((paper - 0.50).abs() < 0.06, "{paper}");
+        assert!((sine - 1.28).abs() < 0.15, "{sine}");
+    }
+}
+
+#[test]
+fn exact_is_exact_and_extremes_are_never_missed() {
+    let mut stream = Stream::new(0, 0, 0, 0);
+    for total in [1, 2, 1000, 1 << 60] {
+        for good in [0, 1, total - 1, total] {
+            for name in AVAILABLE {
+                for (bits, repetitions) in [(1, 1), (2, 3), (10, 2), (40, 1)] {
+                    let settings = counting(bits, repetitions);
+                    let found = estimate(name, &settings, good, total, &mut stream).unwrap();
+                    let truth = good as f64 / total as f64;
+                    assert!(found.amplitude.is_finite());
+                    let certain = good == 0 || good == total;
+                    if name == Estimator::Exact || (certain && name != Estimator::Sine) {
+                        assert_eq!(found.amplitude, truth, "{name:?} {good}/{total}");
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn what_cannot_be_estimated_is_refused_with_what_can() {
+    let mut stream = Stream::new(0, 0, 0, 0);
+    let error = estimate(Estimator::Qcoin, &counting(5, 1), 1, 2, &mut stream).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "no estimator `qcoin` in this version; there are `exact`, `monte-carlo`, `paper`, `sine`"
+    );
+    for name in AVAILABLE {
+        assert!(!estimator_name(name).is_empty());
+        assert_eq!(
+            estimate(name, &counting(5, 1), 1, 0, &mut stream),
+            Err(CountingError::NoIds)
+        );
+        let error = estimate(name, &counting(5, 1), 3, 2, &mut stream).unwrap_err();
+        assert_eq!(
+            error,
+            CountingError::MoreGoodThanTotal { good: 3, total: 2 }
+        );
+    }
+    for (bits, repetitions) in [(0, 1), (41, 1), (5, 0), (5, 1_000_001)] {
+        for name in [Estimator::Paper, Estimator::Sine, Estimator::MonteCarlo] {
+            assert!(estimate(name, &counting(bits, repetitions), 1, 2, &mut stream).is_err());
+        }
+    }
+    let ml = |outcomes: &[u64], total| maximum_likelihood(outcomes, total, 3, Window::Rect);
+    assert_eq!(ml(&[], 5), Err(CountingError::NoOutcomes));
+    assert_eq!(
+        ml(&[5], 5),
+        Err(CountingError::OutcomeOutOfRange {
+            outcome: 5,
+            largest: 4
+        })
+    );
+    assert_eq!(ml(&[3], 1), Err(CountingError::ImpossibleOutcomes));
+    assert_eq!(ml(&[0, 4], 1), Err(CountingError::ImpossibleOutcomes));
+}

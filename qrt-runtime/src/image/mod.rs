@@ -1,0 +1,282 @@
+//! Pictures and the files they are kept in.
+//!
+//! A picture holds linear radiance. EXR keeps it as it is, in 32-bit floats; PNG shows it: times
+//! `2^exposure`, through the sRGB curve, to 8 bits. Both say in their metadata how they were made,
+//! and both are written whole or not at all.
+
+mod counts;
+mod exr_file;
+mod metadata;
+mod png_file;
+mod srgb;
+#[cfg(test)]
+mod tests;
+
+pub use counts::{Count, write_counts};
+pub use metadata::Metadata;
+pub use png_file::read_png_metadata;
+
+use crate::replace_file::replace_file;
+use std::path::{Path, PathBuf};
+use std::{fmt, io};
+
+/// Linear RGB (sRGB primaries), row by row from the top, each row from the left.
+#[derive(Clone, Debug, PartialEq)]
+#[allow(missing_docs)]
+pub struct Image {
+    pub width: u32,
+    pub height: u32,
+    pub pixels: Vec<[f64; 3]>,
+}
+
+/// How a picture becomes a file.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Encoding {
+    /// 8-bit sRGB of radiance times `2^exposure`.
+    #[allow(missing_docs)]
+    Png { exposure: f64 },
+    /// Linear 32-bit float RGB.
+    Exr,
+}
+
+impl Encoding {
+    /// What the name of a picture asks for, so that a wrong one is known before it is rendered.
+    /// `exposure` is in stops, by default 0.
+    ///
+    /// # Errors
+    /// Names that end neither in `.png` nor in `.exr`; an exposure beyond 1,000 stops, or one for
+    /// EXR, which has none.
+    ///
+    /// ```
+    /// use qrt_runtime::image::Encoding;
+    /// use std::path::Path;
+    /// let encoding = Encoding::of(Path::new("box.png"), Some(1.5))?;
+    /// assert_eq!(encoding, Encoding::Png { exposure: 1.5 });
+    /// assert!(Encoding::of(Path::new("box.jpg"), None).is_err());
+    /// # Ok::<(), qrt_runtime::image::ImageError>(())
+    /// ```
+    pub fn of(path: &Path, exposure: Option<f64>) -> Result<Self, ImageError> {
+        let extension = path.extension().map(std::ffi::OsStr::to_ascii_lowercase);
+        match (
+            extension.as_deref().and_then(std::ffi::OsStr::to_str),
+            exposure,
+        ) {
+            (Some("png"), None) => Ok(Self::Png { exposure: 0.0 }),
+            (Some("png"), Some(exposure)) if exposure.abs() <= 1000.0 => Ok(Self::Png { exposure }),
+            (Some("png"), Some(exposure)) => Err(ImageError::Exposure { exposure }),
+            (Some("exr"), None) => Ok(Self::Exr),
+            (Some("exr"), Some(_)) => Err(ImageError::ExposureOfExr),
+            _ => Err(ImageError::Extension {
+                path: path.to_path_buf(),
+            }),
+        }
+    }
+}
+
+/// Writes a picture, all or nothing, and returns how many of its pixels the encoding had to clip
+/// (PNG: those with a channel that doesn't round to a level from 0 to 255; EXR: none).
+///
+/// # Errors
+/// See [`ImageError`]. No value is changed silently: what is not finite, or too large for EXR's
+/// 32 bits, is refused.
+///
+/// ```
+/// use qrt_runtime::image::{Encoding, Image, Metadata, save};
+/// let path = std::env::temp_dir().join(format!("qrt-doc-{}.png", std::process::id()));
+/// let image = Image { width: 2, height: 1, pixels: vec![[0.0, 0.5, 1.0], [0.2, 0.2, 17.0]] };
+/// let clipped = save(&path, &image, &Metadata::new(), Encoding::of(&path, None)?)?;
+/// assert_eq!(clipped, 1);
+/// # std::fs::remove_file(path).ok();
+/// # Ok::<(), qrt_runtime::image::ImageError>(())
+/// ```
+pub fn save(
+    path: &Path,
+    image: &Image,
+    metadata: &Metadata,
+    encoding: Encoding,
+) -> Result<u64, ImageError> {
+    image.check(encoding)?;
+    let io = |source| ImageError::Io {
+        path: path.to_path_buf(),
+        source,
+    };
+    let mut clipped = 0;
+    replace_file(path, |out| match encoding {
+        Encoding::Png { exposure } => {
+            let scale = libm::exp2(exposure);
+            clipped = png_file::write(out, image, metadata, scale).map_err(|e| match e {
+                png::EncodingError::IoError(e) => e,
+                other => io::Error::other(other),
+            })?;
+            Ok(())
+        }
+        Encoding::Exr => exr_file::write(out, image, metadata),
+    })
+    .map_err(io)?;
+    Ok(clipped)
+}
+
+impl Image {
+    fn check(&self, encoding: Encoding) -> Result<(), ImageError> {
+        let &Self {
+            width,
+            height,
+            ref pixels,
+        } = self;
+        // What PNG and EXR can say of a size.
+        let largest = (1 << 31) - 1;
+        let shape = (1..=largest).contains(&width)
+            && (1..=largest).contains(&height)
+            && u64::from(width) * u64::from(height) == pixels.len() as u64
+            && width.checked_mul(12).is_some();
+        if !shape {
+            return Err(ImageError::Shape {
+                width,
+                height,
+                pixels: pixels.len(),
+            });
+        }
+        for (i, pixel) in pixels.iter().enumerate() {
+            for (channel, &value) in pixel.iter().enumerate() {
+                let x = (i % width as usize) as u32;
+                let y = (i / width as usize) as u32;
+                if !value.is_finite() {
+                    return Err(ImageError::NotFinite {
+                        x,
+                        y,
+                        channel,
+                        value,
+                    });
+                }
+                if encoding == Encoding::Exr && (value as f32).is_infinite() {
+                    return Err(ImageError::TooLarge {
+                        x,
+                        y,
+                        channel,
+                        value,
+                    });
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+fn channel_name(channel: usize) -> &'static str {
+    ["r", "g", "b"].get(channel).copied().unwrap_or("?")
+}
+
+/// Why a picture can't be written or read.
+#[derive(Debug)]
+#[allow(missing_docs)]
+pub enum ImageError {
+    /// Neither `.png` nor `.exr`.
+    Extension { path: PathBuf },
+    /// Not a number of stops between -1,000 and 1,000.
+    Exposure { exposure: f64 },
+    /// EXR is linear.
+    ExposureOfExr,
+    /// A side of 0 or too long, or pixels that don't fill it.
+    Shape {
+        width: u32,
+        height: u32,
+        pixels: usize,
+    },
+    /// NaN or infinite.
+    NotFinite {
+        x: u32,
+        y: u32,
+        channel: usize,
+        value: f64,
+    },
+    /// Beyond a 32-bit float.
+    TooLarge {
+        x: u32,
+        y: u32,
+        channel: usize,
+        value: f64,
+    },
+    /// Not a key of metadata.
+    Key { key: String },
+    /// Not a value of metadata.
+    Value { key: String },
+    /// The file system refused.
+    Io { path: PathBuf, source: io::Error },
+    /// Not a file that can be read as a picture.
+    Decode { path: PathBuf, reason: String },
+}
+
+impl fmt::Display for ImageError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Extension { path } => write!(
+                f,
+                "`{}` does not say which kind of picture it is: end its name in `.png` or `.exr`",
+                path.display()
+            ),
+            Self::Exposure { exposure } => {
+                write!(
+                    f,
+                    "an exposure of {exposure} stops; it must lie between -1000 and 1000"
+                )
+            }
+            Self::ExposureOfExr => write!(
+                f,
+                "an EXR picture keeps linear radiance and has no exposure: leave it out, or write \
+                 a `.png`"
+            ),
+            Self::Shape {
+                width,
+                height,
+                pixels,
+            } => {
+                write!(
+                    f,
+                    "a picture of {width} x {height} cannot be made of {pixels} pixels"
+                )
+            }
+            Self::NotFinite {
+                x,
+                y,
+                channel,
+                value,
+            } => write!(
+                f,
+                "pixel ({x}, {y}), channel {}, is {value}, which is no radiance",
+                channel_name(*channel)
+            ),
+            Self::TooLarge {
+                x,
+                y,
+                channel,
+                value,
+            } => write!(
+                f,
+                "pixel ({x}, {y}), channel {}, is {value:e}: EXR's 32-bit floats end at {:e}",
+                channel_name(*channel),
+                f32::MAX
+            ),
+            Self::Key { key } => write!(
+                f,
+                "`{key}` is no key of metadata: 1 to 27 ASCII letters, digits, `_` or `-`"
+            ),
+            Self::Value { key } => {
+                write!(
+                    f,
+                    "the value of `{key}` contains a NUL or is larger than 2 GiB"
+                )
+            }
+            Self::Io { path, source } => write!(f, "`{}`: {source}", path.display()),
+            Self::Decode { path, reason } => write!(f, "`{}`: {reason}", path.display()),
+        }
+    }
+}
+
+impl std::error::Error for ImageError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            Self::Io { source, .. } => Some(source),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,233 @@
+//! The tracer's arithmetic over SIMD lanes of `f64`.
+//!
+//! One path a lane. Every operation is a single correctly rounded IEEE 754 operation (no fused
+//! multiply-add) or a function of the `libm` crate, so that AVX-512, AVX2, NEON and plain code
+//! give the same bits.
+
+use pulp::bytemuck;
+use qrt_core::expr::Function;
+use qrt_core::sampling::cell_centre;
+use qrt_core::tracer::{Arith, Coordinate, Sampled};
+
+/// Paths traced between two hand-overs of sample indices.
+pub(crate) const BLOCK: usize = 256;
+
+/// What a block of paths reads: indices by dimension, and the pixel of each path.
+pub(crate) struct Inputs {
+    pub(crate) indices: Vec<[u32; BLOCK]>,
+    pub(crate) column: [f64; BLOCK],
+    pub(crate) row: [f64; BLOCK],
+}
+
+/// Registers per value: two give the processor independent work while a division is under way.
+pub(crate) const WIDTH: usize = 2;
+
+/// Lanes of one instruction set, standing at `first` in a block.
+#[derive(Clone, Copy)]
+pub(crate) struct Lanes<'a, S> {
+    pub(crate) simd: S,
+    pub(crate) inputs: &'a Inputs,
+    pub(crate) first: usize,
+}
+
+/// The lanes of `vector` as a slice.
+#[inline(always)]
+pub(crate) fn lanes<T: bytemuck::Pod, U: bytemuck::Pod>(vector: &[T; WIDTH]) -> &[U] {
+    bytemuck::cast_slice(vector)
+}
+
+#[inline(always)]
+fn each<T: Copy, R>(a: [T; WIDTH], f: impl Fn(T) -> R) -> [R; WIDTH] {
+    a.map(f)
+}
+
+#[inline(always)]
+fn both<T: Copy, U: Copy, R>(a: [T; WIDTH], b: [U; WIDTH], f: impl Fn(T, U) -> R) -> [R; WIDTH] {
+    std::array::from_fn(|k| f(a[k], b[k]))
+}
+
+impl<S: pulp::Simd> Lanes<'_, S> {
+    /// Paths in a value.
+    pub(crate) const COUNT: usize = WIDTH * S::F64_LANES;
+
+    #[inline(always)]
+    fn reals(&self, value: impl Fn(usize) -> f64) -> [S::f64s; WIDTH] {
+        let mut vector = [self.simd.splat_f64s(0.0); WIDTH];
+        let slots: &mut [f64] = bytemuck::cast_slice_mut(&mut vector);
+        for (lane, slot) in slots.iter_mut().enumerate() {
+            *slot = value(lane);
+        }
+        vector
+    }
+
+    #[inline(always)]
+    fn indices(&self, value: impl Fn(usize) -> u64) -> [S::u64s; WIDTH] {
+        let mut vector = [self.simd.splat_u64s(0); WIDTH];
+        let slots: &mut [u64] = bytemuck::cast_slice_mut(&mut vector);
+        for (lane, slot) in slots.iter_mut().enumerate() {
+            *slot = value(lane);
+        }
+        vector
+    }
+}
+
+impl<S: pulp::Simd> Arith for Lanes<'_, S> {
+    type Real = [S::f64s; WIDTH];
+    type Bool = [S::m64s; WIDTH];
+    type Index = [S::u64s; WIDTH];
+
+    #[inline(always)]
+    fn real(&mut self, value: f64) -> Self::Real {
+        [self.simd.splat_f64s(value); WIDTH]
+    }
+    #[inline(always)]
+    fn add(&mut self, a: Self::Real, b: Self::Real) -> Self::Real {
+        both(a, b, |a, b| self.simd.add_f64s(a, b))
+    }
+    #[inline(always)]
+    fn sub(&mut self, a: Self::Real, b: Self::Real) -> Self::Real {
+        both(a, b, |a, b| self.simd.sub_f64s(a, b))
+    }
+    #[inline(always)]
+    fn mul(&mut self, a: Self::Real, b: Self::Real) -> Self::Real {
+        both(a, b, |a, b| self.simd.mul_f64s(a, b))
+    }
+    #[inline(always)]
+    fn div(&mut self, a: Self::Real, b: Self::Real) -> Self::Real {
+        both(a, b, |a, b| self.simd.div_f64s(a, b))
+    }
+    #[inline(always)]
+    fn neg(&mut self, a: Self::Real) -> Self::Real {
+        each(a, |a| self.simd.neg_f64s(a))
+    }
+    #[inline(always)]
+    fn abs(&mut self, a: Self::Real) -> Self::Real {
+        each(a, |a| self.simd.abs_f64s(a))
+    }
+    #[inline(always)]
+    fn sqrt(&mut self, a: Self::Real) -> Self::Real {
+        each(a, |a| self.simd.sqrt_f64s(a))
+    }
+    // Not the instruction sets' own: they differ in what they make of NaN and of zeros' signs.
+    #[inline(always)]
+    fn min(&mut self, a: Self::Real, b: Self::Real) -> Self::Real {
+        let less = self.less(a, b);
+        self.select(less, a, b)
+    }
+    #[inline(always)]
+    fn max(&mut self, a: Self::Real, b: Self::Real) -> Self::Real {
+        let greater = self.less(b, a);
+        self.select(greater, a, b)
+    }
+    #[inline(always)]
+    fn function(&mut self, function: Function, a: Self::Real) -> Self::Real {
+        self.reals(|lane| function.value(lanes::<_, f64>(&a)[lane]))
+    }
+    #[inline(always)]
+    fn pow(&mut self, a: Self::Real, b: Self::Real) -> Self::Real {
+        self.reals(|lane| libm::pow(lanes(&a)[lane], lanes(&b)[lane]))
+    }
+    #[inline(always)]
+    fn atan2(&mut self, y: Self::Real, x: Self::Real) -> Self::Real {
+        self.reals(|lane| libm::atan2(lanes(&y)[lane], lanes(&x)[lane]))
+    }
+
+    #[inline(always)]
+    fn truth(&mut self, value: bool) -> Self::Bool {
+        let bound = self.simd.splat_u64s(u64::from(value));
+        [self.simd.less_than_u64s(self.simd.splat_u64s(0), bound); WIDTH]
+    }
+    #[inline(always)]
+    fn less(&mut self, a: Self::Real, b: Self::Real) -> Self::Bool {
+        both(a, b, |a, b| self.simd.less_than_f64s(a, b))
+    }
+    #[inline(always)]
+    fn less_equal(&mut self, a: Self::Real, b: Self::Real) -> Self::Bool {
+        both(a, b, |a, b| self.simd.less_than_or_equal_f64s(a, b))
+    }
+    #[inline(always)]
+    fn and(&mut self, a: Self::Bool, b: Self::Bool) -> Self::Bool {
+        both(a, b, |a, b| self.simd.and_m64s(a, b))
+    }
+    #[inline(always)]
+    fn or(&mut self, a: Self::Bool, b: Self::Bool) -> Self::Bool {
+        both(a, b, |a, b| self.simd.or_m64s(a, b))
+    }
+    #[inline(always)]
+    fn not(&mut self, a: Self::Bool) -> Self::Bool {
+        each(a, |a| self.simd.not_m64s(a))
+    }
+    #[inline(always)]
+    fn possible(&mut self, a: Self::Bool) -> bool {
+        a.iter()
+            .any(|&a| self.simd.first_true_m64s(a) < S::F64_LANES)
+    }
+    #[inline(always)]
+    fn select(&mut self, c: Self::Bool, a: Self::Real, b: Self::Real) -> Self::Real {
+        std::array::from_fn(|k| self.simd.select_f64s(c[k], a[k], b[k]))
+    }
+
+    #[inline(always)]
+    fn index(&mut self, value: u32) -> Self::Index {
+        [self.simd.splat_u64s(u64::from(value)); WIDTH]
+    }
+    #[inline(always)]
+    fn select_index(&mut self, c: Self::Bool, a: Self::Index, b: Self::Index) -> Self::Index {
+        std::array::from_fn(|k| self.simd.select_u64s(c[k], a[k], b[k]))
+    }
+    #[inline(always)]
+    fn is(&mut self, a: Self::Index, value: u32) -> Self::Bool {
+        let value = self.simd.splat_u64s(u64::from(value));
+        each(a, |a| self.simd.equal_u64s(a, value))
+    }
+    #[inline(always)]
+    fn below(&mut self, a: Self::Index, value: u32) -> Self::Bool {
+        let value = self.simd.splat_u64s(u64::from(value));
+        each(a, |a| self.simd.less_than_u64s(a, value))
+    }
+    #[inline(always)]
+    fn rows<const K: usize>(&mut self, table: &[[f64; K]], row: Self::Index) -> [Self::Real; K] {
+        let mut columns = [[self.simd.splat_f64s(0.0); WIDTH]; K];
+        for (lane, &row) in lanes::<_, u64>(&row).iter().enumerate() {
+            let row = &table[row as usize];
+            for (column, &value) in columns.iter_mut().zip(row) {
+                let slots: &mut [f64] = bytemuck::cast_slice_mut(column);
+                slots[lane] = value;
+            }
+        }
+        columns
+    }
+    #[inline(always)]
+    fn entry(&mut self, table: &[u32], row: Self::Index) -> Self::Index {
+        let row = lanes::<_, u64>(&row);
+        self.indices(|lane| u64::from(table[row[lane] as usize]))
+    }
+
+    #[inline(always)]
+    fn coordinate(&mut self, coordinate: Coordinate) -> Self::Index {
+        let indices = &self.inputs.indices[coordinate.dimension()];
+        let indices = &indices[self.first..self.first + Self::COUNT];
+        self.indices(|lane| u64::from(indices[lane]))
+    }
+    #[inline(always)]
+    fn centre(&mut self, index: Self::Index, bits: u32) -> Self::Real {
+        self.reals(|lane| cell_centre(lanes::<_, u64>(&index)[lane] as u32, bits))
+    }
+    #[inline(always)]
+    fn sampled(&mut self, function: &Sampled, index: Self::Index) -> Self::Real {
+        let index = lanes::<_, u64>(&index);
+        match function.table() {
+            Some(table) => self.reals(|lane| table[index[lane] as usize]),
+            None => self.reals(|lane| function.at(index[lane] as u32)),
+        }
+    }
+    #[inline(always)]
+    fn pixel(&mut self) -> [Self::Real; 2] {
+        let range = self.first..self.first + Self::COUNT;
+        let (column, row) = (&self.inputs.column[range.clone()], &self.inputs.row[range]);
+        [
+            self.reals(|lane| column[lane]),
+            self.reals(|lane| row[lane]),
+        ]
+    }
+}

@@ -1,0 +1,9 @@
+//! Machines: what runs the tracer.
+//!
+//! [`Real`] reads it over lanes of `f64`: pictures, meshes, and the limit that every finite width
+//! converges to.
+
+mod lanes;
+mod real;
+
+pub use real::{Block, PixelSum, Points, Real, Simd};

@@ -1,0 +1,235 @@
+//! The real machine: every path of a pixel, in `f64`.
+
+use super::lanes::{BLOCK, Inputs, Lanes, lanes};
+use pulp::{Arch, WithSimd};
+use qrt_core::sampling::PathPoints;
+use qrt_core::tracer::{Stage, trace};
+use qrt_core::valid::ValidScene;
+
+/// Which lanes to use. All give the same bits.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Simd {
+    /// The widest that this processor has.
+    #[default]
+    Widest,
+    /// One path at a time.
+    Scalar,
+}
+
+/// Where the sample coordinates of a path come from.
+#[derive(Clone, Debug)]
+pub enum Points {
+    /// The scene's sequence, as the circuit computes it.
+    Sequence(PathPoints),
+    /// Independent for every path and dimension: classical Monte Carlo, to compare with.
+    Independent {
+        /// Bits of each coordinate, by dimension.
+        bits: Vec<u32>,
+        /// Paths a pixel.
+        paths: u64,
+    },
+}
+
+impl Points {
+    /// R, the paths of a pixel.
+    pub fn paths(&self) -> u64 {
+        match self {
+            Self::Sequence(points) => 1 << points.path_bits(),
+            Self::Independent { paths, .. } => *paths,
+        }
+    }
+
+    fn dimensions(&self) -> usize {
+        match self {
+            Self::Sequence(points) => 2 * points.depths(),
+            Self::Independent { bits, .. } => bits.len(),
+        }
+    }
+
+    fn fill(&self, seed: u64, [x, y]: [u32; 2], dimension: usize, first: u64, out: &mut [u32]) {
+        match self {
+            Self::Sequence(points) => {
+                let shift = points.shift(seed, x, y, dimension);
+                points.indices(dimension / 2, dimension % 2, first, shift, out);
+            }
+            Self::Independent { bits, .. } => {
+                let bits = bits[dimension];
+                for (id, slot) in (first..).zip(out) {
+                    let word = qrt_core::sampling::pixel_shift(seed ^ mixed(id), x, y, dimension);
+                    *slot = if bits == 0 {
+                        0
+                    } else {
+                        (word >> (64 - bits)) as u32
+                    };
+                }
+            }
+        }
+    }
+}
+
+/// Spreads an id over all 64 bits, so that it can key a hash beside a seed.
+fn mixed(id: u64) -> u64 {
+    (id + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15).rotate_left(29)
+}
+
+/// What a pixel's paths sum to.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PixelSum {
+    /// Sum of the paths' colours, in radiance: red, green, blue.
+    pub colour: [f64; 3],
+    /// Good ids per channel: pairs of a path and a comparator that its colour exceeds. Zero
+    /// unless counted.
+    pub good: [u64; 3],
+}
+
+/// A block of finished paths of one pixel: their colours per channel.
+#[derive(Clone, Copy, Debug)]
+pub struct Block<'a> {
+    /// The pixel's place in the list that was asked for.
+    pub pixel: usize,
+    /// Red, green, blue of each path, in the order of ids.
+    pub colours: [&'a [f64]; 3],
+}
+
+/// The real machine for one scene.
+#[derive(Clone, Debug)]
+pub struct Real {
+    stage: Stage<3>,
+    points: Points,
+    seed: u64,
+    simd: Simd,
+}
+
+impl Real {
+    /// A machine for `scene`; `seed` keys the shifts of the digital net.
+    ///
+    /// # Errors
+    /// If the scene's sequence cannot be made; a valid scene's can.
+    pub fn new(scene: &ValidScene, seed: u64) -> Result<Self, qrt_core::sampling::SamplingError> {
+        let points = Points::Sequence(PathPoints::new(&scene.scene().sampling)?);
+        Ok(Self {
+            stage: Stage::rgb(scene),
+            points,
+            seed,
+            simd: Simd::default(),
+        })
+    }
+
+    /// With other lanes.
+    pub fn with_simd(mut self, simd: Simd) -> Self {
+        self.simd = simd;
+        self
+    }
+
+    /// With independent paths instead of the scene's sequence.
+    pub fn monte_carlo(mut self, paths: u64) -> Self {
+        let bits = match &self.points {
+            Points::Sequence(points) => (0..2 * points.depths())
+                .map(|d| points.bits(d / 2, d % 2))
+                .collect(),
+            Points::Independent { bits, .. } => bits.clone(),
+        };
+        self.points = Points::Independent { bits, paths };
+        self
+    }
+
+    /// The scene as it is traced.
+    pub fn stage(&self) -> &Stage<3> {
+        &self.stage
+    }
+
+    /// R, the paths of a pixel.
+    pub fn paths(&self) -> u64 {
+        self.points.paths()
+    }
+
+    /// Traces every path of `pixels` (column, row) and hands over their colours, block by block:
+    /// a pixel's blocks come in the order of ids.
+    pub fn trace(&self, pixels: &[[u32; 2]], mut finished: impl FnMut(Block<'_>)) {
+        let paths = self.points.paths();
+        let mut inputs = Inputs {
+            indices: vec![[0; BLOCK]; self.points.dimensions()],
+            column: [0.0; BLOCK],
+            row: [0.0; BLOCK],
+        };
+        let mut colours = [[0.0; BLOCK]; 3];
+        // A block holds a run of one pixel's ids, or all ids of several pixels.
+        let mut filled = 0;
+        let mut runs: Vec<(usize, std::ops::Range<usize>)> = Vec::new();
+        for (number, &pixel) in pixels.iter().enumerate() {
+            let mut first = 0;
+            while first < paths {
+                let count = (paths - first).min((BLOCK - filled) as u64) as usize;
+                let range = filled..filled + count;
+                for (dimension, indices) in inputs.indices.iter_mut().enumerate() {
+                    let out = &mut indices[range.clone()];
+                    self.points.fill(self.seed, pixel, dimension, first, out);
+                }
+                inputs.column[range.clone()].fill(f64::from(pixel[0]));
+                inputs.row[range.clone()].fill(f64::from(pixel[1]));
+                runs.push((number, range));
+                first += count as u64;
+                filled += count;
+                if filled == BLOCK || (number + 1 == pixels.len() && first == paths) {
+                    self.run(&inputs, filled, &mut colours);
+                    for (pixel, range) in runs.drain(..) {
+                        let colours = [0, 1, 2].map(|c: usize| &colours[c][range.clone()]);
+                        finished(Block { pixel, colours });
+                    }
+                    filled = 0;
+                }
+            }
+        }
+    }
+
+    /// The sums over all paths of `pixels`.
+    pub fn sums(&self, pixels: &[[u32; 2]]) -> Vec<PixelSum> {
+        let mut sums = vec![PixelSum::default(); pixels.len()];
+        self.trace(pixels, |block| {
+            let sum = &mut sums[block.pixel];
+            for (total, colours) in sum.colour.iter_mut().zip(block.colours) {
+                *total += colours.iter().sum::<f64>();
+            }
+        });
+        sums
+    }
+
+    fn run(&self, inputs: &Inputs, count: usize, colours: &mut [[f64; BLOCK]; 3]) {
+        let block = TraceBlock {
+            stage: &self.stage,
+            inputs,
+            count,
+            colours,
+        };
+        match self.simd {
+            Simd::Widest => Arch::new().dispatch(block),
+            Simd::Scalar => block.with_simd(pulp::Scalar::new()),
+        }
+    }
+}
+
+struct TraceBlock<'a> {
+    stage: &'a Stage<3>,
+    inputs: &'a Inputs,
+    count: usize,
+    colours: &'a mut [[f64; BLOCK]; 3],
+}
+
+impl WithSimd for TraceBlock<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, simd: S) {
+        for first in (0..self.count).step_by(Lanes::<S>::COUNT) {
+            let mut cx = Lanes {
+                simd,
+                inputs: self.inputs,
+                first,
+            };
+            let colour = trace(&mut cx, self.stage, self.stage.geometry());
+            for (out, colour) in self.colours.iter_mut().zip(&colour) {
+                out[first..first + Lanes::<S>::COUNT].copy_from_slice(lanes(colour));
+            }
+        }
+    }
+}
