@@ -1,11 +1,14 @@
 //! Good scenes are accepted, print to YAML that reads back as the same scene, and keep their
 //! fingerprint however they are written.
 
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::format_push_string)]
+
 use proptest::prelude::*;
 use qrt::core::front;
 use qrt::core::scene::{Camera, Estimator, Scene, Sequence};
 use qrt::core::valid::ValidScene;
 use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
 
 fn files() -> Vec<PathBuf> {
     let mut files: Vec<_> = ["tests/good_scenes", "scenes-yaml"]
@@ -226,8 +229,12 @@ fn scenes() -> impl Strategy<Value = Scene> {
         "[ -~\n\t]{1,40}",
     )
         .prop_map(|(name, material, point, width, path_bits, expression)| {
-            let path = Path::new("tests/good_scenes/everything.yaml");
-            let mut scene = load(path, &[]).scene().clone();
+            static BASE: LazyLock<Scene> = LazyLock::new(|| {
+                load(Path::new("tests/good_scenes/everything.yaml"), &[])
+                    .scene()
+                    .clone()
+            });
+            let mut scene = BASE.clone();
             scene.name = name;
             scene.film.width = width;
             scene.materials[0].0 = material;

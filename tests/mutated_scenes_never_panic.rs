@@ -1,6 +1,8 @@
 //! Nothing panics or hangs on any text: a mutated scene is either accepted or refused with at least
 //! one error, and every error can be rendered.
 
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::format_push_string)]
+
 use proptest::prelude::*;
 use qrt::core::diagnostics::Source;
 use qrt::core::front;

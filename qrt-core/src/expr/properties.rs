@@ -149,8 +149,8 @@ fn a_value_is_not_simplified_away() {
 #[test]
 fn derivatives_agree_with_differences() {
     try_on_many(20_000, 3_000, |e, at| {
-        let mut all = true;
-        for variable in Variable::SQUARE {
+        let mut all = is_tame(e, at);
+        for variable in Variable::SQUARE.into_iter().filter(|_| is_tame(e, at)) {
             let slope = e.diff(variable);
             let value = slope.eval(at);
             let Some((difference, error)) = difference(e, variable, at) else {

@@ -1,6 +1,6 @@
 //! Powers, absolute values and functions of canonical forms, with their domains.
 
-use super::{Atom, Canon, Factor, Product, Sum, constant, is_even, is_integer, negated, number};
+use super::{Atom, Canon, Factor, Product, Sum, is_even, is_integer, negated, number};
 use crate::expr::Function;
 
 impl Canon {
@@ -75,7 +75,7 @@ impl Canon {
     }
 
     pub(super) fn function(&mut self, f: Function, operand: &Sum) -> Option<Sum> {
-        if let Some(value) = constant(operand) {
+        if let Some(value) = self.value(operand) {
             return number(f.value(value));
         }
         if f == Function::Tan {
