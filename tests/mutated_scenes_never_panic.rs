@@ -1,7 +1,7 @@
 //! Nothing panics or hangs on any text: a mutated scene is either accepted or refused with at least
 //! one error, and every error can be rendered.
 
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::format_push_string)]
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::format_collect)]
 
 use proptest::prelude::*;
 use qrt::core::diagnostics::Source;
@@ -17,6 +17,12 @@ fn judge(text: &str, sets: &[String]) {
             for colour in [false, true] {
                 assert!(report.render(colour).contains("error"));
             }
+            // What a scene says must not reach the terminal as an order to it.
+            let text = report.render(false);
+            assert!(
+                !text.contains(|c: char| c.is_control() && c != '\n'),
+                "{text:?}"
+            );
         }
     }
 }
@@ -90,6 +96,10 @@ const PIECES: &[&str] = &[
     "1e30",
     "-1e30",
     "5e-324",
+    "\u{1b}[31m",
+    "\"\\e[2J\"",
+    "\u{7}",
+    "\u{202e}",
     "null",
     "true",
     "auto",

@@ -4,7 +4,9 @@
 use crate::front::tree::{Node, Span};
 use crate::report::Problem;
 use annotate_snippets::renderer::DecorStyle;
-use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet};
+use annotate_snippets::{
+    AnnotationKind, Group, Level, Origin, Renderer, Snippet, normalize_untrusted_str,
+};
 use std::fmt;
 use std::ops::Range;
 
@@ -166,7 +168,9 @@ impl Report {
         let last = Level::ERROR.no_name().primary_title(closing.as_str());
         out.push_str(&renderer.render(&[Group::with_title(last)]));
         out.push('\n');
-        out
+        // The renderer makes control characters of ASCII visible; to a terminal, those of the
+        // block behind it can be orders too.
+        out.replace(|c| matches!(c, '\u{80}'..='\u{9f}'), "\u{fffd}")
     }
 
     fn render_one(&self, renderer: &Renderer, lines: &[Lines<'_>], placed: &Placed) -> String {
@@ -199,7 +203,8 @@ impl Report {
                 let origin = Origin::path(self.name(span)).line(line).char_column(column);
                 group = group.element(origin);
                 if !problem.label.is_empty() {
-                    group = group.element(Level::NOTE.message(problem.label.as_str()));
+                    group =
+                        group.element(Level::NOTE.message(normalize_untrusted_str(&problem.label)));
                 }
             } else {
                 group = group.element(excerpt.snippet(self.name(span), marks));
@@ -220,7 +225,7 @@ impl Report {
             group = group.element(Origin::path(name));
         }
         if let Some(help) = &problem.help {
-            group = group.element(Level::HELP.message(help.as_str()));
+            group = group.element(Level::HELP.message(normalize_untrusted_str(help)));
         }
         renderer.render(&[group])
     }

@@ -15,6 +15,7 @@ use crate::codes;
 use crate::diagnostics::{Report, Source};
 use crate::front::tree::{Node, Span, Value};
 use crate::front::yaml;
+use crate::sampling::MAX_PATH_BITS;
 use decode::{Decoder, Place};
 use glam::DVec3;
 use record::{keyword, record, variant};
@@ -264,7 +265,7 @@ record! {
     pub sequence: Sequence = word::<Sequence>(), or Sequence::DigitalNet;
     /// R = 2^path_bits paths; default 12. Under product-lattice it is the sum of all bits, and
     /// only that.
-    pub path_bits: u32 = whole::<u32>(0, 52), or 12;
+    pub path_bits: u32 = whole::<u32>(0, MAX_PATH_BITS as u64), or 12;
     /// One entry per ray of a path, the primary ray first; default three.
     pub depths: Vec<DepthSampling> = List {
         item: part::<DepthSampling>(), least: 1, fewer: (codes::NO_DEPTH, "a path has at least one ray")
@@ -478,6 +479,22 @@ impl Scene {
     }
 
     /// The scene of a YAML text called `name`, read but not checked.
+    ///
+    /// ```
+    /// let scene = qrt_core::scene::Scene::from_yaml(
+    ///     "
+    /// name: dark
+    /// camera: { perspective: { eye: [0, 0, 5], target: [0, 0, 0], vfov: 40 } }
+    /// film: { width: 8, height: 8 }
+    /// materials: {}
+    /// geometry: []
+    /// ",
+    ///     "dark.yaml",
+    /// )?;
+    /// assert_eq!(scene.sampling.path_bits, 12);
+    /// assert_eq!(qrt_core::scene::Scene::from_yaml(&scene.to_yaml(), "printed.yaml")?, scene);
+    /// # Ok::<(), qrt_core::diagnostics::Report>(())
+    /// ```
     ///
     /// # Errors
     /// Everything that keeps it from being read, with places.

@@ -16,7 +16,7 @@ pub(super) fn path_bits(
     _: &mut Decoder,
 ) -> Sampling {
     if sampling.sequence == Sequence::ProductLattice && node.entry("path_bits").is_none() {
-        sampling.path_bits = sampling.lattice_bits().min(crate::valid::MAX_PATH_BITS);
+        sampling.path_bits = sampling.lattice_bits().min(crate::sampling::MAX_PATH_BITS);
     }
     sampling
 }
