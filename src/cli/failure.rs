@@ -1,6 +1,7 @@
 //! How a command fails.
 
 use qrt_core::diagnostics::Report;
+use qrt_runtime::counting::CountingError;
 use qrt_runtime::image::ImageError;
 use qrt_runtime::render::RenderError;
 use std::path::Path;
@@ -45,6 +46,12 @@ impl fmt::Display for Failure {
 impl From<Report> for Failure {
     fn from(report: Report) -> Self {
         Self::Scene(Box::new(report))
+    }
+}
+
+impl From<CountingError> for Failure {
+    fn from(error: CountingError) -> Self {
+        Self::Usage(error.to_string())
     }
 }
 
