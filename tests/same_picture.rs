@@ -111,9 +111,9 @@ fn a_pixel_of_many_paths_is_shared_by_threads_and_is_still_their_mean() {
             Real::new(&scene, 3)
                 .unwrap()
                 .trace(&[[0, 0], [1, 0]], |block| {
-                    for channel in 0..3 {
-                        for colour in block.colours[channel] {
-                            sums[block.pixel][channel] += colour;
+                    for (sum, colours) in sums[block.pixel].iter_mut().zip(block.colours) {
+                        for colour in colours {
+                            *sum += colour;
                         }
                     }
                 });

@@ -17,7 +17,7 @@ pub(crate) struct CompletionsArgs {
     shell: Shell,
 }
 
-pub(crate) fn run(args: &CompletionsArgs) -> Result<(), Failure> {
+pub(crate) fn run(args: CompletionsArgs) -> Result<(), Failure> {
     // Not straight to standard output: the generator panics if it can't write.
     let mut script = Vec::new();
     clap_complete::generate(args.shell, &mut Cli::command(), "qrt", &mut script);

@@ -1,7 +1,8 @@
 //! The progress bar.
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use qrt_runtime::render::Progress;
+use std::fmt::Write;
 use std::time::Duration;
 
 /// A bar on standard error if that is a terminal and `wanted`; else one that isn't seen.
@@ -16,10 +17,10 @@ impl Bar {
             ProgressDrawTarget::hidden()
         };
         let bar = ProgressBar::with_draw_target(Some(0), target);
-        let style = "{bar:40} {percent:>3} %  {human_pos} of {human_len} paths, {eta} to go";
+        let style = "{bar:40} {percent:>3} %  {human_pos} of {human_len} paths, {left} to go";
         // A template that doesn't parse leaves the library's own.
         if let Ok(style) = ProgressStyle::with_template(style) {
-            bar.set_style(style.progress_chars("=> "));
+            bar.set_style(style.with_key("left", left).progress_chars("=> "));
         }
         Self(bar)
     }
@@ -41,4 +42,14 @@ impl Bar {
     pub(crate) fn clear(&self) {
         self.0.finish_and_clear();
     }
+}
+
+/// The time left, once something is finished to judge by.
+fn left(state: &ProgressState, out: &mut dyn Write) {
+    // What can't be shown on a terminal isn't.
+    let _ = if state.per_sec() > 0.0 {
+        write!(out, "{:#}", HumanDuration(state.eta()))
+    } else {
+        write!(out, "?")
+    };
 }

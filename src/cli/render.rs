@@ -227,8 +227,16 @@ fn cancel_on_interrupt() -> Result<Arc<AtomicBool>, Failure> {
 
 fn summary(output: &Path, rendered: &Rendered, clipped: u64) -> String {
     let Rendered { image, paths, .. } = rendered;
-    let mut text = format!(
-        "{}: {} x {} pixels, {paths} paths in {:.2} s ({:.2} Mpaths/s), estimator {}, {} queries",
+    let clipped = match clipped {
+        0 => String::new(),
+        _ => format!(
+            "{clipped} of {} pixels are clipped: lower --exposure, or write .exr\n",
+            image.pixels.len()
+        ),
+    };
+    format!(
+        "{}: {} x {} pixels, {paths} paths in {:.2} s ({:.2} Mpaths/s), estimator {}, {} queries\n\
+         {clipped}",
         output.display(),
         image.width,
         image.height,
@@ -236,12 +244,5 @@ fn summary(output: &Path, rendered: &Rendered, clipped: u64) -> String {
         stats::paths_per_second(rendered) / 1e6,
         rendered.estimator,
         rendered.total_queries(),
-    );
-    if clipped > 0 {
-        let all = image.pixels.len();
-        text +=
-            &format!("\n{clipped} of {all} pixels are clipped: lower --exposure, or write .exr");
-    }
-    text.push('\n');
-    text
+    )
 }

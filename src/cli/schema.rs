@@ -16,6 +16,6 @@ Examples:
   # yaml-language-server: $schema=scene.schema.json")]
 pub(crate) struct SchemaArgs {}
 
-pub(crate) fn run(_: &SchemaArgs) -> Result<(), Failure> {
+pub(crate) fn run() -> Result<(), Failure> {
     terminal::print(&qrt_core::schema::text())
 }

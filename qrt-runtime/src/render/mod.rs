@@ -52,7 +52,7 @@ pub use error::RenderError;
 use crate::checkpoint::{Checkpoint, Header, Tile};
 use crate::image::{Count, Image};
 use crate::machines::{Real, Simd};
-use pixel::{Pixel, Pixels};
+use pixel::{Pixel, Pixels, Totals};
 use qrt_core::scene::Estimator;
 use qrt_core::valid::ValidScene;
 use rayon::prelude::*;
@@ -336,15 +336,15 @@ impl Job<'_> {
                 !self.cancelled()
             };
             for &place in &places {
-                let totals = self.pixels.many(place, &traced).ok_or(Stop::Cancelled)?;
-                tile.push(self.pixels.finish(place, &totals)?);
+                let totals = self.pixels.many(place, &traced);
+                self.finish(&mut tile, place, &totals.ok_or(Stop::Cancelled)?)?;
             }
         } else {
-            for (&place, totals) in places.iter().zip(self.pixels.few(&places)) {
+            for (&place, totals) in places.iter().zip(&self.pixels.few(&places)) {
                 if self.cancelled() {
                     return Err(Stop::Cancelled);
                 }
-                tile.push(self.pixels.finish(place, &totals)?);
+                self.finish(&mut tile, place, totals)?;
             }
             self.report(Progress::Traced(places.len() as u64 * self.paths));
         }
@@ -352,12 +352,13 @@ impl Job<'_> {
         film.keep(&tile)?;
         Ok(())
     }
-}
 
-impl Tile {
-    fn push(&mut self, pixel: Pixel) {
-        self.pixels.push(pixel.colour);
-        self.queries.push(pixel.queries);
+    /// Adds a pixel to its tile.
+    fn finish(&self, tile: &mut Tile, place: [u32; 2], totals: &Totals) -> Result<(), RenderError> {
+        let Pixel { colour, queries } = self.pixels.finish(place, totals)?;
+        tile.pixels.push(colour);
+        tile.queries.push(queries);
+        Ok(())
     }
 }
 

@@ -60,8 +60,9 @@ impl Pixels {
         let bound = real.stage().bound();
         let paths = real.paths();
         for (channel, bound) in bound.into_iter().enumerate() {
-            // Written so that NaN is refused, too.
-            if !(bound <= f64::MAX / 2.0 / paths as f64) {
+            let summable = bound <= f64::MAX / 2.0 / paths as f64;
+            // Nor is NaN.
+            if !summable {
                 return Err(RenderError::Bound { channel, bound });
             }
         }
