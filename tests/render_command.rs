@@ -335,27 +335,43 @@ fn every_error_of_a_scene_is_shown_at_its_place() {
 }
 
 #[test]
-fn a_failed_job_exits_with_1() {
+fn files_that_cannot_be_written_are_told_before_the_work() {
     let folder = folder();
-    let errors = folder.fails(1, &["render", "box.yaml", "-o", "none/p.png"]);
-    assert!(errors.contains("none/p.png"), "{errors}");
-    let errors = folder.fails(1, &["render", "box.yaml", "--stats", "none/s.json"]);
-    assert!(errors.contains("none/s.json"), "{errors}");
-    // The picture is safe, and so is the work.
-    assert_eq!(
-        folder.names(),
-        ["box.png", "box.png.qrt-partial", "box.yaml"]
-    );
+    for option in ["--output", "--stats", "--counts"] {
+        let file = "none/file.png";
+        let errors = folder.fails(1, &["render", "box.yaml", option, file]);
+        assert!(errors.contains("no folder `none`"), "{errors}");
+        assert_eq!(folder.names(), ["box.yaml"]);
+    }
+    let text = BOX.replace("box \\\"ä\\\"", "nul\\0");
+    fs::write(folder.path("nul.yaml"), text).unwrap();
+    assert!(folder.fails(2, &["render", "nul.yaml"]).contains("NUL"));
+    assert_eq!(folder.names(), ["box.yaml", "nul.yaml"]);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_failed_job_exits_with_1_and_loses_no_work() {
+    let folder = folder();
+    for option in ["--stats", "--counts"] {
+        let errors = folder.fails(1, &["render", "box.yaml", option, "/dev/full"]);
+        assert!(errors.contains("`/dev/full`: "), "{errors}");
+        assert_eq!(
+            folder.names(),
+            ["box.png", "box.png.qrt-partial", "box.yaml"]
+        );
+    }
     folder.works(&["render", "box.yaml", "--stats", "s.json", "--resume"]);
     assert_eq!(folder.names(), ["box.png", "box.yaml", "s.json"]);
     let stats = stats(&folder, "s.json");
     assert_eq!(stats["paths_resumed"], stats["paths"]);
 }
 
+#[cfg(target_os = "linux")]
 #[test]
 fn resuming_something_else_is_refused_and_replacing_it_is_said() {
     let folder = folder();
-    folder.fails(1, &["render", "box.yaml", "--stats", "none/s.json"]);
+    folder.fails(1, &["render", "box.yaml", "--stats", "/dev/full"]);
     let errors = folder.fails(2, &["render", "box.yaml", "--seed", "1", "--resume"]);
     assert!(errors.contains("seed: there 0, here 1"), "{errors}");
     let set = "materials.white.lambertian.albedo[0]=0.5";

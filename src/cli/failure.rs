@@ -70,7 +70,8 @@ impl From<ImageError> for Failure {
         match error {
             ImageError::Extension { .. }
             | ImageError::Exposure { .. }
-            | ImageError::ExposureOfExr => Self::Usage(error.to_string()),
+            | ImageError::ExposureOfExr
+            | ImageError::Value { .. } => Self::Usage(error.to_string()),
             _ => Self::Job(error.to_string()),
         }
     }

@@ -8,7 +8,7 @@ use clap::{Args, ValueEnum};
 use qrt_core::front;
 use qrt_core::scene::Estimator;
 use qrt_runtime::counting::AVAILABLE;
-use qrt_runtime::image::{self, Encoding};
+use qrt_runtime::image::{self, Encoding, Metadata};
 use qrt_runtime::render::{Options, Progress, RenderError, Rendered, render};
 use std::fs;
 use std::num::NonZeroUsize;
@@ -105,9 +105,20 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     let Model::Real = args.model;
     let output = args.output.clone().unwrap_or_else(|| picture(&args.scene));
     let encoding = Encoding::of(&output, args.exposure)?;
-    keep_apart(args, &output)?;
+    let files = [
+        Some(&*output),
+        args.stats.as_deref(),
+        args.counts.as_deref(),
+    ];
+    let files = files.into_iter().flatten();
+    keep_apart(std::iter::once(&*args.scene).chain(files.clone()))?;
+    for file in files {
+        can_be_written(file)?;
+    }
     let scene = front::load(&args.scene, &args.sets)?.valid;
-    let checkpoint = checkpoint(&output)?;
+    // Known before the work, not after it.
+    Metadata::new().set("scene", scene.scene().name.as_str())?;
+    let checkpoint = checkpoint(&output);
     if let Some(path) = checkpoint
         .as_ref()
         .filter(|path| path.exists() && !args.resume)
@@ -172,35 +183,45 @@ fn picture(scene: &Path) -> PathBuf {
 }
 
 /// Beside the picture; none for a pipe or a device, beside which there is no place.
-fn checkpoint(output: &Path) -> Result<Option<PathBuf>, Failure> {
-    let target = match fs::metadata(output) {
-        Ok(found) if found.is_dir() => {
-            let message = format!("`{}` is a folder", output.display());
-            return Err(Failure::Usage(message));
-        }
-        Ok(found) if !found.is_file() => return Ok(None),
-        Ok(_) | Err(_) => output,
-    };
-    let mut name = target.as_os_str().to_owned();
+fn checkpoint(output: &Path) -> Option<PathBuf> {
+    if is_device(output) {
+        return None;
+    }
+    let mut name = output.as_os_str().to_owned();
     name.push(".qrt-partial");
-    Ok(Some(name.into()))
+    Some(name.into())
 }
 
-/// Refuses to write one file over another, or over the scene.
-fn keep_apart(args: &RenderArgs, output: &Path) -> Result<(), Failure> {
-    let files = [
-        Some(&*args.scene),
-        Some(output),
-        args.stats.as_deref(),
-        args.counts.as_deref(),
-    ];
+/// Finds out before the work what can be known of it: that there is a folder to write to, and no
+/// folder in the file's place.
+fn can_be_written(file: &Path) -> Result<(), Failure> {
+    if file.is_dir() {
+        let message = format!("`{}` is a folder", file.display());
+        return Err(Failure::Usage(message));
+    }
+    match file.parent() {
+        Some(folder) if folder != Path::new("") && !folder.is_dir() => Err(Failure::Job(format!(
+            "`{}`: there is no folder `{}`",
+            file.display(),
+            folder.display()
+        ))),
+        _ => Ok(()),
+    }
+}
+
+/// A device or a pipe: what is there and is no file.
+fn is_device(path: &Path) -> bool {
+    fs::metadata(path).is_ok_and(|found| !found.is_file())
+}
+
+/// Refuses to write one file over another, or over the scene. Devices take what is written to them
+/// one after another.
+fn keep_apart<'a>(files: impl Iterator<Item = &'a Path>) -> Result<(), Failure> {
     let mut known: Vec<PathBuf> = Vec::new();
-    for file in files.into_iter().flatten() {
+    for file in files {
         // A file that isn't there yet is told by its name.
         let real = fs::canonicalize(file).unwrap_or_else(|_| file.to_path_buf());
-        // Devices take what is written to them one after another.
-        let device = fs::metadata(&real).is_ok_and(|found| !found.is_file());
-        if !device && known.contains(&real) {
+        if !is_device(&real) && known.contains(&real) {
             let message = format!("`{}` is used for two different things", file.display());
             return Err(Failure::Usage(message));
         }

@@ -225,3 +225,69 @@ impl Totals {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::machines::Real;
+    use qrt_core::front::parse;
+
+    /// A wall of radiance 2, 1, 0 that fills the picture: the colour of every path.
+    const WALL: &str = "
+name: wall
+camera: { orthographic: { eye: [0, 0, 1], target: [0, 0, 0], height: 1 } }
+film: { width: 2, height: 1 }
+materials: { wall: { emitter: { radiance: [2, 1, 0] } } }
+geometry:
+  - quad: { vertices: [[-9, -9, 0], [9, -9, 0], [9, 9, 0], [-9, 9, 0]], material: wall }
+sampling: { path_bits: 5 }
+";
+
+    fn wall(estimator: Estimator) -> Pixels {
+        let scene = parse(WALL, "wall.yaml", &[], "".as_ref()).unwrap().valid;
+        let real = Real::new(&scene, 0).unwrap();
+        Pixels::new(real, scene.scene(), estimator, 0).unwrap()
+    }
+
+    #[test]
+    fn a_path_beyond_its_bound_is_reported_and_never_clamped() {
+        for estimator in [Estimator::Exact, Estimator::Sine] {
+            let mut pixels = wall(estimator);
+            let totals = pixels.few(&[[1, 0]]);
+            assert!(pixels.finish([1, 0], &totals[0]).is_ok());
+            // Rounding is no defect; anything above is.
+            pixels.bound = [2.0 - 1e-12, 1.0, 0.0];
+            assert!(pixels.finish([1, 0], &pixels.few(&[[1, 0]])[0]).is_ok());
+            pixels.bound = [2.0, 1.0 - 1e-9, 0.0];
+            match pixels.finish([1, 0], &pixels.few(&[[1, 0]])[0]) {
+                Err(RenderError::OutOfBounds {
+                    pixel: [1, 0],
+                    channel: 1,
+                    paths: 32,
+                    colour: 1.0,
+                    ..
+                }) => {}
+                other => panic!("{:?}", other.map(|pixel| pixel.colour)),
+            }
+            let parts = pixels.many([1, 0], &|_| true).unwrap();
+            assert!(pixels.finish([1, 0], &parts).is_err());
+        }
+    }
+
+    #[test]
+    fn what_is_not_a_colour_is_reported() {
+        let pixels = wall(Estimator::Exact);
+        for colour in [f64::NAN, -1e-300, f64::INFINITY] {
+            let mut totals = Totals::default();
+            let colours = [1.0, colour, 1.0];
+            let block = Block {
+                pixel: 0,
+                colours: [&colours; 3],
+            };
+            pixels.take(&mut totals, &block);
+            assert_eq!(totals.stray[0].0, 1);
+            assert_eq!(totals.stray[0].1.to_bits(), colour.to_bits());
+            assert!(pixels.finish([0, 0], &totals).is_err());
+        }
+    }
+}
