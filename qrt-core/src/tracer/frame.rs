@@ -26,13 +26,16 @@ pub fn trace<A: Arith, N: Nearest<A>, const C: usize>(
     let mut alive = cx.truth(true);
     let mut throughput: Option<[A::Real; C]> = None;
     for depth in 0..stage.depths() {
-        let hit = nearest.nearest(cx, &ray, alive);
+        let scatter = stage.scatters.get(depth);
+        let hit = match scatter {
+            Some(_) => nearest.nearest(cx, &ray, alive),
+            None => nearest.emitter(cx, &ray, alive),
+        };
         alive = cx.and(alive, hit.found);
         if !cx.possible(alive) {
             break;
         }
         let surface = cx.entry(&stage.surface_of, hit.face);
-        let scatter = stage.scatters.get(depth);
         let mut vertex = Vertex::<A> {
             arriving: ray.direction,
             tangent: [zero; 3],
@@ -87,7 +90,7 @@ pub fn trace<A: Arith, N: Nearest<A>, const C: usize>(
             from,
         };
         throughput = Some(match throughput {
-            Some(old) => std::array::from_fn(|c| cx.mul(old[c], scattered.weight[c])),
+            Some(old) => vector::mul(cx, &old, &scattered.weight),
             None => scattered.weight,
         });
     }

@@ -5,7 +5,7 @@
 //! across or at a billion from the origin is traced with the same precision as one at home.
 
 use crate::valid::Polygon;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use std::collections::HashMap;
 use std::ops::Range;
 
@@ -27,55 +27,27 @@ pub(crate) const INWARD: f64 = 1.0 / (1_u64 << 32) as f64;
 /// Planes nearer than this to each other (in coefficients and offset) are one.
 const SAME_PLANE: f64 = 1.0 / (1_u64 << 42) as f64;
 
-/// `c . v`, with a greatest coefficient of 1: coefficients of 0 and 1 cost a circuit nothing.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Linear(
-    /// The coefficients of x, y and z.
-    pub [f64; 3],
-);
-
-impl Linear {
-    /// The form proportional to `normal` whose greatest coefficient is 1.
-    fn along(normal: DVec3) -> Self {
-        let scaled = normal / normal[largest(normal)];
-        // What a rotation by a multiple of 90 degrees leaves behind is not a slope.
-        Self(
-            scaled
-                .to_array()
-                .map(|c| if c.abs() < f64::EPSILON { 0.0 } else { c }),
-        )
-    }
-
-    /// Its value at `v`.
-    pub fn at_point(&self, v: DVec3) -> f64 {
-        v.dot(DVec3::from_array(self.0))
-    }
-
-    /// Is `other` within `tolerance` of it, coefficient by coefficient?
-    fn near(&self, other: &Self, tolerance: f64) -> bool {
-        self.0
-            .iter()
-            .zip(&other.0)
-            .all(|(a, b)| (a - b).abs() <= tolerance)
-    }
-}
-
-/// `low <= form <= high`; either may be infinite.
+/// `low <= a p[axis + 1] + b p[axis + 2] <= high`, for a point of a plane with main axis `axis`
+/// (axes are counted cyclically). The greater of `|a|`, `|b|` is 1; a bound may be infinite.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Slab {
-    /// The form.
-    pub form: Linear,
-    /// Its least value inside.
+    /// `a` and `b`.
+    pub form: [f64; 2],
+    /// The least value inside.
     pub low: f64,
-    /// Its greatest value inside.
+    /// The greatest value inside.
     pub high: f64,
 }
 
-/// A plane `form.p = offset` and the faces on it.
+/// The plane `p[axis] + a p[axis + 1] + b p[axis + 2] = offset` (axes are counted cyclically), and
+/// the faces on it. Neither `|a|` nor `|b|` exceeds 1; an axis-aligned plane has zeros, which cost
+/// a circuit nothing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plane {
-    /// The plane's direction.
-    pub form: Linear,
+    /// The main axis: that of the normal's greatest component.
+    pub axis: usize,
+    /// `a` and `b`.
+    pub form: [f64; 2],
     /// The plane's place.
     pub offset: f64,
     /// Its faces, in [`Geometry::faces`].
@@ -87,6 +59,10 @@ pub struct Plane {
 pub struct Face {
     /// Its number in the order of the scene.
     pub label: u32,
+    /// Does it emit?
+    pub emits: bool,
+    /// Does a later face of its plane emit? Then this one hides it where they overlap.
+    pub hides_emitter: bool,
     /// Pairs of parallel edges share a slab: two for a parallelogram, three for a triangle.
     pub slabs: Vec<Slab>,
 }
@@ -107,8 +83,12 @@ pub struct Frame {
 /// All polygons of a scene, in stage units.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Geometry {
-    /// Distinct planes, in the order of their first face.
+    /// Distinct planes by main axis, then in the order of their first face.
     pub planes: Vec<Plane>,
+    /// The planes with main axis x, y, z.
+    pub by_axis: [Range<usize>; 3],
+    /// The planes of each main axis that have an emitting face.
+    pub emitting: [Vec<usize>; 3],
     /// Faces, grouped by plane, in the order of the scene: where faces of one plane overlap, the
     /// one listed first wins.
     pub faces: Vec<Face>,
@@ -125,8 +105,9 @@ pub struct Geometry {
 }
 
 impl Geometry {
-    /// Lowers `polygons`; `reach` are points (the eye) from which rays start too.
-    pub fn new(polygons: &[Polygon], reach: &[DVec3]) -> Self {
+    /// Lowers `polygons`; `emits` tells which emit, and `reach` are points (the eye) from which
+    /// rays start too.
+    pub fn new(polygons: &[Polygon], emits: impl Fn(&Polygon) -> bool, reach: &[DVec3]) -> Self {
         let (centre, scale) = stage_units(polygons);
         let staged = |p: DVec3| (p - centre) * scale;
         let far = reach
@@ -136,6 +117,8 @@ impl Geometry {
         let tolerance = TOLERANCE * far;
         let mut geometry = Self {
             planes: Vec::new(),
+            by_axis: [0..0, 0..0, 0..0],
+            emitting: [Vec::new(), Vec::new(), Vec::new()],
             faces: Vec::new(),
             frames: Vec::with_capacity(polygons.len()),
             plane_of: Vec::with_capacity(polygons.len()),
@@ -144,83 +127,133 @@ impl Geometry {
             scale,
         };
         let mut on_plane: Vec<Vec<Face>> = Vec::new();
-        let mut known: HashMap<[i64; 4], Vec<u32>> = HashMap::new();
+        let mut known = HashMap::new();
         for (label, polygon) in polygons.iter().enumerate() {
             let corners: Vec<DVec3> = polygon.vertices[..polygon.corners as usize]
                 .iter()
                 .map(|&v| staged(v))
                 .collect();
             let frame = frame(&corners);
-            let form = Linear::along(frame.normal);
-            let offset =
-                corners.iter().map(|&c| form.at_point(c)).sum::<f64>() / corners.len() as f64;
-            let plane = geometry.find_plane(form, offset, &mut known, &mut on_plane);
-            let slabs = slabs(&corners, frame.normal, frame.centre, tolerance);
+            let plane = plane_of(&corners, &frame);
+            let slabs = slabs(&corners, plane.axis, frame.centre, tolerance);
+            let plane = geometry.find_plane(plane, &mut known, &mut on_plane);
             geometry.frames.push(frame);
             geometry.plane_of.push(plane);
             geometry.corners.push(corners);
             let faces = &mut on_plane[plane as usize];
             // A second copy of a face is hidden by the first.
             if !faces.iter().any(|face| face.slabs == slabs) {
+                let emits = emits(polygon);
+                if emits {
+                    faces
+                        .iter_mut()
+                        .for_each(|face| face.hides_emitter = !face.emits);
+                }
                 faces.push(Face {
                     label: label as u32,
+                    emits,
+                    hides_emitter: false,
                     slabs,
                 });
             }
         }
-        for (plane, faces) in geometry.planes.iter_mut().zip(on_plane) {
-            let start = geometry.faces.len();
-            geometry.faces.extend(faces);
-            plane.faces = start..geometry.faces.len();
-        }
+        geometry.arrange(on_plane);
         geometry
+    }
+
+    /// The faces on plane number `plane`.
+    pub fn faces_of(&self, plane: usize) -> &[Face] {
+        &self.faces[self.planes[plane].faces.clone()]
     }
 
     fn find_plane(
         &mut self,
-        form: Linear,
-        offset: f64,
+        new: Plane,
         known: &mut HashMap<[i64; 4], Vec<u32>>,
         on_plane: &mut Vec<Vec<Face>>,
     ) -> u32 {
         // Buckets far wider than the tolerance; a plane near a bucket's edge is looked for in the
         // bucket beyond it, too.
         let width = SAME_PLANE * 1024.0;
-        let keys = |shift: f64| {
-            let [x, y, z] = form.0;
-            [x, y, z, offset].map(|c| ((c + shift) / width).floor() as i64)
+        let values = |plane: &Plane| [plane.form[0], plane.form[1], plane.offset];
+        let key = |shift: [f64; 3]| {
+            let bucket = |k: usize| ((values(&new)[k] + shift[k]) / width).floor() as i64;
+            [new.axis as i64, bucket(0), bucket(1), bucket(2)]
         };
         let same = |plane: &Plane| {
-            plane.form.near(&form, SAME_PLANE) && (plane.offset - offset).abs() <= SAME_PLANE
+            let pairs = values(plane).into_iter().zip(values(&new));
+            plane.axis == new.axis && pairs.into_iter().all(|(a, b)| (a - b).abs() <= SAME_PLANE)
         };
-        let (below, above) = (keys(-SAME_PLANE), keys(SAME_PLANE));
-        for code in 0..16_usize {
-            let key = std::array::from_fn(|k| {
+        for code in 0..8_usize {
+            let side = |k: usize| {
                 if code >> k & 1 == 0 {
-                    below[k]
+                    -SAME_PLANE
                 } else {
-                    above[k]
+                    SAME_PLANE
                 }
-            });
-            let found = known.get(&key).and_then(|planes| {
+            };
+            let planes = known.get(&key([side(0), side(1), side(2)]));
+            let found = planes.and_then(|planes| {
                 planes
                     .iter()
-                    .copied()
-                    .find(|&plane| same(&self.planes[plane as usize]))
+                    .find(|&&plane| same(&self.planes[plane as usize]))
             });
-            if let Some(plane) = found {
+            if let Some(&plane) = found {
                 return plane;
             }
         }
         let plane = self.planes.len() as u32;
-        self.planes.push(Plane {
-            form,
-            offset,
-            faces: 0..0,
-        });
+        known.entry(key([0.0; 3])).or_default().push(plane);
+        self.planes.push(new);
         on_plane.push(Vec::new());
-        known.entry(keys(0.0)).or_default().push(plane);
         plane
+    }
+
+    /// Sorts planes by main axis and lays their faces out in that order.
+    fn arrange(&mut self, on_plane: Vec<Vec<Face>>) {
+        let mut order: Vec<usize> = (0..self.planes.len()).collect();
+        order.sort_by_key(|&plane| self.planes[plane].axis);
+        let mut place = vec![0; order.len()];
+        let mut planes = Vec::with_capacity(order.len());
+        let mut on_plane: Vec<Option<Vec<Face>>> = on_plane.into_iter().map(Some).collect();
+        for (new, &old) in order.iter().enumerate() {
+            place[old] = new as u32;
+            let start = self.faces.len();
+            self.faces.extend(on_plane[old].take().unwrap_or_default());
+            let faces = start..self.faces.len();
+            planes.push(Plane {
+                faces,
+                ..self.planes[old].clone()
+            });
+        }
+        self.planes = planes;
+        for plane in &mut self.plane_of {
+            *plane = place[*plane as usize];
+        }
+        let first = |axis: usize| self.planes.partition_point(|plane| plane.axis < axis);
+        self.by_axis = [0, 1, 2].map(|axis| first(axis)..first(axis + 1));
+        let emits = |plane: &usize| self.faces_of(*plane).iter().any(|face| face.emits);
+        self.emitting = self
+            .by_axis
+            .clone()
+            .map(|range| range.filter(emits).collect());
+    }
+}
+
+fn plane_of(corners: &[DVec3], frame: &Frame) -> Plane {
+    let axis = largest(frame.normal);
+    let scaled = frame.normal / frame.normal[axis];
+    let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
+    // What a rotation by a multiple of 90 degrees leaves behind is not a slope.
+    let form = [scaled[next], scaled[last]].map(|c| if c.abs() < f64::EPSILON { 0.0 } else { c });
+    let heights = corners
+        .iter()
+        .map(|c| c[axis] + form[0] * c[next] + form[1] * c[last]);
+    Plane {
+        axis,
+        form,
+        offset: heights.sum::<f64>() / corners.len() as f64,
+        faces: 0..0,
     }
 }
 
@@ -250,7 +283,9 @@ fn frame(corners: &[DVec3]) -> Frame {
     };
     let unit = normal.normalize();
     let axis = largest(unit);
-    let normal = DVec3::from_array(Linear::along(unit).0).normalize() * unit[axis].signum();
+    let normal = unit
+        .map(|c| if c.abs() < f64::EPSILON { 0.0 } else { c })
+        .normalize();
     // A tangent along a coordinate axis where the plane allows it: fewer products.
     let away = match axis {
         0 => DVec3::Y,
@@ -279,31 +314,39 @@ fn largest(v: DVec3) -> usize {
 }
 
 /// The edges as slabs. Edges are tested in the plane's projection along its main axis.
-fn slabs(corners: &[DVec3], normal: DVec3, centre: DVec3, tolerance: f64) -> Vec<Slab> {
-    let main = largest(normal);
+fn slabs(corners: &[DVec3], axis: usize, centre: DVec3, tolerance: f64) -> Vec<Slab> {
+    let flat = |p: DVec3| DVec2::new(p[(axis + 1) % 3], p[(axis + 2) % 3]);
     let mut slabs: Vec<Slab> = Vec::with_capacity(3);
     for (i, &start) in corners.iter().enumerate() {
-        let end = corners[(i + 1) % corners.len()];
-        let mut across = (end - start).cross(DVec3::AXES[main]);
-        across[main] = 0.0;
-        let form = Linear::along(across);
-        let edge = 0.5 * (form.at_point(start) + form.at_point(end));
-        let spread = 0.5 * (form.at_point(start) - form.at_point(end)).abs();
-        let reach = form.0.iter().map(|c| c.abs()).sum::<f64>() * tolerance + spread;
-        let (low, high) = if form.at_point(centre) >= edge {
+        let (start, end) = (flat(start), flat(corners[(i + 1) % corners.len()]));
+        let across = (end - start).perp();
+        let main = if across.x.abs() >= across.y.abs() {
+            across.x
+        } else {
+            across.y
+        };
+        let form = across / main;
+        let edge = 0.5 * (form.dot(start) + form.dot(end));
+        let spread = 0.5 * (form.dot(start) - form.dot(end)).abs();
+        let reach = 2.0 * tolerance + spread;
+        let (low, high) = if form.dot(flat(centre)) >= edge {
             (edge - reach, f64::INFINITY)
         } else {
             (f64::NEG_INFINITY, edge + reach)
         };
-        match slabs
-            .iter_mut()
-            .find(|slab| slab.form.near(&form, tolerance))
-        {
+        let parallel = |slab: &&mut Slab| {
+            (DVec2::from_array(slab.form) - form).abs().max_element() <= tolerance
+        };
+        match slabs.iter_mut().find(parallel) {
             Some(slab) => {
                 slab.low = slab.low.max(low);
                 slab.high = slab.high.min(high);
             }
-            None => slabs.push(Slab { form, low, high }),
+            None => slabs.push(Slab {
+                form: form.to_array(),
+                low,
+                high,
+            }),
         }
     }
     slabs

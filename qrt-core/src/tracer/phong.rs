@@ -124,12 +124,14 @@ impl<const C: usize> PhongStage<C> {
             cx.pow(cos, exponent)
         };
         let norm = 0.5 * (self.exponent + 2.0);
-        std::array::from_fn(|c| {
-            let lobe = cx.scale(power, self.specular[c] * norm);
-            let base = cx.real(self.diffuse[c]);
+        let mut value = [zero; C];
+        for ((value, &kd), &ks) in value.iter_mut().zip(&self.diffuse).zip(&self.specular) {
+            let lobe = cx.scale(power, ks * norm);
+            let base = cx.real(kd);
             let sum = cx.add(base, lobe);
-            cx.scale(sum, std::f64::consts::FRAC_1_PI)
-        })
+            *value = cx.scale(sum, std::f64::consts::FRAC_1_PI);
+        }
+        value
     }
 
     /// The sampled direction in the local frame, and its weight, by the own map.
@@ -162,11 +164,12 @@ impl<const C: usize> PhongStage<C> {
         let turned = vector::sub(cx, &scaled, &about_axis);
         let direction = vector::select(cx, on_lobe, &turned, &about_axis);
         let cos_i = cx.max(turned[2], zero);
-        let weight = std::array::from_fn(|c| {
-            let lobe = cx.scale(cos_i, lobes.lobe[c]);
-            let base = cx.real(lobes.base[c]);
-            cx.select(on_lobe, lobe, base)
-        });
+        let mut weight = [zero; C];
+        for ((weight, &base), &lobe) in weight.iter_mut().zip(&lobes.base).zip(&lobes.lobe) {
+            let lobe = cx.scale(cos_i, lobe);
+            let base = cx.real(base);
+            *weight = cx.select(on_lobe, lobe, base);
+        }
         Some((direction, weight))
     }
 }

@@ -205,7 +205,11 @@ impl Compiled {
                 Step::Call(function, a) => cx.function(*function, values[*a]),
             };
         }
-        std::array::from_fn(|k| values[self.roots[k]])
+        let mut results = [zero; K];
+        for (result, &root) in results.iter_mut().zip(&self.roots) {
+            *result = values[root];
+        }
+        results
     }
 }
 

@@ -231,7 +231,7 @@ impl<const C: usize> ScatterStage<C> {
             let direction = to_scene(cx, at, &[x, y, z]);
             let weight = match self.map.constant(3) {
                 Some(1.0) => tint,
-                _ => tint.map(|albedo| cx.mul(albedo, factor)),
+                _ => vector::scale(cx, &tint, factor),
             };
             choose(cx, &mut chosen, mask, Scattered { direction, weight });
         }
@@ -257,7 +257,7 @@ impl<const C: usize> ScatterStage<C> {
         };
         if let Some(mask) = members(cx, at, &self.ggx) {
             let (incoming, value) = self.ggx(cx, at, &local);
-            let weight = tint.map(|reflectance| cx.mul(reflectance, value));
+            let weight = vector::scale(cx, &tint, value);
             let direction = to_scene(cx, at, &incoming);
             choose(cx, &mut chosen, mask, Scattered { direction, weight });
         }
@@ -387,7 +387,7 @@ impl<const C: usize> ScatterStage<C> {
         let cos_a = local.cos_a(cx, &incoming);
         let value = phong.value(cx, cos_a);
         let factor = cx.scale(factor, PI);
-        (incoming, value.map(|value| cx.mul(value, factor)))
+        (incoming, vector::scale(cx, &value, factor))
     }
 }
 
@@ -511,7 +511,7 @@ fn choose<A: Arith, const C: usize>(
         None => new,
         Some(old) => Scattered {
             direction: vector::select(cx, mask, &new.direction, &old.direction),
-            weight: std::array::from_fn(|c| cx.select(mask, new.weight[c], old.weight[c])),
+            weight: vector::select(cx, mask, &new.weight, &old.weight),
         },
     });
 }

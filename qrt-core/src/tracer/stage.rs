@@ -56,7 +56,11 @@ impl<const C: usize> Stage<C> {
         let emitters = first..first + surfaces.iter().copied().filter(emits).count() as u32;
         let black = surfaces.iter().filter(|s| rank(&s.scatter) == 0).count() as u32;
         let reach = camera::reach(&written.camera, written.film);
-        let geometry = Geometry::new(scene.polygons(), &reach);
+        let geometry = Geometry::new(
+            scene.polygons(),
+            |polygon| emits(&&scene.surfaces()[polygon.surface as usize]),
+            &reach,
+        );
         let scatters: Vec<_> = depths
             .iter()
             .enumerate()

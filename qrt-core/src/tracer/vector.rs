@@ -19,9 +19,34 @@ pub(crate) fn dot<A: Arith>(cx: &mut A, a: &Vector<A>, b: &Vector<A>) -> A::Real
     cx.add(xy, z)
 }
 
+/// `s` times each component.
 #[inline(always)]
-pub(crate) fn scale<A: Arith>(cx: &mut A, a: &Vector<A>, s: A::Real) -> Vector<A> {
-    [cx.mul(a[0], s), cx.mul(a[1], s), cx.mul(a[2], s)]
+pub(crate) fn scale<A: Arith, const N: usize>(
+    cx: &mut A,
+    a: &[A::Real; N],
+    s: A::Real,
+) -> [A::Real; N] {
+    let mut scaled = *a;
+    // Loops and not closures: a closure is a function without the lanes' instruction set until it
+    // is inlined.
+    for component in &mut scaled {
+        *component = cx.mul(*component, s);
+    }
+    scaled
+}
+
+/// Component by component.
+#[inline(always)]
+pub(crate) fn mul<A: Arith, const N: usize>(
+    cx: &mut A,
+    a: &[A::Real; N],
+    b: &[A::Real; N],
+) -> [A::Real; N] {
+    let mut product = *a;
+    for (component, &b) in product.iter_mut().zip(b) {
+        *component = cx.mul(*component, b);
+    }
+    product
 }
 
 #[inline(always)]
@@ -39,13 +64,19 @@ pub(crate) fn neg<A: Arith>(cx: &mut A, a: &Vector<A>) -> Vector<A> {
     [cx.neg(a[0]), cx.neg(a[1]), cx.neg(a[2])]
 }
 
+/// Component by component.
 #[inline(always)]
-pub(crate) fn select<A: Arith>(cx: &mut A, c: A::Bool, a: &Vector<A>, b: &Vector<A>) -> Vector<A> {
-    [
-        cx.select(c, a[0], b[0]),
-        cx.select(c, a[1], b[1]),
-        cx.select(c, a[2], b[2]),
-    ]
+pub(crate) fn select<A: Arith, const N: usize>(
+    cx: &mut A,
+    c: A::Bool,
+    a: &[A::Real; N],
+    b: &[A::Real; N],
+) -> [A::Real; N] {
+    let mut chosen = *a;
+    for (component, &b) in chosen.iter_mut().zip(b) {
+        *component = cx.select(c, *component, b);
+    }
+    chosen
 }
 
 #[inline(always)]

@@ -36,14 +36,16 @@ pub(crate) fn lanes<T: bytemuck::Pod, U: bytemuck::Pod>(vector: &[T; WIDTH]) -> 
     bytemuck::cast_slice(vector)
 }
 
-#[inline(always)]
-fn each<T: Copy, R>(a: [T; WIDTH], f: impl Fn(T) -> R) -> [R; WIDTH] {
-    a.map(f)
-}
-
-#[inline(always)]
-fn both<T: Copy, U: Copy, R>(a: [T; WIDTH], b: [U; WIDTH], f: impl Fn(T, U) -> R) -> [R; WIDTH] {
-    std::array::from_fn(|k| f(a[k], b[k]))
+/// Applies an operation register by register. A macro and not a function of a closure: a closure
+/// is compiled without the instruction set until it is inlined, which is left to chance.
+macro_rules! each {
+    ($cx:ident, $operation:ident, $first:ident $(, $rest:ident)*) => {{
+        let mut result = [$cx.simd.$operation($first[0] $(, $rest[0])*); WIDTH];
+        for k in 1..WIDTH {
+            result[k] = $cx.simd.$operation($first[k] $(, $rest[k])*);
+        }
+        result
+    }};
 }
 
 impl<S: pulp::Simd> Lanes<'_, S> {
@@ -82,31 +84,31 @@ impl<S: pulp::Simd> Arith for Lanes<'_, S> {
     }
     #[inline(always)]
     fn add(&mut self, a: Self::Real, b: Self::Real) -> Self::Real {
-        both(a, b, |a, b| self.simd.add_f64s(a, b))
+        each!(self, add_f64s, a, b)
     }
     #[inline(always)]
     fn sub(&mut self, a: Self::Real, b: Self::Real) -> Self::Real {
-        both(a, b, |a, b| self.simd.sub_f64s(a, b))
+        each!(self, sub_f64s, a, b)
     }
     #[inline(always)]
     fn mul(&mut self, a: Self::Real, b: Self::Real) -> Self::Real {
-        both(a, b, |a, b| self.simd.mul_f64s(a, b))
+        each!(self, mul_f64s, a, b)
     }
     #[inline(always)]
     fn div(&mut self, a: Self::Real, b: Self::Real) -> Self::Real {
-        both(a, b, |a, b| self.simd.div_f64s(a, b))
+        each!(self, div_f64s, a, b)
     }
     #[inline(always)]
     fn neg(&mut self, a: Self::Real) -> Self::Real {
-        each(a, |a| self.simd.neg_f64s(a))
+        each!(self, neg_f64s, a)
     }
     #[inline(always)]
     fn abs(&mut self, a: Self::Real) -> Self::Real {
-        each(a, |a| self.simd.abs_f64s(a))
+        each!(self, abs_f64s, a)
     }
     #[inline(always)]
     fn sqrt(&mut self, a: Self::Real) -> Self::Real {
-        each(a, |a| self.simd.sqrt_f64s(a))
+        each!(self, sqrt_f64s, a)
     }
     // Not the instruction sets' own: they differ in what they make of NaN and of zeros' signs.
     #[inline(always)]
@@ -121,7 +123,8 @@ impl<S: pulp::Simd> Arith for Lanes<'_, S> {
     }
     #[inline(always)]
     fn function(&mut self, function: Function, a: Self::Real) -> Self::Real {
-        self.reals(|lane| function.value(lanes::<_, f64>(&a)[lane]))
+        let a = lanes::<_, f64>(&a);
+        self.reals(|lane| function.value(a[lane]))
     }
     #[inline(always)]
     fn pow(&mut self, a: Self::Real, b: Self::Real) -> Self::Real {
@@ -139,32 +142,35 @@ impl<S: pulp::Simd> Arith for Lanes<'_, S> {
     }
     #[inline(always)]
     fn less(&mut self, a: Self::Real, b: Self::Real) -> Self::Bool {
-        both(a, b, |a, b| self.simd.less_than_f64s(a, b))
+        each!(self, less_than_f64s, a, b)
     }
     #[inline(always)]
     fn less_equal(&mut self, a: Self::Real, b: Self::Real) -> Self::Bool {
-        both(a, b, |a, b| self.simd.less_than_or_equal_f64s(a, b))
+        each!(self, less_than_or_equal_f64s, a, b)
     }
     #[inline(always)]
     fn and(&mut self, a: Self::Bool, b: Self::Bool) -> Self::Bool {
-        both(a, b, |a, b| self.simd.and_m64s(a, b))
+        each!(self, and_m64s, a, b)
     }
     #[inline(always)]
     fn or(&mut self, a: Self::Bool, b: Self::Bool) -> Self::Bool {
-        both(a, b, |a, b| self.simd.or_m64s(a, b))
+        each!(self, or_m64s, a, b)
     }
     #[inline(always)]
     fn not(&mut self, a: Self::Bool) -> Self::Bool {
-        each(a, |a| self.simd.not_m64s(a))
+        each!(self, not_m64s, a)
     }
     #[inline(always)]
     fn possible(&mut self, a: Self::Bool) -> bool {
-        a.iter()
-            .any(|&a| self.simd.first_true_m64s(a) < S::F64_LANES)
+        let mut any = a[0];
+        for &more in &a[1..] {
+            any = self.simd.or_m64s(any, more);
+        }
+        self.simd.first_true_m64s(any) < S::F64_LANES
     }
     #[inline(always)]
     fn select(&mut self, c: Self::Bool, a: Self::Real, b: Self::Real) -> Self::Real {
-        std::array::from_fn(|k| self.simd.select_f64s(c[k], a[k], b[k]))
+        each!(self, select_f64s, c, a, b)
     }
 
     #[inline(always)]
@@ -173,17 +179,17 @@ impl<S: pulp::Simd> Arith for Lanes<'_, S> {
     }
     #[inline(always)]
     fn select_index(&mut self, c: Self::Bool, a: Self::Index, b: Self::Index) -> Self::Index {
-        std::array::from_fn(|k| self.simd.select_u64s(c[k], a[k], b[k]))
+        each!(self, select_u64s, c, a, b)
     }
     #[inline(always)]
     fn is(&mut self, a: Self::Index, value: u32) -> Self::Bool {
-        let value = self.simd.splat_u64s(u64::from(value));
-        each(a, |a| self.simd.equal_u64s(a, value))
+        let value = self.index(value);
+        each!(self, equal_u64s, a, value)
     }
     #[inline(always)]
     fn below(&mut self, a: Self::Index, value: u32) -> Self::Bool {
-        let value = self.simd.splat_u64s(u64::from(value));
-        each(a, |a| self.simd.less_than_u64s(a, value))
+        let value = self.index(value);
+        each!(self, less_than_u64s, a, value)
     }
     #[inline(always)]
     fn rows<const K: usize>(&mut self, table: &[[f64; K]], row: Self::Index) -> [Self::Real; K] {
