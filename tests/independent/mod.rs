@@ -7,13 +7,13 @@ use qrt_runtime::machines::Real;
 use std::path::PathBuf;
 
 /// Pixels from the top left, row by row; linear red, green, blue.
-pub type Picture = Vec<[f64; 3]>;
+pub(crate) type Picture = Vec<[f64; 3]>;
 
 /// Pixels along each side of the reference pictures.
-pub const SIDE: u32 = 16;
+pub(crate) const SIDE: u32 = 16;
 
 /// A file of the reference data.
-pub fn file(name: &str) -> PathBuf {
+pub(crate) fn file(name: &str) -> PathBuf {
     let root = env!("CARGO_MANIFEST_DIR");
     [root, "tests", "references", name].iter().collect()
 }
@@ -22,7 +22,7 @@ pub fn file(name: &str) -> PathBuf {
 ///
 /// Format: the magic, the version 1.0, the header's length in two bytes, and a header that says
 /// `'descr': '<f4'` or `'<f8'`, then the values.
-pub fn array(name: &str) -> Vec<f64> {
+pub(crate) fn array(name: &str) -> Vec<f64> {
     let bytes = std::fs::read(file(name)).unwrap_or_else(|error| panic!("{name}: {error}"));
     assert_eq!(&bytes[..8], b"\x93NUMPY\x01\0", "{name}");
     let start = 10 + usize::from(u16::from_le_bytes([bytes[8], bytes[9]]));
@@ -40,13 +40,13 @@ pub fn array(name: &str) -> Vec<f64> {
 }
 
 /// A picture of the independent renderer, and its standard error.
-pub struct Reference {
-    pub picture: Picture,
-    pub standard_error: Picture,
+pub(crate) struct Reference {
+    pub(crate) picture: Picture,
+    pub(crate) standard_error: Picture,
 }
 
 /// The reference of a scene at a depth (rays on a path).
-pub fn reference(scene: &str, depth: usize) -> Reference {
+pub(crate) fn reference(scene: &str, depth: usize) -> Reference {
     let read = |suffix: &str| -> Picture {
         let values = array(&format!("{scene}_D{depth}_{SIDE}{suffix}.npy"));
         let pixels = values.chunks_exact(3).map(|p| [p[0], p[1], p[2]]);
@@ -58,17 +58,18 @@ pub fn reference(scene: &str, depth: usize) -> Reference {
     }
 }
 
-/// Overrides that ask for `depth` rays, `2^path_bits` paths and 10 bits a coordinate.
-pub fn asking(depth: usize, path_bits: u32) -> Vec<String> {
-    let depths = vec!["{bits: [10, 10]}"; depth].join(", ");
+/// Overrides that ask for `depth` rays and `2^path_bits` paths, with 16 bits for each coordinate in
+/// the pixel and 10 for those of directions.
+pub(crate) fn asking(depth: usize, path_bits: u32) -> Vec<String> {
+    let directions = ", {bits: [10, 10]}".repeat(depth - 1);
     vec![
-        format!("sampling.depths=[{depths}]"),
+        format!("sampling.depths=[{{bits: [16, 16]}}{directions}]"),
         format!("sampling.path_bits={path_bits}"),
     ]
 }
 
 /// The scene of a file of the reference data, with overrides.
-pub fn scene(name: &str, sets: &[String]) -> ValidScene {
+pub(crate) fn scene(name: &str, sets: &[String]) -> ValidScene {
     let path = file(&format!("{name}.yaml"));
     match qrt_core::front::load(&path, sets) {
         Ok(loaded) => loaded.valid,
@@ -77,7 +78,7 @@ pub fn scene(name: &str, sets: &[String]) -> ValidScene {
 }
 
 /// The picture that a machine makes.
-pub fn picture(real: &Real, width: u32, height: u32) -> Picture {
+pub(crate) fn picture(real: &Real, width: u32, height: u32) -> Picture {
     let pixels: Vec<[u32; 2]> = (0..width * height)
         .map(|i| [i % width, i / width])
         .collect();
@@ -98,18 +99,18 @@ fn cores() -> usize {
 }
 
 /// The picture of `scene` under `seed`.
-pub fn traced(scene: &ValidScene, seed: u64) -> Picture {
+pub(crate) fn traced(scene: &ValidScene, seed: u64) -> Picture {
     let film = scene.scene().film;
     picture(&Real::new(scene, seed).unwrap(), film.width, film.height)
 }
 
 /// The mean over pixels and channels.
-pub fn mean(picture: &[[f64; 3]]) -> f64 {
+pub(crate) fn mean(picture: &[[f64; 3]]) -> f64 {
     picture.as_flattened().iter().sum::<f64>() / (3 * picture.len()) as f64
 }
 
 /// The root of the mean square over pixels and channels of `a - b`.
-pub fn rms_difference(a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
+pub(crate) fn rms_difference(a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
     assert_eq!(a.len(), b.len());
     let pairs = a.as_flattened().iter().zip(b.as_flattened());
     let squares: f64 = pairs.map(|(a, b)| (a - b) * (a - b)).sum();
