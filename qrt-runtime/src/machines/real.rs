@@ -1,6 +1,10 @@
 //! The real machine: every path of a pixel, in `f64`.
 
 use super::lanes::{BLOCK, Inputs, Lanes, lanes};
+
+/// Registers per value: two give the processor independent work while a division is under way.
+const WIDTH: usize = 2;
+
 use pulp::{Arch, WithSimd};
 use qrt_core::sampling::PathPoints;
 use qrt_core::tracer::{Stage, trace};
@@ -220,15 +224,15 @@ impl WithSimd for TraceBlock<'_> {
 
     #[inline(always)]
     fn with_simd<S: pulp::Simd>(self, simd: S) {
-        for first in (0..self.count).step_by(Lanes::<S>::COUNT) {
-            let mut cx = Lanes {
+        for first in (0..self.count).step_by(Lanes::<S, WIDTH>::COUNT) {
+            let mut cx = Lanes::<S, WIDTH> {
                 simd,
                 inputs: self.inputs,
                 first,
             };
             let colour = trace(&mut cx, self.stage, self.stage.geometry());
             for (out, colour) in self.colours.iter_mut().zip(&colour) {
-                out[first..first + Lanes::<S>::COUNT].copy_from_slice(lanes(colour));
+                out[first..first + Lanes::<S, WIDTH>::COUNT].copy_from_slice(lanes(colour));
             }
         }
     }
