@@ -97,12 +97,92 @@ codes! {
         "Split it into triangles";
     CROSSING = "QRT0304", "a quad whose edges cross",
         "List the vertices in order around the outline";
-    MESH_ZERO_AREA = "QRT0305", "a mesh with faces without area",
-        "Remove them with the tool that made the mesh";
-    MESH_MATERIAL = "QRT0306", "a mesh with faces without a material",
-        "Give the mesh a `material`, or complete its MTL";
+    MESH_ZERO_AREA = "QRT0305", "a mesh whose faces lose their area when it is placed",
+        "Use a larger scale or a smaller translation";
     MESH_RANGE = "QRT0307", "a mesh that its transform takes out of range",
         "Use a smaller scale or translation";
+    OBJ_UNREADABLE = "QRT0320", "a mesh file that cannot be read",
+        "Check the path, which is relative to the scene's folder";
+    OBJ_TOO_LARGE = "QRT0321", "a mesh file that is too large",
+        "Use a coarser mesh";
+    OBJ_NOT_TEXT = "QRT0322", "a mesh file that is not text",
+        "Export the mesh as Wavefront OBJ";
+    OBJ_STATEMENT = "QRT0323", "an unknown statement in a mesh file",
+        "Correct or remove it";
+    OBJ_NO_POLYGON = "QRT0324", "points, lines or free-form shapes in a mesh file",
+        "Export the mesh as polygons";
+    OBJ_NUMBER = "QRT0325", "too few, too many or no numbers in a mesh file",
+        "Write as many numbers as the statement takes";
+    OBJ_NOT_FINITE = "QRT0326", "NaN, infinity or an overlarge number in a mesh file",
+        "Write finite numbers, and scale the mesh in the scene";
+    OBJ_CORNERS = "QRT0327", "a face with fewer than three corners",
+        "Give it three or more, or remove it";
+    OBJ_CORNER = "QRT0328", "a corner of a face that cannot be read",
+        "Write it as v, v/vt, v//vn or v/vt/vn, with whole numbers from 1";
+    OBJ_INDEX = "QRT0329", "a face that refers to what the file does not have",
+        "Check that the file is whole";
+    OBJ_OUTLINE = "QRT0330", "a face that cannot be cut into triangles",
+        "Export the mesh as triangles";
+    OBJ_NO_FACES = "QRT0331", "a mesh without faces",
+        "Check that the file is whole";
+    OBJ_CONTINUATION = "QRT0332", "a mesh file that ends within a line",
+        "Check that the file is whole";
+    OBJ_NO_LIBRARY = "QRT0333", "a mesh that names no material library",
+        "Give the mesh a `material` in the scene, or the file a `mtllib` statement";
+    MTL_UNREADABLE = "QRT0334", "a material library that cannot be read",
+        "Check the name after `mtllib`, which is relative to the OBJ file's folder";
+    OBJ_MATERIAL = "QRT0335", "a material that no library has",
+        "Correct the name after `usemtl`, or add the material to the MTL file";
+    OBJ_NO_MATERIAL = "QRT0336", "a face without a material",
+        "Give the mesh a `material` in the scene, or the face one in the file";
+    MTL_STATEMENT = "QRT0337", "a statement of a material library that cannot be read",
+        "Write `newmtl NAME`, `Kd r g b` and `Ke r g b`";
+    MTL_ALBEDO = "QRT0338", "a `Kd` outside [0, 1]",
+        "A surface cannot reflect less than nothing or more than it receives";
+    MTL_RADIANCE = "QRT0339", "a negative `Ke`",
+        "Write 0 or more";
+    MTL_DUPLICATE = "QRT0340", "two materials of one name in the libraries of a mesh",
+        "Rename one of them";
+    MTL_EMPTY = "QRT0341", "a material without `Kd` and `Ke`",
+        "Give it an albedo, a radiance or both";
+    MTL_TEXTURE = "QRT0342", "a texture in a material library",
+        "Give the mesh a `material` in the scene, or the material a plain colour";
+    OBJ_ZERO_AREA = "QRT0343", "a face without area",
+        "Remove it with the tool that made the mesh";
+    OBJ_REFUSED = "QRT0344", "a mesh file that the OBJ library refuses",
+        "Export the mesh anew";
+    EXPR_SYNTAX = "QRT0400", "an expression that cannot be read",
+        "Look at the marked place: an operator or parenthesis is missing or too many";
+    EXPR_NAME = "QRT0401", "an unknown name in an expression",
+        "Compare with the nearest name";
+    EXPR_VARIABLE = "QRT0402", "a variable that has no value here",
+        "Maps and Jacobians depend on u and v alone";
+    EXPR_OPERANDS = "QRT0403", "a function with the wrong number of operands",
+        "Give it as many as it takes";
+    EXPR_NUMBER = "QRT0404", "a number that cannot be read in an expression",
+        "Write it like 2, 0.5 or 1e-3";
+    EXPR_SIZE = "QRT0405", "an expression that is too long or too deep",
+        "Simplify it";
+    EXPR_EMPTY = "QRT0406", "an empty expression",
+        "Write one";
+    BSDF_CHANNELS = "QRT0410", "values for another number of channels than one or three",
+        "Give one expression (grey) or three (red, green, blue)";
+    MAP_OFF_SPHERE = "QRT0411", "a map that leaves the unit sphere",
+        "Make x^2 + y^2 + z^2 = 1 for all u and v";
+    MAP_UNDEFINED = "QRT0412", "a map without a value or slope somewhere",
+        "Make it finite and smooth within the unit square";
+    MAP_FLAT = "QRT0413", "a map onto a point or a line",
+        "Let it depend on both u and v";
+    JACOBIAN_MISMATCH = "QRT0414", "a Jacobian that is not that of its map",
+        "Write `auto`, or |dphi/du x dphi/dv|";
+    BSDF_NEGATIVE = "QRT0415", "a BSDF with a negative value",
+        "Cut the negative part off with `max(0, ...)`";
+    BSDF_UNDEFINED = "QRT0416", "a BSDF without a finite value somewhere",
+        "Make it finite for every pair of directions above the surface";
+    BSDF_ENERGY = "QRT0417", "a BSDF that reflects more than it receives",
+        "Scale it down";
+    BSDF_UNBOUNDED = "QRT0418", "a BSDF whose weight has no bound under its map",
+        "Choose a map that sends more points where the value is large";
     NO_DEPTH = "QRT0501", "a path without rays",
         "Give `depths` at least one entry";
     PATH_BITS_SUM = "QRT0502", "path_bits that is not the sum of the lattice's bits",

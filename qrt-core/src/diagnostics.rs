@@ -4,7 +4,9 @@
 use crate::front::tree::{Node, Span};
 use crate::report::Problem;
 use annotate_snippets::renderer::DecorStyle;
-use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
+use annotate_snippets::{
+    AnnotationKind, Group, Level, Origin, Renderer, Snippet, normalize_untrusted_str,
+};
 use std::fmt;
 use std::ops::Range;
 
@@ -13,16 +15,20 @@ use std::ops::Range;
 pub struct Source {
     /// What stands before the line number: a file's path, or `<--set>`.
     pub name: String,
-    /// The text, without a byte order mark.
+    /// The text, without a byte order mark, its lines ended by LF.
     pub text: String,
 }
 
 impl Source {
-    /// A named text. A byte order mark at its start is dropped.
+    /// A named text. A byte order mark at its start is dropped, and CR LF becomes LF, which is the
+    /// same to YAML.
     pub fn new(name: impl Into<String>, text: impl Into<String>) -> Self {
         let mut text = text.into();
         if text.starts_with('\u{feff}') {
             text.drain(..'\u{feff}'.len_utf8());
+        }
+        if text.contains("\r\n") {
+            text = text.replace("\r\n", "\n");
         }
         Self {
             name: name.into(),
@@ -55,6 +61,10 @@ pub struct Report {
 
 /// Problems that a report lists.
 pub const MOST: usize = 1000;
+
+/// Bytes of source that are shown with a problem. Nobody reads longer lines, and laying them out
+/// takes long; their problems are told by line and column.
+const LONGEST: usize = 4000;
 
 impl Report {
     /// A report of one problem about a file as a whole.
@@ -158,7 +168,9 @@ impl Report {
         let last = Level::ERROR.no_name().primary_title(closing.as_str());
         out.push_str(&renderer.render(&[Group::with_title(last)]));
         out.push('\n');
-        out
+        // The renderer makes control characters of ASCII visible; to a terminal, those of the
+        // block behind it can be orders too.
+        out.replace(|c| matches!(c, '\u{80}'..='\u{9f}'), "\u{fffd}")
     }
 
     fn render_one(&self, renderer: &Renderer, lines: &[Lines<'_>], placed: &Placed) -> String {
@@ -174,10 +186,10 @@ impl Report {
             let other = placed.also.zip(problem.also.as_ref());
             let other = other.map(|(also, (_, why))| (also, why.as_str()));
             let near = other.filter(|(also, _)| also.source == span.source);
-            let excerpt = match near {
-                Some((also, _)) => lines_here.excerpt(&[span, also]),
-                None => lines_here.excerpt(&[span]),
-            };
+            let both = near.map(|(also, _)| lines_here.excerpt(&[span, also]));
+            let both = both.filter(|excerpt| excerpt.text.len() <= LONGEST);
+            let near = near.filter(|_| both.is_some());
+            let excerpt = both.unwrap_or_else(|| lines_here.excerpt(&[span]));
             let mut marks = vec![(
                 AnnotationKind::Primary,
                 excerpt.within(span),
@@ -186,11 +198,22 @@ impl Report {
             if let Some((also, why)) = near {
                 marks.push((AnnotationKind::Context, excerpt.within(also), why));
             }
-            group = group.element(excerpt.snippet(self.name(span), marks));
-            if let Some((also, why)) = other.filter(|(also, _)| also.source != span.source)
+            if excerpt.text.len() > LONGEST {
+                let (line, column) = lines_here.position(span);
+                let origin = Origin::path(self.name(span)).line(line).char_column(column);
+                group = group.element(origin);
+                if !problem.label.is_empty() {
+                    group =
+                        group.element(Level::NOTE.message(normalize_untrusted_str(&problem.label)));
+                }
+            } else {
+                group = group.element(excerpt.snippet(self.name(span), marks));
+            }
+            if let Some((also, why)) = other.filter(|_| near.is_none())
                 && let Some(lines) = lines.get(also.source as usize)
+                && let excerpt = lines.excerpt(&[also])
+                && excerpt.text.len() <= LONGEST
             {
-                let excerpt = lines.excerpt(&[also]);
                 let marks = vec![(AnnotationKind::Context, excerpt.within(also), why)];
                 group = group.element(excerpt.snippet(self.name(also), marks));
             }
@@ -199,10 +222,10 @@ impl Report {
                 .sources
                 .first()
                 .map_or("", |source| source.name.as_str());
-            group = group.element(annotate_snippets::Origin::path(name));
+            group = group.element(Origin::path(name));
         }
         if let Some(help) = &problem.help {
-            group = group.element(Level::HELP.message(help.as_str()));
+            group = group.element(Level::HELP.message(normalize_untrusted_str(help)));
         }
         renderer.render(&[group])
     }
@@ -237,6 +260,16 @@ impl<'a> Lines<'a> {
                 .chain(feeds.map(|(at, _)| at + 1))
                 .collect(),
         }
+    }
+
+    /// Line and column of a span's start, from 1; columns count characters.
+    fn position(&self, span: Span) -> (usize, usize) {
+        let at = visible(self.text, span).start;
+        let line = self.starts.partition_point(|&start| start <= at).max(1);
+        (
+            line,
+            1 + self.text[self.starts[line - 1]..at].chars().count(),
+        )
     }
 
     /// The lines from the first to the last of the spans.

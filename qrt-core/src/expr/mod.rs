@@ -36,7 +36,7 @@ mod parse;
 #[cfg(test)]
 mod properties;
 mod simplify;
-mod suggest;
+pub(crate) mod suggest;
 #[cfg(test)]
 mod tests;
 

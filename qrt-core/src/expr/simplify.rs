@@ -158,6 +158,16 @@ fn constant(sum: &Sum) -> Option<f64> {
     }
 }
 
+/// The exponent without the rounding that keeps `1/51 + 50/51` from being 1.
+fn settled(exponent: f64) -> f64 {
+    let near = (exponent * 2.0).round() / 2.0;
+    if (exponent - near).abs() <= ROUNDING * exponent.abs().max(1.0) {
+        near
+    } else {
+        exponent
+    }
+}
+
 fn is_even(exponent: f64) -> bool {
     exponent % 2.0 == 0.0
 }
@@ -195,7 +205,7 @@ impl Canon {
             Node::Powi(a, n) => self.raise(of(a), n.into()),
             Node::Sqrt(a) => self.raise(of(a), 0.5),
             Node::Pow(a, b) => {
-                if let Some(exponent) = constant(of(b)) {
+                if let Some(exponent) = self.value(of(b)) {
                     return self.raise(of(a), exponent);
                 }
                 Some(self.single(Atom::Pow(of(a).clone(), of(b).clone())))
@@ -233,7 +243,7 @@ impl Canon {
                 Some(self.single(Atom::IfLess(Box::new(parts))))
             }
             Node::Atan2(a, b) => {
-                if let (Some(a), Some(b)) = (constant(of(a)), constant(of(b))) {
+                if let (Some(a), Some(b)) = (self.value(of(a)), self.value(of(b))) {
                     return number(libm::atan2(a, b));
                 }
                 Some(self.single(Atom::Atan2(of(a).clone(), of(b).clone())))
@@ -319,6 +329,23 @@ impl Canon {
             }
         }
         sum.retain(|term| term.coefficient != 0.0);
+        // Several numbers, of which some are roots, are one.
+        let is_number = |term: &Product| {
+            term.factors
+                .iter()
+                .all(|factor| matches!(self.atoms[factor.atom], Atom::Number(_)))
+        };
+        if sum.iter().filter(|term| is_number(term)).count() > 1 {
+            let (numbers, mut rest): (Sum, Sum) = sum.into_iter().partition(is_number);
+            let mut total = 0.0;
+            for term in numbers {
+                total += self.value(&vec![term])?;
+            }
+            if total != 0.0 {
+                rest.insert(0, Product::new(total, Vec::new()));
+            }
+            sum = rest;
+        }
         Some(sum)
     }
 
@@ -373,7 +400,9 @@ impl Canon {
             let mut merged: Vec<Factor> = Vec::with_capacity(factors.len());
             for factor in factors {
                 match merged.last_mut() {
-                    Some(last) if last.atom == factor.atom => last.exponent += factor.exponent,
+                    Some(last) if last.atom == factor.atom => {
+                        last.exponent = settled(last.exponent + factor.exponent);
+                    }
                     _ => merged.push(factor),
                 }
             }
@@ -516,6 +545,22 @@ impl Canon {
             Atom::IfLess(parts) => Some(self.range(&parts[2]).hull(self.range(&parts[3]))),
         };
         range.unwrap_or(Interval::ALL)
+    }
+
+    /// The value of a sum without variables.
+    fn value(&self, sum: &Sum) -> Option<f64> {
+        let [product] = &sum[..] else {
+            return constant(sum);
+        };
+        product
+            .factors
+            .iter()
+            .try_fold(product.coefficient, |value, factor| {
+                match self.atoms[factor.atom] {
+                    Atom::Number(base) => Some(value * libm::pow(base, factor.exponent)),
+                    _ => None,
+                }
+            })
     }
 
     fn range(&self, sum: &Sum) -> Interval {

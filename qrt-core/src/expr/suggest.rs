@@ -1,14 +1,18 @@
 //! The nearest right name.
 
-/// The candidate that takes fewest edits, if that is few for its length.
-pub(super) fn nearest<'a>(
+/// The candidate that takes fewest edits, if that is few for its length; an ending that is missing
+/// is one edit.
+pub(crate) fn nearest<'a>(
     name: &str,
     candidates: impl IntoIterator<Item = &'a str>,
 ) -> Option<&'a str> {
     let limit = (name.chars().count() / 3).max(1);
     candidates
         .into_iter()
-        .map(|candidate| (edits(name, candidate), candidate))
+        .map(|candidate| {
+            let is_start = name.len() > 2 && candidate.starts_with(name);
+            (if is_start { 1 } else { edits(name, candidate) }, candidate)
+        })
         .filter(|(edits, _)| *edits <= limit)
         .min_by_key(|(edits, _)| *edits)
         .map(|(_, candidate)| candidate)
@@ -16,7 +20,12 @@ pub(super) fn nearest<'a>(
 
 /// Insertions, deletions, replacements and swaps of neighbours that turn `a` into `b`.
 fn edits(a: &str, b: &str) -> usize {
-    let a: Vec<char> = a.chars().flat_map(char::to_lowercase).collect();
+    // What is much longer is far, however it goes on.
+    let a: Vec<char> = a
+        .chars()
+        .take(b.len() + 9)
+        .flat_map(char::to_lowercase)
+        .collect();
     let b: Vec<char> = b.chars().flat_map(char::to_lowercase).collect();
     if a.len() > b.len() + 8 {
         return a.len();

@@ -108,11 +108,12 @@ pub fn of_tree(tree: &Node, folder: &std::path::Path) -> Result<ValidScene, Vec<
         Ok(_) => {}
         Err(found) => {
             let faulty = Faulty::of(&replaced);
-            problems.extend(
-                found
-                    .into_iter()
-                    .filter(|problem| !faulty.touches(&problem.path)),
-            );
+            // Where the materials could not be read, nobody knows which names there are.
+            let nameless = replaced.contains(&Path::root().key("materials"));
+            problems.extend(found.into_iter().filter(|problem| {
+                let unknown = nameless && problem.code == codes::UNKNOWN_MATERIAL;
+                !unknown && !faulty.touches(&problem.path)
+            }));
         }
     }
     Err(problems)

@@ -4,12 +4,25 @@
 //! built here, with an explicit stack: what YAML allows but a scene does not mean (duplicate keys,
 //! tags, several documents, merge keys, keys that are not names) is an error with its place; aliases
 //! are expanded within a budget of nodes, and nesting has a limit.
+//!
+//! Readers that go from YAML straight to types were tried first. `yaml_serde` 0.10, which continues
+//! `serde_yaml`, stops at the first error; its generic values carry no places, so that nothing that
+//! is found after reading (a material that no one defined, a quad without area) can be shown in the
+//! text; and it takes the single-key maps of materials for enumerations only through a wrapper.
+//! `serde-saphyr` 2.0 shows the first error well, duplicate keys included, but only the first. With
+//! both, defaults, ranges and the schema would have to be said a second time. So the events of
+//! `saphyr-parser` 0.3, a crate of two small dependencies, become a tree here, and one definition of
+//! each part (see [`crate::scene`]) does the rest. `yaml_serde` stays as the independent reader that
+//! the tests compare with.
+
+mod locator;
 
 use crate::codes;
 use crate::diagnostics::{Placed, Source};
 use crate::front::tree::{Entry, Node, Scalar, Span, Value, is_null, shorten};
 use crate::report::{Path, Problem};
-use saphyr_parser::{Event, Marker, Parser, ScalarStyle};
+use locator::Locator;
+use saphyr_parser::{Event, Parser, ScalarStyle};
 use std::collections::HashMap;
 use std::ops::Range;
 
@@ -418,93 +431,4 @@ impl<'a> Builder<'a> {
 
 fn problem(code: &'static str, message: impl Into<String>) -> Problem {
     Problem::new(code, Path::root(), message)
-}
-
-/// Turns the parser's lines and columns, which count characters, into bytes.
-struct Locator<'a> {
-    text: &'a str,
-    /// Added to every offset.
-    base: usize,
-    number: u32,
-    /// Where each line starts; a line ends in LF, CR LF or CR, as in YAML.
-    lines: Vec<usize>,
-    /// The last answer (line, column, byte): events come mostly in order, and long lines are thus
-    /// walked once.
-    last: (usize, usize, usize),
-}
-
-impl<'a> Locator<'a> {
-    fn new(text: &'a str, base: usize, number: u32) -> Self {
-        let bytes = text.as_bytes();
-        let breaks = bytes.iter().enumerate().filter(|&(at, &byte)| {
-            byte == b'\n' || (byte == b'\r' && bytes.get(at + 1) != Some(&b'\n'))
-        });
-        let lines = std::iter::once(0)
-            .chain(breaks.map(|(at, _)| at + 1))
-            .collect();
-        Self {
-            text,
-            base,
-            number,
-            lines,
-            last: (1, 0, 0),
-        }
-    }
-
-    /// The byte in `text` of a marker; past the end, the end.
-    fn offset(&mut self, marker: &Marker) -> usize {
-        let (line, column) = (marker.line().max(1), marker.col());
-        let (last_line, last_column, last_byte) = self.last;
-        let (mut at, skip) = if line == last_line && column >= last_column {
-            (last_byte, column - last_column)
-        } else {
-            (
-                self.lines.get(line - 1).copied().unwrap_or(self.text.len()),
-                column,
-            )
-        };
-        at += self.text[at..]
-            .chars()
-            .take(skip)
-            .map(char::len_utf8)
-            .sum::<usize>();
-        self.last = (line, column, at);
-        at
-    }
-
-    fn span(&mut self, span: &saphyr_parser::Span) -> Span {
-        let start = self.offset(&span.start);
-        let end = self.offset(&span.end).max(start);
-        let trimmed = self.text[start..end].trim_end().len();
-        Span {
-            source: self.number,
-            start: self.base + start,
-            end: self.base + start + trimmed,
-        }
-    }
-
-    /// The word that starts at `at`, or the one character there.
-    fn word(&self, at: usize) -> Span {
-        let rest = self.text.get(at..).unwrap_or_default();
-        let word = |c: char| c.is_alphanumeric() || "_-*&!".contains(c);
-        let length = rest.find(|c| !word(c)).unwrap_or(rest.len());
-        let length = length.max(rest.chars().next().map_or(0, char::len_utf8));
-        let (start, end) = (self.base + at, self.base + at + length);
-        Span {
-            source: self.number,
-            start,
-            end,
-        }
-    }
-
-    fn line_of(&self, at: usize) -> &'a str {
-        let line = self.lines.partition_point(|&start| start <= at).max(1) - 1;
-        let end = self.lines.get(line + 1).copied().unwrap_or(self.text.len());
-        &self.text[self.lines[line]..end]
-    }
-
-    fn is_bracket(&self, span: Span) -> bool {
-        let start = span.start - self.base;
-        self.text[start..].starts_with([']', '}'])
-    }
 }

@@ -104,8 +104,11 @@ impl Decoder {
         help: Option<String>,
     ) {
         let message = format!("expected {expected}, found {}", node.found());
-        let mut problem =
-            Problem::new(codes::WRONG_TYPE, at.path(), message).label(format!("not {expected}"));
+        let kind = expected
+            .split_once(" (")
+            .map_or(expected, |(_, kind)| kind.trim_end_matches(')'));
+        let mut problem = Problem::new(codes::WRONG_TYPE, at.path(), message);
+        problem.label = format!("not {kind}");
         problem.help = help;
         self.replace(at, problem);
     }
@@ -130,6 +133,7 @@ impl Decoder {
             .copied()
             .filter(|name| node.entry(name).is_none())
             .collect();
+        let mut misspelt = Vec::new();
         for entry in entries {
             if all.contains(&entry.key.as_str()) {
                 continue;
@@ -138,8 +142,11 @@ impl Decoder {
             let path = at.path().name(entry.key.as_str());
             let message = format!("unknown key `{key}` in {noun}");
             let mut problem = Problem::new(codes::UNKNOWN_KEY, path, message);
-            problem.help = Some(match nearest(&entry.key, &absent) {
-                Some(name) => format!("did you mean `{name}`?"),
+            problem.help = Some(match nearest(&entry.key, &all) {
+                Some(name) => {
+                    misspelt.push(name);
+                    format!("did you mean `{name}`?")
+                }
                 None => format!("the keys of {noun} are {}", listed(&all, "and")),
             });
             self.problems.push(problem);
@@ -148,7 +155,9 @@ impl Decoder {
             .iter()
             .filter(|field| field.required)
             .map(|field| field.name);
-        let missing: Vec<_> = missing.filter(|name| absent.contains(name)).collect();
+        let missing: Vec<_> = missing
+            .filter(|name| absent.contains(name) && !misspelt.contains(name))
+            .collect();
         if !missing.is_empty() {
             let message = format!("{noun} lacks {}", listed(&missing, "and"));
             let problem = Problem::new(codes::MISSING_KEY, at.name(), message)
@@ -198,7 +207,11 @@ impl Decoder {
                 None => format!("write one of the keys {}", listed(names, "or")),
             };
             let problem = Problem::new(codes::ONE_VARIANT, path, message).help(help);
-            self.replace(at, problem);
+            if known.is_some() {
+                self.problems.push(problem);
+            } else {
+                self.replace(at, problem);
+            }
             return known.map(|entry| (entry.key.as_str(), &entry.value));
         }
         if let Some(entry) = known {

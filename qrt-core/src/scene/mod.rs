@@ -12,7 +12,10 @@ pub(crate) mod shape;
 pub mod text;
 
 use crate::codes;
+use crate::diagnostics::{Report, Source};
 use crate::front::tree::{Node, Span, Value};
+use crate::front::yaml;
+use crate::sampling::MAX_PATH_BITS;
 use decode::{Decoder, Place};
 use glam::DVec3;
 use record::{keyword, record, variant};
@@ -43,7 +46,7 @@ record! {
     pub materials: Vec<(String, Material)> = Named(part::<Material>());
     /// Primitives and meshes.
     pub geometry: Vec<Geometry> = List {
-        item: part::<Geometry>(), least: 0, code: codes::WRONG_LENGTH
+        item: part::<Geometry>(), least: 0, fewer: (codes::WRONG_LENGTH, "")
     };
     /// The paths of a pixel.
     pub sampling: Sampling = part::<Sampling>(), or Sampling::default();
@@ -262,10 +265,10 @@ record! {
     pub sequence: Sequence = word::<Sequence>(), or Sequence::DigitalNet;
     /// R = 2^path_bits paths; default 12. Under product-lattice it is the sum of all bits, and
     /// only that.
-    pub path_bits: u32 = whole::<u32>(0, 52), or 12;
+    pub path_bits: u32 = whole::<u32>(0, MAX_PATH_BITS as u64), or 12;
     /// One entry per ray of a path, the primary ray first; default three.
     pub depths: Vec<DepthSampling> = List {
-        item: part::<DepthSampling>(), least: 1, code: codes::NO_DEPTH
+        item: part::<DepthSampling>(), least: 1, fewer: (codes::NO_DEPTH, "a path has at least one ray")
     }, or vec![DepthSampling { bits: [8, 8], map: Map::Auto }; 3];
 }
 
@@ -453,12 +456,65 @@ defaults!(Sampling, Precision, Comparator, Counting, Circuit);
 impl Scene {
     /// The scene as data: what it prints from.
     pub fn encode(&self) -> Data {
-        Part::encode(self)
+        let mut data = Part::encode(self);
+        if self.accuracy.is_some() {
+            // The knobs that an accuracy replaces must not be written beside it.
+            if let Data::Map(entries) = &mut data {
+                entries.retain(|(key, _)| {
+                    !["precision", "comparator", "counting"].contains(&key.as_str())
+                });
+                for (key, value) in entries {
+                    if let ("sampling", Data::Map(sampling)) = (key.as_str(), value) {
+                        sampling.retain(|(key, _)| key != "path_bits");
+                    }
+                }
+            }
+        }
+        data
     }
 
-    /// The scene as YAML, every default written out. Read back, it is the same scene.
+    /// The scene as YAML, every default written out. Read back, a valid scene is the same scene.
     pub fn to_yaml(&self) -> String {
         self.encode().to_yaml()
+    }
+
+    /// The scene of a YAML text called `name`, read but not checked.
+    ///
+    /// ```
+    /// let scene = qrt_core::scene::Scene::from_yaml(
+    ///     "
+    /// name: dark
+    /// camera: { perspective: { eye: [0, 0, 5], target: [0, 0, 0], vfov: 40 } }
+    /// film: { width: 8, height: 8 }
+    /// materials: {}
+    /// geometry: []
+    /// ",
+    ///     "dark.yaml",
+    /// )?;
+    /// assert_eq!(scene.sampling.path_bits, 12);
+    /// assert_eq!(qrt_core::scene::Scene::from_yaml(&scene.to_yaml(), "printed.yaml")?, scene);
+    /// # Ok::<(), qrt_core::diagnostics::Report>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Everything that keeps it from being read, with places.
+    pub fn from_yaml(text: &str, name: &str) -> Result<Self, Report> {
+        let source = Source::new(name, text);
+        let reading = yaml::read(&source, 0..source.text.len(), 0);
+        let Some(tree) = reading.tree else {
+            return Err(Report::of_placed(vec![source], reading.problems));
+        };
+        let mut decoder = Decoder::default();
+        let scene = Part::decode(&tree, &Place::ROOT, &mut decoder);
+        if reading.problems.is_empty() && decoder.problems.is_empty() {
+            return Ok(scene);
+        }
+        Err(Report::of_tree(
+            vec![source],
+            &tree,
+            reading.problems,
+            decoder.problems,
+        ))
     }
 
     /// FNV-1a, 128 bits, of the scene's canonical text with every default written out: equal for

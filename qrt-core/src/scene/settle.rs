@@ -7,7 +7,8 @@ use crate::front::tree::Node;
 use crate::report::Problem;
 use crate::scene::decode::{Decoder, Place};
 
-/// Under the product lattice, `path_bits` is the sum of all bits if it is not written.
+/// Under the product lattice, `path_bits` is the sum of all bits if it is not written. A sum
+/// beyond the range is reported for the bits, not for what nobody wrote.
 pub(super) fn path_bits(
     mut sampling: Sampling,
     node: &Node,
@@ -15,7 +16,7 @@ pub(super) fn path_bits(
     _: &mut Decoder,
 ) -> Sampling {
     if sampling.sequence == Sequence::ProductLattice && node.entry("path_bits").is_none() {
-        sampling.path_bits = sampling.lattice_bits();
+        sampling.path_bits = sampling.lattice_bits().min(crate::sampling::MAX_PATH_BITS);
     }
     sampling
 }

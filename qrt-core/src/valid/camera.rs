@@ -13,6 +13,9 @@ pub(super) fn check(camera: &Camera, problems: &mut Vec<Problem>) {
         Camera::Perspective(part) => (part.eye, part.target, part.up),
         Camera::Orthographic(part) => (part.eye, part.target, part.up),
     };
+    if !(eye.is_finite() && target.is_finite() && up.is_finite()) {
+        return;
+    }
     if up.length() == 0.0 {
         let what = "`up` is zero: it has no direction";
         problems.push(Problem::new(codes::CAMERA_UP, path.key("up"), what));

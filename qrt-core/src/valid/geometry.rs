@@ -8,6 +8,7 @@ use crate::front::obj;
 use crate::report::{Path, Problem};
 use crate::scene::decode::nearest;
 use crate::scene::shape::LARGEST;
+use crate::scene::text::number as number_text;
 use crate::scene::{Geometry, Mesh, Scene};
 use crate::valid::{Polygon, Surface, matte};
 use glam::DVec3;
@@ -169,6 +170,9 @@ impl Build<'_> {
             Ok(read) => read,
             Err(error) => {
                 let mut problem = Problem::new(error.code, path.key("obj"), error.message);
+                if let Some(line) = error.line {
+                    problem.label = format!("{}:{line}", error.file.display());
+                }
                 problem.help = error.help;
                 self.problems.push(problem);
                 return;
@@ -177,12 +181,23 @@ impl Build<'_> {
         let transform = Transform::of(mesh);
         let first = self.surfaces.len() as u32;
         if named.is_none() {
-            self.surfaces
-                .extend(read.materials.into_iter().map(|material| Surface {
+            for material in read.materials {
+                if let Some(radiance) = material.radiance.iter().find(|value| **value > LARGEST) {
+                    let message = format!(
+                        "the radiance {} of `{}` is too large",
+                        number_text(*radiance),
+                        material.name
+                    );
+                    let problem = Problem::new(codes::RADIANCE, path.key("obj"), message);
+                    self.problems
+                        .push(problem.label(format!("must be at most {LARGEST:e}")));
+                }
+                self.surfaces.push(Surface {
                     name: material.name,
                     radiance: material.radiance,
                     scatter: matte(material.albedo),
-                }));
+                });
+            }
         }
         let mut flat = Vec::new();
         let mut bare = Vec::new();
@@ -209,31 +224,31 @@ impl Build<'_> {
         let counts = [
             (
                 &bare,
-                codes::MESH_MATERIAL,
-                "without a material",
+                codes::OBJ_NO_MATERIAL,
+                "have no material",
                 "give the mesh a `material`",
             ),
             (
                 &flat,
                 codes::MESH_ZERO_AREA,
-                "without area",
-                "remove them in the tool that made it",
+                "have no area once scaled and moved",
+                "rounding takes it: use a larger scale or a smaller translation",
             ),
             (
                 &far,
                 codes::MESH_RANGE,
-                "out of range once transformed",
+                "are out of range once scaled and moved",
                 "use a smaller transform",
             ),
         ];
         for (faces, code, what, help) in counts {
             if let Some(first) = faces.first() {
                 let count = faces.len();
+                let number = first + 1;
                 let message =
-                    format!("{count} of {all} faces are {what}; the first is face {first}");
-                let problem = Problem::new(code, path.key("obj"), message);
+                    format!("{count} of {all} triangles {what}; the first is number {number}");
                 self.problems
-                    .push(problem.help(format!("{help}; faces count from 0, as triangles")));
+                    .push(Problem::new(code, path.key("obj"), message).help(help));
             }
         }
     }
@@ -374,3 +389,6 @@ fn sin_cos_degrees(degrees: f64) -> (f64, f64) {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -9,7 +9,7 @@ mod camera;
 mod geometry;
 mod sampling;
 
-pub use sampling::{MAX_ID_BITS, MAX_NET_DEPTHS, MAX_PATH_BITS};
+pub use sampling::{MAX_ID_BITS, MAX_NET_DEPTHS};
 
 use crate::expr::Expr;
 use crate::report::{Faulty, Path, Problem};
@@ -104,9 +104,9 @@ impl ValidScene {
         &self.polygons
     }
 
-    /// FNV-1a, 128 bits, of the scene's canonical text (see [`Scene::fingerprint`]), of every
-    /// polygon's corners, bit for bit, and of the surfaces that MTL files add: equal for scenes
-    /// that make equal pictures, whatever their files are called or how they are laid out.
+    /// FNV-1a, 128 bits, of the scene's canonical text (see [`Scene::fingerprint`]), of the corners
+    /// of all polygons, bit for bit, and of the surfaces that MTL files add: it changes with
+    /// whatever changes the picture, be it in the scene or in a mesh file.
     pub fn fingerprint(&self) -> Fingerprint {
         let mut print = self.scene.fingerprint();
         for surface in self.materials.iter().skip(self.scene.materials.len()) {
@@ -267,3 +267,6 @@ fn custom(bsdf: &Bsdf, path: &Path, problems: &mut Vec<Problem>) -> Scatter {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -2,14 +2,13 @@
 
 use crate::codes;
 use crate::report::{Path, Problem};
+use crate::sampling::{MAX_DIMENSIONS, MAX_PATH_BITS};
 use crate::scene::{Comparator, Counting, Map, Precision, Sampling, Scene, Sequence, settle};
 
 /// Bits of path id and comparator together: counts of their ids stay within 64-bit words.
 pub const MAX_ID_BITS: u32 = 62;
-/// Path bits: sums over all paths stay exact in 64-bit floating point.
-pub const MAX_PATH_BITS: u32 = 52;
-/// Rays of a path under the digital net, which has 128 dimensions, two for each.
-pub const MAX_NET_DEPTHS: usize = 64;
+/// Rays of a path under the digital net, which has two dimensions for each.
+pub const MAX_NET_DEPTHS: usize = MAX_DIMENSIONS / 2;
 
 pub(super) fn check(scene: &Scene, problems: &mut Vec<Problem>) {
     let sampling = &scene.sampling;
@@ -30,10 +29,9 @@ pub(super) fn check(scene: &Scene, problems: &mut Vec<Problem>) {
     match sampling.sequence {
         Sequence::DigitalNet if sampling.depths.len() > MAX_NET_DEPTHS => {
             let count = sampling.depths.len();
-            let what = format!(
-                "{count} depths need {} dimensions: the net has 128",
-                2 * count
-            );
+            let needed = 2 * count;
+            let what =
+                format!("{count} depths need {needed} dimensions: the net has {MAX_DIMENSIONS}");
             let problem = Problem::new(codes::TOO_MANY_DIMENSIONS, path.key("depths"), what).help(
                 format!("use at most {MAX_NET_DEPTHS} depths, or `product-lattice`"),
             );

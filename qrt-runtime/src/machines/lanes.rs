@@ -33,6 +33,12 @@ pub(crate) fn lanes<T: bytemuck::Pod, U: bytemuck::Pod>(vector: &[T]) -> &[U] {
     bytemuck::cast_slice(vector)
 }
 
+/// The lanes of `vector`, to be set.
+#[inline(always)]
+pub(crate) fn slots<T: bytemuck::Pod, U: bytemuck::Pod>(vector: &mut [T]) -> &mut [U] {
+    bytemuck::cast_slice_mut(vector)
+}
+
 /// Applies an operation register by register. A macro and not a function of a closure: a closure
 /// is compiled without the instruction set until it is inlined, which is left to chance.
 macro_rules! each {
@@ -46,6 +52,12 @@ macro_rules! each {
 }
 
 impl<S: pulp::Simd, const W: usize> Lanes<'_, S, W> {
+    /// The same instruction set with one register a value.
+    #[inline(always)]
+    pub(crate) fn narrow(&self) -> Lanes<'_, S, 1> {
+        Lanes { simd: self.simd, inputs: self.inputs, first: self.first }
+    }
+
     /// Paths in a value.
     pub(crate) const COUNT: usize = W * S::F64_LANES;
 

@@ -1,5 +1,6 @@
 //! The real machine: every path of a pixel, in `f64`.
 
+use super::bvh::{Bvh, FEW_FACES, Indexed};
 use super::lanes::{BLOCK, Inputs, Lanes, lanes};
 
 /// Registers per value: two give the processor independent work while a division is under way.
@@ -99,6 +100,7 @@ pub struct Block<'a> {
 #[derive(Clone, Debug)]
 pub struct Real {
     stage: Stage<3>,
+    bvh: Option<Bvh>,
     points: Points,
     seed: u64,
     simd: Simd,
@@ -111,8 +113,11 @@ impl Real {
     /// If the scene's sequence cannot be made; a valid scene's can.
     pub fn new(scene: &ValidScene, seed: u64) -> Result<Self, qrt_core::sampling::SamplingError> {
         let points = Points::Sequence(PathPoints::new(&scene.scene().sampling)?);
+        let stage = Stage::rgb(scene);
+        let many = stage.geometry().faces.len() > FEW_FACES;
         Ok(Self {
-            stage: Stage::rgb(scene),
+            bvh: many.then(|| Bvh::new(stage.geometry())),
+            stage,
             points,
             seed,
             simd: Simd::default(),
@@ -201,6 +206,7 @@ impl Real {
     fn run(&self, inputs: &Inputs, count: usize, colours: &mut [[f64; BLOCK]; 3]) {
         let block = TraceBlock {
             stage: &self.stage,
+            bvh: self.bvh.as_ref(),
             inputs,
             count,
             colours,
@@ -214,6 +220,7 @@ impl Real {
 
 struct TraceBlock<'a> {
     stage: &'a Stage<3>,
+    bvh: Option<&'a Bvh>,
     inputs: &'a Inputs,
     count: usize,
     colours: &'a mut [[f64; BLOCK]; 3],
@@ -230,7 +237,11 @@ impl WithSimd for TraceBlock<'_> {
                 inputs: self.inputs,
                 first,
             };
-            let colour = trace(&mut cx, self.stage, self.stage.geometry());
+            let geometry = self.stage.geometry();
+            let colour = match self.bvh {
+                Some(bvh) => trace(&mut cx, self.stage, &Indexed { geometry, bvh }),
+                None => trace(&mut cx, self.stage, geometry),
+            };
             for (out, colour) in self.colours.iter_mut().zip(&colour) {
                 out[first..first + Lanes::<S, WIDTH>::COUNT].copy_from_slice(lanes(colour));
             }

@@ -1,0 +1,160 @@
+//! From a polygon to triangles: a fan where it is convex, else ears cut off one by one.
+
+use glam::{DVec2, DVec3};
+
+/// More corners than a face that is not convex may have: cutting ears takes up to their cube.
+const MAX_CONCAVE: usize = 256;
+
+/// An area, as a part of the square of the longest edge, that is rounding alone.
+const NO_AREA: f64 = 1e-14;
+
+/// Why a polygon is no surface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Fault {
+    NoArea,
+    CrossesItself,
+    TooManyCorners,
+    TooLarge,
+}
+
+impl Fault {
+    /// Code, message and help.
+    pub(super) fn words(self) -> (&'static str, &'static str, &'static str) {
+        match self {
+            Self::NoArea => (
+                "QRT0343",
+                "this face has no area",
+                "remove it: its corners lie on a line",
+            ),
+            Self::CrossesItself => (
+                "QRT0330",
+                "this face cannot be cut into triangles: its outline crosses itself",
+                "export the mesh as triangles",
+            ),
+            Self::TooManyCorners => (
+                "QRT0330",
+                "this face is not convex and has more than 256 corners",
+                "export the mesh as triangles",
+            ),
+            Self::TooLarge => (
+                "QRT0326",
+                "this face is too large: its area is not a finite number",
+                "scale the mesh in the file, and back in the scene",
+            ),
+        }
+    }
+}
+
+/// The triangles of a polygon of three or more corners, wound as it is; none is without area.
+pub(super) fn triangles(corners: &[DVec3]) -> Result<Vec<[DVec3; 3]>, Fault> {
+    if let [a, b, c] = *corners {
+        return match area([a, b, c]) {
+            Some(true) => Ok(vec![[a, b, c]]),
+            Some(false) => Err(Fault::NoArea),
+            None => Err(Fault::TooLarge),
+        };
+    }
+    let flat = flatten(corners)?;
+    let fan: Vec<[usize; 3]> = (1..corners.len() - 1).map(|i| [0, i, i + 1]).collect();
+    let place = |triangle: &[usize; 3]| triangle.map(|i| corners[i]);
+    let convex = is_convex(&flat) && fan.iter().all(|t| area(place(t)) == Some(true));
+    let indices = if convex {
+        fan
+    } else if corners.len() <= MAX_CONCAVE {
+        ears(&flat)?
+    } else {
+        return Err(Fault::TooManyCorners);
+    };
+    Ok(indices.iter().map(place).collect())
+}
+
+/// Whether a triangle has an area; `None` if that is no finite number.
+fn area([a, b, c]: [DVec3; 3]) -> Option<bool> {
+    let (ab, ac, bc) = (b - a, c - a, c - b);
+    let twice = ab.cross(ac).length();
+    let longest = ab
+        .length_squared()
+        .max(ac.length_squared())
+        .max(bc.length_squared());
+    (twice.is_finite() && longest.is_finite()).then_some(twice > NO_AREA * longest)
+}
+
+/// The polygon seen along the axis that its (Newell) normal is nearest to, counterclockwise.
+fn flatten(corners: &[DVec3]) -> Result<Vec<DVec2>, Fault> {
+    let mut normal = DVec3::ZERO;
+    let mut longest: f64 = 0.0;
+    for (i, b) in corners.iter().enumerate().skip(1) {
+        let c = corners[(i + 1) % corners.len()];
+        normal += (*b - corners[0]).cross(c - corners[0]);
+        longest = longest
+            .max((c - *b).length_squared())
+            .max((*b - corners[0]).length_squared());
+    }
+    if !(normal.is_finite() && longest.is_finite()) {
+        return Err(Fault::TooLarge);
+    }
+    let size = normal.abs();
+    if size.max_element() <= NO_AREA * longest {
+        return Err(Fault::NoArea);
+    }
+    let project = |p: &DVec3| {
+        if size.x >= size.y && size.x >= size.z {
+            DVec2::new(p.y, p.z) * DVec2::new(normal.x.signum(), 1.0)
+        } else if size.y >= size.z {
+            DVec2::new(p.z, p.x) * DVec2::new(normal.y.signum(), 1.0)
+        } else {
+            DVec2::new(p.x, p.y) * DVec2::new(normal.z.signum(), 1.0)
+        }
+    };
+    Ok(corners.iter().map(project).collect())
+}
+
+/// Twice the area of a triangle, positive if it is counterclockwise.
+fn turn(a: DVec2, b: DVec2, c: DVec2) -> f64 {
+    (b - a).perp_dot(c - a)
+}
+
+/// No right turn, and once around: a star turns left only, too, but twice around.
+fn is_convex(flat: &[DVec2]) -> bool {
+    let n = flat.len();
+    let at = |i: usize| flat[i % n];
+    let left_only = (0..n).all(|i| turn(at(i), at(i + 1), at(i + 2)) >= 0.0);
+    let once = (1..n - 1).all(|i| turn(flat[0], flat[i], flat[i + 1]) >= 0.0);
+    left_only && once
+}
+
+fn ears(flat: &[DVec2]) -> Result<Vec<[usize; 3]>, Fault> {
+    let mut left: Vec<usize> = (0..flat.len()).collect();
+    let mut triangles = Vec::with_capacity(flat.len() - 2);
+    while left.len() > 2 {
+        let n = left.len();
+        let ear = (0..n).find_map(|i| {
+            let triangle = [left[(i + n - 1) % n], left[i], left[(i + 1) % n]];
+            is_ear(flat, &left, triangle).then_some((i, triangle))
+        });
+        let Some((i, triangle)) = ear else {
+            return Err(Fault::CrossesItself);
+        };
+        triangles.push(triangle);
+        left.remove(i);
+    }
+    Ok(triangles)
+}
+
+/// A left turn of some area with no other corner in it.
+fn is_ear(flat: &[DVec2], left: &[usize], triangle: [usize; 3]) -> bool {
+    let [a, b, c] = triangle.map(|i| flat[i]);
+    let longest = (b - a).length_squared().max((c - b).length_squared());
+    if turn(a, b, c) <= NO_AREA * longest.max((c - a).length_squared()) {
+        return false;
+    }
+    left.iter().all(|i| {
+        let p = flat[*i];
+        // Corners that meet (a hole's bridge) are not inside each other.
+        triangle.contains(i)
+            || [a, b, c].contains(&p)
+            || turn(a, b, p) < 0.0
+            || turn(b, c, p) < 0.0
+            || turn(c, a, p) < 0.0
+    })
+}

@@ -1,0 +1,535 @@
+//! What the reader promises: right meshes as they are, wrong ones refused at their line.
+
+use super::*;
+use proptest::prelude::*;
+
+/// The mesh of a text whose libraries are `files`.
+fn read_with(text: &str, files: &[(&str, &str)]) -> Result<ObjMesh, ObjError> {
+    let library = |path: &Path| {
+        let found = files
+            .iter()
+            .find(|(name, _)| Path::new("dir").join(name) == path);
+        found
+            .map(|(_, text)| text.as_bytes().to_vec())
+            .ok_or_else(|| {
+                ObjError::new("QRT0334", path, format!("cannot read `{}`", path.display()))
+            })
+    };
+    parse(
+        Path::new("dir/mesh.obj"),
+        text.as_bytes(),
+        !files.is_empty(),
+        &library,
+    )
+}
+
+fn read(text: &str) -> Result<ObjMesh, ObjError> {
+    read_with(text, &[])
+}
+
+fn area(mesh: &ObjMesh) -> f64 {
+    let twice = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a).length();
+    mesh.faces
+        .iter()
+        .map(|face| twice(face.vertices) / 2.0)
+        .sum()
+}
+
+/// The volume within a closed mesh: positive if its faces look outward.
+fn volume(mesh: &ObjMesh) -> f64 {
+    mesh.faces
+        .iter()
+        .map(|f| f.vertices[0].dot(f.vertices[1].cross(f.vertices[2])) / 6.0)
+        .sum()
+}
+
+const CUBE: &str = "# a cube\n\
+    v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n\
+    f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+
+#[test]
+fn a_cube_has_its_area_and_volume() {
+    let mesh = read(CUBE).unwrap();
+    assert_eq!((mesh.faces.len(), mesh.materials.len()), (12, 0));
+    assert_eq!(area(&mesh), 6.0);
+    assert!((volume(&mesh) - 1.0).abs() < 1e-15);
+    assert!(mesh.faces.iter().all(|face| face.material.is_none()));
+}
+
+#[test]
+fn all_ways_to_write_a_face_say_the_same() {
+    let vertices = "v 0 0 0\nv 1 0 0 1.0\nv 0 2 0 2 # halved\n";
+    let others = "vt 0\nvt 0 0 0\nvt 1 1\nvn 0 0 1\nvn 0 0 1\nvn 0 0 1\n";
+    let expected = vec![ObjFace {
+        vertices: [DVec3::ZERO, DVec3::X, DVec3::Y],
+        material: None,
+    }];
+    for face in [
+        "f 1 2 3",
+        "f -3 -2 -1",
+        "f 1/1 2/2 3/3",
+        "f 1//1 2//2 3//3",
+        "f 1/ 2// 3/1/",
+        "f 1/1/1 2/2/2 -1/-1/-1",
+        "f\t1 \\\n 2 \\\r\n 3   # a comment",
+        "  f  1  2  3  ",
+    ] {
+        let text = format!("\u{feff}o thing\ng a b\ns off\n{vertices}{others}{face}");
+        assert_eq!(read(&text).unwrap().faces, expected, "{face}");
+        let crlf = text.replace('\n', "\r\n");
+        assert_eq!(read(&crlf).unwrap().faces, expected, "{face}");
+    }
+    // A face may stand before its vertices, and among groups.
+    let early = format!("f 1 2 3\ng one\n{vertices}g two\n");
+    assert_eq!(read(&early).unwrap().faces, expected);
+}
+
+#[test]
+fn coordinates_keep_all_their_digits() {
+    let mesh = read("v 0.1 1e9 -1e-9\nv 123456789.123456789 0 0\nv 0 0 1\nf 1 2 3").unwrap();
+    let [a, b, _] = mesh.faces[0].vertices;
+    assert_eq!(a, DVec3::new(0.1, 1e9, -1e-9));
+    assert_eq!(b.x, 123_456_789.123_456_79);
+}
+
+#[test]
+fn polygons_of_any_shape_keep_their_area() {
+    // An L, an arrow, a comb, a square with a corner on its edge, one with a hole on a bridge; each
+    // in three planes and both windings.
+    let shapes: [(&[(i32, i32)], f64); 5] = [
+        (&[(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)], 3.0),
+        (&[(0, 0), (4, -2), (1, 0), (4, 2)], 2.0),
+        (
+            &[
+                (0, 0),
+                (5, 0),
+                (5, 3),
+                (4, 3),
+                (4, 1),
+                (3, 1),
+                (3, 3),
+                (2, 3),
+                (2, 1),
+                (1, 1),
+                (1, 3),
+                (0, 3),
+            ],
+            11.0,
+        ),
+        (&[(0, 0), (1, 0), (2, 0), (2, 2), (0, 2)], 4.0),
+        (
+            &[
+                (0, 0),
+                (4, 0),
+                (4, 4),
+                (0, 4),
+                (0, 0),
+                (1, 1),
+                (1, 2),
+                (2, 2),
+                (2, 1),
+                (1, 1),
+            ],
+            15.0,
+        ),
+    ];
+    for (shape, expected) in shapes {
+        for plane in 0..3 {
+            for reversed in [false, true] {
+                let mut corners: Vec<DVec3> = shape
+                    .iter()
+                    .map(|(x, y)| {
+                        let (x, y) = (f64::from(*x), f64::from(*y));
+                        [
+                            DVec3::new(x, y, 1.0),
+                            DVec3::new(1.0, x, y),
+                            DVec3::new(y, 1.0, x),
+                        ][plane]
+                    })
+                    .collect();
+                if reversed {
+                    corners.reverse();
+                }
+                let triangles = polygon::triangles(&corners).unwrap();
+                assert_eq!(triangles.len(), corners.len() - 2);
+                let normals: Vec<DVec3> = triangles
+                    .iter()
+                    .map(|[a, b, c]| (b - a).cross(c - a))
+                    .collect();
+                let total: f64 = normals.iter().map(|n| n.length() / 2.0).sum();
+                assert_eq!(total, expected, "{shape:?}");
+                // All look to one side: the shape's own.
+                let sum: DVec3 = normals.iter().sum();
+                assert_eq!(sum.length() / 2.0, expected);
+                let side = if reversed { -1.0 } else { 1.0 };
+                assert_eq!(sum.element_sum().signum(), side);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_convex_quad_is_cut_from_its_first_corner() {
+    let quad = [DVec3::ZERO, DVec3::X, DVec3::new(1.0, 1.0, 0.5), DVec3::Y];
+    let [a, b, c, d] = quad;
+    assert_eq!(polygon::triangles(&quad).unwrap(), [[a, b, c], [a, c, d]]);
+}
+
+const TWO: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nmtllib my colours.mtl\n\
+    usemtl dark red\nf 1 2 3\nusemtl lamp\nf 3 2 1\nusemtl dark red\nf 2 3 1\n";
+const COLOURS: &str = "# made by hand\nnewmtl dark red\nKa 1 1 1\nKd 0.5 0.1 0\nKs 1 1 1\nNs 10\n\
+    illum 2\n\nnewmtl lamp\n  Kd 0\n\tKe 17 12.5 4e0 # bright\nd 1.0\n";
+
+#[test]
+fn faces_take_the_materials_of_their_libraries() {
+    let mesh = read_with(TWO, &[("my colours.mtl", COLOURS)]).unwrap();
+    let red = ObjMaterial {
+        name: "my colours.mtl:dark red".to_owned(),
+        radiance: [0.0; 3],
+        albedo: [0.5, 0.1, 0.0],
+    };
+    let lamp = ObjMaterial {
+        name: "my colours.mtl:lamp".to_owned(),
+        radiance: [17.0, 12.5, 4.0],
+        albedo: [0.0; 3],
+    };
+    assert_eq!(mesh.materials, [red, lamp]);
+    let used: Vec<_> = mesh.faces.iter().map(|face| face.material).collect();
+    assert_eq!(used, [Some(0), Some(1), Some(0)]);
+    // Several libraries in a statement, and one that comes after its use.
+    let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl b\nf 1 2 3\nmtllib a.mtl b.mtl\nmtllib a.mtl\n";
+    let files = [
+        ("a.mtl", "newmtl a\nKd 0 0 0\n"),
+        ("b.mtl", "newmtl b\nKd 1 1 1"),
+    ];
+    let mesh = read_with(text, &files).unwrap();
+    assert_eq!(mesh.faces[0].material, Some(1));
+    // Whoever brings a material needs no library.
+    assert_eq!(read(TWO).unwrap().faces.len(), 3);
+    assert!(read(TWO).unwrap().materials.is_empty());
+}
+
+#[track_caller]
+fn refused(result: Result<ObjMesh, ObjError>, code: &str, line: Option<usize>, words: &str) {
+    let error = result.expect_err(words);
+    assert_eq!((error.code, error.line), (code, line), "{error}");
+    let text = format!("{error} | {}", error.help.as_deref().unwrap_or_default());
+    assert!(text.contains(words), "{text}");
+}
+
+#[test]
+fn faulty_meshes_are_refused_at_their_line() {
+    let v3 = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    let cases: [(&str, &str, Option<usize>, &str); 41] = [
+        (
+            "v nan 0 0\n",
+            "QRT0326",
+            Some(1),
+            "`nan` is not a finite number",
+        ),
+        ("v 0 0 0\nv 0 -inf 0\n", "QRT0326", Some(2), "`-inf`"),
+        ("v 1e999 0 0\n", "QRT0326", Some(1), "`1e999`"),
+        ("v 1 1 1 0\n", "QRT0326", Some(1), "infinity"),
+        ("v 1 1\n", "QRT0325", Some(1), "not 2"),
+        ("v 1 1 1 1 1\n", "QRT0325", Some(1), "not 5"),
+        ("v 1 1 1 1 1 1 1\n", "QRT0325", Some(1), "not 7"),
+        ("v 1 1 x\n", "QRT0325", Some(1), "`x` is not a number"),
+        ("v 1,5 1 1\n", "QRT0325", Some(1), "`1,5`"),
+        (
+            "vt\n",
+            "QRT0325",
+            Some(1),
+            "`vt` takes 1 to 3 numbers, not 0",
+        ),
+        (
+            "vn 0 1\n",
+            "QRT0325",
+            Some(1),
+            "`vn` takes 3 numbers, not 2",
+        ),
+        ("vn 0 1 nan\n", "QRT0326", Some(1), "nan"),
+        ("f 1 2\n", "QRT0327", Some(4), "a face of 2 corners"),
+        ("f 1\n", "QRT0327", Some(4), "a face of 1 corner"),
+        ("f\n", "QRT0327", Some(4), "a face of 0 corners"),
+        ("f 1 2 # 3\n", "QRT0327", Some(4), "a face of 2 corners"),
+        ("l 1 2\n", "QRT0324", Some(4), "lines have no area"),
+        ("p 1\n", "QRT0324", Some(4), "points have no area"),
+        ("curv 0 1 1 2\n", "QRT0324", Some(4), "free-form"),
+        (
+            "f 1 2 4\n",
+            "QRT0329",
+            Some(4),
+            "no vertex 4: the file has 3",
+        ),
+        (
+            "f 1 2 -4\n",
+            "QRT0329",
+            Some(4),
+            "no vertex -4: 3 stand before it",
+        ),
+        ("f 1 2 0\n", "QRT0328", Some(4), "no vertex 0"),
+        (
+            "f 1 2 99999999999999999999\n",
+            "QRT0328",
+            Some(4),
+            "not a corner",
+        ),
+        (
+            "f 1 2 9223372036854775807\n",
+            "QRT0329",
+            Some(4),
+            "no vertex",
+        ),
+        (
+            "f 1 2 -9223372036854775808\n",
+            "QRT0329",
+            Some(4),
+            "no vertex",
+        ),
+        ("f 1 2 3.0\n", "QRT0328", Some(4), "`3.0` is not a corner"),
+        ("f 1 2 /3\n", "QRT0328", Some(4), "`/3` is not a corner"),
+        ("f 1 2 3/1\n", "QRT0329", Some(4), "no texture coordinate 1"),
+        ("f 1 2 3//-1\n", "QRT0329", Some(4), "no normal -1"),
+        ("f 1 2 3/1/1/1\n", "QRT0328", Some(4), "not a corner"),
+        ("f 1 2 2\n", "QRT0343", Some(4), "no area"),
+        ("v 2 0 0\nf 1 2 4\n", "QRT0343", Some(5), "no area"),
+        (
+            "v 2 0 0\nv 3 0 0\nf 1 2 4 5\n",
+            "QRT0343",
+            Some(6),
+            "no area",
+        ),
+        ("v 1 1 0\nf 1 2 3 4\n", "QRT0343", Some(5), "no area"),
+        ("v 3 2 0\nf 1 4 2 3\n", "QRT0330", Some(5), "crosses itself"),
+        ("v 1e300 0 0\nf 1 3 4\n", "QRT0326", Some(5), "too large"),
+        ("usemtl a\n", "QRT0331", None, "no faces"),
+        ("f 1 2 \\", "QRT0332", Some(4), "is the file whole?"),
+        ("usem a\n", "QRT0323", Some(4), "did you mean `usemtl`?"),
+        ("<html>\n", "QRT0323", Some(4), "no OBJ statement"),
+        ("f 1 2 \0\n", "QRT0322", Some(4), "not a text file"),
+    ];
+    for (text, code, line, words) in cases {
+        let own = text.starts_with('v') && line.is_some_and(|line| line < 3);
+        let text = if own {
+            text.to_owned()
+        } else {
+            format!("{v3}{text}")
+        };
+        refused(read(&text), code, line, words);
+    }
+    refused(read(""), "QRT0331", None, "no faces");
+    refused(read("\n# nothing\n"), "QRT0331", None, "no faces");
+}
+
+#[test]
+fn faulty_materials_are_refused_at_their_line() {
+    let with = |mtl: &str| read_with(TWO, &[("my colours.mtl", mtl)]);
+    let lamp = "newmtl lamp\nKe 1 1 1\n";
+    let red = |rest: &str| with(&format!("{lamp}newmtl dark red\n{rest}"));
+    refused(with(lamp), "QRT0335", Some(5), "no material `dark red`");
+    refused(
+        with("newmtl dark rad\nKd 1 1 1"),
+        "QRT0335",
+        Some(5),
+        "did you mean `dark rad`?",
+    );
+    refused(
+        red("Kd 1.5 0 0"),
+        "QRT0338",
+        Some(4),
+        "1.5, which is not in [0, 1]",
+    );
+    refused(red("Kd 0 -0.1 0"), "QRT0338", Some(4), "-0.1");
+    refused(red("Ke 0 0 -1"), "QRT0339", Some(4), "negative");
+    refused(red("Ke 0 0 inf"), "QRT0337", Some(4), "not a finite number");
+    refused(red("Kd 1 1"), "QRT0337", Some(4), "not 2");
+    refused(red("Kd"), "QRT0337", Some(4), "not 0");
+    refused(red("Kd 1 1 1 1"), "QRT0337", Some(4), "not 4");
+    refused(red("Kd a b c"), "QRT0337", Some(4), "`a` is not a number");
+    refused(red("Kd xyz 1 1 1"), "QRT0337", Some(4), "linear RGB");
+    refused(red("map_Kd wood.png"), "QRT0342", Some(4), "no textures");
+    refused(red("Ns 10"), "QRT0341", Some(3), "neither");
+    refused(
+        red("Kd 1 1 1\nnewmtl lamp\nKd 1 1 1"),
+        "QRT0340",
+        Some(5),
+        "line 1",
+    );
+    refused(
+        with("Kd 1 1 1\n"),
+        "QRT0337",
+        Some(1),
+        "before any `newmtl`",
+    );
+    refused(with("newmtl\n"), "QRT0337", Some(1), "without a name");
+    let v3 = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    let file = ("a.mtl", "newmtl a\nKd 1 1 1\n");
+    let with = |text: &str| read_with(&format!("{v3}{text}"), &[file]);
+    refused(
+        with("mtllib b.mtl\nf 1 2 3\n"),
+        "QRT0336",
+        Some(5),
+        "no material",
+    );
+    refused(
+        with("mtllib b.mtl\nusemtl a\nf 1 2 3\n"),
+        "QRT0334",
+        Some(4),
+        "b.mtl",
+    );
+    refused(
+        with("mtllib a.mtl b.mtl\nusemtl a\nf 1 2 3\n"),
+        "QRT0334",
+        Some(4),
+        "b.mtl",
+    );
+    refused(
+        with("usemtl a\nf 1 2 3\n"),
+        "QRT0333",
+        Some(4),
+        "`mtllib` statement is missing",
+    );
+    refused(
+        with("mtllib\nusemtl a\nf 1 2 3\n"),
+        "QRT0333",
+        Some(4),
+        "without a name",
+    );
+    refused(
+        with("mtllib a.mtl\nusemtl\nf 1 2 3\n"),
+        "QRT0335",
+        Some(5),
+        "without a name",
+    );
+}
+
+#[test]
+fn files_are_looked_up_beside_the_mesh() {
+    let dir = std::env::temp_dir().join(format!("qrt-obj-{}", std::process::id()));
+    std::fs::create_dir_all(dir.join("deep")).unwrap();
+    let obj = dir.join("deep/mesh.obj");
+    let text = TWO.replace("my colours.mtl", "../colours.mtl");
+    std::fs::write(&obj, text).unwrap();
+    refused(
+        load(&obj, true),
+        "QRT0334",
+        Some(4),
+        "there is no such file",
+    );
+    std::fs::write(dir.join("colours.mtl"), COLOURS).unwrap();
+    assert_eq!(
+        load(&obj, true).unwrap().materials[1].name,
+        "../colours.mtl:lamp"
+    );
+    refused(load(&dir, false), "QRT0320", None, "not a regular file");
+    refused(
+        load(&dir.join("none.obj"), false),
+        "QRT0320",
+        None,
+        "there is no such file",
+    );
+    // Bytes that are not UTF-8 do no harm in a comment, or in a name that is not wanted.
+    let latin = b"# caf\xe9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl caf\xe9\nf 1 2 3\n";
+    std::fs::write(&obj, latin).unwrap();
+    assert_eq!(load(&obj, false).unwrap().faces.len(), 1);
+    refused(load(&obj, true), "QRT0322", Some(5), "not UTF-8");
+    std::fs::remove_dir_all(&dir).unwrap();
+}
+
+#[cfg(unix)]
+#[test]
+fn an_endless_file_is_refused() {
+    refused(
+        load(Path::new("/dev/zero"), false),
+        "QRT0320",
+        None,
+        "not a regular file",
+    );
+}
+
+/// A text with some of its bytes or lines changed, lost or doubled.
+fn mutated(text: &'static str) -> impl Strategy<Value = Vec<u8>> {
+    let piece = prop::sample::select(vec![
+        " ",
+        "\n",
+        "\\\n",
+        "\\",
+        "#",
+        "/",
+        "-",
+        "0",
+        "1",
+        "9999999999",
+        "-1",
+        "nan",
+        "1e308",
+        "f",
+        "v",
+        "vt",
+        "l",
+        "p",
+        "usemtl ",
+        "mtllib ",
+        "newmtl ",
+        "Kd ",
+        "Ke",
+        "\0",
+        "\u{e9}",
+        "\t",
+        "v 0 0 0 0\n",
+        "f 1 2 3 4 1\n",
+        "f -1 -2 -3\n",
+        "o\n",
+        "g  \n",
+        "usemtl\n",
+        "Kd 1\n",
+        "v 1e200 -1e200 1e-200\n",
+        "Ka 1\n",
+        "Ns\n",
+        "illum\n",
+        "d x\n",
+    ]);
+    let edit = (0.0..1.0_f64, 0..4_u8, piece, any::<u8>());
+    prop::collection::vec(edit, 0..6).prop_map(move |edits| {
+        let mut bytes = text.as_bytes().to_vec();
+        for (place, kind, piece, byte) in edits {
+            let at = (place * bytes.len() as f64) as usize;
+            match kind {
+                0 => drop(bytes.splice(at..at, piece.bytes())),
+                1 if at < bytes.len() => bytes[at] = byte,
+                2 => bytes.truncate(bytes.len().max(8) - at % 8),
+                _ => drop(bytes.drain(at..(at + 1 + usize::from(byte % 16)).min(bytes.len()))),
+            }
+        }
+        bytes
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(3000) })]
+
+    #[test]
+    fn no_text_makes_it_panic(
+        obj in prop_oneof![mutated(TWO), mutated(CUBE)],
+        mtl in mutated(COLOURS),
+        wants in any::<bool>(),
+    ) {
+        let library = |_: &Path| Ok(mtl.clone());
+        match parse(Path::new("mesh.obj"), &obj, wants, &library) {
+            Ok(mesh) => {
+                prop_assert!(!mesh.faces.is_empty());
+                for face in &mesh.faces {
+                    prop_assert!(face.vertices.iter().all(|v| v.is_finite()));
+                    prop_assert_eq!(face.material.is_some(), wants);
+                    prop_assert!(face.material.is_none_or(|m| m < mesh.materials.len()));
+                }
+                for m in &mesh.materials {
+                    prop_assert!(m.albedo.iter().all(|x| (0.0..=1.0).contains(x)));
+                    prop_assert!(m.radiance.iter().all(|x| *x >= 0.0 && x.is_finite()));
+                }
+            }
+            // What the scan lets through, the reader behind it takes.
+            Err(error) => prop_assert_ne!(error.code, "QRT0344", "{}", error),
+        }
+    }
+}

@@ -1,0 +1,93 @@
+//! Lines and columns of characters to bytes.
+
+use crate::front::tree::Span;
+use saphyr_parser::Marker;
+
+/// Turns the parser's lines and columns, which count characters, into bytes.
+pub(super) struct Locator<'a> {
+    text: &'a str,
+    /// Added to every offset.
+    base: usize,
+    number: u32,
+    /// Where each line starts; a line ends in LF, CR LF or CR, as in YAML.
+    lines: Vec<usize>,
+    /// The last answer (line, column, byte): events come mostly in order, and long lines are thus
+    /// walked once.
+    last: (usize, usize, usize),
+}
+
+impl<'a> Locator<'a> {
+    pub(super) fn new(text: &'a str, base: usize, number: u32) -> Self {
+        let bytes = text.as_bytes();
+        let breaks = bytes.iter().enumerate().filter(|&(at, &byte)| {
+            byte == b'\n' || (byte == b'\r' && bytes.get(at + 1) != Some(&b'\n'))
+        });
+        let lines = std::iter::once(0)
+            .chain(breaks.map(|(at, _)| at + 1))
+            .collect();
+        Self {
+            text,
+            base,
+            number,
+            lines,
+            last: (1, 0, 0),
+        }
+    }
+
+    /// The byte in `text` of a marker; past the end, the end.
+    pub(super) fn offset(&mut self, marker: &Marker) -> usize {
+        let (line, column) = (marker.line().max(1), marker.col());
+        let (last_line, last_column, last_byte) = self.last;
+        let (mut at, skip) = if line == last_line && column >= last_column {
+            (last_byte, column - last_column)
+        } else {
+            (
+                self.lines.get(line - 1).copied().unwrap_or(self.text.len()),
+                column,
+            )
+        };
+        at += self.text[at..]
+            .chars()
+            .take(skip)
+            .map(char::len_utf8)
+            .sum::<usize>();
+        self.last = (line, column, at);
+        at
+    }
+
+    pub(super) fn span(&mut self, span: &saphyr_parser::Span) -> Span {
+        let start = self.offset(&span.start);
+        let end = self.offset(&span.end).max(start);
+        let trimmed = self.text[start..end].trim_end().len();
+        Span {
+            source: self.number,
+            start: self.base + start,
+            end: self.base + start + trimmed,
+        }
+    }
+
+    /// The word that starts at `at`, or the one character there.
+    pub(super) fn word(&self, at: usize) -> Span {
+        let rest = self.text.get(at..).unwrap_or_default();
+        let word = |c: char| c.is_alphanumeric() || "_-*&!".contains(c);
+        let length = rest.find(|c| !word(c)).unwrap_or(rest.len());
+        let length = length.max(rest.chars().next().map_or(0, char::len_utf8));
+        let (start, end) = (self.base + at, self.base + at + length);
+        Span {
+            source: self.number,
+            start,
+            end,
+        }
+    }
+
+    pub(super) fn line_of(&self, at: usize) -> &'a str {
+        let line = self.lines.partition_point(|&start| start <= at).max(1) - 1;
+        let end = self.lines.get(line + 1).copied().unwrap_or(self.text.len());
+        &self.text[self.lines[line]..end]
+    }
+
+    pub(super) fn is_bracket(&self, span: Span) -> bool {
+        let start = span.start - self.base;
+        self.text[start..].starts_with([']', '}'])
+    }
+}

@@ -1,0 +1,308 @@
+//! Shapes made of other shapes: lists, maps from names, values that may be left out.
+
+use super::{Expression, LARGEST, Number, Shape, number};
+use crate::codes;
+use crate::front::tree::{Node, Value};
+use crate::report::Problem;
+use crate::scene::decode::{Decoder, Place};
+use crate::scene::text::Data;
+use glam::DVec3;
+
+/// A list of exactly N.
+pub(crate) struct Array<S, const N: usize>(pub(crate) S);
+
+impl<S: Shape, const N: usize> Array<S, N> {
+    fn items(&self, node: &Node, at: &Place<'_>, decoder: &mut Decoder) -> Option<[S::Value; N]> {
+        let Value::List(items) = &node.value else {
+            decoder.wrong_type(node, at, &format!("a list of {N}"), None);
+            return None;
+        };
+        if items.len() != N {
+            let message = format!("expected a list of {N}, found {}", node.found());
+            let problem = Problem::new(codes::WRONG_LENGTH, at.path(), message)
+                .label(format!("must have {N} elements"));
+            decoder.replace(at, problem);
+        }
+        Some(std::array::from_fn(|i| match items.get(i) {
+            Some(item) => self.0.decode(item, &at.item(i), decoder),
+            None => self.0.fallback(),
+        }))
+    }
+}
+
+impl<S: Shape, const N: usize> Shape for Array<S, N> {
+    type Value = [S::Value; N];
+    fn decode(&self, node: &Node, at: &Place<'_>, decoder: &mut Decoder) -> Self::Value {
+        self.items(node, at, decoder)
+            .unwrap_or_else(|| self.fallback())
+    }
+    fn fallback(&self) -> Self::Value {
+        std::array::from_fn(|_| self.0.fallback())
+    }
+    fn check(&self, value: &Self::Value, at: &Place<'_>, problems: &mut Vec<Problem>) {
+        for (i, item) in value.iter().enumerate() {
+            self.0.check(item, &at.item(i), problems);
+        }
+    }
+    fn encode(&self, value: &Self::Value) -> Option<Data> {
+        Some(Data::List(
+            value
+                .iter()
+                .filter_map(|item| self.0.encode(item))
+                .collect(),
+        ))
+    }
+    fn schema(&self) -> Data {
+        list_schema(self.0.schema(), N, Some(N))
+    }
+}
+
+fn list_schema(items: Data, least: usize, most: Option<usize>) -> Data {
+    let mut schema = Data::map([
+        ("type", Data::text("array")),
+        ("items", items),
+        ("minItems", Data::Number(least as f64)),
+    ]);
+    if let Some(most) = most {
+        schema = schema.with("maxItems", Data::Number(most as f64));
+    }
+    schema
+}
+
+/// Three numbers as a vector.
+pub(crate) struct Vector(pub(crate) Number);
+
+/// A point or an extent in scene units.
+pub(crate) const fn point() -> Vector {
+    Vector(number(-LARGEST, LARGEST))
+}
+
+impl Shape for Vector {
+    type Value = DVec3;
+    fn decode(&self, node: &Node, at: &Place<'_>, decoder: &mut Decoder) -> DVec3 {
+        Array::<_, 3>(self.0).decode(node, at, decoder).into()
+    }
+    fn fallback(&self) -> DVec3 {
+        DVec3::splat(self.0.fallback())
+    }
+    fn check(&self, value: &DVec3, at: &Place<'_>, problems: &mut Vec<Problem>) {
+        Array::<_, 3>(self.0).check(&value.to_array(), at, problems);
+    }
+    fn encode(&self, value: &DVec3) -> Option<Data> {
+        Array::<_, 3>(self.0).encode(&value.to_array())
+    }
+    fn schema(&self) -> Data {
+        Array::<_, 3>(self.0).schema()
+    }
+}
+
+/// A list of any length from a least one.
+pub(crate) struct List<S> {
+    pub(crate) item: S,
+    pub(crate) least: usize,
+    /// The code and the words for fewer.
+    pub(crate) fewer: (&'static str, &'static str),
+}
+
+impl<S: Shape> Shape for List<S> {
+    type Value = Vec<S::Value>;
+    fn decode(&self, node: &Node, at: &Place<'_>, decoder: &mut Decoder) -> Self::Value {
+        let Value::List(items) = &node.value else {
+            let help = (node.value == Value::Null && self.least == 0)
+                .then(|| "write `[]` for an empty list".to_owned());
+            decoder.wrong_type(node, at, "a list", help);
+            return self.fallback();
+        };
+        let decode = |(i, item)| self.item.decode(item, &at.item(i), decoder);
+        items.iter().enumerate().map(decode).collect()
+    }
+    fn fallback(&self) -> Self::Value {
+        (0..self.least).map(|_| self.item.fallback()).collect()
+    }
+    fn check(&self, value: &Self::Value, at: &Place<'_>, problems: &mut Vec<Problem>) {
+        if value.len() < self.least {
+            let (code, message) = self.fewer;
+            problems.push(Problem::new(code, at.path(), message));
+        }
+        for (i, item) in value.iter().enumerate() {
+            self.item.check(item, &at.item(i), problems);
+        }
+    }
+    fn encode(&self, value: &Self::Value) -> Option<Data> {
+        Some(Data::List(
+            value
+                .iter()
+                .filter_map(|item| self.item.encode(item))
+                .collect(),
+        ))
+    }
+    fn schema(&self) -> Data {
+        list_schema(self.item.schema(), self.least, None)
+    }
+}
+
+/// A map from names to values, in the order written.
+pub(crate) struct Named<S>(pub(crate) S);
+
+impl<S: Shape> Shape for Named<S> {
+    type Value = Vec<(String, S::Value)>;
+    fn decode(&self, node: &Node, at: &Place<'_>, decoder: &mut Decoder) -> Self::Value {
+        let Value::Map(entries) = &node.value else {
+            let help = (node.value == Value::Null).then(|| "write `{}` for none".to_owned());
+            decoder.wrong_type(node, at, "a map from names", help);
+            return Vec::new();
+        };
+        let decode = |entry: &crate::front::tree::Entry| {
+            let value = self.0.decode(&entry.value, &at.key(&entry.key), decoder);
+            (entry.key.clone(), value)
+        };
+        entries.iter().map(decode).collect()
+    }
+    fn fallback(&self) -> Self::Value {
+        Vec::new()
+    }
+    fn check(&self, value: &Self::Value, at: &Place<'_>, problems: &mut Vec<Problem>) {
+        let mut seen = std::collections::HashSet::new();
+        for (name, item) in value {
+            if name.is_empty() {
+                let what = "this name is empty";
+                problems.push(Problem::new(codes::EMPTY_NAME, at.path().name(""), what));
+            }
+            if !seen.insert(name) {
+                let message = format!("the name `{name}` is given twice");
+                let path = at.path().name(name.as_str());
+                problems.push(Problem::new(codes::DUPLICATE_NAME, path, message));
+            }
+            self.0.check(item, &at.key(name), problems);
+        }
+    }
+    fn encode(&self, value: &Self::Value) -> Option<Data> {
+        let encode = |(name, item): &(String, S::Value)| Some((name.clone(), self.0.encode(item)?));
+        Some(Data::Map(value.iter().filter_map(encode).collect()))
+    }
+    fn schema(&self) -> Data {
+        let names = Data::map([("minLength", Data::Number(1.0))]);
+        Data::map([
+            ("type", Data::text("object")),
+            ("propertyNames", names),
+            ("additionalProperties", self.0.schema()),
+        ])
+    }
+}
+
+/// A value that may be left out.
+pub(crate) struct Maybe<S>(pub(crate) S);
+
+impl<S: Shape> Shape for Maybe<S> {
+    type Value = Option<S::Value>;
+    fn decode(&self, node: &Node, at: &Place<'_>, decoder: &mut Decoder) -> Self::Value {
+        Some(self.0.decode(node, at, decoder))
+    }
+    fn fallback(&self) -> Self::Value {
+        None
+    }
+    fn check(&self, value: &Self::Value, at: &Place<'_>, problems: &mut Vec<Problem>) {
+        if let Some(value) = value {
+            self.0.check(value, at, problems);
+        }
+    }
+    fn encode(&self, value: &Self::Value) -> Option<Data> {
+        value.as_ref().and_then(|value| self.0.encode(value))
+    }
+    fn schema(&self) -> Data {
+        self.0.schema()
+    }
+}
+
+/// `auto`, or a value.
+pub(crate) struct AutoOr<S>(pub(crate) S);
+
+/// Whether `node` is the word `auto`.
+pub(crate) fn is_auto(node: &Node) -> bool {
+    matches!(&node.value, Value::Scalar(scalar) if scalar.text == "auto")
+}
+
+impl<S: Shape> Shape for AutoOr<S> {
+    type Value = Option<S::Value>;
+    fn decode(&self, node: &Node, at: &Place<'_>, decoder: &mut Decoder) -> Self::Value {
+        if is_auto(node) {
+            return None;
+        }
+        let problems = decoder.problems.len();
+        let value = self.0.decode(node, at, decoder);
+        for problem in &mut decoder.problems[problems..] {
+            problem
+                .help
+                .get_or_insert_with(|| "or write `auto`".to_owned());
+        }
+        Some(value)
+    }
+    fn fallback(&self) -> Self::Value {
+        None
+    }
+    fn check(&self, value: &Self::Value, at: &Place<'_>, problems: &mut Vec<Problem>) {
+        if let Some(value) = value {
+            self.0.check(value, at, problems);
+        }
+    }
+    fn encode(&self, value: &Self::Value) -> Option<Data> {
+        match value {
+            Some(value) => self.0.encode(value),
+            None => Some(Data::text("auto")),
+        }
+    }
+    fn schema(&self) -> Data {
+        let auto = Data::map([("const", Data::text("auto"))]);
+        Data::map([("anyOf", Data::List(vec![auto, self.0.schema()]))])
+    }
+}
+
+/// One expression, or a list of one or of three.
+pub(crate) struct Channels;
+
+impl Shape for Channels {
+    type Value = Vec<String>;
+    fn decode(&self, node: &Node, at: &Place<'_>, decoder: &mut Decoder) -> Vec<String> {
+        match &node.value {
+            Value::List(items) => {
+                if !matches!(items.len(), 1 | 3) {
+                    let message =
+                        format!("expected one expression or three, found {}", node.found());
+                    let problem = Problem::new(codes::WRONG_LENGTH, at.path(), message)
+                        .help("one expression means grey; three are red, green and blue");
+                    decoder.replace(at, problem);
+                    return self.fallback();
+                }
+                let decode = |(i, item)| Expression.decode(item, &at.item(i), decoder);
+                items.iter().enumerate().map(decode).collect()
+            }
+            _ => vec![Expression.decode(node, at, decoder)],
+        }
+    }
+    fn fallback(&self) -> Vec<String> {
+        vec![Expression.fallback()]
+    }
+    fn check(&self, value: &Vec<String>, at: &Place<'_>, problems: &mut Vec<Problem>) {
+        if !matches!(value.len(), 1 | 3) {
+            let message = format!("expected one expression or three, found {}", value.len());
+            problems.push(Problem::new(codes::WRONG_LENGTH, at.path(), message));
+        }
+        for (i, item) in value.iter().enumerate() {
+            Expression.check(item, &at.item(i), problems);
+        }
+    }
+    fn encode(&self, value: &Vec<String>) -> Option<Data> {
+        Some(Data::List(
+            value
+                .iter()
+                .filter_map(|item| Expression.encode(item))
+                .collect(),
+        ))
+    }
+    fn schema(&self) -> Data {
+        let expression = Expression.schema();
+        let lists = [1, 3].map(|n| list_schema(expression.clone(), n, Some(n)));
+        let [one, three] = lists;
+        Data::map([("anyOf", Data::List(vec![expression, one, three]))])
+    }
+}

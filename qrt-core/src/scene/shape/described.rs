@@ -1,0 +1,56 @@
+//! The JSON Schema of records and variants.
+
+use crate::scene::text::Data;
+
+/// The schema of a record: its keys, those that must be there, and no others.
+pub(crate) fn record_schema(
+    doc: &str,
+    fields: Vec<(&str, &str, bool, Data, Option<Data>)>,
+) -> Data {
+    let mut properties = Vec::new();
+    let mut required = Vec::new();
+    for (name, doc, is_required, shape, default) in fields {
+        let mut schema = described(doc, shape);
+        if let Some(default) = default {
+            schema = schema.with("default", default);
+        }
+        properties.push((name.to_owned(), schema));
+        if is_required {
+            required.push(Data::text(name));
+        }
+    }
+    let schema = Data::map([
+        ("description", Data::text(doc.trim())),
+        ("type", Data::text("object")),
+        ("properties", Data::Map(properties)),
+    ]);
+    let schema = if required.is_empty() {
+        schema
+    } else {
+        schema.with("required", Data::List(required))
+    };
+    schema.with("additionalProperties", Data::Bool(false))
+}
+
+/// The schema of a variant: a map with exactly one of the keys.
+pub(crate) fn variant_schema(doc: &str, kinds: Vec<(&str, &str, Data)>) -> Data {
+    let properties = kinds.into_iter();
+    let properties = properties.map(|(name, doc, part)| (name.to_owned(), described(doc, part)));
+    Data::map([
+        ("description", Data::text(doc.trim())),
+        ("type", Data::text("object")),
+        ("properties", Data::Map(properties.collect())),
+        ("additionalProperties", Data::Bool(false)),
+        ("minProperties", Data::Number(1.0)),
+        ("maxProperties", Data::Number(1.0)),
+    ])
+}
+
+/// `schema` with `doc` as its description, in place of its own.
+fn described(doc: &str, schema: Data) -> Data {
+    let mut entries = vec![("description".to_owned(), Data::text(doc.trim()))];
+    if let Data::Map(own) = schema {
+        entries.extend(own.into_iter().filter(|(key, _)| key != "description"));
+    }
+    Data::Map(entries)
+}

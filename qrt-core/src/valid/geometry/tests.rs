@@ -1,0 +1,169 @@
+use super::*;
+use glam::{DQuat, DVec2};
+use proptest::prelude::*;
+
+const CORNELL_RED: [DVec3; 4] = [
+    DVec3::new(552.8, 0.0, 0.0),
+    DVec3::new(549.6, 0.0, 559.2),
+    DVec3::new(556.0, 548.8, 559.2),
+    DVec3::new(556.0, 548.8, 0.0),
+];
+
+const SQUARE: [DVec3; 4] = [
+    DVec3::new(0.0, 0.0, 0.0),
+    DVec3::new(1.0, 0.0, 0.0),
+    DVec3::new(1.0, 1.0, 0.0),
+    DVec3::new(0.0, 1.0, 0.0),
+];
+
+fn built(vertices: &[DVec3; 4]) -> Vec<Polygon> {
+    let scene = crate::scene::Scene::from_yaml(
+        "{ name: a, film: { width: 1, height: 1 }, materials: {}, geometry: [], \
+         camera: { perspective: { eye: [0, 0, 1], target: [0, 0, 0], vfov: 40 } } }",
+        "built.yaml",
+    )
+    .unwrap();
+    let (mut surfaces, mut problems) = (Vec::new(), Vec::new());
+    let mut build = Build {
+        scene: &scene,
+        folder: "".as_ref(),
+        surfaces: &mut surfaces,
+        problems: &mut problems,
+        names: HashMap::new(),
+        out: vec![],
+        unknown: 0,
+    };
+    build.quad(vertices, 0, &Path::root());
+    let out = build.out;
+    assert!(problems.is_empty(), "{problems:?}");
+    out
+}
+
+#[test]
+fn a_quad_that_is_not_planar_splits_along_its_first_diagonal() {
+    let [a, b, c, d] = CORNELL_RED;
+    let parts = built(&CORNELL_RED);
+    assert_eq!(parts.len(), 2);
+    assert_eq!((parts[0].vertices, parts[0].corners), ([a, b, c, c], 3));
+    assert_eq!((parts[1].vertices, parts[1].corners), ([a, c, d, d], 3));
+    assert_eq!(built(&SQUARE).len(), 1);
+}
+
+#[test]
+fn size_and_distance_do_not_matter() {
+    for size in [1e-12, 1e-6, 1.0, 1e9, 1e29] {
+        let quad = SQUARE.map(|vertex| vertex * size);
+        assert_eq!(built(&quad).len(), 1, "{size}");
+        let wall = CORNELL_RED.map(|vertex| vertex * size / 1000.0);
+        assert_eq!(built(&wall).len(), 2, "{size}");
+        let [a, b, _, c] = quad;
+        assert!(triangle_fault(&[a, b, c]).is_none());
+        assert!(matches!(triangle_fault(&[a, b, b + b]), Some(Fault::Flat)));
+    }
+    // 1e9 from the origin a unit is 2^23 roundings long: planar quads are planar to that, and a
+    // split along the diagonal would still be right.
+    let far = SQUARE.map(|vertex| vertex + DVec3::splat(1e9));
+    assert_eq!(built(&far).len(), 1);
+    // A lamp of 1e-4 of the scene, and one of a hundred roundings.
+    assert_eq!(
+        built(&SQUARE.map(|vertex| vertex * 1e-4 + DVec3::splat(1.0))).len(),
+        1
+    );
+    let tiny = SQUARE.map(|vertex| vertex * 2f64.powi(-45) + DVec3::splat(1.0));
+    assert!(!built(&tiny).is_empty());
+}
+
+#[test]
+fn slivers_have_an_area_until_rounding_takes_it() {
+    let sliver = |height: f64| [DVec3::ZERO, DVec3::X, DVec3::new(0.5, height, 0.0)];
+    assert!(triangle_fault(&sliver(1e-9)).is_none());
+    assert!(triangle_fault(&sliver(1e-11)).is_none());
+    assert!(matches!(triangle_fault(&sliver(1e-13)), Some(Fault::Flat)));
+    assert!(matches!(triangle_fault(&sliver(0.0)), Some(Fault::Flat)));
+    let same = [DVec3::X, DVec3::ZERO, DVec3::X];
+    assert!(matches!(
+        triangle_fault(&same),
+        Some(Fault::Coincident(0, 2))
+    ));
+}
+
+fn rotations() -> impl Strategy<Value = DQuat> {
+    [-1.0..1.0f64, -1.0..1.0, -1.0..1.0, 0.1..1.0]
+        .prop_map(|[x, y, z, w]| DQuat::from_xyzw(x, y, z, w).normalize())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 4000, ..ProptestConfig::default() })]
+
+    /// Against whole numbers, where the sign of every turn is exact.
+    #[test]
+    fn convexity_is_that_of_exact_arithmetic(
+        grid in [[0i64..7, 0i64..7], [0i64..7, 0i64..7], [0i64..7, 0i64..7], [0i64..7, 0i64..7]],
+        turn in rotations(),
+    ) {
+        let sign = |at: usize| {
+            let [a, b, c] = [(at + 3) % 4, at, (at + 1) % 4].map(|i| grid[i]);
+            let (u, v) = ([b[0] - a[0], b[1] - a[1]], [c[0] - b[0], c[1] - b[1]]);
+            (u[0] * v[1] - u[1] * v[0]).signum()
+        };
+        let signs: Vec<i64> = (0..4).map(sign).collect();
+        let convex = signs.iter().all(|&s| s == 1) || signs.iter().all(|&s| s == -1);
+        let point = |[x, y]: [i64; 2]| turn * DVec2::new(x as f64, y as f64).extend(2.0);
+        let vertices = grid.map(point);
+        let fault = quad_fault(&vertices);
+        prop_assert_eq!(fault.is_none(), convex, "{:?}", grid);
+        if convex {
+            prop_assert!(is_planar(&vertices));
+        }
+        let plus = signs.iter().filter(|&&s| s == 1).count();
+        let minus = signs.iter().filter(|&&s| s == -1).count();
+        match fault {
+            Some(Fault::Reflex(at)) => {
+                prop_assert_eq!(plus.min(minus), 1);
+                let odd = if plus == 1 { 1 } else { -1 };
+                prop_assert_eq!(signs[at], odd);
+            }
+            Some(Fault::Crossing) => prop_assert_eq!((plus, minus), (2, 2)),
+            Some(Fault::Straight(at)) => prop_assert_eq!(signs[at], 0),
+            Some(Fault::Coincident(a, b)) => prop_assert_eq!(grid[a], grid[b]),
+            _ => {}
+        }
+    }
+
+    /// Against quaternions.
+    #[test]
+    fn meshes_turn_about_x_then_y_then_z(
+        degrees in [-720.0..720.0f64, -720.0..720.0, -720.0..720.0],
+        scale in 0.01..100.0f64,
+        point in [-5.0..5.0f64, -5.0..5.0, -5.0..5.0],
+    ) {
+        let [x, y, z] = degrees.map(f64::to_radians);
+        let turn = DQuat::from_rotation_z(z) * DQuat::from_rotation_y(y) * DQuat::from_rotation_x(x);
+        let translate = DVec3::new(3.0, -4.0, 5.0);
+        let mesh = Mesh {
+            obj: String::new(),
+            material: None,
+            scale,
+            rotate: degrees.into(),
+            translate,
+        };
+        let expected = turn * (DVec3::from(point) * scale) + translate;
+        let found = Transform::of(&mesh).apply(point.into());
+        prop_assert!(found.distance(expected) < 1e-11 * (1.0 + expected.length()));
+    }
+}
+
+#[test]
+fn quarter_turns_are_exact() {
+    for (degrees, sine, cosine) in [
+        (0.0, 0.0, 1.0),
+        (90.0, 1.0, 0.0),
+        (-90.0, -1.0, 0.0),
+        (540.0, 0.0, -1.0),
+        (630.0, -1.0, 0.0),
+    ] {
+        assert_eq!(sin_cos_degrees(degrees), (sine, cosine), "{degrees}");
+    }
+    let (sine, cosine) = sin_cos_degrees(30.0);
+    assert!((sine - 0.5).abs() < 1e-15 && (cosine - 0.75f64.sqrt()).abs() < 1e-15);
+}

@@ -1,0 +1,124 @@
+use super::*;
+use crate::codes;
+use crate::scene::{Accuracy, Camera, Estimator, Lambertian, Material};
+
+fn scene() -> Scene {
+    let text = "{ name: a, film: { width: 1, height: 1 }, materials: {}, geometry: [], \
+         camera: { perspective: { eye: [0, 0, 1], target: [0, 0, 0], vfov: 40 } } }";
+    Scene::from_yaml(text, "scene.yaml").unwrap()
+}
+
+fn codes_of(scene: Scene) -> Vec<&'static str> {
+    match validate(scene, "".as_ref()) {
+        Ok(_) => vec![],
+        Err(problems) => problems.iter().map(|problem| problem.code).collect(),
+    }
+}
+
+#[test]
+fn scenes_built_in_rust_are_checked_like_others() {
+    assert_eq!(codes_of(scene()), [""; 0]);
+    let matte = |albedo| {
+        Material::Lambertian(Lambertian {
+            albedo: [albedo; 3],
+        })
+    };
+    let mut doubled = scene();
+    doubled.materials = vec![("m".into(), matte(0.5)), ("m".into(), matte(0.25))];
+    assert_eq!(codes_of(doubled), [codes::DUPLICATE_NAME]);
+
+    let mut faulty = scene();
+    faulty.name.clear();
+    faulty.film.width = 0;
+    faulty.counting.phase_bits = 41;
+    faulty.sampling.depths[1].bits = [25, 3];
+    faulty.materials = vec![("m".into(), matte(f64::NAN)), ("n".into(), matte(-0.5))];
+    let found = codes_of(faulty);
+    let mut expected = vec![codes::EMPTY_NAME, codes::OUT_OF_RANGE];
+    expected.extend([codes::NOT_FINITE; 3]);
+    expected.extend([codes::ALBEDO; 3]);
+    expected.extend([codes::OUT_OF_RANGE; 2]);
+    assert_eq!(found, expected);
+}
+
+#[test]
+fn knobs_beside_an_accuracy_are_seen_without_their_text() {
+    let mut accurate = scene();
+    accurate.accuracy = Some(Accuracy {
+        error: 0.01,
+        confidence: 0.9,
+    });
+    assert_eq!(codes_of(accurate.clone()), [""; 0]);
+    accurate.counting.estimator = Estimator::Paper;
+    accurate.sampling.path_bits = 13;
+    assert_eq!(codes_of(accurate), [codes::ACCURACY_CONFLICT; 2]);
+}
+
+#[test]
+fn cameras_of_any_size_have_a_direction() {
+    for size in [1e-140, 1e-6, 1.0, 1e29] {
+        let mut scaled = scene();
+        if let Camera::Perspective(camera) = &mut scaled.camera {
+            camera.eye *= size;
+            camera.up *= size;
+        }
+        assert_eq!(codes_of(scaled), [""; 0], "{size}");
+    }
+    let mut far = scene();
+    if let Camera::Perspective(camera) = &mut far.camera {
+        camera.target = camera.eye + DVec3::splat(1e-200);
+        camera.up = DVec3::ONE;
+    }
+    assert_eq!(codes_of(far), [codes::CAMERA_TARGET]);
+}
+
+#[test]
+fn a_sum_of_one_is_no_gain_whatever_its_rounding() {
+    for (kd, ks) in [(0.7, 0.3), (0.9, 0.1), (0.8, 0.2), (0.6, 0.4), (0.34, 0.66)] {
+        let mut glossy = scene();
+        let phong = crate::scene::Phong {
+            diffuse: [kd; 3],
+            specular: [ks; 3],
+            exponent: 8.0,
+        };
+        glossy.materials = vec![("m".into(), Material::Phong(phong))];
+        assert_eq!(codes_of(glossy.clone()), [""; 0], "{kd} {ks}");
+        let more = crate::scene::Phong {
+            specular: [ks + 1e-9; 3],
+            ..phong
+        };
+        glossy.materials = vec![("m".into(), Material::Phong(more))];
+        assert_eq!(codes_of(glossy), [codes::PHONG_ENERGY]);
+    }
+}
+
+/// The albedo of a Phong lobe by quadrature: at most 1, and 1 at normal incidence.
+#[test]
+fn phong_lobes_reflect_at_most_what_arrives() {
+    for exponent in [0.0, 1.0, 20.0, 100.0] {
+        for degrees in [0.0f64, 20.0, 45.0, 70.0, 89.0] {
+            let (sine, cosine) = degrees.to_radians().sin_cos();
+            let mirrored = DVec3::new(sine, 0.0, cosine);
+            let (rings, steps) = (800, 400);
+            let mut albedo = 0.0;
+            for ring in 0..rings {
+                // Directions of equal projected area: mean of f pi.
+                let u = (f64::from(ring) + 0.5) / f64::from(rings);
+                for step in 0..steps {
+                    let angle = std::f64::consts::TAU * (f64::from(step) + 0.5) / f64::from(steps);
+                    let out = DVec3::new(
+                        u.sqrt() * angle.cos(),
+                        u.sqrt() * angle.sin(),
+                        (1.0 - u).sqrt(),
+                    );
+                    let lobe = out.dot(mirrored).max(0.0).powf(exponent) * (exponent + 2.0) / 2.0;
+                    albedo += lobe / f64::from(rings * steps);
+                }
+            }
+            assert!(albedo < 1.001, "{exponent} {degrees} {albedo}");
+            if degrees == 0.0 {
+                assert!((albedo - 1.0).abs() < 1e-3, "{exponent} {albedo}");
+            }
+        }
+    }
+}
