@@ -29,6 +29,8 @@ mod phong;
 mod sampled;
 mod scatter;
 mod stage;
+#[cfg(test)]
+mod tests;
 pub(crate) mod vector;
 
 pub use arith::{Arith, Axis, Coordinate};

@@ -1,0 +1,460 @@
+//! Scattering against its definition, `W = f |n.i| J`, one path at a time.
+//!
+//! `f` is written down again here, in textbook form; `J = |di/du x di/dv|` comes from central
+//! differences of the direction that the tracer samples. Tables of an independent renderer and
+//! quadrature over the hemisphere judge the rest.
+
+use super::phong::PhongStage;
+use super::scatter::Vertex;
+use super::*;
+use crate::expr::Function;
+use crate::front::parse;
+use std::f64::consts::{PI, TAU};
+
+/// Plain numbers: the arithmetic of one path.
+struct Scalar {
+    /// Sample indices of depth 1.
+    cell: [u32; 2],
+}
+
+impl Arith for Scalar {
+    type Real = f64;
+    type Bool = bool;
+    type Index = u32;
+
+    fn real(&mut self, value: f64) -> f64 {
+        value
+    }
+    fn add(&mut self, a: f64, b: f64) -> f64 {
+        a + b
+    }
+    fn sub(&mut self, a: f64, b: f64) -> f64 {
+        a - b
+    }
+    fn mul(&mut self, a: f64, b: f64) -> f64 {
+        a * b
+    }
+    fn div(&mut self, a: f64, b: f64) -> f64 {
+        a / b
+    }
+    fn neg(&mut self, a: f64) -> f64 {
+        -a
+    }
+    fn abs(&mut self, a: f64) -> f64 {
+        a.abs()
+    }
+    fn sqrt(&mut self, a: f64) -> f64 {
+        a.sqrt()
+    }
+    fn min(&mut self, a: f64, b: f64) -> f64 {
+        a.min(b)
+    }
+    fn max(&mut self, a: f64, b: f64) -> f64 {
+        a.max(b)
+    }
+    fn function(&mut self, function: Function, a: f64) -> f64 {
+        function.value(a)
+    }
+    fn pow(&mut self, a: f64, b: f64) -> f64 {
+        libm::pow(a, b)
+    }
+    fn atan2(&mut self, y: f64, x: f64) -> f64 {
+        libm::atan2(y, x)
+    }
+    fn truth(&mut self, value: bool) -> bool {
+        value
+    }
+    fn less(&mut self, a: f64, b: f64) -> bool {
+        a < b
+    }
+    fn less_equal(&mut self, a: f64, b: f64) -> bool {
+        a <= b
+    }
+    fn and(&mut self, a: bool, b: bool) -> bool {
+        a && b
+    }
+    fn or(&mut self, a: bool, b: bool) -> bool {
+        a || b
+    }
+    fn not(&mut self, a: bool) -> bool {
+        !a
+    }
+    fn possible(&mut self, a: bool) -> bool {
+        a
+    }
+    fn select(&mut self, c: bool, a: f64, b: f64) -> f64 {
+        if c { a } else { b }
+    }
+    fn index(&mut self, value: u32) -> u32 {
+        value
+    }
+    fn select_index(&mut self, c: bool, a: u32, b: u32) -> u32 {
+        if c { a } else { b }
+    }
+    fn is(&mut self, a: u32, value: u32) -> bool {
+        a == value
+    }
+    fn below(&mut self, a: u32, value: u32) -> bool {
+        a < value
+    }
+    fn rows<const K: usize>(&mut self, table: &[[f64; K]], row: u32) -> [f64; K] {
+        table[row as usize]
+    }
+    fn entry(&mut self, table: &[u32], row: u32) -> u32 {
+        table[row as usize]
+    }
+    fn coordinate(&mut self, coordinate: Coordinate) -> u32 {
+        assert_eq!(coordinate.depth, 1);
+        self.cell[usize::from(coordinate.axis == Axis::V)]
+    }
+    fn centre(&mut self, index: u32, bits: u32) -> f64 {
+        crate::sampling::cell_centre(index, bits)
+    }
+    fn sampled(&mut self, function: &Sampled, index: u32) -> f64 {
+        function.at(index)
+    }
+    fn pixel(&mut self) -> [f64; 2] {
+        [0.0; 2]
+    }
+}
+
+/// A surface of `material` on the plane z = 0, sampled with `bits` a coordinate through `map`.
+struct Specimen {
+    stage: Stage<3>,
+    bits: u32,
+}
+
+type Direction = [f64; 3];
+
+impl Specimen {
+    fn new(material: &str, map: &str, bits: u32) -> Self {
+        let text = format!(
+            "name: bench
+camera: {{ perspective: {{ eye: [0, 0, 3], target: [0, 0, 0], vfov: 45 }} }}
+film: {{ width: 1, height: 1 }}
+materials: {{ m: {material} }}
+geometry: [{{ triangle: {{ vertices: [[0, 0, 0], [1, 0, 0], [0, 1, 0]], material: m }} }}]
+sampling: {{ depths: [{{ bits: [0, 0] }}, {{ bits: [{bits}, {bits}], map: {map} }}] }}"
+        );
+        match parse(&text, "bench.yaml", &[], "".as_ref()) {
+            Ok(loaded) => Self {
+                stage: Stage::rgb(&loaded.valid),
+                bits,
+            },
+            Err(report) => panic!("{report}"),
+        }
+    }
+
+    /// The direction towards the light and the weights, for a viewer at `outgoing` (below the
+    /// surface where z < 0).
+    fn scatter(&self, outgoing: Direction, cell: [u32; 2]) -> (Direction, [f64; 3]) {
+        let arriving = outgoing.map(|c| -c);
+        let vertex = Vertex::<Scalar> {
+            arriving,
+            tangent: [1.0, 0.0, 0.0],
+            bitangent: [0.0, 1.0, 0.0],
+            normal: [0.0, 0.0, 1.0],
+            slope: arriving[2],
+            front: arriving[2] < 0.0,
+            surface: 0,
+            alive: true,
+        };
+        let scattered = self.stage.scatters[0].scatter(&mut Scalar { cell }, &vertex);
+        (scattered.direction, scattered.weight)
+    }
+
+    /// `|di/du x di/dv|` around the centre of a cell.
+    fn jacobian(&self, outgoing: Direction, [u, v]: [u32; 2]) -> f64 {
+        const REACH: u32 = 8;
+        let width = f64::from(2 * REACH) / (1_u64 << self.bits) as f64;
+        let slope = |low: [u32; 2], high: [u32; 2]| {
+            let (a, b) = (
+                self.scatter(outgoing, low).0,
+                self.scatter(outgoing, high).0,
+            );
+            [0, 1, 2].map(|k: usize| (b[k] - a[k]) / width)
+        };
+        let a = slope([u - REACH, v], [u + REACH, v]);
+        let b = slope([u, v - REACH], [u, v + REACH]);
+        let cross = [
+            a[1] * b[2] - a[2] * b[1],
+            a[2] * b[0] - a[0] * b[2],
+            a[0] * b[1] - a[1] * b[0],
+        ];
+        dot(cross, cross).sqrt()
+    }
+
+    fn cell(&self, u: f64, v: f64) -> [u32; 2] {
+        [u, v].map(|x| (x * (1_u64 << self.bits) as f64) as u32)
+    }
+}
+
+fn dot(a: Direction, b: Direction) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// The direction at an angle from the normal and an azimuth, both in degrees.
+fn at(theta: f64, phi: f64) -> Direction {
+    let (sin, cos) = theta.to_radians().sin_cos();
+    let (y, x) = phi.to_radians().sin_cos();
+    [sin * x, sin * y, cos]
+}
+
+const VIEWERS: [(f64, f64); 4] = [(0.5, 200.0), (30.0, 20.0), (60.0, 130.0), (82.0, -75.0)];
+
+/// Textbook forms, red only; `i` and `o` above the surface.
+type Textbook = fn(i: Direction, o: Direction) -> f64;
+
+fn lambertian(_: Direction, _: Direction) -> f64 {
+    0.7 / PI
+}
+
+fn ggx(i: Direction, o: Direction) -> f64 {
+    let alpha = 0.3_f64;
+    let sum = [0, 1, 2].map(|k: usize| i[k] + o[k]);
+    let cos_h = sum[2] / dot(sum, sum).sqrt();
+    let tan_squared = |cos: f64| (1.0 - cos * cos) / (cos * cos);
+    let d = alpha.powi(2) / (PI * cos_h.powi(4) * (alpha.powi(2) + tan_squared(cos_h)).powi(2));
+    let g1 = |cos: f64| 2.0 / (1.0 + (1.0 + alpha.powi(2) * tan_squared(cos)).sqrt());
+    0.9 * d * g1(i[2]) * g1(o[2]) / (4.0 * i[2] * o[2])
+}
+
+/// `i.mirror(o)`
+fn cos_a(i: Direction, o: Direction) -> f64 {
+    i[2] * o[2] - i[0] * o[0] - i[1] * o[1]
+}
+
+fn phong(i: Direction, o: Direction) -> f64 {
+    0.3 / PI + 0.5 * 22.0 / TAU * cos_a(i, o).max(0.0).powi(20)
+}
+
+fn lobe(i: Direction, o: Direction) -> f64 {
+    0.5 * 22.5 / TAU * cos_a(i, o).max(0.0).powf(20.5)
+}
+
+fn moon(i: Direction, o: Direction) -> f64 {
+    0.15 / (0.1 + i[2] + o[2]) * (1.0 + 0.5 * (2.0 * i[2] * o[2] - cos_a(i, o)))
+}
+
+const LAMBERTIAN: &str = "{ lambertian: { albedo: [0.7, 0.5, 0.3] } }";
+const GGX: &str = "{ ggx: { alpha: 0.3, reflectance: [0.9, 0.7, 0.5] } }";
+const PHONG: &str =
+    "{ phong: { diffuse: [0.3, 0.2, 0.1], specular: [0.5, 0.5, 0.5], exponent: 20 } }";
+const LOBE: &str = "{ phong: { diffuse: [0, 0, 0], specular: [0.5, 0.4, 0.3], exponent: 20.5 } }";
+/// Lunar dust, which shines back to where light comes from, on a map that prefers low heights.
+const MOON: &str = "{ bsdf: {
+  map: ['sqrt(1-u^4)*cos(2*pi*v)', 'sqrt(1-u^4)*sin(2*pi*v)', 'u^2'],
+  value: ['0.15/(0.1 + cos_i + cos_o) * (1 + 0.5*(2*cos_i*cos_o - cos_a))', '0.1', '0.2'] } }";
+
+#[test]
+fn every_weight_is_the_value_times_cosine_times_jacobian() {
+    let cases: [(&str, Textbook, &[&str]); 5] = [
+        (
+            LAMBERTIAN,
+            lambertian,
+            &["auto", "cosine-hemisphere", "uniform-hemisphere"],
+        ),
+        (
+            GGX,
+            ggx,
+            &["auto", "cosine-hemisphere", "uniform-hemisphere"],
+        ),
+        (PHONG, phong, &["cosine-hemisphere", "uniform-hemisphere"]),
+        (
+            LOBE,
+            lobe,
+            &["auto", "cosine-hemisphere", "uniform-hemisphere"],
+        ),
+        (
+            MOON,
+            moon,
+            &["auto", "cosine-hemisphere", "uniform-hemisphere"],
+        ),
+    ];
+    for (material, textbook, maps) in cases {
+        for map in maps {
+            let specimen = Specimen::new(material, map, 20);
+            let mut checked = 0;
+            for (theta, phi) in VIEWERS {
+                let o = at(theta, phi);
+                for u in [0.04, 0.2, 0.37, 0.5, 0.71, 0.93] {
+                    for v in [0.1, 0.33, 0.52, 0.8] {
+                        let cell = specimen.cell(u, v);
+                        let (i, weight) = specimen.scatter(o, cell);
+                        assert!((dot(i, i) - 1.0).abs() < 1e-12, "{material} {map}: {i:?}");
+                        if i[2] <= 1e-3 {
+                            assert!(i[2] > 0.0 || weight == [0.0; 3], "{material} {map}");
+                            continue;
+                        }
+                        let expected = textbook(i, o) * i[2] * specimen.jacobian(o, cell);
+                        assert!(
+                            (weight[0] - expected).abs() < 1e-6 * expected.max(1e-3),
+                            "{material} {map} {theta} {u} {v}: {} {expected}",
+                            weight[0]
+                        );
+                        checked += 1;
+                    }
+                }
+            }
+            assert!(checked > 60, "{material} {map}: only {checked} points");
+        }
+    }
+}
+
+#[test]
+fn phong_divides_the_square_between_its_base_and_its_lobe() {
+    let specimen = Specimen::new(PHONG, "auto", 20);
+    // By energy: 0.6 of 2.1 to the base, whose columns come first.
+    let share = 0.6 / 2.1;
+    for (theta, phi) in VIEWERS {
+        let o = at(theta, phi);
+        for u in [0.05, 0.15, 0.27, 0.3, 0.4, 0.6, 0.9] {
+            for v in [0.12, 0.4, 0.85] {
+                let cell = specimen.cell(u, v);
+                let (i, weight) = specimen.scatter(o, cell);
+                if i[2] <= 1e-3 {
+                    assert!(i[2] > 0.0 || weight == [0.0; 3]);
+                    continue;
+                }
+                let base = 0.3 / PI;
+                let f = if u < share { base } else { phong(i, o) - base };
+                let expected = f * i[2] * specimen.jacobian(o, cell);
+                assert!(
+                    (weight[0] - expected).abs() < 1e-6 * expected.max(1e-3),
+                    "{theta} {u} {v}: {} {expected}",
+                    weight[0]
+                );
+            }
+        }
+    }
+}
+
+/// What a viewer at `o` gets from all around, by the midpoint rule over heights and azimuths.
+fn reflected(textbook: Textbook, o: Direction) -> f64 {
+    const N: usize = 800;
+    let mut sum = 0.0;
+    for a in 0..N {
+        // Heights by their square: dense where cos is small, and cos dcos is then constant.
+        let cos = ((a as f64 + 0.5) / N as f64).sqrt();
+        let sin = (1.0 - cos * cos).sqrt();
+        for b in 0..N {
+            let (y, x) = (TAU * (b as f64 + 0.5) / N as f64).sin_cos();
+            sum += textbook([sin * x, sin * y, cos], o);
+        }
+    }
+    sum * PI / (N * N) as f64
+}
+
+#[test]
+fn every_map_reaches_all_that_the_value_reflects() {
+    let cases: [(&str, Textbook); 5] = [
+        (LAMBERTIAN, lambertian),
+        (GGX, ggx),
+        (PHONG, phong),
+        (LOBE, lobe),
+        (MOON, moon),
+    ];
+    const BITS: u32 = 9;
+    let cells = 1_u32 << BITS;
+    for (material, textbook) in cases {
+        for map in ["auto", "uniform-hemisphere"] {
+            let specimen = Specimen::new(material, map, BITS);
+            for (theta, phi) in [(30.0, 20.0), (70.0, 130.0)] {
+                let o = at(theta, phi);
+                let expected = reflected(textbook, o);
+                let weights = (0..cells * cells)
+                    .map(|cell| specimen.scatter(o, [cell % cells, cell / cells]).1[0]);
+                let mean = weights.sum::<f64>() / f64::from(cells).powi(2);
+                assert!(
+                    (mean / expected - 1.0).abs() < 2e-3,
+                    "{material} {map} {theta}: {mean} {expected}"
+                );
+            }
+        }
+    }
+}
+
+/// Rows of a table of the independent renderer, without its head.
+fn table(name: &str) -> Vec<Vec<String>> {
+    let root = env!("CARGO_MANIFEST_DIR");
+    let path = format!("{root}/../tests/references/{name}");
+    let text = std::fs::read_to_string(path).unwrap();
+    let rows = text.lines().skip(1);
+    rows.map(|row| row.split(',').map(str::to_owned).collect())
+        .collect()
+}
+
+#[test]
+fn values_are_those_of_an_independent_renderer() {
+    let bsdf = PhongStage::new([0.3, 0.2, 0.1], [0.5; 3], 20.0, [0, 1, 2], 8);
+    let cx = &mut Scalar { cell: [0, 0] };
+    let rows = table("bsdf.csv");
+    assert_eq!(rows.len(), 90);
+    for row in rows {
+        let [theta_i, theta_o, phi, red, green, blue]: [f64; 6] =
+            std::array::from_fn(|k| row[k + 1].parse().unwrap());
+        let (viewer, light) = (at(theta_i, 0.0), at(theta_o, phi));
+        let value = match row[0].as_str() {
+            "ggx" => [microfacet::value(cx, 0.2, &viewer, &light); 3],
+            _ => bsdf.value(cx, cos_a(light, viewer)),
+        };
+        for (ours, theirs) in value.iter().zip([red, green, blue]) {
+            // Theirs are 32-bit floats.
+            let ours = ours * light[2];
+            assert!(
+                (ours - theirs).abs() < 2e-6 * theirs.max(0.1),
+                "{row:?}: {ours}"
+            );
+        }
+    }
+}
+
+#[test]
+fn glass_reflects_as_fresnel_says_and_refracts_as_snell_says() {
+    const BITS: u32 = 12;
+    let specimen = Specimen::new("{ dielectric: { ior: 1.5 } }", "auto", BITS);
+    let cells = 1_u32 << BITS;
+    for row in table("fresnel.csv") {
+        let [cos, reflectance]: [f64; 2] = std::array::from_fn(|k| row[k].parse().unwrap());
+        // From outside (the front) where cos > 0, from inside where cos < 0.
+        let sin = (1.0 - cos * cos).sqrt();
+        let o = [sin * 0.6, sin * 0.8, cos];
+        let eta: f64 = if cos > 0.0 { 1.0 / 1.5 } else { 1.5 };
+        let mut reflected = 0;
+        for u in 0..cells {
+            let (i, weight) = specimen.scatter(o, [u, 0]);
+            assert!((dot(i, i) - 1.0).abs() < 1e-12);
+            // Both ways stay in the plane of incidence, on the other side of the normal.
+            let across = (0.8 * i[0] - 0.6 * i[1]).abs();
+            let along = -(0.6 * i[0] + 0.8 * i[1]);
+            assert!(across < 1e-12);
+            if i[2] * cos > 0.0 {
+                reflected += 1;
+                assert!((along - sin).abs() < 1e-12 && (i[2] - cos).abs() < 1e-12);
+                assert_eq!(weight, [1.0; 3]);
+            } else {
+                assert!((along - eta * sin).abs() < 1e-12);
+                assert!(weight.iter().all(|w| (w - eta * eta).abs() < 1e-12));
+            }
+        }
+        let share = f64::from(reflected) / f64::from(cells);
+        assert!(
+            (share - reflectance).abs() < 1.0 / f64::from(cells) + 1e-6,
+            "{cos}: {share} {reflectance}"
+        );
+    }
+}
+
+#[test]
+fn a_mirror_mirrors() {
+    let specimen = Specimen::new("{ mirror: { reflectance: [0.9, 0.8, 0.7] } }", "auto", 4);
+    for (theta, phi) in VIEWERS {
+        for side in [1.0, -1.0] {
+            let [x, y, z] = at(theta, phi);
+            let (i, weight) = specimen.scatter([x, y, side * z], [3, 5]);
+            let distance = [i[0] + x, i[1] + y, i[2] - side * z];
+            assert!(dot(distance, distance) < 1e-30);
+            assert_eq!(weight, [0.9, 0.8, 0.7]);
+        }
+    }
+}
