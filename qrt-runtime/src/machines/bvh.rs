@@ -10,10 +10,11 @@ mod build;
 mod packet;
 mod walk;
 
-use super::lanes::{Lanes, lanes};
+use super::lanes::{Lanes, lanes, slots};
 use packet::Packet;
 use qrt_core::tracer::{Arith, Geometry, Hit, NO_FACE, Nearest, Ray};
-use walk::{Found, Line};
+use std::cell::Cell;
+use walk::{Line, Stack};
 
 /// Boxes of a node, and faces of a packet.
 pub(crate) const WIDE: usize = 8;
@@ -71,34 +72,40 @@ impl Bvh {
 
 /// A geometry with its hierarchy.
 pub(crate) struct Indexed<'a> {
-    pub(crate) geometry: &'a Geometry,
-    pub(crate) bvh: &'a Bvh,
+    geometry: &'a Geometry,
+    bvh: &'a Bvh,
+    /// Lent to one walk after the other.
+    stack: Cell<Stack>,
 }
 
-impl Indexed<'_> {
-    /// Walks every wanted ray; `limit` gives each lane's search what it need not look beyond.
-    #[inline(always)]
-    fn each_ray<'i, S: pulp::Simd, const W: usize>(
-        cx: &Lanes<'i, S, W>,
-        ray: &Ray<Lanes<'i, S, W>>,
-        wanted: [S::m64s; W],
-        mut visit: impl FnMut(usize, &Line),
-    ) {
-        let one = [cx.simd.splat_u64s(1); W];
-        let zero = [cx.simd.splat_u64s(0); W];
-        let mut cx = *cx;
-        let wanted = cx.select_index(wanted, one, zero);
-        let wanted = lanes::<_, u64>(&wanted);
-        for lane in 0..Lanes::<S, W>::COUNT {
-            if wanted[lane] == 1 {
-                let part = |v: &[[S::f64s; W]; 3]| {
-                    [lanes(&v[0])[lane], lanes(&v[1])[lane], lanes(&v[2])[lane]]
-                };
-                let from = lanes::<_, u64>(&ray.from)[lane];
-                visit(lane, &Line::new(part(&ray.origin), part(&ray.direction), from));
-            }
+impl<'a> Indexed<'a> {
+    pub(crate) fn new(geometry: &'a Geometry, bvh: &'a Bvh) -> Self {
+        Self { geometry, bvh, stack: Cell::default() }
+    }
+}
+
+/// The lanes in which `mask` holds, as bits.
+#[inline(always)]
+fn bits<S: pulp::Simd, const W: usize>(cx: &mut Lanes<'_, S, W>, mask: [S::m64s; W]) -> u64 {
+    let (one, zero) = (cx.index(1), cx.index(0));
+    let flags = cx.select_index(mask, one, zero);
+    let mut bits = 0;
+    for (lane, &flag) in lanes::<_, u64>(&flags).iter().enumerate() {
+        bits |= flag << lane;
+    }
+    bits
+}
+
+/// The ray of one lane.
+#[inline(always)]
+fn line<S: pulp::Simd, const W: usize>(ray: &Ray<Lanes<'_, S, W>>, lane: usize) -> Line {
+    let mut parts = [[0.0; 3]; 2];
+    for (part, vector) in parts.iter_mut().zip([&ray.origin, &ray.direction]) {
+        for (part, component) in part.iter_mut().zip(vector) {
+            *part = lanes::<_, f64>(component)[lane];
         }
     }
+    Line::new(parts[0], parts[1], lanes::<_, u64>(&ray.from)[lane])
 }
 
 impl<'i, S: pulp::Simd, const W: usize> Nearest<Lanes<'i, S, W>> for Indexed<'_> {
@@ -111,14 +118,18 @@ impl<'i, S: pulp::Simd, const W: usize> Nearest<Lanes<'i, S, W>> for Indexed<'_>
     ) -> Hit<Lanes<'i, S, W>> {
         let mut distance = cx.real(f64::MAX);
         let mut label = cx.index(NO_FACE);
-        Self::each_ray(cx, ray, wanted, |lane, line| {
-            let found = self.bvh.nearest(cx.narrow(), line);
-            if let Some(Found { distance: t, rank }) = found {
-                super::lanes::slots::<_, f64>(&mut distance)[lane] = t;
-                super::lanes::slots::<_, u64>(&mut label)[lane] =
-                    u64::from(self.bvh.labels[rank as usize]);
+        let mut stack = self.stack.take();
+        let mut left = bits(cx, wanted);
+        while left != 0 {
+            let lane = left.trailing_zeros() as usize;
+            left &= left - 1;
+            if let Some(found) = self.bvh.nearest(cx.narrow(), &line(ray, lane), &mut stack) {
+                slots::<_, f64>(&mut distance)[lane] = found.distance;
+                let face = self.bvh.labels[found.rank as usize];
+                slots::<_, u64>(&mut label)[lane] = u64::from(face);
             }
-        });
+        }
+        self.stack.set(stack);
         Hit::new(cx, distance, label, wanted)
     }
 
@@ -136,15 +147,19 @@ impl<'i, S: pulp::Simd, const W: usize> Nearest<Lanes<'i, S, W>> for Indexed<'_>
         if !cx.possible(hit.found) {
             return hit;
         }
-        let mut label = cx.index(0);
-        let distance = hit.distance;
-        Self::each_ray(cx, ray, hit.found, |lane, line| {
-            let limit = lanes::<_, f64>(&distance)[lane];
-            if self.bvh.hides(cx.narrow(), line, limit) {
-                super::lanes::slots::<_, u64>(&mut label)[lane] = 1;
+        let mut hidden = cx.index(0);
+        let mut stack = self.stack.take();
+        let mut left = bits(cx, hit.found);
+        while left != 0 {
+            let lane = left.trailing_zeros() as usize;
+            left &= left - 1;
+            let distance = lanes::<_, f64>(&hit.distance)[lane];
+            if self.bvh.hides(cx.narrow(), &line(ray, lane), &mut stack, distance) {
+                slots::<_, u64>(&mut hidden)[lane] = 1;
             }
-        });
-        let shown = cx.is(label, 0);
+        }
+        self.stack.set(stack);
+        let shown = cx.is(hidden, 0);
         hit.found = cx.and(hit.found, shown);
         hit
     }

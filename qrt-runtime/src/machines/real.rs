@@ -240,15 +240,16 @@ impl WithSimd for TraceBlock<'_> {
 
     #[inline(always)]
     fn with_simd<S: pulp::Simd>(self, simd: S) {
+        let geometry = self.stage.geometry();
+        let indexed = self.bvh.map(|bvh| Indexed::new(geometry, bvh));
         for first in (0..self.count).step_by(Lanes::<S, WIDTH>::COUNT) {
             let mut cx = Lanes::<S, WIDTH> {
                 simd,
                 inputs: self.inputs,
                 first,
             };
-            let geometry = self.stage.geometry();
-            let colour = match self.bvh {
-                Some(bvh) => trace(&mut cx, self.stage, &Indexed { geometry, bvh }),
+            let colour = match &indexed {
+                Some(indexed) => trace(&mut cx, self.stage, indexed),
                 None => trace(&mut cx, self.stage, geometry),
             };
             for (out, colour) in self.colours.iter_mut().zip(&colour) {

@@ -4,11 +4,7 @@ use super::{Child, Node, WIDE};
 use glam::DVec3;
 use qrt_core::tracer::Geometry;
 
-/// Levels of the tree at most: below, halves are split by count alone, so that `WIDE^MAX_DEPTH`
-/// and more faces fit.
-pub(super) const MAX_DEPTH: usize = 64;
-
-/// Levels of the binary tree that may follow the heuristic.
+/// Levels of the binary tree that may follow the heuristic; below, parts are halved.
 const FREE_DEPTH: usize = 32;
 
 /// Candidate planes per axis.

@@ -1,6 +1,6 @@
 //! One ray through the tree.
 
-use super::packet::{Packet, unpack};
+use super::packet::unpack;
 use super::{Bvh, Child, Node, WIDE};
 use crate::machines::lanes::Lanes;
 
@@ -41,14 +41,54 @@ impl Line {
     }
 }
 
-/// Children still to visit, nearest last. A tree of depth `n` leaves at most `7 n` behind.
-struct Stack {
-    entries: [(f64, Child); Self::SIZE],
-    length: usize,
+/// Children still to visit with the distances of their boxes, nearest last.
+pub(super) type Stack = Vec<(f64, Child)>;
+
+/// What a walk looks for. (A trait and not a closure: see [`crate::machines::lanes`].)
+trait Search {
+    /// Nothing beyond this distance matters.
+    fn limit(&self) -> f64;
+    /// The ray meets face `rank` at `distance`: has the search seen enough?
+    fn meet(&mut self, rank: u32, distance: f64) -> bool;
 }
 
-impl Stack {
-    const SIZE: usize = (WIDE - 1) * super::build::MAX_DEPTH + WIDE;
+/// The nearest face; of equally near ones the first.
+struct NearestFace {
+    best: Found,
+}
+
+impl Search for NearestFace {
+    #[inline(always)]
+    fn limit(&self) -> f64 {
+        self.best.distance
+    }
+    #[inline(always)]
+    fn meet(&mut self, rank: u32, distance: f64) -> bool {
+        let best = self.best;
+        if distance < best.distance || (distance == best.distance && rank < best.rank) {
+            self.best = Found { distance, rank };
+        }
+        false
+    }
+}
+
+/// Any face that hides an emitter.
+struct Hides<'a> {
+    bvh: &'a Bvh,
+    distance: f64,
+}
+
+impl Search for Hides<'_> {
+    #[inline(always)]
+    fn limit(&self) -> f64 {
+        self.distance
+    }
+    #[inline(always)]
+    fn meet(&mut self, rank: u32, distance: f64) -> bool {
+        let rank = rank as usize;
+        let hides = distance < self.distance || self.bvh.hides_emitter[rank];
+        hides && !self.bvh.emits[rank]
+    }
 }
 
 impl Bvh {
@@ -58,16 +98,11 @@ impl Bvh {
         &self,
         mut cx: Lanes<'_, S, 1>,
         line: &Line,
+        stack: &mut Stack,
     ) -> Option<Found> {
-        let mut best = Found { distance: f64::MAX, rank: u32::MAX };
-        self.walk(&mut cx, line, &mut best, |packet, lane, distance, best| {
-            let rank = packet.rank[lane];
-            if distance < best.distance || (distance == best.distance && rank < best.rank) {
-                *best = Found { distance, rank };
-            }
-            false
-        });
-        (best.rank != u32::MAX).then_some(best)
+        let mut search = NearestFace { best: Found { distance: f64::MAX, rank: u32::MAX } };
+        self.walk(&mut cx, line, stack, &mut search);
+        (search.best.rank != u32::MAX).then_some(search.best)
     }
 
     /// Does a face that emits nothing hide an emitter at `distance`?
@@ -76,33 +111,29 @@ impl Bvh {
         &self,
         mut cx: Lanes<'_, S, 1>,
         line: &Line,
+        stack: &mut Stack,
         distance: f64,
     ) -> bool {
-        let mut limit = Found { distance, rank: u32::MAX };
-        self.walk(&mut cx, line, &mut limit, |packet, lane, distance, limit| {
-            let rank = packet.rank[lane] as usize;
-            !self.emits[rank]
-                && (distance < limit.distance
-                    || (distance == limit.distance && self.hides_emitter[rank]))
-        })
+        self.walk(&mut cx, line, stack, &mut Hides { bvh: self, distance })
     }
 
-    /// Visits the faces that the ray meets within `best`, until `visit` has seen enough.
+    /// Shows `search` the faces that the ray meets within its limit, until it has seen enough;
+    /// tells whether it has.
     #[inline(always)]
-    fn walk<S: pulp::Simd>(
+    fn walk<S: pulp::Simd, T: Search>(
         &self,
         cx: &mut Lanes<'_, S, 1>,
         line: &Line,
-        best: &mut Found,
-        visit: impl Fn(&Packet, usize, f64, &mut Found) -> bool,
+        stack: &mut Stack,
+        search: &mut T,
     ) -> bool {
-        let mut stack = Stack { entries: [(0.0, Child::Absent); Stack::SIZE], length: 0 };
+        stack.clear();
         let mut next = if self.nodes.is_empty() { Child::Absent } else { Child::Node(0) };
         loop {
             match next {
                 Child::Node(number) => {
                     let node = &self.nodes[number as usize];
-                    next = node.open(cx, line, best.distance, &mut stack);
+                    next = node.open(cx, line, search.limit(), stack);
                     if next != Child::Absent {
                         continue;
                     }
@@ -110,13 +141,15 @@ impl Bvh {
                 Child::Packet(number) => {
                     let packet = &self.packets[number as usize];
                     for first in (0..WIDE).step_by(S::F64_LANES) {
+                        let limit = search.limit();
                         let (hit, distances) =
-                            packet.distances(cx, &line.turned, line.from, best.distance, first);
+                            packet.distances(cx, &line.turned, line.from, limit, first);
                         if cx.simd.first_true_m64s(hit) == S::F64_LANES {
                             continue;
                         }
                         for (lane, &distance) in unpack(&distances).iter().enumerate() {
-                            if distance < f64::INFINITY && visit(packet, first + lane, distance, best)
+                            if distance < f64::INFINITY
+                                && search.meet(packet.rank[first + lane], distance)
                             {
                                 return true;
                             }
@@ -127,12 +160,10 @@ impl Bvh {
             }
             // The nearest child left behind that is not beyond what was found since.
             loop {
-                if stack.length == 0 {
+                let Some((near, child)) = stack.pop() else {
                     return false;
-                }
-                stack.length -= 1;
-                let (near, child) = stack.entries[stack.length];
-                if near <= best.distance {
+                };
+                if near <= search.limit() {
                     next = child;
                     break;
                 }
@@ -153,7 +184,7 @@ impl Node {
         stack: &mut Stack,
     ) -> Child {
         let simd = cx.simd;
-        let base = stack.length;
+        let base = stack.len();
         for first in (0..WIDE).step_by(S::F64_LANES) {
             let at = first / S::F64_LANES;
             let mut near = simd.splat_f64s(0.0);
@@ -177,20 +208,18 @@ impl Node {
             for (lane, &near) in unpack(&near).iter().enumerate() {
                 if near < f64::INFINITY {
                     // Insertion keeps the farthest first; there are few.
-                    let mut place = stack.length;
-                    while place > base && stack.entries[place - 1].0 < near {
-                        stack.entries[place] = stack.entries[place - 1];
+                    let mut place = stack.len();
+                    stack.push((near, self.children[first + lane]));
+                    while place > base && stack[place - 1].0 < near {
+                        stack.swap(place - 1, place);
                         place -= 1;
                     }
-                    stack.entries[place] = (near, self.children[first + lane]);
-                    stack.length += 1;
                 }
             }
         }
-        if stack.length == base {
+        if stack.len() == base {
             return Child::Absent;
         }
-        stack.length -= 1;
-        stack.entries[stack.length].1
+        stack.pop().map_or(Child::Absent, |(_, child)| child)
     }
 }
