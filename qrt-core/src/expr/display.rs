@@ -16,6 +16,19 @@ enum Piece {
     Node(Id, u8),
 }
 
+impl Expr {
+    /// How many nodes it takes to write it, where what is shared is written again each time:
+    /// derivatives of nested `if_less` can be short as nodes and endless as text.
+    pub fn written_nodes(&self) -> u64 {
+        let mut sizes: Vec<u64> = Vec::with_capacity(self.nodes.len());
+        for node in &self.nodes {
+            let parts = node.operands().map(|id| sizes[id.index()]);
+            sizes.push(parts.fold(1, u64::saturating_add));
+        }
+        sizes[self.root.index()]
+    }
+}
+
 impl fmt::Display for Expr {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         // A stack of its own: a long sum is as deep as it is long.

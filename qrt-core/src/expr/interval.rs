@@ -352,7 +352,11 @@ impl Interval {
             return None;
         }
         // Monotone in each operand on either side of 1 and of 0: extremes are at corners.
-        let base = self.within(0.0, f64::INFINITY);
+        // Not -0.0, whose powers may be negative.
+        let base = Self {
+            lo: self.lo.max(0.0).abs(),
+            hi: self.hi.abs(),
+        };
         let corners = [
             libm::pow(base.lo, exponent.lo),
             libm::pow(base.lo, exponent.hi),

@@ -158,6 +158,16 @@ fn constant(sum: &Sum) -> Option<f64> {
     }
 }
 
+/// The exponent without the rounding that keeps `1/51 + 50/51` from being 1.
+fn settled(exponent: f64) -> f64 {
+    let near = (exponent * 2.0).round() / 2.0;
+    if (exponent - near).abs() <= ROUNDING * exponent.abs().max(1.0) {
+        near
+    } else {
+        exponent
+    }
+}
+
 fn is_even(exponent: f64) -> bool {
     exponent % 2.0 == 0.0
 }
@@ -390,7 +400,9 @@ impl Canon {
             let mut merged: Vec<Factor> = Vec::with_capacity(factors.len());
             for factor in factors {
                 match merged.last_mut() {
-                    Some(last) if last.atom == factor.atom => last.exponent += factor.exponent,
+                    Some(last) if last.atom == factor.atom => {
+                        last.exponent = settled(last.exponent + factor.exponent);
+                    }
                     _ => merged.push(factor),
                 }
             }

@@ -68,15 +68,6 @@ pub trait Nearest<A: Arith> {
     fn emitter(&self, cx: &mut A, ray: &Ray<A>, wanted: A::Bool) -> Hit<A>;
 }
 
-/// Where a ray crosses a plane that it approaches by `slope` per length of its direction and from
-/// which `rise` parts it: whether ahead, and at which distance.
-#[inline(always)]
-pub fn cross_plane<A: Arith>(cx: &mut A, slope: A::Real, rise: A::Real) -> (A::Bool, A::Real) {
-    let distance = cx.div(rise, slope);
-    let zero = cx.real(0.0);
-    (cx.less(zero, distance), distance)
-}
-
 /// `low <= value <= high`
 #[inline(always)]
 pub fn between<A: Arith>(cx: &mut A, low: A::Real, value: A::Real, high: A::Real) -> A::Bool {
@@ -87,16 +78,22 @@ pub fn between<A: Arith>(cx: &mut A, low: A::Real, value: A::Real, high: A::Real
 
 /// `a x + b y`
 #[inline(always)]
-fn weighted<A: Arith>(cx: &mut A, [a, b]: [f64; 2], [x, y]: [A::Real; 2]) -> A::Real {
-    let ax = cx.scale(x, a);
-    let by = cx.scale(y, b);
+pub fn weighted<A: Arith>(cx: &mut A, form: [A::Real; 2], at: [A::Real; 2]) -> A::Real {
+    let ax = cx.mul(at[0], form[0]);
+    let by = cx.mul(at[1], form[1]);
     cx.add(ax, by)
+}
+
+#[inline(always)]
+fn constants<A: Arith>(cx: &mut A, [a, b]: [f64; 2]) -> [A::Real; 2] {
+    [cx.real(a), cx.real(b)]
 }
 
 impl Slab {
     #[inline(always)]
     fn holds<A: Arith>(&self, cx: &mut A, point: [A::Real; 2]) -> A::Bool {
-        let value = weighted(cx, self.form, point);
+        let form = constants(cx, self.form);
+        let value = weighted(cx, form, point);
         let (low, high) = (cx.real(self.low), cx.real(self.high));
         between(cx, low, value, high)
     }
@@ -104,7 +101,7 @@ impl Slab {
 
 /// The point of `ray` at `distance`.
 #[inline(always)]
-pub fn point_at<A: Arith>(cx: &mut A, ray: &Ray<A>, distance: A::Real) -> Vector<A> {
+pub(crate) fn point_at<A: Arith>(cx: &mut A, ray: &Ray<A>, distance: A::Real) -> Vector<A> {
     let way = vector::scale(cx, &ray.direction, distance);
     vector::add(cx, &ray.origin, &way)
 }
@@ -141,12 +138,15 @@ fn within<A: Arith>(cx: &mut A, slabs: &[Slab], point: [A::Real; 2]) -> A::Bool 
 }
 
 /// A ray as the planes of one main axis see it: its parts along that axis and across.
-struct Turned<A: Arith> {
-    origin: A::Real,
-    direction: A::Real,
-    origin_across: [A::Real; 2],
-    direction_across: [A::Real; 2],
-    from: A::Index,
+pub struct Turned<A: Arith> {
+    /// Along the axis.
+    pub origin: A::Real,
+    /// Along the axis.
+    pub direction: A::Real,
+    /// Along the next axis and the one after it.
+    pub origin_across: [A::Real; 2],
+    /// Along the next axis and the one after it.
+    pub direction_across: [A::Real; 2],
 }
 
 impl<A: Arith> Turned<A> {
@@ -158,38 +158,68 @@ impl<A: Arith> Turned<A> {
             direction: ray.direction[AXIS],
             origin_across: across(&ray.origin),
             direction_across: across(&ray.direction),
-            from: ray.from,
         }
     }
 }
 
+/// Where a ray crosses a plane.
+pub struct Crossing<A: Arith> {
+    /// Does it, ahead of its origin?
+    pub ahead: A::Bool,
+    /// At which distance.
+    pub distance: A::Real,
+    /// Where, along the two axes after the plane's main one.
+    pub point: [A::Real; 2],
+}
+
+/// Where `ray` crosses the plane of this form (see [`super::Plane`]) and offset.
+#[inline(always)]
+pub fn cross<A: Arith>(
+    cx: &mut A,
+    form: [A::Real; 2],
+    offset: A::Real,
+    ray: &Turned<A>,
+) -> Crossing<A> {
+    let slope = weighted(cx, form, ray.direction_across);
+    let slope = cx.add(ray.direction, slope);
+    let height = weighted(cx, form, ray.origin_across);
+    let height = cx.add(ray.origin, height);
+    let rise = cx.sub(offset, height);
+    let distance = cx.div(rise, slope);
+    let zero = cx.real(0.0);
+    let ahead = cx.less(zero, distance);
+    let [x, y] = vector::scale(cx, &ray.direction_across, distance);
+    let point = [
+        cx.add(ray.origin_across[0], x),
+        cx.add(ray.origin_across[1], y),
+    ];
+    Crossing {
+        ahead,
+        distance,
+        point,
+    }
+}
+
 impl Geometry {
-    /// Where `ray` crosses plane `number`: whether it does, ahead, at which distance and where
-    /// across the plane's main axis.
+    /// Where `ray` crosses plane `number`, unless it leaves it.
     #[inline(always)]
     fn cross<A: Arith>(
         &self,
         cx: &mut A,
         number: usize,
         ray: &Turned<A>,
-    ) -> (A::Bool, A::Real, [A::Real; 2]) {
+        from: A::Index,
+    ) -> Crossing<A> {
         let plane = &self.planes[number];
-        let slope = weighted(cx, plane.form, ray.direction_across);
-        let slope = cx.add(ray.direction, slope);
-        let height = weighted(cx, plane.form, ray.origin_across);
-        let height = cx.add(ray.origin, height);
+        let form = constants(cx, plane.form);
         let offset = cx.real(plane.offset);
-        let rise = cx.sub(offset, height);
-        let (ahead, distance) = cross_plane(cx, slope, rise);
-        let left = cx.is(ray.from, number as u32);
+        let crossing = cross(cx, form, offset, ray);
+        let left = cx.is(from, number as u32);
         let other = cx.not(left);
-        let ahead = cx.and(ahead, other);
-        let [x, y] = vector::scale(cx, &ray.direction_across, distance);
-        let point = [
-            cx.add(ray.origin_across[0], x),
-            cx.add(ray.origin_across[1], y),
-        ];
-        (ahead, distance, point)
+        Crossing {
+            ahead: cx.and(crossing.ahead, other),
+            ..crossing
+        }
     }
 
     /// The faces on planes with main axis `AXIS`, in turn, with a running nearest.
@@ -200,11 +230,11 @@ impl Geometry {
         ray: &Ray<A>,
         nearest: &mut Running<A>,
     ) {
-        let ray = Turned::new::<AXIS>(ray);
+        let (ray, from) = (Turned::new::<AXIS>(ray), ray.from);
         for number in self.by_axis[AXIS].clone() {
-            let (ahead, distance, point) = self.cross(cx, number, &ray);
+            let crossing = self.cross(cx, number, &ray, from);
             for face in self.faces_of(number) {
-                nearest.meet(cx, face, ahead, distance, point);
+                nearest.meet(cx, face, &crossing);
             }
         }
     }
@@ -217,11 +247,11 @@ impl Geometry {
         ray: &Ray<A>,
         nearest: &mut Running<A>,
     ) {
-        let ray = Turned::new::<AXIS>(ray);
+        let (ray, from) = (Turned::new::<AXIS>(ray), ray.from);
         for &number in &self.emitting[AXIS] {
-            let (ahead, distance, point) = self.cross(cx, number, &ray);
+            let crossing = self.cross(cx, number, &ray, from);
             for face in self.faces_of(number).iter().filter(|face| face.emits) {
-                nearest.meet(cx, face, ahead, distance, point);
+                nearest.meet(cx, face, &crossing);
             }
         }
     }
@@ -232,19 +262,19 @@ impl Geometry {
         &self,
         cx: &mut A,
         ray: &Ray<A>,
-        emitter: &Running<A>,
+        emitter: A::Real,
         mut hidden: A::Bool,
     ) -> A::Bool {
-        let ray = Turned::new::<AXIS>(ray);
+        let (ray, from) = (Turned::new::<AXIS>(ray), ray.from);
         for number in self.by_axis[AXIS].clone() {
-            let (ahead, distance, point) = self.cross(cx, number, &ray);
+            let crossing = self.cross(cx, number, &ray, from);
             for face in self.faces_of(number).iter().filter(|face| !face.emits) {
-                let inside = within(cx, &face.slabs, point);
-                let meets = cx.and(ahead, inside);
+                let inside = within(cx, &face.slabs, crossing.point);
+                let meets = cx.and(crossing.ahead, inside);
                 let nearer = if face.hides_emitter {
-                    cx.less_equal(distance, emitter.distance)
+                    cx.less_equal(crossing.distance, emitter)
                 } else {
-                    cx.less(distance, emitter.distance)
+                    cx.less(crossing.distance, emitter)
                 };
                 let hides = cx.and(meets, nearer);
                 hidden = cx.or(hidden, hides);
@@ -269,23 +299,28 @@ impl<A: Arith> Running<A> {
         }
     }
 
-    /// The ray crosses the plane of `face` at `distance` and `point`, if `ahead`.
+    /// The ray crosses the plane of `face`.
     #[inline(always)]
-    fn meet(
-        &mut self,
-        cx: &mut A,
-        face: &Face,
-        ahead: A::Bool,
-        distance: A::Real,
-        point: [A::Real; 2],
-    ) {
-        let inside = within(cx, &face.slabs, point);
-        let meets = cx.and(ahead, inside);
-        let nearer = cx.less(distance, self.distance);
+    fn meet(&mut self, cx: &mut A, face: &Face, crossing: &Crossing<A>) {
+        let inside = within(cx, &face.slabs, crossing.point);
+        let meets = cx.and(crossing.ahead, inside);
+        let nearer = cx.less(crossing.distance, self.distance);
         let hit = cx.and(meets, nearer);
         let label = cx.index(face.label);
-        self.distance = cx.select(hit, distance, self.distance);
+        self.distance = cx.select(hit, crossing.distance, self.distance);
         self.face = cx.select_index(hit, label, self.face);
+    }
+}
+
+impl Geometry {
+    /// The nearest emitter on the ray, hidden or not.
+    #[inline(always)]
+    pub fn nearest_emitter<A: Arith>(&self, cx: &mut A, ray: &Ray<A>, wanted: A::Bool) -> Hit<A> {
+        let mut nearest = Running::new(cx);
+        self.emitters_along::<A, 0>(cx, ray, &mut nearest);
+        self.emitters_along::<A, 1>(cx, ray, &mut nearest);
+        self.emitters_along::<A, 2>(cx, ray, &mut nearest);
+        Hit::new(cx, nearest.distance, nearest.face, wanted)
     }
 }
 
@@ -304,18 +339,14 @@ impl<A: Arith> Nearest<A> for Geometry {
     /// apart from its neighbours.
     #[inline(always)]
     fn emitter(&self, cx: &mut A, ray: &Ray<A>, wanted: A::Bool) -> Hit<A> {
-        let mut nearest = Running::new(cx);
-        self.emitters_along::<A, 0>(cx, ray, &mut nearest);
-        self.emitters_along::<A, 1>(cx, ray, &mut nearest);
-        self.emitters_along::<A, 2>(cx, ray, &mut nearest);
-        let mut hit = Hit::new(cx, nearest.distance, nearest.face, wanted);
+        let mut hit = self.nearest_emitter(cx, ray, wanted);
         if !cx.possible(hit.found) {
             return hit;
         }
         let mut hidden = cx.truth(false);
-        hidden = self.hidden_along::<A, 0>(cx, ray, &nearest, hidden);
-        hidden = self.hidden_along::<A, 1>(cx, ray, &nearest, hidden);
-        hidden = self.hidden_along::<A, 2>(cx, ray, &nearest, hidden);
+        hidden = self.hidden_along::<A, 0>(cx, ray, hit.distance, hidden);
+        hidden = self.hidden_along::<A, 1>(cx, ray, hit.distance, hidden);
+        hidden = self.hidden_along::<A, 2>(cx, ray, hit.distance, hidden);
         let shown = cx.not(hidden);
         hit.found = cx.and(hit.found, shown);
         hit

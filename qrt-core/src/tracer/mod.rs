@@ -35,6 +35,6 @@ pub use arith::{Arith, Axis, Coordinate};
 pub use camera::CameraStage;
 pub use frame::trace;
 pub use geometry::{Face, Frame, Geometry, NO_FACE, NO_PLANE, Plane, Slab, TOLERANCE};
-pub use intersect::{Hit, Nearest, Ray, between, cross_plane, point_at};
+pub use intersect::{Crossing, Hit, Nearest, Ray, Turned, between, cross, weighted};
 pub use sampled::Sampled;
 pub use stage::Stage;

@@ -15,9 +15,12 @@ use crate::report::{Path, Problem};
 use crate::sampling::maps;
 use crate::scene::{Bsdf, Jacobian, Rgb};
 
-mod checks;
+mod bound;
+mod light;
+mod shape;
 #[cfg(test)]
 mod tests;
+mod text;
 
 /// Reads and checks a BSDF. Paths of problems are relative to it: `map[0]`, `jacobian`, `value[2]`.
 ///
@@ -25,7 +28,8 @@ mod tests;
 /// `QRT0411` a map that leaves the unit sphere, `QRT0412` a map or slope without a finite value,
 /// `QRT0413` a map of whole areas to points or lines, `QRT0414` a Jacobian that is not the map's,
 /// `QRT0415` a negative value, `QRT0416` a value that is not finite, `QRT0417` a BSDF that gains
-/// energy, `QRT0418` a weight without a bound.
+/// energy, `QRT0418` a weight without a bound,
+/// `QRT0419` a map that reaches directions more than once.
 pub fn compile(bsdf: &Bsdf) -> Result<CustomBsdf, Vec<Problem>> {
     let mut problems = Vec::new();
     let root = Path::root();
@@ -62,45 +66,44 @@ pub fn compile(bsdf: &Bsdf) -> Result<CustomBsdf, Vec<Problem>> {
         return Err(problems);
     };
     let map = [x, y, z];
-    problems.extend(checks::map(&map));
+    problems.extend(shape::map(&map));
     if !problems.is_empty() {
         return Err(problems);
     }
-    let projected_jacobian = match stated {
-        None => maps::projected_jacobian(&map),
+    let by_map = maps::projected_jacobian(&map);
+    let projected_jacobian = match &stated {
+        None => by_map.clone(),
         Some(None) => return Err(problems),
         Some(Some(jacobian)) => {
-            problems.extend(checks::jacobian(&map, &jacobian));
-            (&jacobian * &map[2].abs()).simplify()
+            problems.extend(shape::jacobian(&map, jacobian));
+            (jacobian * &map[2].abs()).simplify()
         }
     };
-    let mut values: Vec<Expr> = values.into_iter().flatten().collect();
-    let own: Vec<Expr> = values.clone();
-    if values.len() == 1 {
-        values = vec![values[0].clone(); 3];
-    }
-    let value: [Expr; 3] = match values.try_into() {
-        Ok(value) => value,
-        Err(_) => return Err(problems),
-    };
-    let before = problems.len();
-    for (i, f) in own.iter().enumerate() {
+    let values: Vec<Expr> = values.into_iter().flatten().collect();
+    // What a wrong Jacobian would say of the energy is not the value's fault.
+    let quadrature = light::Quadrature::new(&map, &by_map);
+    for (i, f) in values.iter().enumerate() {
         let path = root.key("value").item(i);
-        let wrong = checks::value(&map, f, &path)
-            .or_else(|| checks::energy(&map, &projected_jacobian, f, &path));
+        let wrong = light::value(&map, f, &path).or_else(|| quadrature.energy(f, &path));
         problems.extend(wrong);
     }
-    if problems.len() > before {
+    let value = match &values[..] {
+        [grey] => [grey.clone(), grey.clone(), grey.clone()],
+        [r, g, b] => [r.clone(), g.clone(), b.clone()],
+        _ => return Err(problems),
+    };
+    if !problems.is_empty() {
         return Err(problems);
     }
     let weight_bound = weight_bound(&map, &projected_jacobian, &value);
-    for (i, bound) in weight_bound.iter().enumerate().take(own.len()) {
+    for (i, bound) in weight_bound.iter().enumerate().take(values.len()) {
         if !bound.is_finite() {
             let message = "no bound of the weight value * |phi_z| * J can be shown";
             problems.push(
                 Problem::new("QRT0418", root.key("value").item(i), message).help(
-                    "choose a map that sends more points where the value is large, so that their \
-                     product stays finite up to the border of the unit square",
+                    "choose a map that sends more points where the value is large; a denominator \
+                     that vanishes at grazing angles needs a small number more, as in \
+                     1/(cos_i + cos_o + 1e-3)",
                 ),
             );
         }
@@ -124,15 +127,29 @@ pub fn compile(bsdf: &Bsdf) -> Result<CustomBsdf, Vec<Problem>> {
 /// It is a proof up to rounding of the weight itself, for which 1e-9 is added. Use it also where a
 /// scene replaces a BSDF's own map.
 pub fn weight_bound(map: &[Expr; 3], projected_jacobian: &Expr, value: &[Expr; 3]) -> Rgb {
-    let cos_i = map[2].abs();
     let mut bounds: Rgb = [0.0; 3];
     for i in 0..3 {
         bounds[i] = if let Some(same) = (0..i).find(|j| value[*j] == value[i]) {
             bounds[same]
         } else {
-            let f = value[i].substitute(Variable::CosI, &cos_i);
-            checks::supremum(&(&f * projected_jacobian).simplify())
+            bound::supremum(&weight(map, projected_jacobian, &value[i]))
         };
     }
     bounds
+}
+
+/// The weight `value * projected_jacobian` as one expression without cos_i, which is `|phi_z|`, so
+/// that what cancels between them does: `0.1/cos_i` under the uniform map is a constant.
+///
+/// ```
+/// use qrt_core::expr::{Expr, Variable};
+/// use qrt_core::{sampling::maps, scene::Map, valid::bsdf};
+/// let map = maps::builtin(Map::UniformHemisphere);
+/// let value = Expr::parse("0.5/pi/cos_i", &Variable::ALL).unwrap();
+/// let weight = bsdf::weight(&map, &maps::projected_jacobian(&map), &value);
+/// assert_eq!(weight.constant(), Some(1.0));
+/// ```
+pub fn weight(map: &[Expr; 3], projected_jacobian: &Expr, value: &Expr) -> Expr {
+    let value = value.substitute(Variable::CosI, &map[2].abs());
+    (&value * projected_jacobian).simplify()
 }

@@ -9,14 +9,15 @@
 //!   [0, h).
 //!
 //! Thresholds are the `f64` nearest to their definition, and the comparison is strict: exact at
-//! every boundary. Without branches, so that a loop over paths vectorises.
+//! every boundary. A count is a product, a truncation and a comparison, without a branch: it runs for
+//! every path.
 
 use qrt_core::scene::{Comparator, ComparatorAt};
 
 use super::error::CountingError;
 
 /// The most comparator bits.
-pub const MAX_COMPARATOR_BITS: u32 = 31;
+pub const MAX_COMPARATOR_BITS: u32 = 30;
 
 /// C = 2^c comparators over [0, scale].
 ///
@@ -43,7 +44,7 @@ impl Comparators {
     ///
     /// # Errors
     ///
-    /// More than 31 bits; a scale that is negative, not finite, or so small (below about
+    /// More than 30 bits; a scale that is negative, not finite, or so small (below about
     /// `1e-308 * 2^bits`) that thresholds would lose their precision.
     pub fn new(scale: f64, comparator: Comparator) -> Result<Self, CountingError> {
         let Comparator { bits, at } = comparator;
@@ -84,14 +85,14 @@ impl Comparators {
     /// A colour above the scale exceeds them all, one below 0 and NaN exceed none.
     #[inline]
     pub fn good(&self, x: f64) -> u32 {
-        let count = (1_u64 << self.bits) as f64;
-        // Right to within one; the thresholds on either side decide. `max` sends NaN to 0.
-        let guess = (x * self.inverse - self.start).ceil().max(0.0).min(count);
-        let below = (guess - 1.0 + self.start) * self.step;
-        let above = (guess + self.start) * self.step;
-        let down = u32::from((guess > 0.0) & !(x > below));
-        let up = u32::from((guess < count) & (x > above));
-        guess as u32 + up - down
+        let count = 1_i32 << self.bits;
+        // Thresholds below number `at` are exceeded, and none above it. A colour above a threshold
+        // is so by at least half a unit in the last place, which outweighs the rounding of the
+        // inverse; one at or below may be rounded up to it, and the comparison decides. The cast
+        // sends NaN to 0.
+        let at = (x * self.inverse - self.start).clamp(0.0, f64::from(count)) as i32;
+        let threshold = (f64::from(at) + self.start) * self.step;
+        at as u32 + u32::from(at < count && x > threshold)
     }
 
     /// Good ids of all `colours`' paths.
@@ -186,6 +187,22 @@ mod tests {
         }
     }
 
+    /// Where the division rounds to the wrong side of a threshold.
+    #[test]
+    fn every_threshold_of_awkward_scales_is_exact() {
+        for tenths in 1..60 {
+            let scale = f64::from(tenths) / 10.0;
+            for (at, start) in [(ComparatorAt::Midpoints, 0.5), (ComparatorAt::Edges, 0.0)] {
+                let found = comparators(scale, 9, at);
+                for y in 0..512_u32 {
+                    let threshold = (f64::from(y) + start) * found.step();
+                    assert_eq!(found.good(threshold), y, "{scale} {y}");
+                    assert_eq!(found.good(threshold.next_up()), y + 1, "{scale} {y}");
+                }
+            }
+        }
+    }
+
     #[test]
     fn edges_err_to_one_side_and_midpoints_do_not() {
         let edges = comparators(1.0, 4, ComparatorAt::Edges);
@@ -218,6 +235,10 @@ mod tests {
             bits: 10,
             at: ComparatorAt::Edges,
         };
+        let widest = comparators(3.0, 30, ComparatorAt::Edges);
+        assert_eq!(widest.good(3.0), 1 << 30);
+        assert_eq!(widest.good(3.0_f64.next_down()), 1 << 30);
+        assert_eq!(widest.good(f64::INFINITY), 1 << 30);
         for scale in [-1.0, f64::NAN, f64::INFINITY, 1e-308] {
             assert!(Comparators::new(scale, comparator).is_err(), "{scale}");
         }

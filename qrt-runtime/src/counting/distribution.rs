@@ -33,8 +33,23 @@ impl Phase {
         let steps = theta.scale(register.size() as f64);
         let nearest = steps.hi.round();
         let offset = (steps.hi - nearest) + steps.lo;
-        let (cell, offset) = (nearest as u64, offset.clamp(-0.5, 0.5));
-        Self { cell, offset }
+        // `hi` may be halfway where `hi + lo` is not.
+        if offset < -0.5 {
+            Self {
+                cell: nearest as u64 - 1,
+                offset: offset + 1.0,
+            }
+        } else if offset > 0.5 {
+            Self {
+                cell: nearest as u64 + 1,
+                offset: offset - 1.0,
+            }
+        } else {
+            Self {
+                cell: nearest as u64,
+                offset,
+            }
+        }
     }
 
     /// The phase `position` grid steps from 0, for a position in [0, T/2] given as a grid point

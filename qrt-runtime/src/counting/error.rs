@@ -39,7 +39,14 @@ pub enum CountingError {
     NoOutcomes,
     /// No number of good ids could have given these outcomes.
     ImpossibleOutcomes,
-    /// A comparator register that is not in `0..=31` bits.
+    /// More ids than can be gone through one by one.
+    TooManyIds {
+        /// All ids.
+        total: u64,
+        /// The most that can be.
+        most: u64,
+    },
+    /// A comparator register that is not in `0..=30` bits.
     ComparatorBitsOutOfRange(u32),
     /// A colour scale that is negative, not finite, or too small for its comparators.
     ScaleOutOfRange(f64),
@@ -95,8 +102,14 @@ impl fmt::Display for CountingError {
             Self::ImpossibleOutcomes => {
                 write!(f, "no number of good ids could have given these outcomes")
             }
+            Self::TooManyIds { total, most } => {
+                write!(
+                    f,
+                    "{total} ids are too many to go through one by one; at most {most}"
+                )
+            }
             Self::ComparatorBitsOutOfRange(bits) => {
-                write!(f, "{bits} comparator bits are not in 0..=31")
+                write!(f, "{bits} comparator bits are not in 0..=30")
             }
             Self::ScaleOutOfRange(scale) => write!(
                 f,

@@ -104,7 +104,12 @@ impl Register {
                 let points = size + 1.0;
                 let z = x * (points / size) - 0.5;
                 if z <= 0.5 {
-                    return 1.0;
+                    // The main lobe falls from its top; half a step away z is 0, and K n/(2T).
+                    return if z >= 0.0 {
+                        (0.5 * points / size).sqrt()
+                    } else {
+                        self.root(0, 0.0)
+                    };
                 }
                 let sines = libm::sin(PI * (z / points)) * libm::sin(PI * ((z + 1.0) / points));
                 self.coefficient / sines

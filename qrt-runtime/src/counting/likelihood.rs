@@ -21,8 +21,10 @@
 //! maximise one smooth function and look at the integers beside its maximum. Where cells are
 //! narrower than the distance between integers, the walk goes from integer to integer instead.
 //!
-//! The sine window has no such product form; its lobes end half a step off the grid, its cells are
-//! those between, and its bound falls with the fourth power, so that the same walk is short.
+//! The sine window's factors have zeros of their own, about half a step off the grid and not quite
+//! in common. Its cells are the steps around grid points; each is cut at the zeros of all outcomes,
+//! between which L is concave but for the folding, and every peak found on a grid is followed. Its
+//! bound falls with the fourth power of the distance, so that the same walk is short.
 
 use std::collections::{BTreeMap, HashSet};
 
@@ -35,6 +37,10 @@ use super::kernel::Register;
 
 /// Up to this many integers of a cell are tried one by one.
 const FEW: u64 = 24;
+/// Steps of the grid on which the sine window's peaks are looked for between its zeros.
+const PLACES: usize = 8;
+/// Zeros closer than this, in steps of the register, hardly leave room for a peak.
+const SLIVER: f64 = 1.0 / 16.0;
 
 /// The likeliest number of good ids.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -88,6 +94,56 @@ pub fn ln_likelihood(
     check_counts(good, total)?;
     let likelihood = Likelihood::new(outcomes, register(phase_bits, window)?)?;
     Ok(likelihood.at(Phase::of(good, total, &likelihood.register)))
+}
+
+/// The most ids over which [`posterior`] is computed.
+const MAX_POSTERIOR_IDS: u64 = 1 << 24;
+
+/// P(S | outcomes) for S = 0 ..= `total` and a prior that is uniform over them: N+1 numbers that
+/// sum to 1. Formed from logarithms, so that no number of outcomes underflows.
+///
+/// # Errors
+///
+/// As [`maximum_likelihood`], and more than 2^24 ids.
+///
+/// ```
+/// use qrt_core::scene::Window;
+/// use qrt_runtime::counting::posterior;
+/// // T = 4, read as 1: half of the four ids, or, less likely, one or three of them.
+/// let posterior = posterior(&[1], 4, 2, Window::Rect)?;
+/// assert_eq!(posterior[0], 0.0);
+/// assert!(posterior[2] > posterior[1]);
+/// # Ok::<(), qrt_runtime::counting::CountingError>(())
+/// ```
+pub fn posterior(
+    outcomes: &[u64],
+    total: u64,
+    phase_bits: u32,
+    window: Window,
+) -> Result<Vec<f64>, CountingError> {
+    check_counts(0, total)?;
+    if total > MAX_POSTERIOR_IDS {
+        return Err(CountingError::TooManyIds {
+            total,
+            most: MAX_POSTERIOR_IDS,
+        });
+    }
+    let likelihood = Likelihood::new(outcomes, register(phase_bits, window)?)?;
+    let mut values: Vec<f64> = (0..=total)
+        .map(|good| likelihood.at(Phase::of(good, total, &likelihood.register)))
+        .collect();
+    let largest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    if largest == f64::NEG_INFINITY {
+        return Err(CountingError::ImpossibleOutcomes);
+    }
+    for value in &mut values {
+        *value = libm::exp(*value - largest);
+    }
+    let sum: f64 = values.iter().sum();
+    for value in &mut values {
+        *value /= sum;
+    }
+    Ok(values)
 }
 
 struct Likelihood {
@@ -156,6 +212,8 @@ struct Search<'a> {
     likelihood: &'a Likelihood,
     total: u64,
     best: MaximumLikelihood,
+    /// B.
+    shots: f64,
     visited: HashSet<u64>,
 }
 
@@ -165,10 +223,12 @@ impl<'a> Search<'a> {
             good: 0,
             ln_likelihood: f64::NEG_INFINITY,
         };
+        let shots = likelihood.outcomes.iter().map(|&(_, count)| count).sum();
         Self {
             likelihood,
             total,
             best,
+            shots,
             visited: HashSet::new(),
         }
     }
@@ -176,7 +236,8 @@ impl<'a> Search<'a> {
     fn run(mut self) -> Result<MaximumLikelihood, CountingError> {
         let last = self.last_cell();
         for &(outcome, _) in &self.likelihood.outcomes {
-            let mut cell = Some(outcome.min(last));
+            // No cell lies above T/2; below it, the second walk starts.
+            let mut cell = (outcome <= last).then_some(outcome);
             while let Some(current) = cell {
                 cell = self.step(current, true);
             }
@@ -229,10 +290,21 @@ impl<'a> Search<'a> {
                 self.consider(good);
             }
         } else {
-            self.consider(first);
-            self.consider(last);
-            let remainder = self.peak(cell, low, high);
-            self.climb(self.good_at(cell, remainder));
+            // The ends of the whole range, which a tie of roundings prefers.
+            if first == 0 {
+                self.consider(0);
+            }
+            if last == self.total {
+                self.consider(last);
+            }
+            // A tenth of the distance between integers is as fine as it need be.
+            let tolerance = (0.1 / (last - first) as f64).max(1e-10);
+            let slack = 0.01 * self.shots;
+            for (remainder, value) in self.peaks(cell, low, high, tolerance) {
+                if value + slack >= self.best.ln_likelihood {
+                    self.climb(self.good_at(cell, remainder));
+                }
+            }
         }
         // Where the neighbouring cells hold no integer, on to the one that does.
         if upwards {
@@ -274,30 +346,29 @@ impl<'a> Search<'a> {
         better
     }
 
-    /// The integers around `good`, on for as long as they improve.
+    /// The integers on either side of a peak, and on for as long as they improve.
     fn climb(&mut self, good: u64) {
         self.consider(good);
-        for upwards in [true, false] {
-            let mut current = good;
-            for _ in 0..FEW {
-                let next = if upwards {
-                    current.checked_add(1)
-                } else {
-                    current.checked_sub(1)
-                };
-                let Some(next) = next.filter(|&next| next <= self.total) else {
-                    break;
-                };
-                if !self.consider(next) && next.abs_diff(good) > 1 {
-                    break;
-                }
-                current = next;
+        let above = (good + 1).min(self.total);
+        if self.consider(above) {
+            self.climb_from(above, |good| good.checked_add(1));
+        } else {
+            self.climb_from(good, |good| good.checked_sub(1));
+        }
+    }
+
+    /// At most a few steps: where more would improve, neighbours differ by roundings only.
+    fn climb_from(&mut self, mut good: u64, step: impl Fn(u64) -> Option<u64>) {
+        for _ in 0..FEW {
+            match step(good).filter(|&next| next <= self.total) {
+                Some(next) if self.consider(next) => good = next,
+                _ => break,
             }
         }
     }
 
-    /// Where in the cell L is largest.
-    fn peak(&self, cell: u64, low: f64, high: f64) -> f64 {
+    /// Where in the cell L has its peaks, and how high; at the least, the highest of them.
+    fn peaks(&self, cell: u64, low: f64, high: f64, tolerance: f64) -> Vec<(f64, f64)> {
         let value = |remainder: f64| {
             let value = self.likelihood.at(Phase::at(cell, remainder));
             if value == f64::NEG_INFINITY {
@@ -306,34 +377,67 @@ impl<'a> Search<'a> {
                 value
             }
         };
-        match self.likelihood.register.window {
-            Window::Rect => maximise(value, low, high),
-            Window::Sine => {
-                // Not provably unimodal: bracket the best of several places first.
-                const PLACES: u32 = 8;
-                let place = |i: u32| low + (high - low) * f64::from(i) / f64::from(PLACES);
-                let mut best = (0, f64::NEG_INFINITY);
-                for i in 0..=PLACES {
-                    let found = value(place(i));
-                    if found > best.1 {
-                        best = (i, found);
-                    }
+        if self.likelihood.register.window == Window::Rect {
+            return vec![maximise(value, low, high, tolerance)];
+        }
+        let mut edges = self.zeros(cell, low, high);
+        edges.extend([low, high]);
+        edges.sort_by(f64::total_cmp);
+        let mut peaks = Vec::new();
+        for pair in edges.windows(2) {
+            let (low, high) = (pair[0], pair[1]);
+            if high - low < SLIVER {
+                // Between two zeros so close, no place gains more than a factor 4 a shot on the
+                // middle, if all else changes little.
+                let middle = 0.5 * (low + high);
+                if value(middle) + 2.0 * self.shots >= self.best.ln_likelihood {
+                    peaks.push(maximise(
+                        value,
+                        low,
+                        high,
+                        tolerance.min(0.1 * (high - low)),
+                    ));
                 }
-                maximise(
-                    value,
-                    place(best.0.saturating_sub(1)),
-                    place((best.0 + 1).min(PLACES)),
-                )
+                continue;
+            }
+            // Folding may leave several peaks: all that show on a grid are followed.
+            let place = |i: usize| low + (high - low) * i as f64 / PLACES as f64;
+            let values: Vec<f64> = (0..=PLACES).map(|i| value(place(i))).collect();
+            for i in 0..=PLACES {
+                let (left, right) = (i.saturating_sub(1), (i + 1).min(PLACES));
+                if values[i] >= values[left] && values[i] >= values[right] {
+                    peaks.push(maximise(value, place(left), place(right), tolerance));
+                }
             }
         }
+        peaks
+    }
+
+    /// The sine window's zeros in a cell: `y +- (k + 1/2) T/(T+1)`, k = 1, 2, ..., around every
+    /// outcome y. Where phases do not fold, L is concave between them.
+    fn zeros(&self, cell: u64, low: f64, high: f64) -> Vec<f64> {
+        let size = self.likelihood.register.size() as f64;
+        let ratio = size / (size + 1.0);
+        let mut zeros = Vec::new();
+        for &(y, _) in &self.likelihood.outcomes {
+            let distance = cell.abs_diff(y) as f64;
+            let first = ((distance - 0.5) / ratio - 0.5).floor().max(1.0) as u64;
+            for k in first..first + 3 {
+                let steps = (k as f64 + 0.5) * ratio - distance;
+                let zero = if cell < y { -steps } else { steps };
+                if low < zero && zero < high {
+                    zeros.push(zero);
+                }
+            }
+        }
+        zeros
     }
 }
 
 /// Brent's maximum of a unimodal function (*Algorithms for minimization without derivatives*,
-/// 1973, chapter 5): parabolas, and golden sections where they fail.
-fn maximise(value: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
+/// 1973, chapter 5): parabolas, and golden sections where they fail. Its place and its value.
+fn maximise(value: impl Fn(f64) -> f64, mut low: f64, mut high: f64, tolerance: f64) -> (f64, f64) {
     const GOLDEN: f64 = 0.381_966_011_250_105_1;
-    const TOLERANCE: f64 = 1e-10;
     let mut best = low + GOLDEN * (high - low);
     let (mut second, mut third) = (best, best);
     let mut best_value = value(best);
@@ -341,11 +445,11 @@ fn maximise(value: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
     let (mut step, mut before_last) = (0.0_f64, 0.0_f64);
     for _ in 0..80 {
         let middle = 0.5 * (low + high);
-        if (best - middle).abs() <= 2.0 * TOLERANCE - 0.5 * (high - low) {
+        if (best - middle).abs() <= 2.0 * tolerance - 0.5 * (high - low) {
             break;
         }
         let mut parabolic = false;
-        if before_last.abs() > TOLERANCE {
+        if before_last.abs() > tolerance {
             let r = (best - second) * (best_value - third_value);
             let q = (best - third) * (best_value - second_value);
             let p = (best - third) * q - (best - second) * r;
@@ -359,8 +463,8 @@ fn maximise(value: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
                 before_last = step;
                 step = p / q;
                 let next = best + step;
-                if next - low < 2.0 * TOLERANCE || high - next < 2.0 * TOLERANCE {
-                    step = TOLERANCE.copysign(middle - best);
+                if next - low < 2.0 * tolerance || high - next < 2.0 * tolerance {
+                    step = tolerance.copysign(middle - best);
                 }
             }
         }
@@ -373,10 +477,10 @@ fn maximise(value: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
             step = GOLDEN * before_last;
         }
         let next = best
-            + if step.abs() >= TOLERANCE {
+            + if step.abs() >= tolerance {
                 step
             } else {
-                TOLERANCE.copysign(step)
+                tolerance.copysign(step)
             };
         let next_value = value(next);
         if next_value >= best_value {
@@ -402,5 +506,5 @@ fn maximise(value: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
             }
         }
     }
-    best
+    (best, best_value)
 }

@@ -31,4 +31,4 @@ pub use estimate::{
     AVAILABLE, AmplitudeEstimator, Estimate, Exact, MonteCarlo, Problem, WindowedCounting,
     estimate, estimator,
 };
-pub use likelihood::{MaximumLikelihood, ln_likelihood, maximum_likelihood};
+pub use likelihood::{MaximumLikelihood, ln_likelihood, maximum_likelihood, posterior};

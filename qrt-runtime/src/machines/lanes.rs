@@ -19,12 +19,9 @@ pub(crate) struct Inputs {
     pub(crate) row: [f64; BLOCK],
 }
 
-/// Registers per value: two give the processor independent work while a division is under way.
-pub(crate) const WIDTH: usize = 2;
-
-/// Lanes of one instruction set, standing at `first` in a block.
+/// Lanes of one instruction set, `W` registers a value, standing at `first` in a block.
 #[derive(Clone, Copy)]
-pub(crate) struct Lanes<'a, S> {
+pub(crate) struct Lanes<'a, S, const W: usize> {
     pub(crate) simd: S,
     pub(crate) inputs: &'a Inputs,
     pub(crate) first: usize,
@@ -32,29 +29,41 @@ pub(crate) struct Lanes<'a, S> {
 
 /// The lanes of `vector` as a slice.
 #[inline(always)]
-pub(crate) fn lanes<T: bytemuck::Pod, U: bytemuck::Pod>(vector: &[T; WIDTH]) -> &[U] {
+pub(crate) fn lanes<T: bytemuck::Pod, U: bytemuck::Pod>(vector: &[T]) -> &[U] {
     bytemuck::cast_slice(vector)
+}
+
+/// The lanes of `vector`, to be set.
+#[inline(always)]
+pub(crate) fn slots<T: bytemuck::Pod, U: bytemuck::Pod>(vector: &mut [T]) -> &mut [U] {
+    bytemuck::cast_slice_mut(vector)
 }
 
 /// Applies an operation register by register. A macro and not a function of a closure: a closure
 /// is compiled without the instruction set until it is inlined, which is left to chance.
 macro_rules! each {
     ($cx:ident, $operation:ident, $first:ident $(, $rest:ident)*) => {{
-        let mut result = [$cx.simd.$operation($first[0] $(, $rest[0])*); WIDTH];
-        for k in 1..WIDTH {
+        let mut result = [$cx.simd.$operation($first[0] $(, $rest[0])*); W];
+        for k in 1..W {
             result[k] = $cx.simd.$operation($first[k] $(, $rest[k])*);
         }
         result
     }};
 }
 
-impl<S: pulp::Simd> Lanes<'_, S> {
+impl<S: pulp::Simd, const W: usize> Lanes<'_, S, W> {
+    /// The same instruction set with one register a value.
+    #[inline(always)]
+    pub(crate) fn narrow(&self) -> Lanes<'_, S, 1> {
+        Lanes { simd: self.simd, inputs: self.inputs, first: self.first }
+    }
+
     /// Paths in a value.
-    pub(crate) const COUNT: usize = WIDTH * S::F64_LANES;
+    pub(crate) const COUNT: usize = W * S::F64_LANES;
 
     #[inline(always)]
-    fn reals(&self, value: impl Fn(usize) -> f64) -> [S::f64s; WIDTH] {
-        let mut vector = [self.simd.splat_f64s(0.0); WIDTH];
+    fn reals(&self, value: impl Fn(usize) -> f64) -> [S::f64s; W] {
+        let mut vector = [self.simd.splat_f64s(0.0); W];
         let slots: &mut [f64] = bytemuck::cast_slice_mut(&mut vector);
         for (lane, slot) in slots.iter_mut().enumerate() {
             *slot = value(lane);
@@ -63,8 +72,8 @@ impl<S: pulp::Simd> Lanes<'_, S> {
     }
 
     #[inline(always)]
-    fn indices(&self, value: impl Fn(usize) -> u64) -> [S::u64s; WIDTH] {
-        let mut vector = [self.simd.splat_u64s(0); WIDTH];
+    fn indices(&self, value: impl Fn(usize) -> u64) -> [S::u64s; W] {
+        let mut vector = [self.simd.splat_u64s(0); W];
         let slots: &mut [u64] = bytemuck::cast_slice_mut(&mut vector);
         for (lane, slot) in slots.iter_mut().enumerate() {
             *slot = value(lane);
@@ -73,14 +82,14 @@ impl<S: pulp::Simd> Lanes<'_, S> {
     }
 }
 
-impl<S: pulp::Simd> Arith for Lanes<'_, S> {
-    type Real = [S::f64s; WIDTH];
-    type Bool = [S::m64s; WIDTH];
-    type Index = [S::u64s; WIDTH];
+impl<S: pulp::Simd, const W: usize> Arith for Lanes<'_, S, W> {
+    type Real = [S::f64s; W];
+    type Bool = [S::m64s; W];
+    type Index = [S::u64s; W];
 
     #[inline(always)]
     fn real(&mut self, value: f64) -> Self::Real {
-        [self.simd.splat_f64s(value); WIDTH]
+        [self.simd.splat_f64s(value); W]
     }
     #[inline(always)]
     fn add(&mut self, a: Self::Real, b: Self::Real) -> Self::Real {
@@ -138,7 +147,7 @@ impl<S: pulp::Simd> Arith for Lanes<'_, S> {
     #[inline(always)]
     fn truth(&mut self, value: bool) -> Self::Bool {
         let bound = self.simd.splat_u64s(u64::from(value));
-        [self.simd.less_than_u64s(self.simd.splat_u64s(0), bound); WIDTH]
+        [self.simd.less_than_u64s(self.simd.splat_u64s(0), bound); W]
     }
     #[inline(always)]
     fn less(&mut self, a: Self::Real, b: Self::Real) -> Self::Bool {
@@ -175,7 +184,7 @@ impl<S: pulp::Simd> Arith for Lanes<'_, S> {
 
     #[inline(always)]
     fn index(&mut self, value: u32) -> Self::Index {
-        [self.simd.splat_u64s(u64::from(value)); WIDTH]
+        [self.simd.splat_u64s(u64::from(value)); W]
     }
     #[inline(always)]
     fn select_index(&mut self, c: Self::Bool, a: Self::Index, b: Self::Index) -> Self::Index {
@@ -193,7 +202,7 @@ impl<S: pulp::Simd> Arith for Lanes<'_, S> {
     }
     #[inline(always)]
     fn rows<const K: usize>(&mut self, table: &[[f64; K]], row: Self::Index) -> [Self::Real; K] {
-        let mut columns = [[self.simd.splat_f64s(0.0); WIDTH]; K];
+        let mut columns = [[self.simd.splat_f64s(0.0); W]; K];
         for (lane, &row) in lanes::<_, u64>(&row).iter().enumerate() {
             let row = &table[row as usize];
             for (column, &value) in columns.iter_mut().zip(row) {

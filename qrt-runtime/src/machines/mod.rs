@@ -3,6 +3,7 @@
 //! [`Real`] reads it over lanes of `f64`: pictures, meshes, and the limit that every finite width
 //! converges to.
 
+mod bvh;
 mod lanes;
 mod real;
 

@@ -1,6 +1,11 @@
 //! The real machine: every path of a pixel, in `f64`.
 
+use super::bvh::{Bvh, FEW_FACES, Indexed};
 use super::lanes::{BLOCK, Inputs, Lanes, lanes};
+
+/// Registers per value: two give the processor independent work while a division is under way.
+const WIDTH: usize = 2;
+
 use pulp::{Arch, WithSimd};
 use qrt_core::sampling::PathPoints;
 use qrt_core::tracer::{Stage, trace};
@@ -95,6 +100,7 @@ pub struct Block<'a> {
 #[derive(Clone, Debug)]
 pub struct Real {
     stage: Stage<3>,
+    bvh: Option<Bvh>,
     points: Points,
     seed: u64,
     simd: Simd,
@@ -107,8 +113,11 @@ impl Real {
     /// If the scene's sequence cannot be made; a valid scene's can.
     pub fn new(scene: &ValidScene, seed: u64) -> Result<Self, qrt_core::sampling::SamplingError> {
         let points = Points::Sequence(PathPoints::new(&scene.scene().sampling)?);
+        let stage = Stage::rgb(scene);
+        let many = stage.geometry().faces.len() > FEW_FACES;
         Ok(Self {
-            stage: Stage::rgb(scene),
+            bvh: many.then(|| Bvh::new(stage.geometry())),
+            stage,
             points,
             seed,
             simd: Simd::default(),
@@ -197,6 +206,7 @@ impl Real {
     fn run(&self, inputs: &Inputs, count: usize, colours: &mut [[f64; BLOCK]; 3]) {
         let block = TraceBlock {
             stage: &self.stage,
+            bvh: self.bvh.as_ref(),
             inputs,
             count,
             colours,
@@ -210,6 +220,7 @@ impl Real {
 
 struct TraceBlock<'a> {
     stage: &'a Stage<3>,
+    bvh: Option<&'a Bvh>,
     inputs: &'a Inputs,
     count: usize,
     colours: &'a mut [[f64; BLOCK]; 3],
@@ -220,15 +231,19 @@ impl WithSimd for TraceBlock<'_> {
 
     #[inline(always)]
     fn with_simd<S: pulp::Simd>(self, simd: S) {
-        for first in (0..self.count).step_by(Lanes::<S>::COUNT) {
-            let mut cx = Lanes {
+        for first in (0..self.count).step_by(Lanes::<S, WIDTH>::COUNT) {
+            let mut cx = Lanes::<S, WIDTH> {
                 simd,
                 inputs: self.inputs,
                 first,
             };
-            let colour = trace(&mut cx, self.stage, self.stage.geometry());
+            let geometry = self.stage.geometry();
+            let colour = match self.bvh {
+                Some(bvh) => trace(&mut cx, self.stage, &Indexed { geometry, bvh }),
+                None => trace(&mut cx, self.stage, geometry),
+            };
             for (out, colour) in self.colours.iter_mut().zip(&colour) {
-                out[first..first + Lanes::<S>::COUNT].copy_from_slice(lanes(colour));
+                out[first..first + Lanes::<S, WIDTH>::COUNT].copy_from_slice(lanes(colour));
             }
         }
     }

@@ -1,13 +1,14 @@
 //! Powers, absolute values and functions of canonical forms, with their domains.
 
-use super::{Atom, Canon, Factor, Product, Sum, is_even, is_integer, negated, number};
+use super::{Atom, Canon, Factor, Product, Sum, is_even, is_integer, negated, number, settled};
 use crate::expr::Function;
 
 impl Canon {
     /// A product to a power. A root may be taken of a factor alone only if the factor is known
     /// not to be negative; those of unknown sign stay together.
     pub(super) fn power(&mut self, base: &Product, exponent: f64) -> Option<Product> {
-        let raised = |factor: &Factor| Factor::new(factor.atom, factor.exponent * exponent);
+        let raised =
+            |factor: &Factor| Factor::new(factor.atom, settled(factor.exponent * exponent));
         if is_integer(exponent) {
             let coefficient = libm::pow(base.coefficient, exponent);
             if coefficient == 0.0 {

@@ -93,6 +93,35 @@ fn lobes_have_tight_bounds() {
 }
 
 #[test]
+fn maps_that_crowd_their_points_pass() {
+    // Lobes about the normal with the density of cos^n, and a map that favours the horizon.
+    for n in ["3", "50", "2000"] {
+        let z = format!("u^(1/({n}+1))");
+        let r = format!("sqrt(1-u^(2/({n}+1)))");
+        let (x, y) = (format!("{r}*cos(2*pi*v)"), format!("{r}*sin(2*pi*v)"));
+        right(
+            [&x, &y, &z],
+            "auto",
+            &[&format!("0.9*({n}+1)/(2*pi)*cos_i^{n}/cos_i")],
+        );
+    }
+    let polar = [
+        "sin(0.5*pi*u^2)*cos(2*pi*v)",
+        "sin(0.5*pi*u^2)*sin(2*pi*v)",
+        "cos(0.5*pi*u^2)",
+    ];
+    right(polar, "2*pi^2*u*sin(0.5*pi*u^2)", &["1/pi"]);
+    // Half a turn, a whole sphere, an axis that lies in the surface.
+    right(
+        ["sqrt(u)*cos(pi*v)", "sqrt(u)*sin(pi*v)", "sqrt(1-u)"],
+        "auto",
+        &["1/pi"],
+    );
+    right(SPHERE, "auto", &["0.1"]);
+    right([SPHERE[2], SPHERE[1], SPHERE[0]], "auto", &["0.1"]);
+}
+
+#[test]
 fn faulty_maps_are_refused() {
     let grey = &["0.1"];
     let [x, y, z] = COSINE;
@@ -179,6 +208,8 @@ fn a_bsdf_that_keeps_all_energy_passes() {
     right(COSINE, "auto", &["1/pi"]);
     right(UNIFORM, "auto", &["1/pi"]);
     right(SPHERE, "auto", &["1/(2*pi)"]);
+    let phong = "0.5/pi + 0.5*(20+2)/(2*pi)*max(0,cos_a)^20";
+    right(COSINE, "auto", &[phong, phong, phong]);
     // After Lommel and Seeliger: at grazing view 1/2 (1 - 0.05 ln 21), less elsewhere.
     right(COSINE, "auto", &["1/(4*pi)/(cos_i+cos_o+0.05)"]);
 }

@@ -96,7 +96,7 @@ fn outcomes_beyond_the_lobe_have_their_conditional_distribution() {
             let found = PhaseDistribution::new(good, total, 5, window).unwrap();
             let sampler = found.sampler();
             let mut stream = Stream::new(4, good as u32, 0, 2);
-            let mut counts = vec![0_u64; 17];
+            let mut counts = [0_u64; 17];
             for _ in 0..draws {
                 counts[sampler.sample(&mut stream) as usize] += 1;
             }

@@ -1,0 +1,196 @@
+//! What a value must be: finite, not negative, and without gain of energy.
+
+use super::shape::points;
+use super::text::short;
+use crate::expr::{Expr, Variable, VariableSet, Variables};
+use crate::report::{Path, Problem};
+use std::cell::OnceCell;
+
+/// Values of rounding's size below zero are zero.
+const NEGATIVE: f64 = -1e-12;
+/// The energy that a BSDF may gain by the quadrature's error.
+const GAIN: f64 = 2e-3;
+
+/// Directions towards the viewer, and turns of the surface's frame about its normal, that make a
+/// difference to `f`: `(cos_o, turn)`.
+fn viewers(f: &Expr) -> Vec<(f64, f64)> {
+    let set = f.variables(f.root());
+    let oblique = set.contains(Variable::CosA);
+    let cosines: Vec<f64> = if oblique || set.contains(Variable::CosO) {
+        let inner = (0..16).map(|i| (f64::from(i) + 0.5) / 16.0);
+        [1e-6, 1e-3].into_iter().chain(inner).chain([1.0]).collect()
+    } else {
+        vec![0.5]
+    };
+    let turns: &[f64] = if oblique {
+        &[0.0, 0.25, 0.5, 0.75]
+    } else {
+        &[0.0]
+    };
+    cosines
+        .iter()
+        .flat_map(|cos_o| turns.iter().map(move |turn| (*cos_o, *turn)))
+        .collect()
+}
+
+/// What `f` depends on at a point of the square, seen by a viewer.
+fn seen(at: Variables, direction: [f64; 3], (cos_o, turn): (f64, f64)) -> Variables {
+    let [x, y, z] = direction;
+    let angle = std::f64::consts::TAU * turn;
+    let along = x * libm::cos(angle) + y * libm::sin(angle);
+    let sin_o = ((1.0 - cos_o) * (1.0 + cos_o)).max(0.0).sqrt();
+    let cos_a = (z * cos_o - sin_o * along).clamp(-1.0, 1.0);
+    Variables {
+        cos_i: z.abs(),
+        cos_o,
+        cos_a,
+        ..at
+    }
+}
+
+/// The value is finite and not negative.
+pub(super) fn value(map: &[Expr; 3], f: &Expr, path: &Path) -> Option<Problem> {
+    let viewers = viewers(f);
+    let mut room = Vec::new();
+    for at in points() {
+        let direction = map.each_ref().map(|c| c.eval_in(&at, &mut room));
+        for viewer in &viewers {
+            let at = seen(at, direction, *viewer);
+            let value = f.eval_in(&at, &mut room);
+            if value >= NEGATIVE && value.is_finite() {
+                continue;
+            }
+            let place = situation(f, &at);
+            return Some(if value.is_finite() {
+                let message = format!("the value is negative: {} at {place}", short(value));
+                Problem::new("QRT0415", path.clone(), message)
+                    .help("`max(0, ...)` cuts the negative part off")
+            } else {
+                let what = if value.is_nan() {
+                    "has no value"
+                } else {
+                    "is infinite"
+                };
+                Problem::new(
+                    "QRT0416",
+                    path.clone(),
+                    format!("the BSDF {what} at {place}"),
+                )
+                .help("it must be finite for every pair of directions above the surface")
+            });
+        }
+    }
+    None
+}
+
+/// The variables of `f` with their values.
+fn situation(f: &Expr, at: &Variables) -> String {
+    let set = f.variables(f.root());
+    let shown = if set.is_empty() {
+        VariableSet::SQUARE
+    } else {
+        set
+    };
+    let parts: Vec<String> = shown
+        .iter()
+        .map(|v| format!("{} = {}", v.name(), short(at.get(v))))
+        .collect();
+    parts.join(", ")
+}
+
+/// Sums over the square, as integrals over directions: midpoint rules of growing size, whose
+/// directions are worked out once.
+pub(super) struct Quadrature<'a> {
+    map: &'a [Expr; 3],
+    projected_jacobian: &'a Expr,
+    rules: [OnceCell<Vec<Sample>>; 4],
+}
+
+struct Sample {
+    at: Variables,
+    direction: [f64; 3],
+    /// `|phi_z| J du dv`
+    area: f64,
+}
+
+impl<'a> Quadrature<'a> {
+    pub(super) fn new(map: &'a [Expr; 3], projected_jacobian: &'a Expr) -> Self {
+        Self {
+            map,
+            projected_jacobian,
+            rules: Default::default(),
+        }
+    }
+
+    /// 48 x 48 samples for rule 0, and twice as many in both directions for each that follows.
+    fn rule(&self, rule: usize) -> &[Sample] {
+        self.rules[rule].get_or_init(|| {
+            let n = 48_u32 << rule;
+            let centre = |k| (f64::from(k) + 0.5) / f64::from(n);
+            let mut room = Vec::new();
+            let mut samples = Vec::with_capacity((n * n) as usize);
+            for i in 0..n {
+                for j in 0..n {
+                    let at = Variables {
+                        u: centre(i),
+                        v: centre(j),
+                        ..Variables::default()
+                    };
+                    let direction = self.map.each_ref().map(|c| c.eval_in(&at, &mut room));
+                    let area = self.projected_jacobian.eval_in(&at, &mut room);
+                    let area = area / f64::from(n * n);
+                    samples.push(Sample {
+                        at,
+                        direction,
+                        area,
+                    });
+                }
+            }
+            samples
+        })
+    }
+
+    /// What leaves towards `viewer` of a uniform unit of light.
+    fn albedo(&self, f: &Expr, viewer: (f64, f64), rule: usize) -> f64 {
+        let mut room = Vec::new();
+        let light = |s: &Sample| f.eval_in(&seen(s.at, s.direction, viewer), &mut room) * s.area;
+        self.rule(rule).iter().map(light).sum()
+    }
+
+    /// No viewer sees more light leave than arrives: `integral f |phi_z| J du dv <= 1`.
+    pub(super) fn energy(&self, f: &Expr, path: &Path) -> Option<Problem> {
+        let mut worst: Option<(f64, (f64, f64))> = None;
+        for viewer in viewers(f) {
+            if self.albedo(f, viewer, 0) <= 0.99 {
+                continue;
+            }
+            // Near the limit, or so it seems: twice finer, until two agree.
+            let (mut coarse, mut fine) = (self.albedo(f, viewer, 1), self.albedo(f, viewer, 2));
+            if (fine - coarse).abs() > GAIN {
+                (coarse, fine) = (fine, self.albedo(f, viewer, 3));
+            }
+            let gain = fine - 2.0 * (fine - coarse).abs();
+            if gain > 1.0 + GAIN && worst.is_none_or(|(most, _)| fine > most) {
+                worst = Some((fine, viewer));
+            }
+        }
+        let (albedo, (cos_o, _)) = worst?;
+        let set = f.variables(f.root());
+        let angles = set.contains(Variable::CosO) || set.contains(Variable::CosA);
+        let seen = if angles {
+            format!(", seen at cos_o = {}", short(cos_o))
+        } else {
+            String::new()
+        };
+        let message = format!(
+            "the BSDF gains energy: {} of the light that arrives leaves{seen}",
+            short(albedo)
+        );
+        let help = format!(
+            "the integral of value * |cos_i| over all directions must not pass 1: scale the value by \
+         {} or less",
+            short((1e4 / albedo).floor() / 1e4)
+        );
+        Some(Problem::new("QRT0417", path.clone(), message).help(help))
+    }
+}

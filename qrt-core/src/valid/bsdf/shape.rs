@@ -1,0 +1,219 @@
+//! What a map and its Jacobian must be, tried at points of the square.
+
+use super::text::{place, short};
+use crate::expr::{Expr, Variable, Variables};
+use crate::report::{Path, Problem};
+use crate::sampling::maps;
+
+/// How far from length 1 a direction may be.
+const OFF_SPHERE: f64 = 1e-9;
+/// By what part a stated Jacobian may differ from the map's.
+const OFF_JACOBIAN: f64 = 1e-6;
+/// A cross product, as a part of the lengths' product, that is rounding: the slopes are parallel.
+const PARALLEL: f64 = 1e-10;
+
+const CENTRES: usize = 52;
+
+/// Points of the open unit interval: 52 cell centres, and the neighbourhood of both ends, where
+/// maps have their poles.
+fn ticks() -> Vec<f64> {
+    let near = [6, 8, 10, 13, 17, 22].map(|k| f64::from(k).exp2().recip());
+    let centres = (0..CENTRES).map(|i| (i as f64 + 0.5) / CENTRES as f64);
+    let ends = near.into_iter().chain(near.into_iter().map(|x| 1.0 - x));
+    centres.chain(ends).collect()
+}
+
+/// 64 x 64 points of the open unit square.
+pub(super) fn points() -> impl Iterator<Item = Variables> {
+    let ticks = ticks();
+    let row = ticks.clone();
+    row.into_iter().flat_map(move |u| {
+        let column = ticks.clone();
+        column.into_iter().map(move |v| Variables {
+            u,
+            v,
+            ..Variables::default()
+        })
+    })
+}
+
+/// The slopes of a map with respect to u and to v.
+struct Slopes([[Expr; 2]; 3]);
+
+impl Slopes {
+    fn of(map: &[Expr; 3]) -> Self {
+        Self(map.each_ref().map(|c| Variable::SQUARE.map(|v| c.diff(v))))
+    }
+
+    fn at(&self, at: &Variables, room: &mut Vec<f64>) -> [[f64; 3]; 2] {
+        [0, 1].map(|axis| self.0.each_ref().map(|slope| slope[axis].eval_in(at, room)))
+    }
+}
+
+/// The map is finite, has finite slopes, stays on the sphere, is no mere line, and reaches no
+/// direction twice.
+pub(super) fn map(map: &[Expr; 3]) -> Option<Problem> {
+    let root = Path::root().key("map");
+    let slopes = Slopes::of(map);
+    let mut room = Vec::new();
+    let mut flat = Vec::new();
+    for at in points() {
+        let direction = map.each_ref().map(|c| c.eval_in(&at, &mut room));
+        if let Some(i) = direction.iter().position(|c| !c.is_finite()) {
+            let message = format!("this component of the map has no value at {}", place(&at));
+            let finite = "it must be finite for every u and v between 0 and 1";
+            return Some(Problem::new("QRT0412", root.item(i), message).help(finite));
+        }
+        let off = norm(direction) - 1.0;
+        if off.abs() > OFF_SPHERE {
+            let length = if off.abs() < 1e-4 {
+                format!("1 + {off:e}")
+            } else {
+                short(1.0 + off)
+            };
+            let message = format!(
+                "the map leaves the unit sphere: its length is {length} at {}",
+                place(&at)
+            );
+            let unit = "a direction has length 1: x^2 + y^2 + z^2 must be 1 for every u and v";
+            return Some(Problem::new("QRT0411", root, message).help(unit));
+        }
+        let [along_u, along_v] = slopes.at(&at, &mut room);
+        for i in 0..3 {
+            if !(along_u[i].is_finite() && along_v[i].is_finite()) {
+                let place = place(&at);
+                let message = format!("this component of the map has no finite slope at {place}");
+                let smooth = "the Jacobian needs its derivatives between 0 and 1";
+                return Some(Problem::new("QRT0412", root.item(i), message).help(smooth));
+            }
+        }
+        let area = norm(cross(along_u, along_v));
+        flat.push((area <= PARALLEL * norm(along_u) * norm(along_v), at));
+    }
+    // A line of flat points is harmless, an area is not: four cells that meet are one.
+    let side = flat.len().isqrt();
+    let is_flat = |i: usize, j: usize| flat[i * side + j].0;
+    for i in 1..CENTRES {
+        for j in 1..CENTRES {
+            if is_flat(i, j) && is_flat(i - 1, j) && is_flat(i, j - 1) && is_flat(i - 1, j - 1) {
+                let place = place(&flat[i * side + j].1);
+                let message = format!(
+                    "the map takes a whole area of the square to a line or a point, as around \
+                     {place}"
+                );
+                let both = "the direction must change with u and with v, along different ways";
+                return Some(Problem::new("QRT0413", root, message).help(both));
+            }
+        }
+    }
+    twice(map, &slopes).map(|at| {
+        let message = format!(
+            "the map reaches the same directions more than once, as around {}",
+            place(&at)
+        );
+        let once = "their light would count as often: cover each direction at most once";
+        Problem::new("QRT0419", root, message).help(once)
+    })
+}
+
+/// A point of the square around which directions are covered twice. The sphere is cut into parts of
+/// one area; the solid angles `J du dv` of the cells that fall into a part add up to that area,
+/// or to a multiple. Parts where the cells are too coarse to tell are passed over.
+fn twice(map: &[Expr; 3], slopes: &Slopes) -> Option<Variables> {
+    const CELLS: u32 = 256;
+    const HEIGHTS: usize = 16;
+    const TURNS: usize = 24;
+    /// The longest side of a cell that still tells, in radians: a sixth of a part's.
+    const FINE: f64 = 0.03;
+    let part = 4.0 * std::f64::consts::PI / (HEIGHTS * TURNS) as f64;
+    let mut covered = vec![(0.0, 0_u32, Variables::default()); HEIGHTS * TURNS];
+    let mut room = Vec::new();
+    for i in 0..CELLS {
+        for j in 0..CELLS {
+            let centre = |k| (f64::from(k) + 0.5) / f64::from(CELLS);
+            let at = Variables {
+                u: centre(i),
+                v: centre(j),
+                ..Variables::default()
+            };
+            let [x, y, z] = map.each_ref().map(|c| c.eval_in(&at, &mut room));
+            let turn = libm::atan2(y, x) / std::f64::consts::TAU + 0.5;
+            let height = (f64::midpoint(z, 1.0) * HEIGHTS as f64) as usize;
+            let turn = (turn * TURNS as f64) as usize;
+            let slot = height.min(HEIGHTS - 1) * TURNS + turn.min(TURNS - 1);
+            let [along_u, along_v] = slopes
+                .at(&at, &mut room)
+                .map(|slope| slope.map(|s| s / f64::from(CELLS)));
+            let fine = norm(along_u) < FINE && norm(along_v) < FINE;
+            let (area, count, place) = &mut covered[slot];
+            *area += if fine {
+                norm(cross(along_u, along_v))
+            } else {
+                f64::NEG_INFINITY
+            };
+            *count += 1;
+            *place = at;
+        }
+    }
+    let often = |(area, count, _): &&(f64, u32, Variables)| *area > 1.6 * part && *count >= 30;
+    covered.iter().find(often).map(|(_, _, place)| *place)
+}
+
+fn norm(a: [f64; 3]) -> f64 {
+    (a[0] * a[0] + a[1] * a[1] + a[2] * a[2]).sqrt()
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
+/// A stated Jacobian is that of the map.
+pub(super) fn jacobian(map: &[Expr; 3], stated: &Expr) -> Option<Problem> {
+    let slopes = Slopes::of(map);
+    let right = |at: &Variables| {
+        let [along_u, along_v] = slopes.at(at, &mut Vec::new());
+        norm(cross(along_u, along_v))
+    };
+    let off = |given: f64, right: f64| {
+        let error = (given - right).abs();
+        error.is_nan() || error > OFF_JACOBIAN * right.abs().max(f64::MIN_POSITIVE)
+    };
+    let at = points().find(|at| off(stated.eval(at), right(at)))?;
+    let message = format!(
+        "the stated Jacobian is {} at {}, but |dphi/du x dphi/dv| = {}",
+        short(stated.eval(&at)),
+        place(&at),
+        short(right(&at))
+    );
+    // Only a mistake that explains every point is named.
+    let explains = |wrong: &dyn Fn(f64, f64) -> f64| {
+        points().all(|at| {
+            let cosine = map[2].eval(&at).abs();
+            !off(stated.eval(&at), wrong(right(&at), cosine))
+        })
+    };
+    let ratio = right(&at) / stated.eval(&at);
+    let help = if explains(&|j, _| 1.0 / j) {
+        "this is 1/J: a change of variables multiplies by J, it does not divide".to_owned()
+    } else if explains(&|j, cosine| j * cosine) {
+        "this is J |z|: the cosine is multiplied in already, J stands without it".to_owned()
+    } else if explains(&|j, cosine| 1.0 / (j * cosine)) {
+        "this is 1/(J |z|): write J, the solid angle per unit of the square".to_owned()
+    } else if explains(&|j, _| -j) {
+        "this is -J: the Jacobian is a length, not a signed area".to_owned()
+    } else if ratio.is_finite() && explains(&|j, _| j / ratio) {
+        format!("multiply it by {}", short(ratio))
+    } else {
+        let right = maps::jacobian(map);
+        if right.written_nodes() <= 60 {
+            format!("write `{right}`, or `auto`")
+        } else {
+            "`jacobian: auto` works it out".to_owned()
+        }
+    };
+    Some(Problem::new("QRT0414", Path::root().key("jacobian"), message).help(help))
+}

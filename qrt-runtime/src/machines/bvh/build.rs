@@ -1,0 +1,190 @@
+//! Building the tree: binned surface area heuristic, then eight children a node.
+
+use super::{Child, Node, WIDE};
+use glam::DVec3;
+use qrt_core::tracer::Geometry;
+
+/// Levels of the tree at most: below, halves are split by count alone, so that `WIDE^MAX_DEPTH`
+/// and more faces fit.
+pub(super) const MAX_DEPTH: usize = 64;
+
+/// Levels of the binary tree that may follow the heuristic.
+const FREE_DEPTH: usize = 32;
+
+/// Candidate planes per axis.
+const BINS: usize = 16;
+
+/// How far boxes reach beyond their faces, in stage units: more than edges' tolerances and the
+/// rounding of a crossing.
+const MARGIN: f64 = 1.0 / (1_u64 << 36) as f64;
+
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Bounds {
+    low: DVec3,
+    high: DVec3,
+}
+
+impl Bounds {
+    const EMPTY: Self = Self { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY };
+
+    fn with(self, other: Self) -> Self {
+        Self { low: self.low.min(other.low), high: self.high.max(other.high) }
+    }
+
+    fn centre(self) -> DVec3 {
+        0.5 * (self.low + self.high)
+    }
+
+    /// Half the surface area.
+    fn area(self) -> f64 {
+        let e = (self.high - self.low).max(DVec3::ZERO);
+        e.x * e.y + e.y * e.z + e.z * e.x
+    }
+}
+
+/// The tree, and the faces (by place in [`Geometry::faces`]) of each leaf.
+pub(super) struct Tree {
+    pub(super) nodes: Vec<Node>,
+    pub(super) leaves: Vec<Vec<u32>>,
+}
+
+/// The boxes of all faces.
+pub(super) fn boxes(geometry: &Geometry) -> Vec<Bounds> {
+    let margin = DVec3::splat(MARGIN);
+    let of_face = |label: u32| {
+        let corners = &geometry.corners[label as usize];
+        let around = corners.iter().fold(Bounds::EMPTY, |bounds, &corner| {
+            bounds.with(Bounds { low: corner, high: corner })
+        });
+        // The same share of a far corner's coordinates, for planes that were averaged.
+        let margin = margin * (1.0 + around.high.abs().max(around.low.abs()).max_element());
+        Bounds { low: around.low - margin, high: around.high + margin }
+    };
+    geometry.faces.iter().map(|face| of_face(face.label)).collect()
+}
+
+/// The tree over `boxes`.
+pub(super) fn tree(boxes: &[Bounds]) -> Tree {
+    let mut tree = Tree { nodes: Vec::new(), leaves: Vec::new() };
+    if !boxes.is_empty() {
+        let mut faces: Vec<u32> = (0..boxes.len() as u32).collect();
+        tree.node(boxes, &mut faces, 0);
+    }
+    tree
+}
+
+impl Tree {
+    /// A node over `faces`, whose number it returns. `depth` counts binary splits above.
+    fn node(&mut self, boxes: &[Bounds], faces: &mut [u32], depth: usize) -> u32 {
+        let number = self.nodes.len() as u32;
+        let empty = [[f64::INFINITY; WIDE], [f64::INFINITY; WIDE], [f64::INFINITY; WIDE]];
+        let full = [[f64::NEG_INFINITY; WIDE], [f64::NEG_INFINITY; WIDE], [f64::NEG_INFINITY; WIDE]];
+        self.nodes.push(Node { boxes: [empty, full], children: [Child::Absent; WIDE] });
+        // Split the largest part again and again until there are eight.
+        let mut parts = vec![(faces, depth)];
+        while parts.len() < WIDE {
+            let largest = (0..parts.len())
+                .filter(|&part| parts[part].0.len() > WIDE)
+                .max_by(|&a, &b| cost(boxes, parts[a].0).total_cmp(&cost(boxes, parts[b].0)));
+            let Some(largest) = largest else { break };
+            let (part, depth) = parts.swap_remove(largest);
+            let middle = split(boxes, part, depth);
+            let (left, right) = part.split_at_mut(middle);
+            parts.push((left, depth + 1));
+            parts.push((right, depth + 1));
+        }
+        for (place, (part, depth)) in parts.into_iter().enumerate() {
+            let bounds = around(boxes, part);
+            let child = if part.len() <= WIDE {
+                self.leaves.push(part.to_vec());
+                Child::Packet(self.leaves.len() as u32 - 1)
+            } else {
+                Child::Node(self.node(boxes, part, depth))
+            };
+            let node = &mut self.nodes[number as usize];
+            node.children[place] = child;
+            for axis in 0..3 {
+                node.boxes[0][axis][place] = bounds.low[axis];
+                node.boxes[1][axis][place] = bounds.high[axis];
+            }
+        }
+        number
+    }
+}
+
+fn around(boxes: &[Bounds], faces: &[u32]) -> Bounds {
+    faces.iter().fold(Bounds::EMPTY, |bounds, &face| bounds.with(boxes[face as usize]))
+}
+
+fn cost(boxes: &[Bounds], faces: &[u32]) -> f64 {
+    around(boxes, faces).area() * faces.len() as f64
+}
+
+/// Reorders `faces` and returns where to cut them: both sides are non-empty.
+fn split(boxes: &[Bounds], faces: &mut [u32], depth: usize) -> usize {
+    let centres = faces.iter().fold(Bounds::EMPTY, |bounds, &face| {
+        let centre = boxes[face as usize].centre();
+        bounds.with(Bounds { low: centre, high: centre })
+    });
+    let extent = centres.high - centres.low;
+    if depth < FREE_DEPTH
+        && let Some((axis, bin)) = best_plane(boxes, faces, centres)
+    {
+        let is_left =
+            |face: u32| bin_of(boxes[face as usize].centre()[axis], centres, axis) <= bin;
+        let mut middle = 0;
+        for i in 0..faces.len() {
+            if is_left(faces[i]) {
+                faces.swap(i, middle);
+                middle += 1;
+            }
+        }
+        return middle;
+    }
+    // Centres in one place, or a tree too deep: halves.
+    let axis = (0..3).max_by(|&a, &b| extent[a].total_cmp(&extent[b])).unwrap_or(0);
+    let middle = faces.len() / 2;
+    let key = |face: u32| boxes[face as usize].centre()[axis];
+    faces.select_nth_unstable_by(middle, |&a, &b| key(a).total_cmp(&key(b)).then(a.cmp(&b)));
+    middle
+}
+
+fn bin_of(centre: f64, centres: Bounds, axis: usize) -> usize {
+    let share = (centre - centres.low[axis]) / (centres.high[axis] - centres.low[axis]);
+    ((share * BINS as f64) as usize).min(BINS - 1)
+}
+
+/// The axis and last bin of the left side whose cut costs least.
+fn best_plane(boxes: &[Bounds], faces: &[u32], centres: Bounds) -> Option<(usize, usize)> {
+    let packets = |count: usize| count.div_ceil(WIDE) as f64;
+    let mut best: Option<(f64, usize, usize)> = None;
+    for axis in 0..3 {
+        if centres.high[axis] <= centres.low[axis] {
+            continue;
+        }
+        let mut bins = [(Bounds::EMPTY, 0_usize); BINS];
+        for &face in faces {
+            let bounds = boxes[face as usize];
+            let (around, count) = &mut bins[bin_of(bounds.centre()[axis], centres, axis)];
+            *around = around.with(bounds);
+            *count += 1;
+        }
+        let mut right = [(Bounds::EMPTY, 0_usize); BINS];
+        for bin in (0..BINS - 1).rev() {
+            let (bounds, count) = right[bin + 1];
+            right[bin] = (bounds.with(bins[bin + 1].0), count + bins[bin + 1].1);
+        }
+        let mut left = (Bounds::EMPTY, 0);
+        for bin in 0..BINS - 1 {
+            left = (left.0.with(bins[bin].0), left.1 + bins[bin].1);
+            if left.1 == 0 || right[bin].1 == 0 {
+                continue;
+            }
+            let cost = left.0.area() * packets(left.1) + right[bin].0.area() * packets(right[bin].1);
+            if best.is_none_or(|(least, ..)| cost < least) {
+                best = Some((cost, axis, bin));
+            }
+        }
+    }
+    best.map(|(_, axis, bin)| (axis, bin))
+}

@@ -1,0 +1,128 @@
+//! Eight faces, tried at once.
+
+use super::WIDE;
+use crate::machines::lanes::Lanes;
+use pulp::bytemuck;
+use qrt_core::tracer::{Arith, Geometry, Turned, cross, weighted};
+
+/// Edges of a face, at most.
+const EDGES: usize = 4;
+
+/// Eight faces: constants side by side. An absent face has a plane that no ray crosses.
+#[derive(Clone, Debug)]
+#[repr(align(64))]
+pub(super) struct Packet {
+    /// The plane's form and offset.
+    form: [[f64; WIDE]; 2],
+    offset: [f64; WIDE],
+    /// Per edge, `a x + b y >= low`.
+    edges: [[[f64; WIDE]; 3]; EDGES],
+    axis: [u64; WIDE],
+    plane: [u64; WIDE],
+    /// Places in [`Geometry::faces`].
+    pub(super) rank: [u32; WIDE],
+}
+
+/// By place in [`Geometry::faces`]: the face's plane.
+pub(super) fn planes_of_faces(geometry: &Geometry) -> Vec<u32> {
+    let mut planes = vec![0; geometry.faces.len()];
+    for (number, plane) in geometry.planes.iter().enumerate() {
+        planes[plane.faces.clone()].fill(number as u32);
+    }
+    planes
+}
+
+impl Packet {
+    /// The faces `ranks`, at most eight.
+    pub(super) fn new(geometry: &Geometry, planes: &[u32], ranks: &[u32]) -> Self {
+        let everywhere = [[0.0; WIDE], [0.0; WIDE], [f64::NEG_INFINITY; WIDE]];
+        let mut packet = Self {
+            // A slope of NaN is never ahead.
+            form: [[f64::NAN; WIDE]; 2],
+            offset: [0.0; WIDE],
+            edges: [everywhere; EDGES],
+            axis: [0; WIDE],
+            plane: [u64::MAX; WIDE],
+            rank: [u32::MAX; WIDE],
+        };
+        for (lane, &rank) in ranks.iter().enumerate() {
+            let number = planes[rank as usize];
+            let plane = &geometry.planes[number as usize];
+            packet.form[0][lane] = plane.form[0];
+            packet.form[1][lane] = plane.form[1];
+            packet.offset[lane] = plane.offset;
+            packet.axis[lane] = plane.axis as u64;
+            packet.plane[lane] = u64::from(number);
+            packet.rank[lane] = rank;
+            let mut edge = 0;
+            for slab in &geometry.faces[rank as usize].slabs {
+                // The negated form has the negated value exactly, so that one comparison serves.
+                let sides = [(1.0, slab.low), (-1.0, -slab.high)];
+                for (sign, low) in sides.into_iter().filter(|(_, low)| low.is_finite()) {
+                    let constants = [sign * slab.form[0], sign * slab.form[1], low];
+                    for (column, constant) in packet.edges[edge].iter_mut().zip(constants) {
+                        column[lane] = constant;
+                    }
+                    edge += 1;
+                }
+            }
+        }
+        packet
+    }
+
+    /// Distances of the faces that the ray meets within `limit`, beginning at face `first`; the
+    /// others are infinite. `turned` is the ray seen along x, y and z.
+    #[inline(always)]
+    pub(super) fn distances<S: pulp::Simd>(
+        &self,
+        cx: &mut Lanes<'_, S, 1>,
+        turned: &[[f64; 6]; 3],
+        from: u64,
+        limit: f64,
+        first: usize,
+    ) -> (S::m64s, S::f64s) {
+        let at = first / S::F64_LANES;
+        let real = |column: &[f64; WIDE]| [S::as_simd_f64s(column).0[at]];
+        let index = |column: &[u64; WIDE]| [S::as_simd_u64s(column).0[at]];
+        let axis = index(&self.axis);
+        let (is_x, is_y) = (cx.is(axis, 0), cx.is(axis, 1));
+        let mut part = [[cx.simd.splat_f64s(0.0)]; 6];
+        for (k, part) in part.iter_mut().enumerate() {
+            let x = cx.real(turned[0][k]);
+            let y = cx.real(turned[1][k]);
+            let z = cx.real(turned[2][k]);
+            let yz = cx.select(is_y, y, z);
+            *part = cx.select(is_x, x, yz);
+        }
+        let [o, o_next, o_last, d, d_next, d_last] = part;
+        let ray = Turned::<Lanes<'_, S, 1>> {
+            origin: o,
+            direction: d,
+            origin_across: [o_next, o_last],
+            direction_across: [d_next, d_last],
+        };
+        let form = [real(&self.form[0]), real(&self.form[1])];
+        let crossing = cross(cx, form, real(&self.offset), &ray);
+        let limit = cx.real(limit);
+        let near = cx.less_equal(crossing.distance, limit);
+        let left = [cx.simd.equal_u64s(index(&self.plane)[0], cx.simd.splat_u64s(from))];
+        let other = cx.not(left);
+        let near = cx.and(near, other);
+        let mut hit = cx.and(crossing.ahead, near);
+        for edge in &self.edges {
+            let form = [real(&edge[0]), real(&edge[1])];
+            let value = weighted(cx, form, crossing.point);
+            let inside = cx.less_equal(real(&edge[2]), value);
+            hit = cx.and(hit, inside);
+        }
+        let never = cx.real(f64::INFINITY);
+        let [distance] = cx.select(hit, crossing.distance, never);
+        (hit[0], distance)
+    }
+}
+
+/// The lanes of a register as a slice.
+#[inline(always)]
+pub(super) fn unpack<T: bytemuck::Pod>(register: &T) -> &[f64] {
+    bytemuck::cast_slice(std::slice::from_ref(register))
+}
