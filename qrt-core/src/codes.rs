@@ -183,6 +183,8 @@ codes! {
         "Scale it down";
     BSDF_UNBOUNDED = "QRT0418", "a BSDF whose weight has no bound under its map",
         "Choose a map that sends more points where the value is large";
+    MAP_COVERS_TWICE = "QRT0419", "a map that reaches directions more than once",
+        "Let every direction come from one point of the unit square";
     NO_DEPTH = "QRT0501", "a path without rays",
         "Give `depths` at least one entry";
     PATH_BITS_SUM = "QRT0502", "path_bits that is not the sum of the lattice's bits",
