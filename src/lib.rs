@@ -1,3 +1,58 @@
-//! qrt: quantum ray tracing.
+//! Quantum ray tracing: scenes as countable sets of paths.
+//!
+//! A scene is written in YAML. qrt traces each of its pixels along `2^path_bits` paths, the ones
+//! that a reversible circuit can trace in superposition, and estimates their mean colour as
+//! quantum counting over that circuit would. The framework is that of Lu & Lin, "A Framework for
+//! Quantum Ray Tracing".
+//!
+//! The command `qrt render` does it all; this library is what it is made of:
+//!
+//! ```
+//! use qrt::prelude::*;
+//!
+//! let text = "
+//! name: lit-floor
+//! camera: { perspective: { eye: [0, 1, 2], target: [0, 0, 0], vfov: 45 } }
+//! film: { width: 8, height: 8 }
+//! materials:
+//!   floor: { lambertian: { albedo: [0.8, 0.5, 0.2] } }
+//!   sky: { emitter: { radiance: [1, 1, 1] } }
+//! geometry:
+//!   - quad: { vertices: [[-9, 0, 9], [9, 0, 9], [9, 0, -9], [-9, 0, -9]], material: floor }
+//!   - quad: { vertices: [[-900, 5, -900], [900, 5, -900], [900, 5, 900], [-900, 5, 900]], material: sky }
+//! sampling: { path_bits: 8, depths: [{ bits: [8, 8] }, { bits: [8, 8] }] }
+//! ";
+//! // Everything that is wrong with a scene is said at once, with places.
+//! let scene = parse(text, "lit-floor.yaml", &[], "".as_ref())?.valid;
+//!
+//! // All paths of every pixel: under so wide a sky, a floor shows its albedo.
+//! let exact = Options { estimator: Some(Estimator::Exact), ..Options::default() };
+//! let rendered = render(&scene, &exact)?;
+//! let [red, green, blue] = rendered.image.pixels[8 * 4 + 4];
+//! assert!((red - 0.8).abs() < 0.01 && (green - 0.5).abs() < 0.01 && (blue - 0.2).abs() < 0.01);
+//!
+//! // The same by quantum counting, the scene's default, with the noise of its measurements.
+//! let counted = render(&scene, &Options { seed: 7, ..Options::default() })?;
+//! assert!(counted.total_queries() > 0);
+//!
+//! let path = std::env::temp_dir().join(format!("qrt-facade-{}.exr", std::process::id()));
+//! save(&path, &counted.image, &counted.metadata(&scene)?, Encoding::of(&path, None)?)?;
+//! # std::fs::remove_file(path).ok();
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! [`core`] holds what needs no machine: the scene, its checks, the sequences of paths and the
+//! tracer. [`runtime`] holds what runs: machines, counting, rendering, files.
+
 pub use qrt_core as core;
 pub use qrt_runtime as runtime;
+
+/// What it takes to load a scene, render it and save the picture.
+pub mod prelude {
+    pub use qrt_core::diagnostics::Report;
+    pub use qrt_core::front::{Loaded, load, parse};
+    pub use qrt_core::scene::{Estimator, Scene};
+    pub use qrt_core::valid::{ValidScene, validate};
+    pub use qrt_runtime::image::{Encoding, Image, ImageError, Metadata, save, write_counts};
+    pub use qrt_runtime::render::{Options, Progress, RenderError, Rendered, render};
+}

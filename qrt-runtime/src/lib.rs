@@ -5,6 +5,7 @@ pub mod image;
 pub mod machines;
 pub mod peak_memory;
 pub mod random;
+pub mod render;
 pub mod replace_file;
 #[cfg(test)]
 mod scratch;

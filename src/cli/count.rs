@@ -1,9 +1,9 @@
 //! `qrt count`: what the counting register would read, without a scene.
 
 use std::collections::BTreeMap;
-use std::fmt;
 use std::io::{self, Write};
 
+use super::failure::Failure;
 use clap::{Args, ValueEnum};
 use qrt_core::scene::Window;
 use qrt_runtime::counting::{
@@ -27,6 +27,11 @@ const LIKELIEST: usize = 10;
 /// S of N ids are good. A counting register of T = 2^t phases reads y in 0..=T/2 (y and T - y are
 /// one outcome), which estimates theta = asin(sqrt(S/N))/pi by y/T, and S by N sin^2(pi y/T).
 #[derive(Clone, Debug, Args)]
+#[command(after_help = "\
+Examples:
+  qrt count --good 300 --total 1000 --phase-bits 6
+  qrt count --good 300 --total 1000 --phase-bits 20 --window sine --shots 5 --seed 1
+  qrt count --good 1 --total 1048576 --phase-bits 16 --outcomes 20,41 --json")]
 pub(crate) struct CountArgs {
     /// S, the number of good ids
     #[arg(long, value_name = "S")]
@@ -84,42 +89,6 @@ impl WindowName {
     }
 }
 
-/// Why `qrt count` failed.
-#[derive(Debug)]
-pub(crate) enum CountFailure {
-    /// The question has no answer.
-    Counting(CountingError),
-    /// The answer could not be written.
-    Output(io::Error),
-}
-
-impl CountFailure {
-    /// 2 for a wrong question, 1 for a failed job.
-    pub(crate) fn exit_code(&self) -> u8 {
-        match self {
-            Self::Counting(_) => 2,
-            Self::Output(_) => 1,
-        }
-    }
-}
-
-impl fmt::Display for CountFailure {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Counting(error) => error.fmt(f),
-            Self::Output(error) => write!(f, "cannot write the result: {error}"),
-        }
-    }
-}
-
-impl std::error::Error for CountFailure {}
-
-impl From<CountingError> for CountFailure {
-    fn from(error: CountingError) -> Self {
-        Self::Counting(error)
-    }
-}
-
 /// Which outcomes are listed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Shown {
@@ -155,7 +124,7 @@ struct Posterior {
 ///
 /// Counts or outcomes out of range, or an output that cannot be written. (A reader that has seen
 /// enough is no error.)
-pub(crate) fn run(args: &CountArgs) -> Result<(), CountFailure> {
+pub(crate) fn run(args: &CountArgs) -> Result<(), Failure> {
     let answer = Answer::new(args)?;
     let mut out = io::BufWriter::new(io::stdout().lock());
     let written = if args.json {
@@ -164,7 +133,9 @@ pub(crate) fn run(args: &CountArgs) -> Result<(), CountFailure> {
         answer.tables(&mut out)
     };
     match written.and_then(|()| out.flush()) {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(CountFailure::Output(error)),
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+            Err(Failure::Job(format!("cannot write the result: {error}")))
+        }
         _ => Ok(()),
     }
 }

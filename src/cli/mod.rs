@@ -1,3 +1,65 @@
 //! The subcommands, one file each.
+//!
+//! Exit codes: 0, 1 when the job failed or was interrupted, 2 when the command line or the scene
+//! is at fault.
 
-pub(crate) mod count;
+mod completions;
+mod count;
+mod failure;
+mod new;
+mod progress;
+mod render;
+mod schema;
+mod stats;
+mod terminal;
+
+use clap::{Parser, Subcommand};
+use std::process::ExitCode;
+
+/// Quantum ray tracing: scenes as countable sets of paths
+///
+/// qrt traces the paths of a scene that a reversible quantum circuit would trace in superposition,
+/// and counts them as quantum counting would.
+#[derive(Debug, Parser)]
+#[command(
+    name = "qrt",
+    version,
+    arg_required_else_help = true,
+    after_help = "\
+Examples:
+  qrt new box               write a first scene, box.yaml
+  qrt render box.yaml       render it to box.png
+  qrt render --help         all about rendering
+
+Exit codes: 0; 1 the job failed or was interrupted; 2 the command line or the scene is at fault."
+)]
+pub(crate) struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Render(render::RenderArgs),
+    Count(count::CountArgs),
+    New(new::NewArgs),
+    Schema(schema::SchemaArgs),
+    Completions(completions::CompletionsArgs),
+}
+
+pub(crate) fn main() -> ExitCode {
+    let done = match Cli::parse().command {
+        Command::Render(args) => render::run(&args),
+        Command::Count(args) => count::run(&args),
+        Command::New(args) => new::run(&args),
+        Command::Schema(_) => schema::run(),
+        Command::Completions(args) => completions::run(args),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            terminal::error(&failure);
+            failure.exit_code()
+        }
+    }
+}

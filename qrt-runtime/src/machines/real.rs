@@ -154,8 +154,17 @@ impl Real {
 
     /// Traces every path of `pixels` (column, row) and hands over their colours, block by block:
     /// a pixel's blocks come in the order of ids.
-    pub fn trace(&self, pixels: &[[u32; 2]], mut finished: impl FnMut(Block<'_>)) {
-        let paths = self.points.paths();
+    pub fn trace(&self, pixels: &[[u32; 2]], finished: impl FnMut(Block<'_>)) {
+        self.trace_range(pixels, 0..self.points.paths(), finished);
+    }
+
+    /// As [`Real::trace`], of each pixel the paths whose ids are in `ids`.
+    pub fn trace_range(
+        &self,
+        pixels: &[[u32; 2]],
+        ids: std::ops::Range<u64>,
+        mut finished: impl FnMut(Block<'_>),
+    ) {
         let mut inputs = Inputs {
             indices: vec![[0; BLOCK]; self.points.dimensions()],
             column: [0.0; BLOCK],
@@ -166,9 +175,9 @@ impl Real {
         let mut filled = 0;
         let mut runs: Vec<(usize, std::ops::Range<usize>)> = Vec::new();
         for (number, &pixel) in pixels.iter().enumerate() {
-            let mut first = 0;
-            while first < paths {
-                let count = (paths - first).min((BLOCK - filled) as u64) as usize;
+            let mut first = ids.start;
+            while first < ids.end {
+                let count = (ids.end - first).min((BLOCK - filled) as u64) as usize;
                 let range = filled..filled + count;
                 for (dimension, indices) in inputs.indices.iter_mut().enumerate() {
                     let out = &mut indices[range.clone()];
@@ -179,7 +188,7 @@ impl Real {
                 runs.push((number, range));
                 first += count as u64;
                 filled += count;
-                if filled == BLOCK || (number + 1 == pixels.len() && first == paths) {
+                if filled == BLOCK || (number + 1 == pixels.len() && first == ids.end) {
                     self.run(&inputs, filled, &mut colours);
                     for (pixel, range) in runs.drain(..) {
                         let colours = [0, 1, 2].map(|c: usize| &colours[c][range.clone()]);

@@ -1,0 +1,194 @@
+//! Why a picture isn't rendered.
+
+use crate::checkpoint::CheckpointError;
+use crate::counting::CountingError;
+use std::fmt;
+use std::path::PathBuf;
+
+/// Why a picture isn't rendered.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum RenderError {
+    /// The scene asks for an accuracy, which this version can't turn into knobs.
+    Accuracy,
+    /// A crop without pixels, or not within the film.
+    Crop {
+        /// x, y, width, height.
+        crop: [u32; 4],
+        /// Width, height.
+        film: [u32; 2],
+    },
+    /// More paths than a 64-bit word counts.
+    TooManyPaths {
+        /// Pixels to be rendered.
+        pixels: u64,
+        /// Paths of each.
+        path_bits: u32,
+    },
+    /// A picture that doesn't fit into memory.
+    Memory {
+        /// Its pixels.
+        pixels: u64,
+    },
+    /// A bound on a path's colour so large that sums over paths would overflow.
+    Bound {
+        /// 0, 1, 2: red, green, blue.
+        channel: usize,
+        /// The bound, in radiance.
+        bound: f64,
+    },
+    /// The sequence of paths can't be made.
+    Sampling(qrt_core::sampling::SamplingError),
+    /// The pixels can't be counted as asked.
+    Counting(CountingError),
+    /// The threads can't be started.
+    Threads(String),
+    /// The checkpoint can't be used.
+    Checkpoint(CheckpointError),
+    /// Paths with a colour that is negative, not a number, or above the bound that was proven for
+    /// it: a defect of qrt. The picture would be wrong, so there is none.
+    OutOfBounds {
+        /// Column and row on the film.
+        pixel: [u32; 2],
+        /// 0, 1, 2: red, green, blue.
+        channel: usize,
+        /// How many paths of the pixel.
+        paths: u64,
+        /// The colour of one of them.
+        colour: f64,
+        /// The bound.
+        bound: f64,
+    },
+    /// Cancelled.
+    Interrupted {
+        /// Pixels that are finished.
+        finished: u64,
+        /// Pixels of the picture.
+        pixels: u64,
+        /// What is finished, if it is kept.
+        checkpoint: Option<PathBuf>,
+    },
+}
+
+impl RenderError {
+    /// Whether it is the request that can't be met, rather than the job that failed: another
+    /// attempt will fail alike.
+    pub fn is_refusal(&self) -> bool {
+        match self {
+            Self::Accuracy
+            | Self::Crop { .. }
+            | Self::TooManyPaths { .. }
+            | Self::Bound { .. }
+            | Self::Sampling(_)
+            | Self::Counting(_) => true,
+            Self::Checkpoint(error) => matches!(error, CheckpointError::Differs { .. }),
+            Self::Memory { .. }
+            | Self::Threads(_)
+            | Self::OutOfBounds { .. }
+            | Self::Interrupted { .. } => false,
+        }
+    }
+}
+
+fn name(channel: usize) -> &'static str {
+    ["red", "green", "blue"]
+        .get(channel)
+        .copied()
+        .unwrap_or("?")
+}
+
+impl fmt::Display for RenderError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Accuracy => write!(
+                f,
+                "the scene asks for an `accuracy`, and this version of qrt does not choose the \
+                 knobs for it: in its place set `sampling.path_bits`, `comparator.bits`, \
+                 `counting.phase_bits` and `counting.repetitions`"
+            ),
+            Self::Crop { crop, film } => {
+                let [x, y, width, height] = crop;
+                if *width == 0 || *height == 0 {
+                    write!(f, "a crop of {width} x {height} has no pixels")
+                } else {
+                    let [w, h] = film;
+                    write!(
+                        f,
+                        "a crop of {width} x {height} at ({x}, {y}) does not lie within the film \
+                         of {w} x {h}"
+                    )
+                }
+            }
+            Self::TooManyPaths { pixels, path_bits } => write!(
+                f,
+                "{pixels} pixels of 2^{path_bits} paths are more than 2^64 paths, which no \
+                 machine traces in a lifetime: lower `sampling.path_bits`, or the film"
+            ),
+            Self::Memory { pixels } => {
+                write!(f, "there is not enough memory for {pixels} pixels")
+            }
+            Self::Bound { channel, bound } => write!(
+                f,
+                "a path's {} can only be bounded by {bound:e}, too large to sum: lower the \
+                 radiance or the number of depths",
+                name(*channel)
+            ),
+            Self::Sampling(error) => error.fmt(f),
+            Self::Counting(error) => error.fmt(f),
+            Self::Threads(reason) => write!(f, "the threads cannot be started: {reason}"),
+            Self::Checkpoint(error) => error.fmt(f),
+            Self::OutOfBounds {
+                pixel: [x, y],
+                channel,
+                paths,
+                colour,
+                bound,
+            } => write!(
+                f,
+                "pixel ({x}, {y}): {paths} of its paths have a {} outside [0, {bound:e}], such as \
+                 {colour:e}; this is a defect of qrt, please report it with the scene",
+                name(*channel)
+            ),
+            Self::Interrupted {
+                finished,
+                pixels,
+                checkpoint,
+            } => {
+                write!(f, "interrupted after {finished} of {pixels} pixels")?;
+                match checkpoint {
+                    Some(path) => write!(f, ", which `{}` keeps", path.display()),
+                    None => Ok(()),
+                }
+            }
+        }
+    }
+}
+
+impl std::error::Error for RenderError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            Self::Sampling(error) => Some(error),
+            Self::Counting(error) => Some(error),
+            Self::Checkpoint(error) => Some(error),
+            _ => None,
+        }
+    }
+}
+
+impl From<qrt_core::sampling::SamplingError> for RenderError {
+    fn from(error: qrt_core::sampling::SamplingError) -> Self {
+        Self::Sampling(error)
+    }
+}
+
+impl From<CountingError> for RenderError {
+    fn from(error: CountingError) -> Self {
+        Self::Counting(error)
+    }
+}
+
+impl From<CheckpointError> for RenderError {
+    fn from(error: CheckpointError) -> Self {
+        Self::Checkpoint(error)
+    }
+}

@@ -1,0 +1,42 @@
+//! What a picture says of its own making.
+
+use super::Rendered;
+use crate::image::{ImageError, Metadata};
+use qrt_core::scene::Estimator;
+use qrt_core::valid::ValidScene;
+
+impl Rendered {
+    /// How the picture was made: nothing in it changes from one run to the next.
+    ///
+    /// # Errors
+    /// A scene whose name holds a NUL, which no picture can hold.
+    pub fn metadata(&self, scene: &ValidScene) -> Result<Metadata, ImageError> {
+        let written = scene.scene();
+        let sampling = &written.sampling;
+        let [x, y, width, height] = self.crop;
+        let mut metadata = Metadata::new();
+        metadata.set("version", env!("CARGO_PKG_VERSION"))?;
+        metadata.set("scene", written.name.as_str())?;
+        metadata.set("scene_hash", scene.fingerprint().to_string())?;
+        metadata.set("model", "real")?;
+        metadata.set("estimator", self.estimator.name())?;
+        metadata.set("seed", self.seed.to_string())?;
+        metadata.set("sequence", sampling.sequence.name())?;
+        metadata.set("path_bits", sampling.path_bits.to_string())?;
+        metadata.set("depths", sampling.depths.len().to_string())?;
+        metadata.set(
+            "film",
+            format!("{}x{}", written.film.width, written.film.height),
+        )?;
+        metadata.set("crop", format!("{x},{y},{width},{height}"))?;
+        if self.estimator != Estimator::Exact {
+            let (comparator, counting) = (&written.comparator, &written.counting);
+            metadata.set("comparator_bits", comparator.bits.to_string())?;
+            metadata.set("comparator_at", comparator.at.name())?;
+            metadata.set("phase_bits", counting.phase_bits.to_string())?;
+            metadata.set("repetitions", counting.repetitions.to_string())?;
+        }
+        metadata.set("queries", self.total_queries().to_string())?;
+        Ok(metadata)
+    }
+}

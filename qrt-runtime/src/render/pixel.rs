@@ -1,0 +1,293 @@
+//! From the paths of a pixel to its colour.
+
+use super::RenderError;
+use super::sum::Sum;
+use crate::counting::{AmplitudeEstimator, Comparators, Problem, estimator};
+use crate::machines::{Block, Real};
+use crate::random::Stream;
+use qrt_core::scene::{Estimator, Scene};
+use rayon::prelude::*;
+use std::ops::Range;
+
+/// By how much rounding may take a path's colour over its bound, in relation: the two multiply
+/// the same numbers in different orders.
+const ROUNDING: f64 = 1e-12;
+
+/// Paths that are traced without looking up.
+const RUN: u64 = 1 << 16;
+/// Above this many, the paths of a pixel are cut into parts for several threads.
+const SPLIT: u64 = 1 << 18;
+/// Parts of a pixel, at most.
+const PARTS: u64 = 1 << 12;
+
+/// What the paths of a pixel add up to, per channel.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Totals {
+    colour: [Sum; 3],
+    good: [u64; 3],
+    /// Paths out of bounds, and the colour of the first.
+    stray: [(u64, f64); 3],
+}
+
+/// A finished pixel.
+pub(super) struct Pixel {
+    pub(super) colour: [f64; 3],
+    pub(super) queries: u64,
+}
+
+/// How the pixels of a scene get their colours.
+pub(super) struct Pixels {
+    real: Real,
+    bound: [f64; 3],
+    seed: u64,
+    paths: u64,
+    counter: Option<Counter>,
+}
+
+/// Counts good ids: pairs of a path and a comparator that its colour exceeds.
+struct Counter {
+    comparators: [Comparators; 3],
+    estimator: Box<dyn AmplitudeEstimator + Send + Sync>,
+}
+
+impl Pixels {
+    pub(super) fn new(
+        real: Real,
+        scene: &Scene,
+        estimate: Estimator,
+        seed: u64,
+    ) -> Result<Self, RenderError> {
+        let bound = real.stage().bound();
+        let paths = real.paths();
+        for (channel, bound) in bound.into_iter().enumerate() {
+            let summable = bound <= f64::MAX / 2.0 / paths as f64;
+            // Nor is NaN.
+            if !summable {
+                return Err(RenderError::Bound { channel, bound });
+            }
+        }
+        let counter = if estimate == Estimator::Exact {
+            None
+        } else {
+            let [r, g, b] = bound.map(|scale| Comparators::new(scale, scene.comparator));
+            Some(Counter {
+                comparators: [r?, g?, b?],
+                estimator: estimator(estimate, &scene.counting)?,
+            })
+        };
+        Ok(Self {
+            real,
+            bound,
+            seed,
+            paths,
+            counter,
+        })
+    }
+
+    pub(super) fn bound(&self) -> [f64; 3] {
+        self.bound
+    }
+
+    /// Whether the paths of one pixel are enough to occupy all threads.
+    pub(super) fn splits(&self) -> bool {
+        self.paths > SPLIT
+    }
+
+    /// The totals of all paths of `pixels`, which have few each.
+    pub(super) fn few(&self, pixels: &[[u32; 2]]) -> Vec<Totals> {
+        let mut totals = vec![Totals::default(); pixels.len()];
+        self.real
+            .trace(pixels, |block| self.take(&mut totals[block.pixel], &block));
+        totals
+    }
+
+    /// The totals of the many paths of one pixel, on all threads. `traced` is told of every run
+    /// of paths when it is finished, and says whether to go on.
+    pub(super) fn many(
+        &self,
+        pixel: [u32; 2],
+        traced: &(impl Fn(u64) -> bool + Sync),
+    ) -> Option<Totals> {
+        let part = RUN.max(self.paths / PARTS);
+        let parts = (0..self.paths.div_ceil(part)).into_par_iter();
+        let totals = parts.map(|n| {
+            let end = ((n + 1) * part).min(self.paths);
+            self.part(pixel, n * part..end, traced)
+        });
+        // In the order of ids, whichever was first.
+        let totals: Vec<Totals> = totals.collect::<Option<_>>()?;
+        let mut whole = Totals::default();
+        for later in &totals {
+            whole.append(later);
+        }
+        Some(whole)
+    }
+
+    fn part(
+        &self,
+        pixel: [u32; 2],
+        ids: Range<u64>,
+        traced: &impl Fn(u64) -> bool,
+    ) -> Option<Totals> {
+        let mut totals = Totals::default();
+        let mut first = ids.start;
+        while first < ids.end {
+            let end = (first + RUN).min(ids.end);
+            self.real.trace_range(&[pixel], first..end, |block| {
+                self.take(&mut totals, &block);
+            });
+            if !traced(end - first) {
+                return None;
+            }
+            first = end;
+        }
+        Some(totals)
+    }
+
+    fn take(&self, totals: &mut Totals, block: &Block<'_>) {
+        for (channel, colours) in block.colours.into_iter().enumerate() {
+            let limit = self.bound[channel] * (1.0 + ROUNDING);
+            let inside = |colour: f64| colour >= 0.0 && colour <= limit;
+            // Without an early end, so that it takes several at a time.
+            let all = colours.iter().fold(true, |all, &c| all & inside(c));
+            if !all {
+                let stray = &mut totals.stray[channel];
+                for &colour in colours.iter().filter(|&&colour| !inside(colour)) {
+                    if stray.0 == 0 {
+                        stray.1 = colour;
+                    }
+                    stray.0 += 1;
+                }
+            }
+            match &self.counter {
+                None => totals.colour[channel].add(colours),
+                Some(counter) => {
+                    totals.good[channel] += counter.comparators[channel].good_total(colours);
+                }
+            }
+        }
+    }
+
+    /// The colour of a pixel, and the queries that it took: without an estimator the mean of its
+    /// paths, without queries.
+    pub(super) fn finish(&self, pixel: [u32; 2], totals: &Totals) -> Result<Pixel, RenderError> {
+        let mut finished = Pixel {
+            colour: [0.0; 3],
+            queries: 0,
+        };
+        for channel in 0..3 {
+            let (paths, colour) = totals.stray[channel];
+            let bound = self.bound[channel];
+            if paths > 0 {
+                return Err(RenderError::OutOfBounds {
+                    pixel,
+                    channel,
+                    paths,
+                    colour,
+                    bound,
+                });
+            }
+            finished.colour[channel] = match &self.counter {
+                None => totals.colour[channel].value() / self.paths as f64,
+                // Nothing to count: black is proven.
+                Some(_) if bound == 0.0 => 0.0,
+                Some(counter) => {
+                    let comparators = counter.comparators[channel];
+                    let problem = Problem {
+                        good: totals.good[channel],
+                        total: self.paths * comparators.count(),
+                    };
+                    let [x, y] = pixel;
+                    let mut stream = Stream::new(self.seed, x, y, channel as u8);
+                    let estimate = counter.estimator.estimate(problem, &mut stream)?;
+                    // At most 3 * 2^40 * 10^6, below 2^62.
+                    finished.queries += estimate.queries;
+                    comparators.pixel_of_amplitude(estimate.amplitude)
+                }
+            };
+        }
+        Ok(finished)
+    }
+}
+
+impl Totals {
+    /// Adds the totals of later ids.
+    fn append(&mut self, later: &Self) {
+        for channel in 0..3 {
+            self.colour[channel].append(&later.colour[channel]);
+            self.good[channel] += later.good[channel];
+            let (paths, colour) = later.stray[channel];
+            let stray = &mut self.stray[channel];
+            if stray.0 == 0 {
+                stray.1 = colour;
+            }
+            stray.0 += paths;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::machines::Real;
+    use qrt_core::front::parse;
+
+    /// A wall of radiance 2, 1, 0 that fills the picture: the colour of every path.
+    const WALL: &str = "
+name: wall
+camera: { orthographic: { eye: [0, 0, 1], target: [0, 0, 0], height: 1 } }
+film: { width: 2, height: 1 }
+materials: { wall: { emitter: { radiance: [2, 1, 0] } } }
+geometry:
+  - quad: { vertices: [[-9, -9, 0], [9, -9, 0], [9, 9, 0], [-9, 9, 0]], material: wall }
+sampling: { path_bits: 5 }
+";
+
+    fn wall(estimator: Estimator) -> Pixels {
+        let scene = parse(WALL, "wall.yaml", &[], "".as_ref()).unwrap().valid;
+        let real = Real::new(&scene, 0).unwrap();
+        Pixels::new(real, scene.scene(), estimator, 0).unwrap()
+    }
+
+    #[test]
+    fn a_path_beyond_its_bound_is_reported_and_never_clamped() {
+        for estimator in [Estimator::Exact, Estimator::Sine] {
+            let mut pixels = wall(estimator);
+            let totals = pixels.few(&[[1, 0]]);
+            assert!(pixels.finish([1, 0], &totals[0]).is_ok());
+            // Rounding is no defect; anything above is.
+            pixels.bound = [2.0 - 1e-12, 1.0, 0.0];
+            assert!(pixels.finish([1, 0], &pixels.few(&[[1, 0]])[0]).is_ok());
+            pixels.bound = [2.0, 1.0 - 1e-9, 0.0];
+            match pixels.finish([1, 0], &pixels.few(&[[1, 0]])[0]) {
+                Err(RenderError::OutOfBounds {
+                    pixel: [1, 0],
+                    channel: 1,
+                    paths: 32,
+                    colour: 1.0,
+                    ..
+                }) => {}
+                other => panic!("{:?}", other.map(|pixel| pixel.colour)),
+            }
+            let parts = pixels.many([1, 0], &|_| true).unwrap();
+            assert!(pixels.finish([1, 0], &parts).is_err());
+        }
+    }
+
+    #[test]
+    fn what_is_not_a_colour_is_reported() {
+        let pixels = wall(Estimator::Exact);
+        for colour in [f64::NAN, -1e-300, f64::INFINITY] {
+            let mut totals = Totals::default();
+            let colours = [1.0, colour, 1.0];
+            let block = Block {
+                pixel: 0,
+                colours: [&colours; 3],
+            };
+            pixels.take(&mut totals, &block);
+            assert_eq!(totals.stray[0].0, 1);
+            assert_eq!(totals.stray[0].1.to_bits(), colour.to_bits());
+            assert!(pixels.finish([0, 0], &totals).is_err());
+        }
+    }
+}

@@ -1,0 +1,111 @@
+//! Sums over the paths of a pixel, in an order that ids alone decide.
+//!
+//! Floating-point sums depend on their order. Here it is: ids are cut into blocks of 256; within a
+//! block, eight sums take every eighth id and are then added in pairs; blocks are added in order.
+//! So the sum doesn't depend on how the paths were handed over, and its rounding error grows with
+//! the number of blocks, not of paths.
+
+const LANES: usize = 8;
+const BLOCK: usize = 256;
+
+/// A sum of colours, handed over in the order of their ids.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Sum {
+    /// Of whole blocks.
+    total: f64,
+    /// Of the block under way.
+    lanes: [f64; LANES],
+    /// Ids of the block under way.
+    filled: usize,
+}
+
+impl Sum {
+    /// Adds the next colours.
+    pub(super) fn add(&mut self, mut colours: &[f64]) {
+        while !colours.is_empty() {
+            let (now, later) = colours.split_at(colours.len().min(BLOCK - self.filled));
+            let lane = self.filled % LANES;
+            let (first, rest) = now.split_at(now.len().min((LANES - lane) % LANES));
+            for (sum, colour) in self.lanes[lane..].iter_mut().zip(first) {
+                *sum += colour;
+            }
+            for colours in rest.chunks(LANES) {
+                for (sum, colour) in self.lanes.iter_mut().zip(colours) {
+                    *sum += colour;
+                }
+            }
+            self.filled += now.len();
+            if self.filled == BLOCK {
+                self.total = self.value();
+                self.lanes = [0.0; LANES];
+                self.filled = 0;
+            }
+            colours = later;
+        }
+    }
+
+    /// The sum so far.
+    pub(super) fn value(&self) -> f64 {
+        let [a, b, c, d, e, f, g, h] = self.lanes;
+        self.total + (((a + e) + (c + g)) + ((b + f) + (d + h)))
+    }
+
+    /// Adds a sum over later ids. To be used on block boundaries.
+    pub(super) fn append(&mut self, later: &Self) {
+        self.total = self.value() + later.value();
+        self.lanes = [0.0; LANES];
+        self.filled = 0;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn how_the_colours_are_handed_over_does_not_matter(
+            colours in proptest::collection::vec(0.0..1e3_f64, 0..1500),
+            cuts in proptest::collection::vec(1..400_usize, 1..40),
+        ) {
+            let mut whole = Sum::default();
+            whole.add(&colours);
+            let mut pieces = Sum::default();
+            let mut rest = colours.as_slice();
+            for &cut in cuts.iter().cycle() {
+                if rest.is_empty() {
+                    break;
+                }
+                let (now, later) = rest.split_at(cut.min(rest.len()));
+                pieces.add(now);
+                rest = later;
+            }
+            prop_assert_eq!(whole.value().to_bits(), pieces.value().to_bits());
+        }
+    }
+
+    #[test]
+    fn sums_of_whole_numbers_are_exact_also_in_parts() {
+        let colours: Vec<f64> = (0..100_000).map(f64::from).collect();
+        let mut whole = Sum::default();
+        whole.add(&colours);
+        assert_eq!(whole.value(), 4_999_950_000.0);
+        let (mut low, mut high) = (Sum::default(), Sum::default());
+        low.add(&colours[..51_200]);
+        high.add(&colours[51_200..]);
+        low.append(&high);
+        assert_eq!(low.value(), 4_999_950_000.0);
+    }
+
+    #[test]
+    fn rounding_stays_far_below_what_a_picture_shows() {
+        // A plain sum of these is off by 4e-11 in relation.
+        let mut sum = Sum::default();
+        for _ in 0..1 << 12 {
+            sum.add(&[0.1; 256]);
+        }
+        let exact = 0.1 * f64::from(1 << 20);
+        assert!((sum.value() - exact).abs() < 1e-13 * exact);
+    }
+}

@@ -1,0 +1,78 @@
+//! How a command fails.
+
+use qrt_core::diagnostics::Report;
+use qrt_runtime::counting::CountingError;
+use qrt_runtime::image::ImageError;
+use qrt_runtime::render::RenderError;
+use std::path::Path;
+use std::process::ExitCode;
+use std::{fmt, io};
+
+/// How a command fails.
+#[derive(Debug)]
+pub(crate) enum Failure {
+    /// The command line asks for what there isn't.
+    Usage(String),
+    /// The scene is wrong.
+    Scene(Box<Report>),
+    /// The job failed.
+    Job(String),
+}
+
+impl Failure {
+    /// 2 for the command line and the scene, 1 for the job.
+    pub(crate) fn exit_code(&self) -> ExitCode {
+        ExitCode::from(match self {
+            Self::Usage(_) | Self::Scene(_) => 2,
+            Self::Job(_) => 1,
+        })
+    }
+
+    /// The file system says no.
+    pub(crate) fn file(path: &Path, error: &io::Error) -> Self {
+        Self::Job(format!("`{}`: {error}", path.display()))
+    }
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Usage(message) | Self::Job(message) => f.write_str(message),
+            Self::Scene(report) => report.fmt(f),
+        }
+    }
+}
+
+impl From<Report> for Failure {
+    fn from(report: Report) -> Self {
+        Self::Scene(Box::new(report))
+    }
+}
+
+impl From<CountingError> for Failure {
+    fn from(error: CountingError) -> Self {
+        Self::Usage(error.to_string())
+    }
+}
+
+impl From<RenderError> for Failure {
+    fn from(error: RenderError) -> Self {
+        if error.is_refusal() {
+            Self::Usage(error.to_string())
+        } else {
+            Self::Job(error.to_string())
+        }
+    }
+}
+
+impl From<ImageError> for Failure {
+    fn from(error: ImageError) -> Self {
+        match error {
+            ImageError::Extension { .. }
+            | ImageError::Exposure { .. }
+            | ImageError::ExposureOfExr
+            | ImageError::Value { .. } => Self::Usage(error.to_string()),
+            _ => Self::Job(error.to_string()),
+        }
+    }
+}

@@ -1,0 +1,72 @@
+//! `qrt new`: a first scene.
+
+use super::failure::Failure;
+use super::terminal;
+use clap::Args;
+use qrt_core::scene::text::Data;
+use qrt_runtime::replace_file::replace_file;
+use std::fs::OpenOptions;
+use std::io::{self, ErrorKind, Write};
+use std::path::{Path, PathBuf};
+
+const TEMPLATE: &str = include_str!("new.yaml");
+/// What the template's author called it.
+const NAME: &str = "name: first-scene";
+
+/// Write a small commented scene to start from
+#[derive(Clone, Debug, Args)]
+#[command(after_help = "\
+Examples:
+  qrt new box               writes box.yaml
+  qrt render box.yaml       renders it to box.png")]
+pub(crate) struct NewArgs {
+    /// The scene's name; its file is NAME.yaml
+    #[arg(value_name = "NAME")]
+    name: PathBuf,
+    /// Replace a file that is there
+    #[arg(long)]
+    force: bool,
+}
+
+pub(crate) fn run(args: &NewArgs) -> Result<(), Failure> {
+    let path = file(&args.name)?;
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    let name = format!("name: {}", Data::text(stem).canonical());
+    let text = TEMPLATE.replacen(NAME, &name, 1);
+    let written = if args.force {
+        replace_file(&path, |out| out.write_all(text.as_bytes()))
+    } else {
+        create(&path, &text)
+    };
+    match written {
+        Ok(()) => terminal::print(&format!(
+            "{path}: render it with `qrt render {path}`\n",
+            path = path.display()
+        )),
+        Err(error) if error.kind() == ErrorKind::AlreadyExists => Err(Failure::Usage(format!(
+            "`{}` is already there; `--force` replaces it",
+            path.display()
+        ))),
+        Err(error) => Err(Failure::file(&path, &error)),
+    }
+}
+
+/// `box` and `box.yaml` are `box.yaml`; a dot elsewhere is a part of the name.
+fn file(name: &Path) -> Result<PathBuf, Failure> {
+    let Some(last) = name.file_name() else {
+        let message = format!("`{}` names no file", name.display());
+        return Err(Failure::Usage(message));
+    };
+    let extension = name.extension();
+    if extension.is_some_and(|e| e == "yaml" || e == "yml") {
+        return Ok(name.to_path_buf());
+    }
+    let mut last = last.to_owned();
+    last.push(".yaml");
+    Ok(name.with_file_name(last))
+}
+
+fn create(path: &Path, text: &str) -> io::Result<()> {
+    let mut file = OpenOptions::new().write(true).create_new(true).open(path)?;
+    file.write_all(text.as_bytes())
+}

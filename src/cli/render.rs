@@ -1,0 +1,269 @@
+//! `qrt render`: a scene becomes a picture.
+
+use super::failure::Failure;
+use super::progress::Bar;
+use super::{stats, terminal};
+use clap::builder::PossibleValuesParser;
+use clap::{Args, ValueEnum};
+use qrt_core::front;
+use qrt_core::scene::Estimator;
+use qrt_runtime::counting::AVAILABLE;
+use qrt_runtime::image::{self, Encoding, Metadata};
+use qrt_runtime::render::{Options, Progress, RenderError, Rendered, render};
+use std::fs;
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// More threads than any machine profits from.
+const MAX_THREADS: u64 = 4096;
+
+/// Render a scene to a PNG or EXR picture
+///
+/// Traces every path of every pixel, lets the scene's estimator count them, and writes the
+/// picture. The same scene, seed and estimator give the same bytes, on any machine and any number
+/// of threads.
+///
+/// Ctrl-C stops and keeps what is finished in FILE.qrt-partial, beside the picture; the exit code
+/// is then 1. With --resume the same command goes on from there, to the same bytes.
+#[derive(Clone, Debug, Args)]
+#[command(after_help = "\
+Examples:
+  qrt render box.yaml                                   the picture, box.png
+  qrt render box.yaml --estimator exact -o box.exr      without the noise of counting, linear
+  qrt render box.yaml --set sampling.path_bits=16       more paths
+  qrt render box.yaml --set 'film={ width: 8, height: 8 }' --counts box.csv
+  qrt render box.yaml --crop 10,20,4,4 --stats box.json")]
+pub(crate) struct RenderArgs {
+    /// The scene, a YAML file
+    #[arg(value_name = "SCENE")]
+    scene: PathBuf,
+    /// The picture: .png (8-bit sRGB) or .exr (linear 32-bit float) [default: SCENE's name with
+    /// .png, in the current folder]
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// What traces the paths
+    #[arg(long, value_enum, default_value_t = Model::Real)]
+    model: Model,
+    /// How the good ids are counted; exact takes them all, without noise [default: the scene's]
+    #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(estimators()))]
+    estimator: Option<String>,
+    /// Another seed gives other noise
+    #[arg(long, value_name = "S", default_value_t = 0)]
+    seed: u64,
+    /// Render only these pixels: x and y from the top left corner, width and height
+    #[arg(long, value_name = "X,Y,W,H", value_parser = crop)]
+    crop: Option<[u32; 4]>,
+    /// Threads [default: one for each core]
+    #[arg(
+        long,
+        value_name = "N",
+        value_parser = clap::value_parser!(u64).range(1..=MAX_THREADS)
+    )]
+    threads: Option<u64>,
+    /// Stops of exposure: the picture times 2^STOPS; for .png only
+    #[arg(long, value_name = "STOPS", allow_negative_numbers = true)]
+    exposure: Option<f64>,
+    /// Write time, queries, mean colour and more as JSON
+    #[arg(long, value_name = "FILE.json")]
+    stats: Option<PathBuf>,
+    /// Write every channel of every pixel as CSV: x,y,channel,value,good,total,scale
+    #[arg(long, value_name = "FILE.csv")]
+    counts: Option<PathBuf>,
+    /// Override a key of the scene; may be repeated
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    sets: Vec<String>,
+    /// Go on from what an interrupted render has left, if it has
+    #[arg(long)]
+    resume: bool,
+    /// Neither progress nor summary
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+/// What traces the paths.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Model {
+    /// In 64-bit floating point
+    Real,
+}
+
+fn estimators() -> [&'static str; AVAILABLE.len()] {
+    AVAILABLE.map(Estimator::name)
+}
+
+fn crop(text: &str) -> Result<[u32; 4], String> {
+    let numbers: Result<Vec<u32>, _> = text.split(',').map(|n| n.trim().parse()).collect();
+    numbers
+        .ok()
+        .and_then(|numbers| <[u32; 4]>::try_from(numbers).ok())
+        .ok_or_else(|| "four whole numbers, such as 10,20,4,4".to_owned())
+}
+
+pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
+    let Model::Real = args.model;
+    let output = args.output.clone().unwrap_or_else(|| picture(&args.scene));
+    let encoding = Encoding::of(&output, args.exposure)?;
+    let files = [
+        Some(&*output),
+        args.stats.as_deref(),
+        args.counts.as_deref(),
+    ];
+    let files = files.into_iter().flatten();
+    keep_apart(std::iter::once(&*args.scene).chain(files.clone()))?;
+    for file in files {
+        can_be_written(file)?;
+    }
+    let scene = front::load(&args.scene, &args.sets)?.valid;
+    // Known before the work, not after it.
+    Metadata::new().set("scene", scene.scene().name.as_str())?;
+    let checkpoint = checkpoint(&output);
+    if let Some(path) = checkpoint
+        .as_ref()
+        .filter(|path| path.exists() && !args.resume)
+    {
+        terminal::note(&format!(
+            "`{}` of an interrupted render is replaced; `--resume` would go on from it",
+            path.display()
+        ));
+    }
+    let cancel = cancel_on_interrupt()?;
+    let bar = Bar::new(!args.quiet);
+    let show = |progress: Progress| bar.show(progress);
+    let options = Options {
+        seed: args.seed,
+        crop: args.crop,
+        estimator: args.estimator.as_deref().and_then(Estimator::from_name),
+        threads: args.threads.and_then(|n| NonZeroUsize::new(n as usize)),
+        checkpoint: checkpoint.clone(),
+        resume: args.resume,
+        cancel: Some(&cancel),
+        progress: Some(&show),
+        ..Options::default()
+    };
+    let rendered = render(&scene, &options);
+    bar.clear();
+    let rendered = rendered.map_err(|error| match &error {
+        RenderError::Interrupted {
+            checkpoint: Some(_),
+            ..
+        } => Failure::Job(format!(
+            "{error}; the same command with `--resume` goes on from there"
+        )),
+        _ => error.into(),
+    })?;
+
+    let mut metadata = rendered.metadata(&scene)?;
+    if let Encoding::Png { exposure } = encoding {
+        metadata.set("exposure", exposure.to_string())?;
+    }
+    let clipped = image::save(&output, &rendered.image, &metadata, encoding)?;
+    if let Some(path) = &args.counts {
+        image::write_counts(path, rendered.counts())?;
+    }
+    if let Some(path) = &args.stats {
+        stats::write(path, &scene, &rendered, clipped)?;
+    }
+    // Only now is everything safe.
+    if let Some(path) = &checkpoint {
+        fs::remove_file(path).map_err(|error| Failure::file(path, &error))?;
+    }
+    if args.quiet {
+        return Ok(());
+    }
+    terminal::print(&summary(&output, &rendered, clipped))
+}
+
+/// `folder/box.yaml` is rendered to `box.png`.
+fn picture(scene: &Path) -> PathBuf {
+    let mut name = scene.file_stem().unwrap_or("scene".as_ref()).to_owned();
+    name.push(".png");
+    name.into()
+}
+
+/// Beside the picture; none for a pipe or a device, beside which there is no place.
+fn checkpoint(output: &Path) -> Option<PathBuf> {
+    if is_device(output) {
+        return None;
+    }
+    let mut name = output.as_os_str().to_owned();
+    name.push(".qrt-partial");
+    Some(name.into())
+}
+
+/// Finds out before the work what can be known of it: that there is a folder to write to, and no
+/// folder in the file's place.
+fn can_be_written(file: &Path) -> Result<(), Failure> {
+    if file.is_dir() {
+        let message = format!("`{}` is a folder", file.display());
+        return Err(Failure::Usage(message));
+    }
+    match file.parent() {
+        Some(folder) if folder != Path::new("") && !folder.is_dir() => Err(Failure::Job(format!(
+            "`{}`: there is no folder `{}`",
+            file.display(),
+            folder.display()
+        ))),
+        _ => Ok(()),
+    }
+}
+
+/// A device or a pipe: what is there and is no file.
+fn is_device(path: &Path) -> bool {
+    fs::metadata(path).is_ok_and(|found| !found.is_file())
+}
+
+/// Refuses to write one file over another, or over the scene. Devices take what is written to them
+/// one after another.
+fn keep_apart<'a>(files: impl Iterator<Item = &'a Path>) -> Result<(), Failure> {
+    let mut known: Vec<PathBuf> = Vec::new();
+    for file in files {
+        // A file that isn't there yet is told by its name.
+        let real = fs::canonicalize(file).unwrap_or_else(|_| file.to_path_buf());
+        if !is_device(&real) && known.contains(&real) {
+            let message = format!("`{}` is used for two different things", file.display());
+            return Err(Failure::Usage(message));
+        }
+        known.push(real);
+    }
+    Ok(())
+}
+
+/// A flag that the first Ctrl-C sets. The second ends the process at once; the finished tiles are
+/// safe then, too.
+fn cancel_on_interrupt() -> Result<Arc<AtomicBool>, Failure> {
+    let cancel = Arc::new(AtomicBool::new(false));
+    let flag = Arc::clone(&cancel);
+    let handler = move || {
+        if flag.swap(true, Ordering::Relaxed) {
+            std::process::exit(1);
+        }
+    };
+    match ctrlc::set_handler(handler) {
+        Ok(()) => Ok(cancel),
+        Err(error) => Err(Failure::Job(format!("Ctrl-C cannot be handled: {error}"))),
+    }
+}
+
+fn summary(output: &Path, rendered: &Rendered, clipped: u64) -> String {
+    let Rendered { image, paths, .. } = rendered;
+    let clipped = match clipped {
+        0 => String::new(),
+        _ => format!(
+            "{clipped} of {} pixels are clipped: lower --exposure, or write .exr\n",
+            image.pixels.len()
+        ),
+    };
+    format!(
+        "{}: {} x {} pixels, {paths} paths in {:.2} s ({:.2} Mpaths/s), estimator {}, {} queries\n\
+         {clipped}",
+        output.display(),
+        image.width,
+        image.height,
+        rendered.seconds,
+        stats::paths_per_second(rendered) / 1e6,
+        rendered.estimator,
+        rendered.total_queries(),
+    )
+}

@@ -1,0 +1,64 @@
+//! What `--stats` writes.
+
+use super::failure::Failure;
+use qrt_core::valid::ValidScene;
+use qrt_runtime::peak_memory::peak_resident_bytes;
+use qrt_runtime::render::Rendered;
+use qrt_runtime::replace_file::replace_file;
+use serde_json::{Value, json};
+use std::io::Write;
+use std::path::Path;
+
+/// Writes the statistics of a picture as JSON.
+///
+/// # Errors
+/// What the file system says.
+pub(crate) fn write(
+    path: &Path,
+    scene: &ValidScene,
+    rendered: &Rendered,
+    clipped: u64,
+) -> Result<(), Failure> {
+    let text = format!("{:#}\n", stats(scene, rendered, clipped));
+    replace_file(path, |out| out.write_all(text.as_bytes()))
+        .map_err(|error| Failure::file(path, &error))
+}
+
+fn stats(scene: &ValidScene, rendered: &Rendered, clipped: u64) -> Value {
+    let written = scene.scene();
+    json!({
+        "version": 1,
+        "qrt": env!("CARGO_PKG_VERSION"),
+        "scene": written.name,
+        "scene_hash": scene.fingerprint().to_string(),
+        "model": "real",
+        "estimator": rendered.estimator.name(),
+        "seed": rendered.seed,
+        "width": written.film.width,
+        "height": written.film.height,
+        "crop": rendered.crop,
+        "depths": written.sampling.depths.len(),
+        "path_bits": written.sampling.path_bits,
+        "paths": rendered.paths,
+        "paths_resumed": rendered.resumed_paths,
+        "seconds": rendered.seconds,
+        "paths_per_second": paths_per_second(rendered),
+        "oracle_queries": whole(rendered.total_queries()),
+        "mean_rgb": rendered.mean(),
+        "bound_rgb": rendered.bound,
+        "clipped_pixels": clipped,
+        "threads": rendered.threads,
+        "peak_memory_bytes": peak_resident_bytes(),
+    })
+}
+
+/// Of the paths that were traced, not taken from a checkpoint.
+pub(crate) fn paths_per_second(rendered: &Rendered) -> f64 {
+    let traced = rendered.paths - rendered.resumed_paths;
+    traced as f64 / rendered.seconds.max(1e-9)
+}
+
+/// Exact below 2^64; above, to 16 digits.
+fn whole(value: u128) -> Value {
+    u64::try_from(value).map_or_else(|_| json!(value as f64), |value| json!(value))
+}

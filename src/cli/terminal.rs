@@ -1,0 +1,45 @@
+//! Standard output and standard error. A reader that has gone away is never a panic: on standard
+//! output it ends the output quietly, and what can't be said on standard error isn't said.
+
+use super::failure::Failure;
+use std::env;
+use std::io::{self, ErrorKind, IsTerminal, Write};
+
+/// Writes `text` to standard output.
+///
+/// # Errors
+/// If it can't be written, other than to a reader that has seen enough.
+pub(crate) fn print(text: &str) -> Result<(), Failure> {
+    let mut out = io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            Err(Failure::Job(format!("standard output: {error}")))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// A remark on standard error.
+pub(crate) fn note(text: &str) {
+    let _ = writeln!(io::stderr(), "note: {text}");
+}
+
+/// What went wrong, on standard error.
+pub(crate) fn error(failure: &Failure) {
+    let colour = colour();
+    let text = match failure {
+        Failure::Scene(report) => report.render(colour),
+        Failure::Usage(message) | Failure::Job(message) if colour => {
+            format!("\u{1b}[1m\u{1b}[91merror\u{1b}[0m: {message}\n")
+        }
+        Failure::Usage(message) | Failure::Job(message) => format!("error: {message}\n"),
+    };
+    let _ = io::stderr().write_all(text.as_bytes());
+}
+
+/// Colours are for terminals, and for whoever hasn't set <https://no-color.org>.
+fn colour() -> bool {
+    let unwanted = env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty())
+        || env::var_os("TERM").is_some_and(|value| value == "dumb");
+    io::stderr().is_terminal() && !unwanted
+}
