@@ -20,8 +20,9 @@ pub(crate) struct PhongStage<const C: usize> {
     diffuse: [f64; C],
     specular: [f64; C],
     exponent: f64,
-    /// The own map; none where one column cannot hold two lobes.
-    lobes: Option<Lobes<C>>,
+    lobes: Lobes<C>,
+    /// One column cannot hold two lobes: then there is no own map.
+    one_column: bool,
 }
 
 #[derive(Clone, Debug)]
@@ -48,17 +49,16 @@ impl<const C: usize> PhongStage<C> {
         let (base, lobe) = (diffuse.iter().sum::<f64>(), specular.iter().sum::<f64>());
         let columns = 1_u64 << bits;
         let share = base / (base + lobe);
-        let split = if lobe == 0.0 {
-            Some(columns)
+        let one_column = bits == 0 && base > 0.0 && lobe > 0.0;
+        let split = if lobe == 0.0 || one_column {
+            columns
         } else if base == 0.0 {
-            Some(0)
-        } else if bits == 0 {
-            None
+            0
         } else {
             // A share near 0 or 1 still leaves each lobe a column: without one it would vanish.
-            Some(((share * columns as f64).round() as u64).clamp(1, columns - 1))
+            ((share * columns as f64).round() as u64).clamp(1, columns - 1)
         };
-        let lobes = split.map(|split| {
+        let lobes = {
             let p = split as f64 / columns as f64;
             let gain = (exponent + 2.0) / (exponent + 1.0);
             // Height and radius on the unit sphere about the axis, by column.
@@ -83,25 +83,24 @@ impl<const C: usize> PhongStage<C> {
                 base: pick(diffuse).map(|kd| if p > 0.0 { kd / p } else { 0.0 }),
                 lobe: pick(specular).map(|ks| if p < 1.0 { ks * gain / (1.0 - p) } else { 0.0 }),
             }
-        });
+        };
         Self {
             diffuse: pick(diffuse),
             specular: pick(specular),
             exponent,
             lobes,
+            one_column,
         }
     }
 
     /// Does the surface bring a map of its own at this depth?
     pub(crate) fn has_map(&self) -> bool {
-        self.lobes.is_some()
+        !self.one_column
     }
 
     /// The greatest weight, per channel, under the own map.
-    pub(crate) fn bound(&self) -> Option<[f64; C]> {
-        self.lobes
-            .as_ref()
-            .map(|lobes| std::array::from_fn(|c| lobes.base[c].max(lobes.lobe[c])))
+    pub(crate) fn bound(&self) -> [f64; C] {
+        std::array::from_fn(|c| self.lobes.base[c].max(self.lobes.lobe[c]))
     }
 
     /// The greatest value of `f`, per channel.
@@ -142,8 +141,8 @@ impl<const C: usize> PhongStage<C> {
         outgoing: &Vector<A>,
         u: A::Index,
         [cos, sin]: [A::Real; 2],
-    ) -> Option<(Vector<A>, [A::Real; C])> {
-        let lobes = self.lobes.as_ref()?;
+    ) -> (Vector<A>, [A::Real; C]) {
+        let lobes = &self.lobes;
         let (zero, one) = (cx.real(0.0), cx.real(1.0));
         let radius = cx.sampled(&lobes.sin, u);
         let height = cx.sampled(&lobes.cos, u);
@@ -170,6 +169,6 @@ impl<const C: usize> PhongStage<C> {
             let base = cx.real(base);
             *weight = cx.select(on_lobe, lobe, base);
         }
-        Some((direction, weight))
+        (direction, weight)
     }
 }

@@ -46,6 +46,8 @@ pub(crate) struct ScatterStage<const C: usize> {
     custom: Vec<(u32, CustomStage)>,
     /// Does any surface ask for the viewer's direction in the local frame?
     local: bool,
+    /// Does any surface take its direction from `map`?
+    uses_map: bool,
 }
 
 /// A custom BSDF, made ready for one depth.
@@ -142,6 +144,8 @@ impl<const C: usize> ScatterStage<C> {
         }
         let ggx = run(4);
         let local = !ggx.is_empty() || !phong.is_empty() || !custom.is_empty();
+        let maps_of_their_own = !replaces && phong.iter().all(|(_, phong)| phong.has_map());
+        let uses_map = !run(1).is_empty() || (local && !maps_of_their_own);
         Self {
             depth,
             bits,
@@ -182,6 +186,7 @@ impl<const C: usize> ScatterStage<C> {
             phong,
             custom,
             local,
+            uses_map,
         }
     }
 
@@ -203,12 +208,13 @@ impl<const C: usize> ScatterStage<C> {
                 .phong
                 .iter()
                 .filter(|(surface, _)| *surface == number)
-                .map(
-                    |(_, phong)| match phong.bound().filter(|_| !self.replaces) {
-                        Some(bound) => bound[c],
-                        None => PI * phong.value_bound()[c] * self.factor_bound,
-                    },
-                )
+                .map(|(_, phong)| {
+                    if self.replaces || !phong.has_map() {
+                        PI * phong.value_bound()[c] * self.factor_bound
+                    } else {
+                        phong.bound()[c]
+                    }
+                })
                 .fold(0.0, f64::max),
             Scatter::Custom(_) => self
                 .custom
@@ -224,11 +230,16 @@ impl<const C: usize> ScatterStage<C> {
     pub(crate) fn scatter<A: Arith>(&self, cx: &mut A, at: &Vertex<A>) -> Scattered<A, C> {
         let mut chosen: Option<Scattered<A, C>> = None;
         let tint = cx.rows(&self.tint, at.surface);
-        let local = self.local.then(|| LocalFrame::new(cx, at));
-
-        if let Some(mask) = members(cx, at, &self.lambertian) {
+        let mapped = if self.uses_map {
             let [x, y, z, factor] = self.map.evaluate(cx, self.depth, None);
-            let direction = to_scene(cx, at, &[x, y, z]);
+            Some(([x, y, z], factor))
+        } else {
+            None
+        };
+        if let (Some((incoming, factor)), Some(mask)) =
+            (mapped, members(cx, at, &self.lambertian))
+        {
+            let direction = to_scene(cx, at, &incoming);
             let weight = match self.map.constant(3) {
                 Some(1.0) => tint,
                 _ => vector::scale(cx, &tint, factor),
@@ -252,26 +263,30 @@ impl<const C: usize> ScatterStage<C> {
             let scattered = self.dielectric(cx, at);
             choose(cx, &mut chosen, mask, scattered);
         }
-        let Some(local) = local else {
+        if !self.local {
             return chosen.unwrap_or_else(|| nothing(cx, at));
-        };
+        }
+        let local = LocalFrame::new(cx, at);
         if let Some(mask) = members(cx, at, &self.ggx) {
-            let (incoming, value) = self.ggx(cx, at, &local);
+            let (incoming, value) = self.ggx(cx, at, &local, mapped);
             let weight = vector::scale(cx, &tint, value);
             let direction = to_scene(cx, at, &incoming);
             choose(cx, &mut chosen, mask, Scattered { direction, weight });
         }
         for (surface, phong) in &self.phong {
             if let Some(mask) = members(cx, at, &(*surface..surface + 1)) {
-                let (incoming, weight) = self.phong(cx, phong, &local);
+                let (incoming, weight) = self.phong(cx, phong, &local, mapped);
                 let direction = to_scene(cx, at, &incoming);
                 choose(cx, &mut chosen, mask, Scattered { direction, weight });
             }
         }
         for (surface, custom) in &self.custom {
             if let Some(mask) = members(cx, at, &(*surface..surface + 1)) {
-                let map = custom.direction.as_ref().unwrap_or(&self.map);
-                let incoming = map.evaluate(cx, self.depth, None);
+                let incoming = match (&custom.direction, mapped) {
+                    (Some(own), _) => own.evaluate(cx, self.depth, None),
+                    (None, Some((incoming, _))) => incoming,
+                    (None, None) => at.normal,
+                };
                 let angles = Angles {
                     cos_o: local.outgoing[2],
                     cos_a: local.cos_a(cx, &incoming),
@@ -346,11 +361,10 @@ impl<const C: usize> ScatterStage<C> {
         cx: &mut A,
         at: &Vertex<A>,
         local: &LocalFrame<A>,
+        mapped: Option<(Vector<A>, A::Real)>,
     ) -> (Vector<A>, A::Real) {
         let [alpha] = cx.rows(&self.roughness, at.surface);
-        if self.replaces {
-            let [x, y, z, factor] = self.map.evaluate(cx, self.depth, None);
-            let incoming = [x, y, z];
+        if let (true, Some((incoming, factor))) = (self.replaces, mapped) {
             let value = microfacet::value(cx, alpha, &local.outgoing, &incoming);
             let value = cx.scale(value, PI);
             (incoming, cx.mul(value, factor))
@@ -371,23 +385,18 @@ impl<const C: usize> ScatterStage<C> {
         cx: &mut A,
         phong: &PhongStage<C>,
         local: &LocalFrame<A>,
+        mapped: Option<(Vector<A>, A::Real)>,
     ) -> (Vector<A>, [A::Real; C]) {
-        if !self.replaces && phong.has_map() {
-            let u = cx.coordinate(Coordinate {
-                depth: self.depth,
-                axis: Axis::U,
-            });
+        if let (true, Some((incoming, factor))) = (self.replaces || !phong.has_map(), mapped) {
+            let cos_a = local.cos_a(cx, &incoming);
+            let value = phong.value(cx, cos_a);
+            let factor = cx.scale(factor, PI);
+            (incoming, vector::scale(cx, &value, factor))
+        } else {
+            let u = cx.coordinate(Coordinate { depth: self.depth, axis: Axis::U });
             let azimuth = self.azimuth(cx);
-            if let Some(sampled) = phong.sample(cx, &local.outgoing, u, azimuth) {
-                return sampled;
-            }
+            phong.sample(cx, &local.outgoing, u, azimuth)
         }
-        let [x, y, z, factor] = self.map.evaluate(cx, self.depth, None);
-        let incoming = [x, y, z];
-        let cos_a = local.cos_a(cx, &incoming);
-        let value = phong.value(cx, cos_a);
-        let factor = cx.scale(factor, PI);
-        (incoming, vector::scale(cx, &value, factor))
     }
 }
 

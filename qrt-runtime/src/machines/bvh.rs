@@ -164,3 +164,39 @@ impl<'i, S: pulp::Simd, const W: usize> Nearest<Lanes<'i, S, W>> for Indexed<'_>
         hit
     }
 }
+
+/// What a ray is tried against. (One type, so that the tracer is compiled once for both.)
+pub(crate) enum Faces<'a> {
+    /// All faces, in turn.
+    Few(&'a Geometry),
+    /// Those of the boxes that it meets.
+    Many(Indexed<'a>),
+}
+
+impl<'i, S: pulp::Simd, const W: usize> Nearest<Lanes<'i, S, W>> for Faces<'_> {
+    #[inline(always)]
+    fn nearest(
+        &self,
+        cx: &mut Lanes<'i, S, W>,
+        ray: &Ray<Lanes<'i, S, W>>,
+        wanted: [S::m64s; W],
+    ) -> Hit<Lanes<'i, S, W>> {
+        match self {
+            Self::Few(geometry) => geometry.nearest(cx, ray, wanted),
+            Self::Many(indexed) => indexed.nearest(cx, ray, wanted),
+        }
+    }
+
+    #[inline(always)]
+    fn emitter(
+        &self,
+        cx: &mut Lanes<'i, S, W>,
+        ray: &Ray<Lanes<'i, S, W>>,
+        wanted: [S::m64s; W],
+    ) -> Hit<Lanes<'i, S, W>> {
+        match self {
+            Self::Few(geometry) => geometry.emitter(cx, ray, wanted),
+            Self::Many(indexed) => indexed.emitter(cx, ray, wanted),
+        }
+    }
+}

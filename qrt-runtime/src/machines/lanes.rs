@@ -39,6 +39,22 @@ pub(crate) fn slots<T: bytemuck::Pod, U: bytemuck::Pod>(vector: &mut [T]) -> &mu
     bytemuck::cast_slice_mut(vector)
 }
 
+/// `f` of every lane; not inlined, for the calls outweigh it.
+#[inline(never)]
+fn apply(lanes: &mut [f64], f: impl Fn(f64) -> f64) {
+    for lane in lanes {
+        *lane = f(*lane);
+    }
+}
+
+/// `f` of every lane of two values.
+#[inline(never)]
+fn apply_to_pairs(lanes: &mut [f64], others: &[f64], f: fn(f64, f64) -> f64) {
+    for (lane, &other) in lanes.iter_mut().zip(others) {
+        *lane = f(*lane, other);
+    }
+}
+
 /// Applies an operation register by register. A macro and not a function of a closure: a closure
 /// is compiled without the instruction set until it is inlined, which is left to chance.
 macro_rules! each {
@@ -132,16 +148,21 @@ impl<S: pulp::Simd, const W: usize> Arith for Lanes<'_, S, W> {
     }
     #[inline(always)]
     fn function(&mut self, function: Function, a: Self::Real) -> Self::Real {
-        let a = lanes::<_, f64>(&a);
-        self.reals(|lane| function.value(a[lane]))
+        let mut result = a;
+        apply(slots(&mut result), |x| function.value(x));
+        result
     }
     #[inline(always)]
     fn pow(&mut self, a: Self::Real, b: Self::Real) -> Self::Real {
-        self.reals(|lane| libm::pow(lanes(&a)[lane], lanes(&b)[lane]))
+        let mut result = a;
+        apply_to_pairs(slots(&mut result), lanes(&b), libm::pow);
+        result
     }
     #[inline(always)]
     fn atan2(&mut self, y: Self::Real, x: Self::Real) -> Self::Real {
-        self.reals(|lane| libm::atan2(lanes(&y)[lane], lanes(&x)[lane]))
+        let mut result = y;
+        apply_to_pairs(slots(&mut result), lanes(&x), libm::atan2);
+        result
     }
 
     #[inline(always)]

@@ -1,6 +1,6 @@
 //! The real machine: every path of a pixel, in `f64`.
 
-use super::bvh::{Bvh, FEW_FACES, Indexed};
+use super::bvh::{Bvh, FEW_FACES, Faces, Indexed};
 use super::lanes::{BLOCK, Inputs, Lanes, lanes};
 
 /// Registers per value: two give the processor independent work while a division is under way.
@@ -241,17 +241,17 @@ impl WithSimd for TraceBlock<'_> {
     #[inline(always)]
     fn with_simd<S: pulp::Simd>(self, simd: S) {
         let geometry = self.stage.geometry();
-        let indexed = self.bvh.map(|bvh| Indexed::new(geometry, bvh));
+        let faces = match self.bvh {
+            Some(bvh) => Faces::Many(Indexed::new(geometry, bvh)),
+            None => Faces::Few(geometry),
+        };
         for first in (0..self.count).step_by(Lanes::<S, WIDTH>::COUNT) {
             let mut cx = Lanes::<S, WIDTH> {
                 simd,
                 inputs: self.inputs,
                 first,
             };
-            let colour = match &indexed {
-                Some(indexed) => trace(&mut cx, self.stage, indexed),
-                None => trace(&mut cx, self.stage, geometry),
-            };
+            let colour = trace(&mut cx, self.stage, &faces);
             for (out, colour) in self.colours.iter_mut().zip(&colour) {
                 out[first..first + Lanes::<S, WIDTH>::COUNT].copy_from_slice(lanes(colour));
             }
