@@ -57,14 +57,12 @@ pub fn trace<A: Arith, N: Nearest<A>, const C: usize>(
             let shows = cx.and(emits, vertex.front);
             let shows = cx.and(shows, alive);
             let radiance = cx.rows(&stage.radiance, surface);
-            for c in 0..C {
-                let arriving = match throughput {
-                    Some(throughput) => cx.mul(throughput[c], radiance[c]),
-                    None => radiance[c],
-                };
-                let seen = cx.select(shows, arriving, zero);
-                colour[c] = cx.add(colour[c], seen);
-            }
+            let arriving = match throughput {
+                Some(throughput) => vector::mul(cx, &throughput, &radiance),
+                None => radiance,
+            };
+            let seen = vector::select(cx, shows, &arriving, &[zero; C]);
+            colour = vector::add(cx, &colour, &seen);
         }
         let Some(scatter) = scatter else {
             break;

@@ -236,8 +236,7 @@ impl<const C: usize> ScatterStage<C> {
         } else {
             None
         };
-        if let (Some((incoming, factor)), Some(mask)) =
-            (mapped, members(cx, at, &self.lambertian))
+        if let (Some((incoming, factor)), Some(mask)) = (mapped, members(cx, at, &self.lambertian))
         {
             let direction = to_scene(cx, at, &incoming);
             let weight = match self.map.constant(3) {
@@ -393,7 +392,10 @@ impl<const C: usize> ScatterStage<C> {
             let factor = cx.scale(factor, PI);
             (incoming, vector::scale(cx, &value, factor))
         } else {
-            let u = cx.coordinate(Coordinate { depth: self.depth, axis: Axis::U });
+            let u = cx.coordinate(Coordinate {
+                depth: self.depth,
+                axis: Axis::U,
+            });
             let azimuth = self.azimuth(cx);
             phong.sample(cx, &local.outgoing, u, azimuth)
         }

@@ -26,13 +26,7 @@ pub(crate) fn scale<A: Arith, const N: usize>(
     a: &[A::Real; N],
     s: A::Real,
 ) -> [A::Real; N] {
-    let mut scaled = *a;
-    // Loops and not closures: a closure is a function without the lanes' instruction set until it
-    // is inlined.
-    for component in &mut scaled {
-        *component = cx.mul(*component, s);
-    }
-    scaled
+    mul(cx, a, &[s; N])
 }
 
 /// Component by component.
@@ -42,16 +36,41 @@ pub(crate) fn mul<A: Arith, const N: usize>(
     a: &[A::Real; N],
     b: &[A::Real; N],
 ) -> [A::Real; N] {
+    // Neither closures nor loops: a closure is a function without the lanes' instruction set until
+    // it is inlined, and the many short loops of a whole tracer cost minutes of compiling.
+    const { assert!(N <= 3) };
     let mut product = *a;
-    for (component, &b) in product.iter_mut().zip(b) {
-        *component = cx.mul(*component, b);
+    if N > 0 {
+        product[0] = cx.mul(a[0], b[0]);
+    }
+    if N > 1 {
+        product[1] = cx.mul(a[1], b[1]);
+    }
+    if N > 2 {
+        product[2] = cx.mul(a[2], b[2]);
     }
     product
 }
 
+/// Component by component.
 #[inline(always)]
-pub(crate) fn add<A: Arith>(cx: &mut A, a: &Vector<A>, b: &Vector<A>) -> Vector<A> {
-    [cx.add(a[0], b[0]), cx.add(a[1], b[1]), cx.add(a[2], b[2])]
+pub(crate) fn add<A: Arith, const N: usize>(
+    cx: &mut A,
+    a: &[A::Real; N],
+    b: &[A::Real; N],
+) -> [A::Real; N] {
+    const { assert!(N <= 3) };
+    let mut sum = *a;
+    if N > 0 {
+        sum[0] = cx.add(a[0], b[0]);
+    }
+    if N > 1 {
+        sum[1] = cx.add(a[1], b[1]);
+    }
+    if N > 2 {
+        sum[2] = cx.add(a[2], b[2]);
+    }
+    sum
 }
 
 #[inline(always)]
@@ -72,9 +91,16 @@ pub(crate) fn select<A: Arith, const N: usize>(
     a: &[A::Real; N],
     b: &[A::Real; N],
 ) -> [A::Real; N] {
+    const { assert!(N <= 3) };
     let mut chosen = *a;
-    for (component, &b) in chosen.iter_mut().zip(b) {
-        *component = cx.select(c, *component, b);
+    if N > 0 {
+        chosen[0] = cx.select(c, a[0], b[0]);
+    }
+    if N > 1 {
+        chosen[1] = cx.select(c, a[1], b[1]);
+    }
+    if N > 2 {
+        chosen[2] = cx.select(c, a[2], b[2]);
     }
     chosen
 }

@@ -60,7 +60,11 @@ impl Bvh {
         let tree = build::tree(&build::boxes(geometry));
         let place = packet::planes_of_faces(geometry);
         Self {
-            packets: tree.leaves.iter().map(|leaf| Packet::new(geometry, &place, leaf)).collect(),
+            packets: tree
+                .leaves
+                .iter()
+                .map(|leaf| Packet::new(geometry, &place, leaf))
+                .collect(),
             nodes: tree.nodes,
             hides_emitter: faces.iter().map(|face| face.hides_emitter).collect(),
             emits: faces.iter().map(|face| face.emits).collect(),
@@ -80,7 +84,11 @@ pub(crate) struct Indexed<'a> {
 
 impl<'a> Indexed<'a> {
     pub(crate) fn new(geometry: &'a Geometry, bvh: &'a Bvh) -> Self {
-        Self { geometry, bvh, stack: Cell::default() }
+        Self {
+            geometry,
+            bvh,
+            stack: Cell::default(),
+        }
     }
 }
 
@@ -154,7 +162,10 @@ impl<'i, S: pulp::Simd, const W: usize> Nearest<Lanes<'i, S, W>> for Indexed<'_>
             let lane = left.trailing_zeros() as usize;
             left &= left - 1;
             let distance = lanes::<_, f64>(&hit.distance)[lane];
-            if self.bvh.hides(cx.narrow(), &line(ray, lane), &mut stack, distance) {
+            if self
+                .bvh
+                .hides(cx.narrow(), &line(ray, lane), &mut stack, distance)
+            {
                 slots::<_, u64>(&mut hidden)[lane] = 1;
             }
         }

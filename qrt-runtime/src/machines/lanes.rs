@@ -55,13 +55,71 @@ fn apply_to_pairs(lanes: &mut [f64], others: &[f64], f: fn(f64, f64) -> f64) {
     }
 }
 
+// What goes lane by lane through memory is not inlined: it gains nothing from the instruction set,
+// and its loops, unrolled all over the tracer, cost minutes of compiling.
+
+/// Row `rows[lane]` of `table`, column by column.
+#[inline(always)]
+fn gather_rows<const K: usize>(table: &[[f64; K]], rows: &[u64], columns: &mut [f64]) {
+    let count = rows.len();
+    for (lane, &row) in rows.iter().enumerate() {
+        let row = &table[row as usize];
+        for (column, &value) in row.iter().enumerate() {
+            columns[column * count + lane] = value;
+        }
+    }
+}
+
+/// Replaces each row by the entry of `table` there.
+#[inline(never)]
+fn gather_entries(table: &[u32], rows: &mut [u64]) {
+    for row in rows {
+        *row = u64::from(table[*row as usize]);
+    }
+}
+
+#[inline(never)]
+fn widen(indices: &[u32], wide: &mut [u64]) {
+    for (wide, &index) in wide.iter_mut().zip(indices) {
+        *wide = u64::from(index);
+    }
+}
+
+#[inline(never)]
+fn cell_centres(indices: &[u64], bits: u32, centres: &mut [f64]) {
+    for (centre, &index) in centres.iter_mut().zip(indices) {
+        *centre = cell_centre(index as u32, bits);
+    }
+}
+
+#[inline(always)]
+fn sample(function: &Sampled, indices: &[u64], values: &mut [f64]) {
+    match function.table() {
+        Some(table) => {
+            for (value, &index) in values.iter_mut().zip(indices) {
+                *value = table[index as usize];
+            }
+        }
+        None => evaluate(function, indices, values),
+    }
+}
+
+#[inline(never)]
+fn evaluate(function: &Sampled, indices: &[u64], values: &mut [f64]) {
+    for (value, &index) in values.iter_mut().zip(indices) {
+        *value = function.at(index as u32);
+    }
+}
+
 /// Applies an operation register by register. A macro and not a function of a closure: a closure
 /// is compiled without the instruction set until it is inlined, which is left to chance.
 macro_rules! each {
     ($cx:ident, $operation:ident, $first:ident $(, $rest:ident)*) => {{
+        // No loop: thousands of them, one an operation, cost minutes of compiling.
+        const { assert!(W == 1 || W == 2) };
         let mut result = [$cx.simd.$operation($first[0] $(, $rest[0])*); W];
-        for k in 1..W {
-            result[k] = $cx.simd.$operation($first[k] $(, $rest[k])*);
+        if W == 2 {
+            result[W - 1] = $cx.simd.$operation($first[W - 1] $(, $rest[W - 1])*);
         }
         result
     }};
@@ -71,31 +129,15 @@ impl<S: pulp::Simd, const W: usize> Lanes<'_, S, W> {
     /// The same instruction set with one register a value.
     #[inline(always)]
     pub(crate) fn narrow(&self) -> Lanes<'_, S, 1> {
-        Lanes { simd: self.simd, inputs: self.inputs, first: self.first }
+        Lanes {
+            simd: self.simd,
+            inputs: self.inputs,
+            first: self.first,
+        }
     }
 
     /// Paths in a value.
     pub(crate) const COUNT: usize = W * S::F64_LANES;
-
-    #[inline(always)]
-    fn reals(&self, value: impl Fn(usize) -> f64) -> [S::f64s; W] {
-        let mut vector = [self.simd.splat_f64s(0.0); W];
-        let slots: &mut [f64] = bytemuck::cast_slice_mut(&mut vector);
-        for (lane, slot) in slots.iter_mut().enumerate() {
-            *slot = value(lane);
-        }
-        vector
-    }
-
-    #[inline(always)]
-    fn indices(&self, value: impl Fn(usize) -> u64) -> [S::u64s; W] {
-        let mut vector = [self.simd.splat_u64s(0); W];
-        let slots: &mut [u64] = bytemuck::cast_slice_mut(&mut vector);
-        for (lane, slot) in slots.iter_mut().enumerate() {
-            *slot = value(lane);
-        }
-        vector
-    }
 }
 
 impl<S: pulp::Simd, const W: usize> Arith for Lanes<'_, S, W> {
@@ -192,10 +234,7 @@ impl<S: pulp::Simd, const W: usize> Arith for Lanes<'_, S, W> {
     }
     #[inline(always)]
     fn possible(&mut self, a: Self::Bool) -> bool {
-        let mut any = a[0];
-        for &more in &a[1..] {
-            any = self.simd.or_m64s(any, more);
-        }
+        let any = self.simd.or_m64s(a[0], a[W - 1]);
         self.simd.first_true_m64s(any) < S::F64_LANES
     }
     #[inline(always)]
@@ -223,47 +262,45 @@ impl<S: pulp::Simd, const W: usize> Arith for Lanes<'_, S, W> {
     }
     #[inline(always)]
     fn rows<const K: usize>(&mut self, table: &[[f64; K]], row: Self::Index) -> [Self::Real; K] {
-        let mut columns = [[self.simd.splat_f64s(0.0); W]; K];
-        for (lane, &row) in lanes::<_, u64>(&row).iter().enumerate() {
-            let row = &table[row as usize];
-            for (column, &value) in columns.iter_mut().zip(row) {
-                let slots: &mut [f64] = bytemuck::cast_slice_mut(column);
-                slots[lane] = value;
-            }
-        }
+        let mut columns = [self.real(0.0); K];
+        gather_rows(table, lanes(&row), slots(columns.as_flattened_mut()));
         columns
     }
     #[inline(always)]
     fn entry(&mut self, table: &[u32], row: Self::Index) -> Self::Index {
-        let row = lanes::<_, u64>(&row);
-        self.indices(|lane| u64::from(table[row[lane] as usize]))
+        let mut entries = row;
+        gather_entries(table, slots(&mut entries));
+        entries
     }
 
     #[inline(always)]
     fn coordinate(&mut self, coordinate: Coordinate) -> Self::Index {
         let indices = &self.inputs.indices[coordinate.dimension()];
-        let indices = &indices[self.first..self.first + Self::COUNT];
-        self.indices(|lane| u64::from(indices[lane]))
+        let mut wide = self.index(0);
+        widen(
+            &indices[self.first..self.first + Self::COUNT],
+            slots(&mut wide),
+        );
+        wide
     }
     #[inline(always)]
     fn centre(&mut self, index: Self::Index, bits: u32) -> Self::Real {
-        self.reals(|lane| cell_centre(lanes::<_, u64>(&index)[lane] as u32, bits))
+        let mut centres = self.real(0.0);
+        cell_centres(lanes(&index), bits, slots(&mut centres));
+        centres
     }
     #[inline(always)]
     fn sampled(&mut self, function: &Sampled, index: Self::Index) -> Self::Real {
-        let index = lanes::<_, u64>(&index);
-        match function.table() {
-            Some(table) => self.reals(|lane| table[index[lane] as usize]),
-            None => self.reals(|lane| function.at(index[lane] as u32)),
-        }
+        let mut values = self.real(0.0);
+        sample(function, lanes(&index), slots(&mut values));
+        values
     }
     #[inline(always)]
     fn pixel(&mut self) -> [Self::Real; 2] {
         let range = self.first..self.first + Self::COUNT;
-        let (column, row) = (&self.inputs.column[range.clone()], &self.inputs.row[range]);
-        [
-            self.reals(|lane| column[lane]),
-            self.reals(|lane| row[lane]),
-        ]
+        let mut pixel = [self.real(0.0); 2];
+        slots(&mut pixel[0]).copy_from_slice(&self.inputs.column[range.clone()]);
+        slots(&mut pixel[1]).copy_from_slice(&self.inputs.row[range]);
+        pixel
     }
 }

@@ -21,10 +21,16 @@ pub(super) struct Bounds {
 }
 
 impl Bounds {
-    const EMPTY: Self = Self { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY };
+    const EMPTY: Self = Self {
+        low: DVec3::INFINITY,
+        high: DVec3::NEG_INFINITY,
+    };
 
     fn with(self, other: Self) -> Self {
-        Self { low: self.low.min(other.low), high: self.high.max(other.high) }
+        Self {
+            low: self.low.min(other.low),
+            high: self.high.max(other.high),
+        }
     }
 
     fn centre(self) -> DVec3 {
@@ -50,18 +56,31 @@ pub(super) fn boxes(geometry: &Geometry) -> Vec<Bounds> {
     let of_face = |label: u32| {
         let corners = &geometry.corners[label as usize];
         let around = corners.iter().fold(Bounds::EMPTY, |bounds, &corner| {
-            bounds.with(Bounds { low: corner, high: corner })
+            bounds.with(Bounds {
+                low: corner,
+                high: corner,
+            })
         });
         // The same share of a far corner's coordinates, for planes that were averaged.
         let margin = margin * (1.0 + around.high.abs().max(around.low.abs()).max_element());
-        Bounds { low: around.low - margin, high: around.high + margin }
+        Bounds {
+            low: around.low - margin,
+            high: around.high + margin,
+        }
     };
-    geometry.faces.iter().map(|face| of_face(face.label)).collect()
+    geometry
+        .faces
+        .iter()
+        .map(|face| of_face(face.label))
+        .collect()
 }
 
 /// The tree over `boxes`.
 pub(super) fn tree(boxes: &[Bounds]) -> Tree {
-    let mut tree = Tree { nodes: Vec::new(), leaves: Vec::new() };
+    let mut tree = Tree {
+        nodes: Vec::new(),
+        leaves: Vec::new(),
+    };
     if !boxes.is_empty() {
         let mut faces: Vec<u32> = (0..boxes.len() as u32).collect();
         tree.node(boxes, &mut faces, 0);
@@ -73,9 +92,20 @@ impl Tree {
     /// A node over `faces`, whose number it returns. `depth` counts binary splits above.
     fn node(&mut self, boxes: &[Bounds], faces: &mut [u32], depth: usize) -> u32 {
         let number = self.nodes.len() as u32;
-        let empty = [[f64::INFINITY; WIDE], [f64::INFINITY; WIDE], [f64::INFINITY; WIDE]];
-        let full = [[f64::NEG_INFINITY; WIDE], [f64::NEG_INFINITY; WIDE], [f64::NEG_INFINITY; WIDE]];
-        self.nodes.push(Node { boxes: [empty, full], children: [Child::Absent; WIDE] });
+        let empty = [
+            [f64::INFINITY; WIDE],
+            [f64::INFINITY; WIDE],
+            [f64::INFINITY; WIDE],
+        ];
+        let full = [
+            [f64::NEG_INFINITY; WIDE],
+            [f64::NEG_INFINITY; WIDE],
+            [f64::NEG_INFINITY; WIDE],
+        ];
+        self.nodes.push(Node {
+            boxes: [empty, full],
+            children: [Child::Absent; WIDE],
+        });
         // Split the largest part again and again until there are eight.
         let mut parts = vec![(faces, depth)];
         while parts.len() < WIDE {
@@ -109,7 +139,9 @@ impl Tree {
 }
 
 fn around(boxes: &[Bounds], faces: &[u32]) -> Bounds {
-    faces.iter().fold(Bounds::EMPTY, |bounds, &face| bounds.with(boxes[face as usize]))
+    faces.iter().fold(Bounds::EMPTY, |bounds, &face| {
+        bounds.with(boxes[face as usize])
+    })
 }
 
 fn cost(boxes: &[Bounds], faces: &[u32]) -> f64 {
@@ -120,14 +152,16 @@ fn cost(boxes: &[Bounds], faces: &[u32]) -> f64 {
 fn split(boxes: &[Bounds], faces: &mut [u32], depth: usize) -> usize {
     let centres = faces.iter().fold(Bounds::EMPTY, |bounds, &face| {
         let centre = boxes[face as usize].centre();
-        bounds.with(Bounds { low: centre, high: centre })
+        bounds.with(Bounds {
+            low: centre,
+            high: centre,
+        })
     });
     let extent = centres.high - centres.low;
     if depth < FREE_DEPTH
         && let Some((axis, bin)) = best_plane(boxes, faces, centres)
     {
-        let is_left =
-            |face: u32| bin_of(boxes[face as usize].centre()[axis], centres, axis) <= bin;
+        let is_left = |face: u32| bin_of(boxes[face as usize].centre()[axis], centres, axis) <= bin;
         let mut middle = 0;
         for i in 0..faces.len() {
             if is_left(faces[i]) {
@@ -138,7 +172,9 @@ fn split(boxes: &[Bounds], faces: &mut [u32], depth: usize) -> usize {
         return middle;
     }
     // Centres in one place, or a tree too deep: halves.
-    let axis = (0..3).max_by(|&a, &b| extent[a].total_cmp(&extent[b])).unwrap_or(0);
+    let axis = (0..3)
+        .max_by(|&a, &b| extent[a].total_cmp(&extent[b]))
+        .unwrap_or(0);
     let middle = faces.len() / 2;
     let key = |face: u32| boxes[face as usize].centre()[axis];
     faces.select_nth_unstable_by(middle, |&a, &b| key(a).total_cmp(&key(b)).then(a.cmp(&b)));
@@ -176,7 +212,8 @@ fn best_plane(boxes: &[Bounds], faces: &[u32], centres: Bounds) -> Option<(usize
             if left.1 == 0 || right[bin].1 == 0 {
                 continue;
             }
-            let cost = left.0.area() * packets(left.1) + right[bin].0.area() * packets(right[bin].1);
+            let cost =
+                left.0.area() * packets(left.1) + right[bin].0.area() * packets(right[bin].1);
             if best.is_none_or(|(least, ..)| cost < least) {
                 best = Some((cost, axis, bin));
             }

@@ -105,7 +105,9 @@ impl Packet {
         let crossing = cross(cx, form, real(&self.offset), &ray);
         let limit = cx.real(limit);
         let near = cx.less_equal(crossing.distance, limit);
-        let left = [cx.simd.equal_u64s(index(&self.plane)[0], cx.simd.splat_u64s(from))];
+        let left = [cx
+            .simd
+            .equal_u64s(index(&self.plane)[0], cx.simd.splat_u64s(from))];
         let other = cx.not(left);
         let near = cx.and(near, other);
         let mut hit = cx.and(crossing.ahead, near);

@@ -30,7 +30,13 @@ impl Line {
             [o[k], o[next], o[last], d[k], d[next], d[last]]
         };
         // A finite inverse keeps 0 * inf out of the boxes' tests.
-        let inverse = |d: f64| 1.0 / if d.abs() < 1e-150 { 1e-150_f64.copysign(d) } else { d };
+        let inverse = |d: f64| {
+            1.0 / if d.abs() < 1e-150 {
+                1e-150_f64.copysign(d)
+            } else {
+                d
+            }
+        };
         Self {
             origin,
             inverse: direction.map(inverse),
@@ -100,7 +106,12 @@ impl Bvh {
         line: &Line,
         stack: &mut Stack,
     ) -> Option<Found> {
-        let mut search = NearestFace { best: Found { distance: f64::MAX, rank: u32::MAX } };
+        let mut search = NearestFace {
+            best: Found {
+                distance: f64::MAX,
+                rank: u32::MAX,
+            },
+        };
         self.walk(&mut cx, line, stack, &mut search);
         (search.best.rank != u32::MAX).then_some(search.best)
     }
@@ -114,7 +125,15 @@ impl Bvh {
         stack: &mut Stack,
         distance: f64,
     ) -> bool {
-        self.walk(&mut cx, line, stack, &mut Hides { bvh: self, distance })
+        self.walk(
+            &mut cx,
+            line,
+            stack,
+            &mut Hides {
+                bvh: self,
+                distance,
+            },
+        )
     }
 
     /// Shows `search` the faces that the ray meets within its limit, until it has seen enough;
@@ -128,7 +147,11 @@ impl Bvh {
         search: &mut T,
     ) -> bool {
         stack.clear();
-        let mut next = if self.nodes.is_empty() { Child::Absent } else { Child::Node(0) };
+        let mut next = if self.nodes.is_empty() {
+            Child::Absent
+        } else {
+            Child::Node(0)
+        };
         loop {
             match next {
                 Child::Node(number) => {
