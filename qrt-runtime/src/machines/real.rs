@@ -6,7 +6,7 @@ use super::lanes::{BLOCK, Inputs, Lanes, lanes};
 /// Registers per value: two give the processor independent work while a division is under way.
 const WIDTH: usize = 2;
 
-use pulp::{Arch, WithSimd};
+use pulp::WithSimd;
 use qrt_core::sampling::PathPoints;
 use qrt_core::tracer::{Stage, trace};
 use qrt_core::valid::ValidScene;
@@ -130,6 +130,13 @@ impl Real {
         self
     }
 
+    /// With a hierarchy of boxes in front of the faces, or without: by itself a machine has one
+    /// when it pays. The colours are the same.
+    pub fn with_boxes(mut self, boxes: bool) -> Self {
+        self.bvh = boxes.then(|| Bvh::new(self.stage.geometry()));
+        self
+    }
+
     /// With independent paths instead of the scene's sequence.
     pub fn monte_carlo(mut self, paths: u64) -> Self {
         let bits = match &self.points {
@@ -221,7 +228,11 @@ impl Real {
             colours,
         };
         match self.simd {
-            Simd::Widest => Arch::new().dispatch(block),
+            // This crate's unit tests do without: each instruction set is a tracer to compile.
+            #[cfg(not(test))]
+            Simd::Widest => pulp::Arch::new().dispatch(block),
+            #[cfg(test)]
+            Simd::Widest => block.with_simd(pulp::Scalar::new()),
             Simd::Scalar => block.with_simd(pulp::Scalar::new()),
         }
     }

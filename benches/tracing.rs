@@ -1,0 +1,129 @@
+//! How many paths a second the real machine traces, and where the time goes.
+//!
+//! `cargo bench --bench tracing` prints paths per second of the Cornell box at D = 1..4 on all
+//! cores, of a 65,536-triangle mesh, and of small meshes with and without boxes in front of their
+//! faces. It fails where a promise is broken: the box at D = 4 traces at least 9.3 million paths a
+//! second on two cores of this kind (what a production renderer's fastest mode traces of the same
+//! scene on two), and the mesh at least a third of what the box does.
+
+#[path = "common/knot.rs"]
+mod knot;
+
+use qrt::core::front;
+use qrt::core::valid::ValidScene;
+use qrt::runtime::machines::{Real, Simd};
+use std::path::Path;
+use std::process::ExitCode;
+use std::time::Instant;
+
+/// Paths per second and core that the box must reach.
+const BAR: f64 = 9.3e6 / 2.0;
+
+/// Best of so many runs: the machine's noise only ever slows.
+const RUNS: usize = 5;
+
+fn main() -> ExitCode {
+    let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    println!("million paths a second, best of {RUNS} runs, 32 x 32 pixels");
+    println!("\nCornell box, {cores} threads");
+    let mut box_speed = 0.0;
+    for depth in 1..=4 {
+        let scene = load("scenes-yaml/cornell-box.yaml", &sets(depth, 13));
+        let real = machine(&scene);
+        box_speed = speed(&real, cores);
+        println!("  D = {depth}               {:8.2}", box_speed / 1e6);
+        if depth == 4 {
+            println!("  D = 4, one thread   {:8.2}", speed(&real, 1) / 1e6);
+            let scalar = machine(&scene).with_simd(Simd::Scalar);
+            println!("  D = 4, one lane     {:8.2}", speed(&scalar, 1) / 1e6);
+        }
+    }
+    let (scene, triangles) = mesh(32, 1024, 13);
+    let mesh_speed = speed(&machine(&scene), cores);
+    println!("\nknot of {triangles} triangles, D = 4, {cores} threads");
+    println!("                      {:8.2}", mesh_speed / 1e6);
+
+    println!("\nknots, D = 4, one thread: all faces in turn | boxes in front");
+    for (around, along) in [(3, 3), (3, 6), (3, 12), (4, 16), (4, 32), (8, 64)] {
+        let (scene, triangles) = mesh(around, along, 8);
+        let turn = speed(&machine(&scene).with_boxes(false), 1);
+        let boxes = speed(&machine(&scene).with_boxes(true), 1);
+        let (turn, boxes) = (turn / 1e6, boxes / 1e6);
+        println!("  {triangles:5} triangles     {turn:8.2} | {boxes:8.2}");
+    }
+
+    let mut kept = true;
+    let mut promise = |what: &str, kept_now: bool| {
+        println!("{} {what}", if kept_now { "kept  " } else { "BROKEN" });
+        kept &= kept_now;
+    };
+    println!();
+    promise(
+        "box at D = 4: 4.65 million paths a second and core",
+        box_speed >= BAR * cores as f64,
+    );
+    promise(
+        "mesh: at least a third of the box",
+        3.0 * mesh_speed >= box_speed,
+    );
+    if kept {
+        ExitCode::SUCCESS
+    } else {
+        ExitCode::FAILURE
+    }
+}
+
+fn sets(depth: usize, path_bits: u32) -> Vec<String> {
+    let depths = vec!["{ bits: [8, 8] }"; depth].join(", ");
+    vec![
+        "film.width=32".to_owned(),
+        "film.height=32".to_owned(),
+        format!("sampling.path_bits={path_bits}"),
+        format!("sampling.depths=[{depths}]"),
+    ]
+}
+
+fn load(path: &str, sets: &[String]) -> ValidScene {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(path);
+    front::load(&path, sets)
+        .unwrap_or_else(|report| panic!("{report}"))
+        .valid
+}
+
+fn mesh(around: u32, along: u32, path_bits: u32) -> (ValidScene, u32) {
+    let folder = std::env::temp_dir().join(format!("qrt-bench-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a temporary folder");
+    let obj = folder.join("knot.obj");
+    std::fs::write(&obj, knot::torus_knot(around, along)).expect("a mesh file");
+    let mut sets = sets(4, path_bits);
+    sets.push(format!("geometry[2].mesh.obj={}", obj.display()));
+    let scene = load("scenes-yaml/knot.yaml", &sets);
+    std::fs::remove_dir_all(&folder).expect("the folder is ours");
+    (scene, 2 * around * along)
+}
+
+fn machine(scene: &ValidScene) -> Real {
+    Real::new(scene, 1).expect("a valid scene's sequence exists")
+}
+
+/// Paths a second over `threads` threads that share the film's rows.
+fn speed(real: &Real, threads: usize) -> f64 {
+    let rows: Vec<Vec<[u32; 2]>> = (0..32).map(|y| (0..32).map(|x| [x, y]).collect()).collect();
+    let paths = 32.0 * 32.0 * real.paths() as f64;
+    (0..RUNS)
+        .map(|_| {
+            let started = Instant::now();
+            std::thread::scope(|scope| {
+                for thread in 0..threads {
+                    let mine = rows.iter().skip(thread).step_by(threads);
+                    scope.spawn(move || {
+                        for row in mine {
+                            std::hint::black_box(real.sums(row));
+                        }
+                    });
+                }
+            });
+            paths / started.elapsed().as_secs_f64()
+        })
+        .fold(0.0, f64::max)
+}

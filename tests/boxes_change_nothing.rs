@@ -1,0 +1,139 @@
+//! The hierarchy of boxes finds exactly what a loop over all faces finds: the same bytes.
+
+use qrt::core::front;
+use qrt::core::valid::ValidScene;
+use qrt::runtime::machines::{Real, Simd};
+use std::fmt::Write as _;
+use std::path::Path;
+
+fn parse(text: &str) -> ValidScene {
+    front::parse(text, "scene.yaml", &[], Path::new(""))
+        .unwrap_or_else(|e| panic!("{e}"))
+        .valid
+}
+
+/// Every path's colour, bit for bit.
+fn colours(real: &Real) -> Vec<u64> {
+    let pixels: Vec<[u32; 2]> = (0..36).map(|i| [i % 6, i / 6]).collect();
+    let mut bits = Vec::new();
+    real.trace(&pixels, |block| {
+        bits.extend(
+            block
+                .colours
+                .iter()
+                .flat_map(|c| c.iter().map(|c| c.to_bits())),
+        );
+    });
+    bits
+}
+
+fn assert_same(scene: &ValidScene) {
+    let machine = || Real::new(scene, 3).unwrap();
+    let looped = colours(&machine().with_boxes(false));
+    assert!(
+        looped.iter().any(|&bits| bits != 0),
+        "nothing is lit: the test would see nothing"
+    );
+    assert_eq!(looped, colours(&machine().with_boxes(true)));
+    let scalar = machine().with_simd(Simd::Scalar);
+    assert_eq!(
+        looped,
+        colours(&scalar.clone().with_boxes(true)),
+        "one lane, boxes"
+    );
+    assert_eq!(
+        looped,
+        colours(&scalar.with_boxes(false)),
+        "one lane, all faces"
+    );
+}
+
+const HEAD: &str = "
+name: faces
+camera: { perspective: { eye: [0.3, 1.1, -2.4], target: [0, 0.4, 0], vfov: 45 } }
+film: { width: 6, height: 6 }
+sampling: { path_bits: 8, depths: [{ bits: [6, 6] }, { bits: [6, 6] }, { bits: [6, 6] }, { bits: [6, 6] }] }
+materials:
+  grey: { lambertian: { albedo: [0.6, 0.5, 0.4] } }
+  glass: { dielectric: { ior: 1.4 } }
+  satin: { ggx: { alpha: 0.3, reflectance: [0.9, 0.8, 0.7] } }
+  lamp: { emitter: { radiance: [3, 2, 1], albedo: [0.5, 0.5, 0.5] } }
+geometry:
+  - quad: { vertices: [[-2, 0, -2], [-2, 0, 2], [2, 0, 2], [2, 0, -2]], material: grey }
+  - quad: { vertices: [[-1, 2, -1], [1, 2, -1], [1, 2, 1], [-1, 2, 1]], material: lamp }
+";
+
+#[test]
+fn over_a_mesh() {
+    let knot = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes-yaml/knot.yaml");
+    let sets = ["film.width=6", "film.height=6", "sampling.path_bits=9"].map(str::to_owned);
+    assert_same(
+        &front::load(&knot, &sets)
+            .unwrap_or_else(|e| panic!("{e}"))
+            .valid,
+    );
+}
+
+/// Cubes of every material, some of them in the same place: ties, shared edges, coplanar overlaps
+/// of lamps and walls.
+#[test]
+fn over_cubes_that_touch_and_coincide() {
+    let mut text = HEAD.to_owned();
+    let corner = |x: f64, y: f64, z: f64| format!("[{x}, {y}, {z}]");
+    for (number, material) in ["grey", "glass", "satin", "lamp"]
+        .iter()
+        .cycle()
+        .take(24)
+        .enumerate()
+    {
+        let (column, row) = ((number % 5) as f64, (number / 5) as f64);
+        let (x, y, z, s) = (
+            -1.0 + 0.4 * column,
+            0.4 * (number % 3) as f64,
+            -1.0 + 0.4 * row,
+            0.4,
+        );
+        let p = |i: u32| {
+            let on = |bit: u32| f64::from(i >> bit & 1) * s;
+            corner(x + on(0), y + on(1), z + on(2))
+        };
+        for [a, b, c, d] in [
+            [0, 4, 6, 2],
+            [1, 3, 7, 5],
+            [0, 1, 5, 4],
+            [2, 6, 7, 3],
+            [0, 2, 3, 1],
+            [4, 5, 7, 6],
+        ] {
+            let (a, b, c, d) = (p(a), p(b), p(c), p(d));
+            writeln!(
+                text,
+                "  - quad: {{ vertices: [{a}, {b}, {c}, {d}], material: {material} }}"
+            )
+            .unwrap();
+        }
+    }
+    assert_same(&parse(&text));
+}
+
+/// More emitting faces than a last ray asks one by one.
+#[test]
+fn over_many_lamps() {
+    let mut text = HEAD.to_owned();
+    for number in 0..40 {
+        let (x, z) = (
+            -1.0 + 0.25 * f64::from(number % 8),
+            -0.6 + 0.3 * f64::from(number / 8),
+        );
+        let y = 0.2 + 0.05 * f64::from(number % 3);
+        let material = if number % 2 == 0 { "lamp" } else { "grey" };
+        writeln!(
+            text,
+            "  - triangle: {{ vertices: [[{x}, {y}, {z}], [{}, {y}, {z}], [{x}, {y}, {}]], material: {material} }}",
+            x + 0.3,
+            z + 0.3
+        )
+        .unwrap();
+    }
+    assert_same(&parse(&text));
+}
