@@ -31,11 +31,16 @@ fn main() -> std::process::ExitCode {
     println!(
         "2^{path_bits} paths a pixel, 16 x 16 pixels; all figures in % of the reference's mean"
     );
-    println!("scene                D     RMSE (bar)    mean (bar)    seconds");
+    println!(
+        "scene                D     RMSE (bar)    mean (bar)   reference's own error   seconds"
+    );
     let mut kept = true;
     for (name, bar) in SCENES {
         for depth in 1..=4 {
-            let theirs = reference(name, depth).picture;
+            let independent::Reference {
+                picture: theirs,
+                standard_error,
+            } = reference(name, depth);
             let level = mean(&theirs);
             let started = Instant::now();
             let ours = traced(&scene(name, &asking(depth, path_bits)), 1);
@@ -43,15 +48,17 @@ fn main() -> std::process::ExitCode {
             // A black picture has no mean to measure by, and no error to make.
             let unit = if level > 0.0 { level } else { 1.0 };
             let rmse = rms_difference(&ours, &theirs) / unit;
+            let noise = rms_difference(&standard_error, &vec![[0.0; 3]; theirs.len()]) / unit;
             let shift = (mean(&ours) - level) / unit;
             let good = rmse < bar && shift.abs() < MEAN;
             kept &= good;
             println!(
-                "{name:<20} {depth}   {:>6.3} ({:.1})   {:>+7.4} ({:.1})   {seconds:>7.2}{}",
+                "{name:<20} {depth}   {:>6.3} ({:.1})   {:>+7.4} ({:.1})   {:>21.3}   {seconds:>7.2}{}",
                 100.0 * rmse,
                 100.0 * bar,
                 100.0 * shift,
                 100.0 * MEAN,
+                100.0 * noise,
                 if good { "" } else { "   BROKEN" }
             );
         }

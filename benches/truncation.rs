@@ -67,6 +67,8 @@ impl Series {
 /// Measures a picture against the reference, away from the lamp and over all pixels.
 struct Judge {
     reference: Picture,
+    /// Its own root mean square error, over the mean, away from the lamp.
+    noise: f64,
     /// Pixels that do not see the lamp.
     dark: Vec<bool>,
 }
@@ -74,10 +76,16 @@ struct Judge {
 impl Judge {
     fn new() -> Self {
         let seen = reference(SCENE, 1).picture;
-        Self {
-            reference: reference(SCENE, DEPTH).picture,
+        let theirs = reference(SCENE, DEPTH);
+        let mut judge = Self {
+            reference: theirs.picture,
+            noise: 0.0,
             dark: seen.iter().map(|pixel| *pixel == [0.0; 3]).collect(),
-        }
+        };
+        let noise = judge.dark(&theirs.standard_error);
+        let none = vec![[0.0; 3]; noise.len()];
+        judge.noise = rms_difference(&noise, &none) / mean(&judge.dark(&judge.reference));
+        judge
     }
 
     fn dark(&self, picture: &Picture) -> Picture {
