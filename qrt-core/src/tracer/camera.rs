@@ -124,17 +124,13 @@ impl CameraStage {
         let [column, row] = cx.pixel();
         let x = cx.add(column, u);
         let y = cx.add(row, v);
-        let mut moving = vector::constant(cx, self.corner);
-        for k in 0..3 {
-            if self.column[k] != 0.0 {
-                let term = cx.scale(x, self.column[k]);
-                moving[k] = cx.add(moving[k], term);
-            }
-            if self.row[k] != 0.0 {
-                let term = cx.scale(y, self.row[k]);
-                moving[k] = cx.add(moving[k], term);
-            }
-        }
+        let corner = vector::constant(cx, self.corner);
+        let columns = vector::constant(cx, self.column);
+        let columns = vector::scale(cx, &columns, x);
+        let rows = vector::constant(cx, self.row);
+        let rows = vector::scale(cx, &rows, y);
+        let moving = vector::add(cx, &corner, &columns);
+        let moving = vector::add(cx, &moving, &rows);
         let fixed = vector::constant(cx, self.fixed);
         let from = from_nowhere(cx);
         if self.perspective {

@@ -145,9 +145,9 @@ impl Geometry {
             if !faces.iter().any(|face| face.slabs == slabs) {
                 let emits = emits(polygon);
                 if emits {
-                    faces
-                        .iter_mut()
-                        .for_each(|face| face.hides_emitter = !face.emits);
+                    for face in faces.iter_mut() {
+                        face.hides_emitter = !face.emits;
+                    }
                 }
                 faces.push(Face {
                     label: label as u32,

@@ -67,7 +67,7 @@ impl fmt::Debug for Sampled {
         f.debug_struct("Sampled")
             .field("bits", &self.bits)
             .field("table", &self.table)
-            .finish()
+            .finish_non_exhaustive()
     }
 }
 
@@ -342,12 +342,10 @@ impl Compiler {
             }
             _ => false,
         };
-        match self.steps.iter().position(equal) {
-            Some(number) => number,
-            None => {
-                self.steps.push(step);
-                self.steps.len() - 1
-            }
+        if let Some(number) = self.steps.iter().position(equal) {
+            return number;
         }
+        self.steps.push(step);
+        self.steps.len() - 1
     }
 }

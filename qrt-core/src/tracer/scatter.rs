@@ -8,7 +8,7 @@ use super::phong::PhongStage;
 use super::sampled::{Angles, Compiled};
 use super::vector::{self, Vector};
 use super::{Arith, Axis, Coordinate, Sampled};
-use crate::expr::Expr;
+use crate::expr::{Expr, Variable};
 use crate::sampling::maps;
 use crate::scene::{Map, Rgb};
 use crate::valid::bsdf::weight_bound;
@@ -133,7 +133,10 @@ impl<const C: usize> ScatterStage<C> {
                     PhongStage::new(*diffuse, *specular, *exponent, channels, bits[0]),
                 )),
                 Scatter::Custom(bsdf) => {
-                    let replacement = replaces.then_some((&builtin, &projected));
+                    // A value written in `u` and `v` has a meaning under its own map alone.
+                    let bound_to_map = bsdf.value.iter().any(asks_for_square);
+                    let replaced = replaces && !bound_to_map;
+                    let replacement = replaced.then_some((&builtin, &projected));
                     custom.push((
                         number as u32,
                         CustomStage::new(bsdf, replacement, channels, bits),
@@ -196,14 +199,13 @@ impl<const C: usize> ScatterStage<C> {
         match &surfaces[number as usize].scatter {
             Scatter::Black => 0.0,
             Scatter::Lambertian { .. } => tint * self.factor_bound,
-            Scatter::Mirror { .. } => tint,
             Scatter::Dielectric { ior } => (ior * ior).max(1.0 / (ior * ior)),
             Scatter::Ggx { alpha, .. } if self.replaces => {
                 // pi f: D is at most 1 / (pi alpha^2), and the masking's denominator at least
                 // alpha^2; both at once at grazing angles.
                 tint * self.factor_bound / alpha.powi(4)
             }
-            Scatter::Ggx { .. } => tint,
+            Scatter::Mirror { .. } | Scatter::Ggx { .. } => tint,
             Scatter::Phong { .. } => self
                 .phong
                 .iter()
@@ -452,6 +454,12 @@ impl<A: Arith> LocalFrame<A> {
         let across = cx.add(x, y);
         cx.sub(z, across)
     }
+}
+
+/// Does the value depend on the sample's place in the unit square?
+fn asks_for_square(value: &Expr) -> bool {
+    let variables = value.variables(value.root());
+    variables.contains(Variable::U) || variables.contains(Variable::V)
 }
 
 fn over_pi(projected: &Expr) -> Expr {
