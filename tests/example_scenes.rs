@@ -27,7 +27,8 @@ fn small(name: &str, sets: &[&str]) -> Vec<[f64; 3]> {
         Err(report) => panic!("{report}"),
     };
     let pixels: Vec<[u32; 2]> = (0..256).map(|i| [i % 16, i / 16]).collect();
-    let sums = Real::new(&scene, 1).unwrap().sums(&pixels);
+    let real = Real::new(&scene, 1).unwrap_or_else(|error| panic!("{error}"));
+    let sums = real.sums(&pixels);
     sums.iter()
         .map(|sum| sum.colour.map(|c| c / 256.0))
         .collect()

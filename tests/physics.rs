@@ -38,6 +38,11 @@ fn triangles() -> Vec<Vec<Point>> {
     all.map(|half| half.map(corner).to_vec()).collect()
 }
 
+/// A line of a scene's geometry.
+fn listed(kind: &str, vertices: &[Point], material: &str) -> String {
+    format!("  - {kind}: {{ vertices: {vertices:?}, material: {material} }}\n")
+}
+
 /// A room of `polygons`, every point moved by `place`, seen through a pinhole.
 struct Room {
     polygons: Vec<Vec<Point>>,
@@ -64,7 +69,7 @@ impl Room {
                 "quad"
             };
             let vertices: Vec<Point> = polygon.iter().map(|&p| (self.place)(p)).collect();
-            geometry += &format!("  - {kind}: {{ vertices: {vertices:?}, material: wall }}\n");
+            geometry += &listed(kind, &vertices, "wall");
         }
         // Along the view `up` says nothing.
         let up = if eye[0] == target[0] && eye[2] == target[2] {
@@ -117,7 +122,7 @@ fn valid(text: &str) -> ValidScene {
 fn traced(text: &str) -> Vec<[f64; 3]> {
     let scene = valid(text);
     let film = scene.scene().film;
-    let real = Real::new(&scene, 1).unwrap();
+    let real = Real::new(&scene, 1).unwrap_or_else(|error| panic!("{error}"));
     let pixels: Vec<[u32; 2]> = (0..film.width * film.height)
         .map(|i| [i % film.width, i / film.width])
         .collect();
@@ -335,18 +340,14 @@ fn every_material_is_finite_at_grazing_angles_and_inside_solids() {
         "{ phong: { diffuse: [0.5, 0, 0], specular: [0.5, 1, 1], exponent: 1000000 } }",
         "{ phong: { diffuse: [0.5, 0, 0], specular: [0.5, 1, 1], exponent: 0 } }",
     ];
-    let block: String = quads()
-        .iter()
-        .map(|wall| {
-            // A quarter of the size, fronts outwards.
-            let vertices: Vec<Point> = wall.iter().rev().map(|p| p.map(|c| 0.25 * c)).collect();
-            format!("  - quad: {{ vertices: {vertices:?}, material: block }}\n")
-        })
-        .collect();
-    let room: String = quads()
-        .iter()
-        .map(|wall| format!("  - quad: {{ vertices: {wall:?}, material: glow }}\n"))
-        .collect();
+    let mut block = String::new();
+    let mut room = String::new();
+    for wall in quads() {
+        // A quarter of the size, fronts outwards.
+        let vertices: Vec<Point> = wall.iter().rev().map(|p| p.map(|c| 0.25 * c)).collect();
+        block += &listed("quad", &vertices, "block");
+        room += &listed("quad", &wall, "glow");
+    }
     let views: [(Point, Point); 4] = [
         ([0.75, 0.5, 0.25], [0.0, 0.0, 0.0]),
         ([0.75, 0.25, 0.0], [0.0, 0.25, 0.0]),

@@ -4,6 +4,7 @@
 
 use qrt_core::valid::ValidScene;
 use qrt_runtime::machines::Real;
+use std::panic::resume_unwind;
 use std::path::PathBuf;
 
 /// Pixels from the top left, row by row; linear red, green, blue.
@@ -89,7 +90,8 @@ pub(crate) fn picture(real: &Real, width: u32, height: u32) -> Picture {
             .chunks(share)
             .map(|part| scope.spawn(|| real.sums(part)))
             .collect();
-        let sums = parts.into_iter().flat_map(|part| part.join().unwrap());
+        let joined = parts.into_iter().map(std::thread::ScopedJoinHandle::join);
+        let sums = joined.flat_map(|part| part.unwrap_or_else(|panic| resume_unwind(panic)));
         sums.map(|sum| sum.colour.map(|c| c / paths)).collect()
     })
 }
@@ -101,7 +103,10 @@ fn cores() -> usize {
 /// The picture of `scene` under `seed`.
 pub(crate) fn traced(scene: &ValidScene, seed: u64) -> Picture {
     let film = scene.scene().film;
-    picture(&Real::new(scene, seed).unwrap(), film.width, film.height)
+    match Real::new(scene, seed) {
+        Ok(real) => picture(&real, film.width, film.height),
+        Err(error) => panic!("{error}"),
+    }
 }
 
 /// The mean over pixels and channels.

@@ -347,6 +347,7 @@ fn reflected(textbook: Textbook, o: Direction) -> f64 {
 
 #[test]
 fn every_map_reaches_all_that_the_value_reflects() {
+    const BITS: u32 = 9;
     let cases: [(&str, Textbook); 5] = [
         (LAMBERTIAN, lambertian),
         (GGX, ggx),
@@ -354,7 +355,6 @@ fn every_map_reaches_all_that_the_value_reflects() {
         (LOBE, lobe),
         (MOON, moon),
     ];
-    const BITS: u32 = 9;
     let cells = 1_u32 << BITS;
     for (material, textbook) in cases {
         for map in ["auto", "uniform-hemisphere"] {
