@@ -1,5 +1,7 @@
 //! The hierarchy of boxes finds exactly what a loop over all faces finds: the same bytes.
 
+#![allow(clippy::unwrap_used)]
+
 use qrt::core::front;
 use qrt::core::valid::ValidScene;
 use qrt::runtime::machines::{Real, Simd};

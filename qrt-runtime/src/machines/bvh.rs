@@ -20,7 +20,7 @@ use walk::{Line, Stack};
 pub(crate) const WIDE: usize = 8;
 
 /// Up to this many faces a loop over all of them is faster (`cargo bench --bench tracing`).
-pub(crate) const FEW_FACES: usize = 48;
+pub(crate) const FEW_FACES: usize = 72;
 
 /// Up to this many emitting faces, a last ray asks them first.
 const FEW_EMITTERS: usize = 16;

@@ -128,3 +128,19 @@ impl Packet {
 pub(super) fn unpack<T: bytemuck::Pod>(register: &T) -> &[f64] {
     bytemuck::cast_slice(std::slice::from_ref(register))
 }
+
+/// The lanes in which `mask` holds, as bits.
+#[inline(always)]
+pub(super) fn bits<S: pulp::Simd>(simd: S, mask: S::m64s) -> u32 {
+    if size_of::<S::m64s>() == 1 {
+        // A mask register, or the truth value of a single lane.
+        return u32::from(bytemuck::bytes_of(&mask)[0]);
+    }
+    let flags = simd.select_u64s(mask, simd.splat_u64s(1), simd.splat_u64s(0));
+    let flags: &[u64] = bytemuck::cast_slice(std::slice::from_ref(&flags));
+    let mut bits = 0;
+    for (lane, &flag) in flags.iter().enumerate() {
+        bits |= (flag as u32) << lane;
+    }
+    bits
+}

@@ -1,6 +1,6 @@
 //! One ray through the tree.
 
-use super::packet::unpack;
+use super::packet::{bits, unpack};
 use super::{Bvh, Child, Node, WIDE};
 use crate::machines::lanes::Lanes;
 
@@ -97,12 +97,39 @@ impl Search for Hides<'_> {
     }
 }
 
+/// A walk, to be run as a function of its own: it has the registers to itself, and is compiled
+/// apart from the tracer.
+struct Walk<'a, S, T> {
+    bvh: &'a Bvh,
+    cx: Lanes<'a, S, 1>,
+    line: &'a Line,
+    stack: &'a mut Stack,
+    search: &'a mut T,
+    enough: &'a mut bool,
+}
+
+#[inline(never)]
+fn apart<S: pulp::Simd, T: Search>(walk: Walk<'_, S, T>) {
+    walk.cx.simd.vectorize(walk);
+}
+
+impl<S: pulp::Simd, T: Search> pulp::WithSimd for Walk<'_, S, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<U: pulp::Simd>(mut self, _: U) {
+        *self.enough = self
+            .bvh
+            .walk(&mut self.cx, self.line, self.stack, self.search);
+    }
+}
+
 impl Bvh {
     /// The nearest face.
     #[inline(always)]
     pub(super) fn nearest<S: pulp::Simd>(
         &self,
-        mut cx: Lanes<'_, S, 1>,
+        cx: Lanes<'_, S, 1>,
         line: &Line,
         stack: &mut Stack,
     ) -> Option<Found> {
@@ -112,7 +139,14 @@ impl Bvh {
                 rank: u32::MAX,
             },
         };
-        self.walk(&mut cx, line, stack, &mut search);
+        apart(Walk {
+            bvh: self,
+            cx,
+            line,
+            stack,
+            search: &mut search,
+            enough: &mut false,
+        });
         (search.best.rank != u32::MAX).then_some(search.best)
     }
 
@@ -120,20 +154,25 @@ impl Bvh {
     #[inline(always)]
     pub(super) fn hides<S: pulp::Simd>(
         &self,
-        mut cx: Lanes<'_, S, 1>,
+        cx: Lanes<'_, S, 1>,
         line: &Line,
         stack: &mut Stack,
         distance: f64,
     ) -> bool {
-        self.walk(
-            &mut cx,
+        let mut search = Hides {
+            bvh: self,
+            distance,
+        };
+        let mut enough = false;
+        apart(Walk {
+            bvh: self,
+            cx,
             line,
             stack,
-            &mut Hides {
-                bvh: self,
-                distance,
-            },
-        )
+            search: &mut search,
+            enough: &mut enough,
+        });
+        enough
     }
 
     /// Shows `search` the faces that the ray meets within its limit, until it has seen enough;
@@ -167,13 +206,12 @@ impl Bvh {
                         let limit = search.limit();
                         let (hit, distances) =
                             packet.distances(cx, &line.turned, line.from, limit, first);
-                        if cx.simd.first_true_m64s(hit) == S::F64_LANES {
-                            continue;
-                        }
-                        for (lane, &distance) in unpack(&distances).iter().enumerate() {
-                            if distance < f64::INFINITY
-                                && search.meet(packet.rank[first + lane], distance)
-                            {
+                        let mut left = bits(cx.simd, hit);
+                        while left != 0 {
+                            let lane = left.trailing_zeros() as usize;
+                            left &= left - 1;
+                            let rank = packet.rank[first + lane];
+                            if search.meet(rank, unpack(&distances)[lane]) {
                                 return true;
                             }
                         }
@@ -224,19 +262,17 @@ impl Node {
                 far = simd.min_f64s(far, leave);
             }
             let met = simd.less_than_or_equal_f64s(near, far);
-            if simd.first_true_m64s(met) == S::F64_LANES {
-                continue;
-            }
-            let near = simd.select_f64s(met, near, simd.splat_f64s(f64::INFINITY));
-            for (lane, &near) in unpack(&near).iter().enumerate() {
-                if near < f64::INFINITY {
-                    // Insertion keeps the farthest first; there are few.
-                    let mut place = stack.len();
-                    stack.push((near, self.children[first + lane]));
-                    while place > base && stack[place - 1].0 < near {
-                        stack.swap(place - 1, place);
-                        place -= 1;
-                    }
+            let mut left = bits(simd, met);
+            while left != 0 {
+                let lane = left.trailing_zeros() as usize;
+                left &= left - 1;
+                let near = unpack(&near)[lane];
+                // Insertion keeps the farthest first; there are few.
+                let mut place = stack.len();
+                stack.push((near, self.children[first + lane]));
+                while place > base && stack[place - 1].0 < near {
+                    stack.swap(place - 1, place);
+                    place -= 1;
                 }
             }
         }
