@@ -8,7 +8,7 @@ use qrt_core::tracer::Geometry;
 const FREE_DEPTH: usize = 32;
 
 /// Candidate planes per axis.
-const BINS: usize = 16;
+const BINS: usize = 32;
 
 /// How far boxes reach beyond their faces, in stage units: more than edges' tolerances and the
 /// rounding of a crossing.

@@ -17,6 +17,8 @@ pub(super) struct Packet {
     offset: [f64; WIDE],
     /// Per edge, `a x + b y >= low`.
     edges: [[[f64; WIDE]; 3]; EDGES],
+    /// Edges of the face that has most.
+    most_edges: usize,
     axis: [u64; WIDE],
     plane: [u64; WIDE],
     /// Places in [`Geometry::faces`].
@@ -41,6 +43,7 @@ impl Packet {
             form: [[f64::NAN; WIDE]; 2],
             offset: [0.0; WIDE],
             edges: [everywhere; EDGES],
+            most_edges: 0,
             axis: [0; WIDE],
             plane: [u64::MAX; WIDE],
             rank: [u32::MAX; WIDE],
@@ -66,12 +69,13 @@ impl Packet {
                     edge += 1;
                 }
             }
+            packet.most_edges = packet.most_edges.max(edge);
         }
         packet
     }
 
-    /// Distances of the faces that the ray meets within `limit`, beginning at face `first`; the
-    /// others are infinite. `turned` is the ray seen along x, y and z.
+    /// Which faces the ray meets within `limit`, beginning at face `first`, and their distances.
+    /// `turned` is the ray seen along x, y and z.
     #[inline(always)]
     pub(super) fn distances<S: pulp::Simd>(
         &self,
@@ -111,15 +115,16 @@ impl Packet {
         let other = cx.not(left);
         let near = cx.and(near, other);
         let mut hit = cx.and(crossing.ahead, near);
-        for edge in &self.edges {
+        if !cx.possible(hit) {
+            return (hit[0], crossing.distance[0]);
+        }
+        for edge in &self.edges[..self.most_edges] {
             let form = [real(&edge[0]), real(&edge[1])];
             let value = weighted(cx, form, crossing.point);
             let inside = cx.less_equal(real(&edge[2]), value);
             hit = cx.and(hit, inside);
         }
-        let never = cx.real(f64::INFINITY);
-        let [distance] = cx.select(hit, crossing.distance, never);
-        (hit[0], distance)
+        (hit[0], crossing.distance[0])
     }
 }
 
