@@ -24,7 +24,11 @@ const BAR: f64 = 9.3e6 / 2.0;
 
 /// A scene with a knot, and how ours stands in it: the view of the independent renderer's own mesh
 /// scene, whose speed relative to its box is the one to compare with, and a close one.
-const VIEW: [&str; 3] = ["tests/references/torusknot8k.yaml", "[90, 0, 0]", "[0, 0.6, -0.2]"];
+const VIEW: [&str; 3] = [
+    "tests/references/torusknot8k.yaml",
+    "[90, 0, 0]",
+    "[0, 0.6, -0.2]",
+];
 const CLOSE: [&str; 3] = ["scenes-yaml/knot.yaml", "[0, 30, 0]", "[0, 0, 0]"];
 
 /// Best of so many runs: the machine's noise only ever slows.
@@ -51,7 +55,10 @@ fn main() -> ExitCode {
     println!("\nknot of {triangles} triangles, D = 4, {cores} threads");
     println!("  on its table        {:8.2}", mesh_speed / 1e6);
     let (scene, _) = mesh(CLOSE, 32, 1024, 13);
-    println!("  filling the film    {:8.2}", speed(&machine(&scene), cores) / 1e6);
+    println!(
+        "  filling the film    {:8.2}",
+        speed(&machine(&scene), cores) / 1e6
+    );
 
     println!("\nknots, D = 4, one thread: all faces in turn | boxes in front");
     for (around, along) in [(3, 3), (3, 6), (3, 12), (4, 16), (4, 32), (8, 64)] {

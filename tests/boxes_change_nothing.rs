@@ -76,6 +76,25 @@ fn over_a_mesh() {
     );
 }
 
+/// From so far away that rays arrive with an error far above a near ray's.
+#[test]
+fn over_a_mesh_seen_from_afar() {
+    let knot = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes-yaml/knot.yaml");
+    let sets = [
+        "film.width=6",
+        "film.height=6",
+        "sampling.path_bits=9",
+        "camera.perspective.eye=[4.0e6, 1.7e7, -2.0e7]",
+        "camera.perspective.vfov=5.0e-6",
+    ];
+    let sets = sets.map(str::to_owned);
+    assert_same(
+        &front::load(&knot, &sets)
+            .unwrap_or_else(|e| panic!("{e}"))
+            .valid,
+    );
+}
+
 /// Cubes of every material, some of them in the same place: ties, shared edges, coplanar overlaps
 /// of lamps and walls.
 #[test]

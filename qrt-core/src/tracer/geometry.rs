@@ -102,6 +102,9 @@ pub struct Geometry {
     pub centre: DVec3,
     /// Stage units per scene unit: a power of two.
     pub scale: f64,
+    /// How far edges reach outwards, in stage units: [`TOLERANCE`], and more where rays come from
+    /// afar and so arrive less precisely.
+    pub tolerance: f64,
 }
 
 impl Geometry {
@@ -125,6 +128,7 @@ impl Geometry {
             corners: Vec::with_capacity(polygons.len()),
             centre,
             scale,
+            tolerance,
         };
         let mut on_plane: Vec<Vec<Face>> = Vec::new();
         let mut known = HashMap::new();

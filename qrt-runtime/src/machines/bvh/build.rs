@@ -10,8 +10,8 @@ const FREE_DEPTH: usize = 32;
 /// Candidate planes per axis.
 const BINS: usize = 32;
 
-/// How far boxes reach beyond their faces, in stage units: more than edges' tolerances and the
-/// rounding of a crossing.
+/// How far boxes reach beyond their faces at least, in stage units: more than the rounding of a
+/// crossing. Beyond that they reach several of the edges' tolerances.
 const MARGIN: f64 = 1.0 / (1_u64 << 36) as f64;
 
 #[derive(Clone, Copy, Debug)]
@@ -52,7 +52,7 @@ pub(super) struct Tree {
 
 /// The boxes of all faces.
 pub(super) fn boxes(geometry: &Geometry) -> Vec<Bounds> {
-    let margin = DVec3::splat(MARGIN);
+    let margin = DVec3::splat(MARGIN.max(16.0 * geometry.tolerance));
     let of_face = |label: u32| {
         let corners = &geometry.corners[label as usize];
         let around = corners.iter().fold(Bounds::EMPTY, |bounds, &corner| {
