@@ -337,7 +337,8 @@ record! {
     pub phase_bits: u32 = whole::<u32>(1, 40), or 8;
     /// B, the number of runs; default 1.
     pub repetitions: u32 = whole::<u32>(1, 1_000_000), or 1;
-    /// The window on the counting register.
+    /// The window on the counting register, for estimators that leave it open: `paper` counts with the
+    /// rectangular one and `sine` with the sine window, whatever stands here.
     pub window: Window = word::<Window>(), or Window::Sine;
     /// How outcomes become an amplitude.
     pub estimator: Estimator = word::<Estimator>(), or Estimator::Sine;
