@@ -1,4 +1,5 @@
 //! From a scene to what the machines run.
+pub mod circuit;
 pub mod codes;
 pub mod diagnostics;
 pub mod expr;

@@ -1,0 +1,210 @@
+//! Registers, and how operations read them.
+
+use std::fmt;
+
+/// A register of a [`super::Program`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct RegisterId(pub u32);
+
+impl RegisterId {
+    /// Its place in the program's list.
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// What a register's bits mean.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Type {
+    /// One bit.
+    Bool,
+    /// An unsigned integer.
+    UInt,
+    /// An integer in two's complement.
+    Int,
+    /// An unsigned number in units of `2^-fraction`.
+    UFixed {
+        /// Bits after the point.
+        fraction: u32,
+    },
+    /// A number in two's complement, in units of `2^-fraction`.
+    Fixed {
+        /// Bits after the point.
+        fraction: u32,
+    },
+    /// What an operation leaves behind and nothing else reads: carries, remainders, partial sums.
+    Scratch,
+}
+
+impl Type {
+    /// As it is written for a register of `width` bits: `UInt<8>`, `Fixed<2, 14>`.
+    pub fn name(self, width: u32) -> String {
+        match self {
+            Self::Bool => "Bool".to_owned(),
+            Self::UInt => format!("UInt<{width}>"),
+            Self::Int => format!("Int<{width}>"),
+            Self::UFixed { fraction } => {
+                format!(
+                    "UFixed<{}, {fraction}>",
+                    i64::from(width) - i64::from(fraction)
+                )
+            }
+            Self::Fixed { fraction } => {
+                format!(
+                    "Fixed<{}, {fraction}>",
+                    i64::from(width) - i64::from(fraction)
+                )
+            }
+            Self::Scratch => format!("Scratch<{width}>"),
+        }
+    }
+}
+
+/// What a register is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Role {
+    /// The path's id: in superposition.
+    Id,
+    /// The comparator: in superposition.
+    Comparator,
+    /// A value of the path: zero before the oracle and after it.
+    Work,
+    /// What an operation leaves behind: zero before the oracle and after it.
+    Scratch,
+    /// The path's colour, which the comparator is compared with: zero before and after.
+    Colour,
+    /// The outcome of the comparison, whose phase is flipped: zero before and after.
+    Flag,
+}
+
+impl fmt::Display for Role {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Id => "id",
+            Self::Comparator => "comparator",
+            Self::Work => "work",
+            Self::Scratch => "scratch",
+            Self::Colour => "colour",
+            Self::Flag => "flag",
+        })
+    }
+}
+
+/// A named, typed array of qubits. Bit 0 is the least significant.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Register {
+    /// What it is called: `ray1.direction.x`.
+    pub name: String,
+    /// What its bits mean.
+    pub ty: Type,
+    /// What it is for.
+    pub role: Role,
+    /// Qubits.
+    pub width: u32,
+    /// The block whose operation computes it.
+    pub block: BlockId,
+}
+
+/// A block of a [`super::Program`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct BlockId(pub u32);
+
+impl BlockId {
+    /// The whole program.
+    pub const ROOT: Self = Self(0);
+
+    /// Its place in the program's list.
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// A part of the program that has a name: a box of the paper's figure, or a part of one.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Block {
+    /// The block around it; none for the root.
+    pub parent: Option<BlockId>,
+    /// What it is called: `find_intersection`.
+    pub name: String,
+    /// The depth it belongs to.
+    pub depth: Option<u32>,
+    /// Is its work uncomputed at its end, under `uncompute: scoped`?
+    pub scope: bool,
+}
+
+/// Some bits of a register, read as an integer: the bits `offset .. offset + width`, extended by
+/// zeros (or, if `signed`, by copies of the top one), times `2^shift`.
+///
+/// Shifts, truncation by floor, and sign extension are wiring, and cost nothing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Word {
+    /// The register.
+    pub register: RegisterId,
+    /// The first bit read.
+    pub offset: u32,
+    /// Bits read; above 0.
+    pub width: u32,
+    /// Is the top bit the sign?
+    pub signed: bool,
+    /// Zeros below.
+    pub shift: u32,
+}
+
+impl Word {
+    /// Bits of the number it stands for, its sign and the zeros below included.
+    pub fn bits(self) -> u32 {
+        self.width + self.shift
+    }
+
+    /// The number it stands for, if `register` is the register's content.
+    #[inline]
+    pub fn read(self, register: u64) -> i64 {
+        let unused = 64 - self.width;
+        let bits = (register >> self.offset) << unused;
+        let value = if self.signed {
+            bits.cast_signed() >> unused
+        } else {
+            (bits >> unused).cast_signed()
+        };
+        value << self.shift
+    }
+
+    /// The least and the greatest number it can stand for.
+    pub fn range(self) -> [i64; 2] {
+        let (low, high) = if self.signed {
+            let half = 1_i64 << (self.width - 1);
+            (-half, half - 1)
+        } else {
+            (0, (1_i64 << self.width) - 1)
+        };
+        [low << self.shift, high << self.shift]
+    }
+}
+
+/// One bit of a register, or its negation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Bit {
+    /// The register.
+    pub register: RegisterId,
+    /// The bit; 0 is the least significant.
+    pub index: u32,
+    /// Is it negated?
+    pub inverted: bool,
+}
+
+impl Bit {
+    /// The truth it stands for, if `register` is the register's content.
+    #[inline]
+    pub fn read(self, register: u64) -> bool {
+        (register >> self.index & 1 == 1) != self.inverted
+    }
+}
+
+/// A number that an operation reads.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Operand {
+    /// From a register.
+    Word(Word),
+    /// The same on every path.
+    Constant(i64),
+}
