@@ -103,7 +103,7 @@ impl Contents {
                 a, drop, target, ..
             } => {
                 let a = i128::from(self.word(*a));
-                self.set(*target, (a * a >> drop) as i64);
+                self.set(*target, ((a * a) >> drop) as i64);
             }
             Op::Scale {
                 a,
@@ -165,11 +165,9 @@ impl Contents {
 
     fn in_place(&mut self, op: &Op, inverse: bool) {
         match op {
-            Op::XorInto { a, when, target } => {
-                if when.is_none_or(|bit| self.bit(bit)) {
-                    let old = self.registers[target.index()].cast_signed();
-                    self.set(*target, old ^ self.operand(*a));
-                }
+            Op::XorInto { a, when, target } if when.is_none_or(|bit| self.bit(bit)) => {
+                let old = self.registers[target.index()].cast_signed();
+                self.set(*target, old ^ self.operand(*a));
             }
             Op::AddInto {
                 a,
@@ -188,10 +186,8 @@ impl Contents {
                     self.set(*target, added(old, self.operand(*a), minus));
                 }
             }
-            Op::Swap { a, b, when } => {
-                if when.is_none_or(|bit| self.bit(bit)) {
-                    self.registers.swap(a.index(), b.index());
-                }
+            Op::Swap { a, b, when } if when.is_none_or(|bit| self.bit(bit)) => {
+                self.registers.swap(a.index(), b.index());
             }
             Op::Phase { bit } => self.negative ^= self.bit(*bit),
             _ => {}

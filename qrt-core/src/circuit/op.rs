@@ -17,7 +17,7 @@ use std::sync::Arc;
 /// A target never overlaps an operand. `scratch` registers are computed beside the target and
 /// returned to zero with it; their content is the lowering's own affair. Their width is
 /// `lower::scratch_width`.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Op {
     /// `t = a mod 2^w`
     Copy {

@@ -74,12 +74,17 @@ impl Expr {
     /// assert!(range.lo <= 1.0 && range.lo > 0.999 && range.hi >= 3.0 && range.hi < 3.001);
     /// ```
     pub fn range(&self, domain: &Domain) -> Option<Interval> {
+        self.ranges(domain)[self.root.index()]
+    }
+
+    /// As [`Expr::range`], of every node.
+    pub fn ranges(&self, domain: &Domain) -> Vec<Option<Interval>> {
         let mut ranges: Vec<Option<Interval>> = Vec::with_capacity(self.nodes.len());
         for node in &self.nodes {
             let range = node.range(domain, |id| ranges[id.index()]);
             ranges.push(range);
         }
-        ranges[self.root.index()]
+        ranges
     }
 }
 

@@ -28,13 +28,28 @@ impl Coordinate {
     }
 }
 
+/// A part of the tracer: a box of the paper's figure, or a part of one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// The ray of this depth: the camera's, or what a surface scatters.
+    GenerateRay(usize),
+    /// The nearest intersection of the ray of this depth.
+    FindIntersection(usize),
+    /// One plane (by number) and the primitives on it, within an intersection.
+    Plane(usize),
+    /// One primitive (by number), within an intersection.
+    Primitive(usize),
+    /// What the vertex at the end of the ray of this depth emits towards the camera.
+    Shade(usize),
+}
+
 /// The arithmetic of a machine.
 ///
 /// A value stands for one number *per path*: a lane of `f64`, or a register in superposition.
 /// Plain Rust values (`f64`, `u32`, slices) are constants that every path shares, which a circuit
 /// folds. Implementations must not depend on the values of paths for control flow, except through
 /// [`Arith::possible`].
-pub trait Arith {
+pub trait Arith: Sized {
     /// A real number.
     type Real: Copy;
     /// A truth value.
@@ -50,8 +65,17 @@ pub trait Arith {
     fn sub(&mut self, a: Self::Real, b: Self::Real) -> Self::Real;
     /// `a b`
     fn mul(&mut self, a: Self::Real, b: Self::Real) -> Self::Real;
-    /// `a / b`; anything where `b` is zero.
-    fn div(&mut self, a: Self::Real, b: Self::Real) -> Self::Real;
+    /// `a / b`, which lies within `-most ..= most` wherever it matters; anything where it does not,
+    /// or where `b` is zero.
+    fn div(&mut self, a: Self::Real, b: Self::Real, most: f64) -> Self::Real;
+    /// Whether `a / b` is above 0, and the quotient itself. One above `most` may be told as not
+    /// above 0: nothing is that far away.
+    #[inline(always)]
+    fn ahead(&mut self, a: Self::Real, b: Self::Real, most: f64) -> (Self::Bool, Self::Real) {
+        let quotient = self.div(a, b, most);
+        let zero = self.real(0.0);
+        (self.less(zero, quotient), quotient)
+    }
     /// `-a`
     fn neg(&mut self, a: Self::Real) -> Self::Real;
     /// `|a|`
@@ -68,6 +92,45 @@ pub trait Arith {
         let factor = self.real(factor);
         self.mul(a, factor)
     }
+    /// `sqrt(x^2 + y^2 + z^2)`
+    #[inline(always)]
+    fn length(&mut self, v: [Self::Real; 3]) -> Self::Real {
+        let square = super::vector::dot(self, &v, &v);
+        self.sqrt(square)
+    }
+    /// `a`, of which the tracer knows that it lies in `low ..= high`, up to rounding.
+    #[inline(always)]
+    fn known(&mut self, a: Self::Real, _low: f64, _high: f64) -> Self::Real {
+        a
+    }
+    /// A distance beyond everything: that of no hit.
+    #[inline(always)]
+    fn nowhere(&mut self, _most: f64) -> Self::Real {
+        self.real(f64::MAX)
+    }
+    /// `low <= value <= high`, with bounds that may be infinite; a machine whose numbers are coarse
+    /// reaches outwards by what it rounds.
+    #[inline(always)]
+    fn inside(&mut self, low: f64, value: Self::Real, high: f64) -> Self::Bool {
+        let low = self.real(low);
+        let high = self.real(high);
+        super::between(self, low, value, high)
+    }
+    /// How far a hit is drawn towards its face's centre, as a share of the way: see
+    /// [`super::INWARD`].
+    #[inline(always)]
+    fn inward(&mut self) -> f64 {
+        super::INWARD
+    }
+    /// Keeps `a`, though nothing may need it: the paper's records of every primitive.
+    #[inline(always)]
+    fn record(&mut self, _a: Self::Real) {}
+    /// What follows belongs to `part`, until [`Arith::leave`].
+    #[inline(always)]
+    fn enter(&mut self, _part: Part) {}
+    /// The end of what the last open [`Arith::enter`] began.
+    #[inline(always)]
+    fn leave(&mut self) {}
     /// A function of the expression language.
     fn function(&mut self, function: Function, a: Self::Real) -> Self::Real;
     /// `a^b` for `a >= 0`.

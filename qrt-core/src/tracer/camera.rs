@@ -22,6 +22,8 @@ pub struct CameraStage {
     pub row: [f64; 3],
     /// Must primary directions have unit length?
     pub unit: bool,
+    /// A bound on the distance of whatever a primary ray meets, in lengths of its direction.
+    pub reach: f64,
 }
 
 struct Basis {
@@ -87,6 +89,10 @@ impl CameraStage {
         let column = (upper_right - upper_left) / f64::from(film.width);
         let row = (lower_left - upper_left) / f64::from(film.height);
         let eye = (basis.eye - geometry.centre) * geometry.scale;
+        // No direction is shorter than its forward part, 1.
+        let starts = reach(camera, film).into_iter();
+        let starts = starts.map(|start| (start - geometry.centre) * geometry.scale);
+        let far = starts.map(|start| start.length()).fold(0.0, f64::max) + geometry.radius();
         if basis.perspective {
             Self {
                 perspective: true,
@@ -95,6 +101,7 @@ impl CameraStage {
                 column: column.to_array(),
                 row: row.to_array(),
                 unit,
+                reach: far,
             }
         } else {
             Self {
@@ -104,6 +111,7 @@ impl CameraStage {
                 column: (column * geometry.scale).to_array(),
                 row: (row * geometry.scale).to_array(),
                 unit: false,
+                reach: far,
             }
         }
     }
@@ -135,7 +143,8 @@ impl CameraStage {
         let from = from_nowhere(cx);
         if self.perspective {
             let direction = if self.unit {
-                vector::normalize(cx, &moving)
+                // The forward part alone has length 1.
+                vector::normalize(cx, &moving, 1.0)
             } else {
                 moving
             };
@@ -143,12 +152,14 @@ impl CameraStage {
                 origin: fixed,
                 direction,
                 from,
+                reach: self.reach,
             }
         } else {
             Ray {
                 origin: moving,
                 direction: fixed,
                 from,
+                reach: self.reach,
             }
         }
     }

@@ -1,10 +1,9 @@
 //! The frame itself: the paper's `Path Tracing` box.
 
-use super::geometry::INWARD;
 use super::intersect::{Nearest, Ray, point_at};
 use super::scatter::{Vertex, members};
 use super::vector::{self, Vector};
-use super::{Arith, Stage};
+use super::{Arith, Part, Stage};
 
 /// The colour of each path, per channel, in radiance.
 ///
@@ -22,15 +21,19 @@ pub fn trace<A: Arith, N: Nearest<A>, const C: usize>(
     if stage.surface_of.is_empty() {
         return colour;
     }
+    cx.enter(Part::GenerateRay(0));
     let mut ray = stage.camera.ray(cx, stage.film_bits);
+    cx.leave();
     let mut alive = cx.truth(true);
     let mut throughput: Option<[A::Real; C]> = None;
     for depth in 0..stage.depths() {
         let scatter = stage.scatters.get(depth);
+        cx.enter(Part::FindIntersection(depth));
         let hit = match scatter {
             Some(_) => nearest.nearest(cx, &ray, alive),
             None => nearest.emitter(cx, &ray, alive),
         };
+        cx.leave();
         alive = cx.and(alive, hit.found);
         if !cx.possible(alive) {
             break;
@@ -54,6 +57,7 @@ pub fn trace<A: Arith, N: Nearest<A>, const C: usize>(
         vertex.slope = vector::dot(cx, &ray.direction, &vertex.normal);
         vertex.front = cx.less(vertex.slope, zero);
         if let Some(emits) = emits {
+            cx.enter(Part::Shade(depth));
             let shows = cx.and(emits, vertex.front);
             let shows = cx.and(shows, alive);
             let radiance = cx.rows(&stage.radiance, surface);
@@ -63,6 +67,7 @@ pub fn trace<A: Arith, N: Nearest<A>, const C: usize>(
             };
             let seen = vector::select(cx, shows, &arriving, &[zero; C]);
             colour = vector::add(cx, &colour, &seen);
+            cx.leave();
         }
         let Some(scatter) = scatter else {
             break;
@@ -76,6 +81,7 @@ pub fn trace<A: Arith, N: Nearest<A>, const C: usize>(
             break;
         }
         vertex.alive = alive;
+        cx.enter(Part::GenerateRay(depth + 1));
         let [tx, ty, tz, bx, by, bz, gx, gy, gz] = cx.rows(&stage.frames, hit.face);
         vertex.tangent = [tx, ty, tz];
         vertex.bitangent = [bx, by, bz];
@@ -86,11 +92,13 @@ pub fn trace<A: Arith, N: Nearest<A>, const C: usize>(
             origin: inward(cx, &point, &[gx, gy, gz]),
             direction: scattered.direction,
             from,
+            reach: stage.reach,
         };
         throughput = Some(match throughput {
             Some(old) => vector::mul(cx, &old, &scattered.weight),
             None => scattered.weight,
         });
+        cx.leave();
     }
     colour
 }
@@ -99,7 +107,8 @@ pub fn trace<A: Arith, N: Nearest<A>, const C: usize>(
 #[inline(always)]
 fn inward<A: Arith>(cx: &mut A, point: &Vector<A>, centre: &Vector<A>) -> Vector<A> {
     let way = vector::sub(cx, centre, point);
-    let inward = cx.real(INWARD);
-    let step = vector::scale(cx, &way, inward);
+    let share = cx.inward();
+    let share = cx.real(share);
+    let step = vector::scale(cx, &way, share);
     vector::add(cx, point, &step)
 }

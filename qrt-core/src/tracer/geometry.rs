@@ -22,7 +22,7 @@ pub const TOLERANCE: f64 = 1.0 / (1_u64 << 49) as f64;
 /// How far a hit is drawn from its face's edge towards the face's centre, as a share of the way:
 /// more than the edges' tolerance, less than any picture shows. A ray that starts there stands
 /// strictly inside the face, so it cannot slip past a neighbour that meets it at that edge.
-pub(crate) const INWARD: f64 = 1.0 / (1_u64 << 32) as f64;
+pub const INWARD: f64 = 1.0 / (1_u64 << 32) as f64;
 
 /// Planes nearer than this to each other (in coefficients and offset) are one.
 const SAME_PLANE: f64 = 1.0 / (1_u64 << 42) as f64;
@@ -163,6 +163,12 @@ impl Geometry {
         }
         geometry.arrange(on_plane);
         geometry
+    }
+
+    /// The greatest distance of a point of the geometry from the origin.
+    pub fn radius(&self) -> f64 {
+        let points = self.corners.iter().flatten();
+        points.map(|point| point.length()).fold(0.0, f64::max)
     }
 
     /// The faces on plane number `plane`.

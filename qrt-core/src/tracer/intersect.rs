@@ -6,7 +6,7 @@
 
 use super::geometry::{Face, Geometry, NO_FACE, NO_PLANE, Slab};
 use super::vector::Vector;
-use super::{Arith, vector};
+use super::{Arith, Part, vector};
 
 /// A ray.
 pub struct Ray<A: Arith> {
@@ -16,6 +16,8 @@ pub struct Ray<A: Arith> {
     pub direction: Vector<A>,
     /// The plane it leaves; [`NO_PLANE`] from the camera.
     pub from: A::Index,
+    /// A bound on the distance of whatever it meets, in lengths of its direction.
+    pub reach: f64,
 }
 
 impl<A: Arith> Clone for Ray<A> {
@@ -94,8 +96,7 @@ impl Slab {
     fn holds<A: Arith>(&self, cx: &mut A, point: [A::Real; 2]) -> A::Bool {
         let form = constants(cx, self.form);
         let value = weighted(cx, form, point);
-        let (low, high) = (cx.real(self.low), cx.real(self.high));
-        between(cx, low, value, high)
+        cx.inside(self.low, value, self.high)
     }
 }
 
@@ -147,6 +148,8 @@ pub struct Turned<A: Arith> {
     pub origin_across: [A::Real; 2],
     /// Along the next axis and the one after it.
     pub direction_across: [A::Real; 2],
+    /// As [`Ray::reach`].
+    pub reach: f64,
 }
 
 impl<A: Arith> Turned<A> {
@@ -158,6 +161,7 @@ impl<A: Arith> Turned<A> {
             direction: ray.direction[AXIS],
             origin_across: across(&ray.origin),
             direction_across: across(&ray.direction),
+            reach: ray.reach,
         }
     }
 }
@@ -185,9 +189,7 @@ pub fn cross<A: Arith>(
     let height = weighted(cx, form, ray.origin_across);
     let height = cx.add(ray.origin, height);
     let rise = cx.sub(offset, height);
-    let distance = cx.div(rise, slope);
-    let zero = cx.real(0.0);
-    let ahead = cx.less(zero, distance);
+    let (ahead, distance) = cx.ahead(rise, slope, ray.reach);
     let [x, y] = vector::scale(cx, &ray.direction_across, distance);
     let point = [
         cx.add(ray.origin_across[0], x),
@@ -232,10 +234,12 @@ impl Geometry {
     ) {
         let (ray, from) = (Turned::new::<AXIS>(ray), ray.from);
         for number in self.by_axis[AXIS].clone() {
+            cx.enter(Part::Plane(number));
             let crossing = self.cross(cx, number, &ray, from);
             for face in self.faces_of(number) {
                 nearest.meet(cx, face, &crossing);
             }
+            cx.leave();
         }
     }
 
@@ -249,10 +253,12 @@ impl Geometry {
     ) {
         let (ray, from) = (Turned::new::<AXIS>(ray), ray.from);
         for &number in &self.emitting[AXIS] {
+            cx.enter(Part::Plane(number));
             let crossing = self.cross(cx, number, &ray, from);
             for face in self.faces_of(number).iter().filter(|face| face.emits) {
                 nearest.meet(cx, face, &crossing);
             }
+            cx.leave();
         }
     }
 
@@ -267,6 +273,7 @@ impl Geometry {
     ) -> A::Bool {
         let (ray, from) = (Turned::new::<AXIS>(ray), ray.from);
         for number in self.by_axis[AXIS].clone() {
+            cx.enter(Part::Plane(number));
             let crossing = self.cross(cx, number, &ray, from);
             for face in self.faces_of(number).iter().filter(|face| !face.emits) {
                 let inside = within(cx, &face.slabs, crossing.point);
@@ -279,6 +286,7 @@ impl Geometry {
                 let hides = cx.and(meets, nearer);
                 hidden = cx.or(hidden, hides);
             }
+            cx.leave();
         }
         hidden
     }
@@ -292,9 +300,9 @@ struct Running<A: Arith> {
 
 impl<A: Arith> Running<A> {
     #[inline(always)]
-    fn new(cx: &mut A) -> Self {
+    fn new(cx: &mut A, reach: f64) -> Self {
         Self {
-            distance: cx.real(f64::MAX),
+            distance: cx.nowhere(reach),
             face: cx.index(NO_FACE),
         }
     }
@@ -316,7 +324,7 @@ impl Geometry {
     /// The nearest emitter on the ray, hidden or not.
     #[inline(always)]
     pub fn nearest_emitter<A: Arith>(&self, cx: &mut A, ray: &Ray<A>, wanted: A::Bool) -> Hit<A> {
-        let mut nearest = Running::new(cx);
+        let mut nearest = Running::new(cx, ray.reach);
         self.emitters_along::<A, 0>(cx, ray, &mut nearest);
         self.emitters_along::<A, 1>(cx, ray, &mut nearest);
         self.emitters_along::<A, 2>(cx, ray, &mut nearest);
@@ -328,7 +336,7 @@ impl<A: Arith> Nearest<A> for Geometry {
     /// All planes in turn.
     #[inline(always)]
     fn nearest(&self, cx: &mut A, ray: &Ray<A>, wanted: A::Bool) -> Hit<A> {
-        let mut nearest = Running::new(cx);
+        let mut nearest = Running::new(cx, ray.reach);
         self.nearest_along::<A, 0>(cx, ray, &mut nearest);
         self.nearest_along::<A, 1>(cx, ray, &mut nearest);
         self.nearest_along::<A, 2>(cx, ray, &mut nearest);

@@ -33,10 +33,10 @@ mod stage;
 mod tests;
 pub(crate) mod vector;
 
-pub use arith::{Arith, Axis, Coordinate};
+pub use arith::{Arith, Axis, Coordinate, Part};
 pub use camera::CameraStage;
 pub use frame::trace;
-pub use geometry::{Face, Frame, Geometry, NO_FACE, NO_PLANE, Plane, Slab, TOLERANCE};
+pub use geometry::{Face, Frame, Geometry, INWARD, NO_FACE, NO_PLANE, Plane, Slab, TOLERANCE};
 pub use intersect::{Crossing, Hit, Nearest, Ray, Turned, between, cross, weighted};
 pub use sampled::Sampled;
 pub use stage::Stage;

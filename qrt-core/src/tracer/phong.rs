@@ -158,7 +158,7 @@ impl<const C: usize> PhongStage<C> {
         let z = cx.add(one, outgoing[2]);
         let bisector = [x, y, z];
         let along = vector::dot(cx, &about_axis, &bisector);
-        let factor = cx.div(along, z);
+        let factor = cx.div(along, z, 2.0);
         let scaled = vector::scale(cx, &bisector, factor);
         let turned = vector::sub(cx, &scaled, &about_axis);
         let direction = vector::select(cx, on_lobe, &turned, &about_axis);

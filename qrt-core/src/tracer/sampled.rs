@@ -5,7 +5,7 @@
 //! indices (a QROM, in a circuit), and only what mixes coordinates or angles is arithmetic.
 
 use super::{Arith, Axis, Coordinate};
-use crate::expr::{Expr, Function, Id, Node, Variable, VariableSet, Variables};
+use crate::expr::{Domain, Expr, Function, Id, Interval, Node, Variable, VariableSet, Variables};
 use std::collections::HashMap;
 use std::fmt;
 use std::sync::Arc;
@@ -87,7 +87,8 @@ enum Step {
     Add(usize, usize),
     Sub(usize, usize),
     Mul(usize, usize),
-    Div(usize, usize),
+    /// The bound of its values comes third.
+    Div(usize, usize, f64),
     Min(usize, usize),
     Max(usize, usize),
     Pow(usize, usize),
@@ -189,7 +190,7 @@ impl Compiled {
                 Step::Add(a, b) => cx.add(values[*a], values[*b]),
                 Step::Sub(a, b) => cx.sub(values[*a], values[*b]),
                 Step::Mul(a, b) => cx.mul(values[*a], values[*b]),
-                Step::Div(a, b) => cx.div(values[*a], values[*b]),
+                Step::Div(a, b, most) => cx.div(values[*a], values[*b], *most),
                 Step::Min(a, b) => cx.min(values[*a], values[*b]),
                 Step::Max(a, b) => cx.max(values[*a], values[*b]),
                 Step::Pow(a, b) => cx.pow(values[*a], values[*b]),
@@ -234,6 +235,7 @@ pub(crate) fn integer_power<A: Arith>(cx: &mut A, a: A::Real, exponent: u32) -> 
 impl Compiler {
     fn expression(&mut self, expr: &Expr) -> usize {
         let needs = expr.node_variables();
+        let ranges = expr.ranges(&self.cells());
         let mut done: HashMap<Id, usize> = HashMap::new();
         let mut pending = vec![expr.root()];
         // Depth first without recursion: an operand's step comes before its user's.
@@ -253,7 +255,7 @@ impl Compiler {
                 .filter(|operand| !done.contains_key(operand))
                 .collect();
             if missing.is_empty() {
-                let step = self.arithmetic(node, &done);
+                let step = self.arithmetic(node, &done, ranges[id.index()]);
                 done.insert(id, step);
                 pending.pop();
             } else {
@@ -298,13 +300,32 @@ impl Compiler {
         Some(self.push(Step::Sampled(axis, sampled)))
     }
 
-    fn arithmetic(&mut self, node: &Node, done: &HashMap<Id, usize>) -> usize {
+    /// The square of the cell centres.
+    fn cells(&self) -> Domain {
+        let cells = |bits: u32| Interval {
+            lo: centre(0, bits),
+            hi: 1.0 - centre(0, bits),
+        };
+        Domain {
+            u: cells(self.bits[0]),
+            v: cells(self.bits[1]),
+            ..Domain::default()
+        }
+    }
+
+    fn arithmetic(
+        &mut self,
+        node: &Node,
+        done: &HashMap<Id, usize>,
+        range: Option<Interval>,
+    ) -> usize {
+        let most = range.map_or(f64::INFINITY, |range| range.lo.abs().max(range.hi.abs()));
         let step = match node {
             Node::Number(value) => Step::Constant(*value),
             Node::Add(a, b) => Step::Add(done[a], done[b]),
             Node::Sub(a, b) => Step::Sub(done[a], done[b]),
             Node::Mul(a, b) => Step::Mul(done[a], done[b]),
-            Node::Div(a, b) => Step::Div(done[a], done[b]),
+            Node::Div(a, b) => Step::Div(done[a], done[b], most),
             Node::Min(a, b) => Step::Min(done[a], done[b]),
             Node::Max(a, b) => Step::Max(done[a], done[b]),
             Node::Pow(a, b) => Step::Pow(done[a], done[b]),
@@ -320,7 +341,7 @@ impl Compiler {
                     return power;
                 }
                 let one = self.push(Step::Constant(1.0));
-                Step::Div(one, power)
+                Step::Div(one, power, most)
             }
             Node::Variable(Variable::CosO) => Step::CosO,
             // `u` and `v` alone are tables, and `cos_i` was replaced by `|phi_z|`.

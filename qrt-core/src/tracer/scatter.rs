@@ -42,6 +42,8 @@ pub(crate) struct ScatterStage<const C: usize> {
     refraction: Vec<[f64; 2]>,
     /// By surface: `alpha` of a GGX.
     roughness: Vec<[f64; 1]>,
+    /// The least of them.
+    least_alpha: f64,
     phong: Vec<(u32, PhongStage<C>)>,
     custom: Vec<(u32, CustomStage)>,
     /// Does any surface ask for the viewer's direction in the local frame?
@@ -186,6 +188,13 @@ impl<const C: usize> ScatterStage<C> {
                     _ => [1.0],
                 })
                 .collect(),
+            least_alpha: surfaces
+                .iter()
+                .filter_map(|surface| match surface.scatter {
+                    Scatter::Ggx { alpha, .. } => Some(alpha),
+                    _ => None,
+                })
+                .fold(1.0, f64::min),
             phong,
             custom,
             local,
@@ -250,6 +259,7 @@ impl<const C: usize> ScatterStage<C> {
         if let Some(mask) = members(cx, at, &self.mirror) {
             let mirrored = vector::mirror(cx, &at.arriving, &at.normal);
             let direction = vector::neg(cx, &mirrored);
+            let direction = unit(cx, &direction);
             choose(
                 cx,
                 &mut chosen,
@@ -349,6 +359,7 @@ impl<const C: usize> ScatterStage<C> {
         let forward = vector::scale(cx, &at.arriving, along);
         let sideways = vector::scale(cx, &at.normal, across);
         let direction = vector::add(cx, &forward, &sideways);
+        let direction = unit(cx, &direction);
         let weight = cx.select(reflects, one, eta_squared);
         Scattered {
             direction,
@@ -366,7 +377,7 @@ impl<const C: usize> ScatterStage<C> {
     ) -> (Vector<A>, A::Real) {
         let [alpha] = cx.rows(&self.roughness, at.surface);
         if let (true, Some((incoming, factor))) = (self.replaces, mapped) {
-            let value = microfacet::value(cx, alpha, &local.outgoing, &incoming);
+            let value = microfacet::value(cx, alpha, &local.outgoing, &incoming, self.least_alpha);
             let value = cx.scale(value, PI);
             (incoming, cx.mul(value, factor))
         } else {
@@ -376,7 +387,7 @@ impl<const C: usize> ScatterStage<C> {
             });
             let u = cx.centre(u, self.bits[0]);
             let azimuth = self.azimuth(cx);
-            microfacet::sample(cx, alpha, &local.outgoing, u, azimuth)
+            microfacet::sample(cx, alpha, &local.outgoing, u, azimuth, self.least_alpha)
         }
     }
 
@@ -492,10 +503,10 @@ pub(crate) fn fresnel<A: Arith>(
     let b = cx.mul(eta, cos_t);
     let top = cx.sub(a, cos_t);
     let bottom = cx.add(a, cos_t);
-    let across = cx.div(top, bottom);
+    let across = cx.div(top, bottom, 1.0);
     let top = cx.sub(b, cos_o);
     let bottom = cx.add(b, cos_o);
-    let along = cx.div(top, bottom);
+    let along = cx.div(top, bottom, 1.0);
     let across = cx.mul(across, across);
     let along = cx.mul(along, along);
     let sum = cx.add(across, along);
@@ -553,5 +564,16 @@ fn to_scene<A: Arith>(cx: &mut A, at: &Vertex<A>, local: &Vector<A>) -> Vector<A
     let y = vector::scale(cx, &at.bitangent, local[1]);
     let z = vector::scale(cx, &at.normal, height);
     let flat = vector::add(cx, &x, &y);
-    vector::add(cx, &flat, &z)
+    let direction = vector::add(cx, &flat, &z);
+    unit(cx, &direction)
+}
+
+/// A direction of unit length, up to rounding.
+#[inline(always)]
+fn unit<A: Arith>(cx: &mut A, a: &Vector<A>) -> Vector<A> {
+    [
+        cx.known(a[0], -1.0, 1.0),
+        cx.known(a[1], -1.0, 1.0),
+        cx.known(a[2], -1.0, 1.0),
+    ]
 }

@@ -28,6 +28,8 @@ pub struct Stage<const C: usize> {
     pub(crate) black: u32,
     /// What scatters towards each ray but the first.
     pub(crate) scatters: Vec<ScatterStage<C>>,
+    /// A bound on the distance between two points of the geometry.
+    pub(crate) reach: f64,
     bound: [f64; C],
 }
 
@@ -94,6 +96,7 @@ impl<const C: usize> Stage<C> {
             black,
             scatters,
             bound,
+            reach: 2.0 * geometry.radius(),
             geometry,
         }
     }

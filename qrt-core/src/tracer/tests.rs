@@ -34,7 +34,7 @@ impl Arith for Scalar {
     fn mul(&mut self, a: f64, b: f64) -> f64 {
         a * b
     }
-    fn div(&mut self, a: f64, b: f64) -> f64 {
+    fn div(&mut self, a: f64, b: f64, _most: f64) -> f64 {
         a / b
     }
     fn neg(&mut self, a: f64) -> f64 {
@@ -395,7 +395,7 @@ fn values_are_those_of_an_independent_renderer() {
             std::array::from_fn(|k| row[k + 1].parse().unwrap());
         let (viewer, light) = (at(theta_i, 0.0), at(theta_o, phi));
         let value = match row[0].as_str() {
-            "ggx" => [microfacet::value(cx, 0.2, &viewer, &light); 3],
+            "ggx" => [microfacet::value(cx, 0.2, &viewer, &light, 0.2); 3],
             _ => bsdf.value(cx, cos_a(light, viewer)),
         };
         for (ours, theirs) in value.iter().zip([red, green, blue]) {

@@ -105,13 +105,18 @@ pub(crate) fn select<A: Arith, const N: usize>(
     chosen
 }
 
+/// `a` over its length, which is at least `1 / longest`.
 #[inline(always)]
-pub(crate) fn normalize<A: Arith>(cx: &mut A, a: &Vector<A>) -> Vector<A> {
-    let square = dot(cx, a, a);
-    let length = cx.sqrt(square);
+pub(crate) fn normalize<A: Arith>(cx: &mut A, a: &Vector<A>, longest: f64) -> Vector<A> {
+    let length = cx.length(*a);
     let one = cx.real(1.0);
-    let inverse = cx.div(one, length);
-    scale(cx, a, inverse)
+    let inverse = cx.div(one, length, longest);
+    let [x, y, z] = scale(cx, a, inverse);
+    [
+        cx.known(x, -1.0, 1.0),
+        cx.known(y, -1.0, 1.0),
+        cx.known(z, -1.0, 1.0),
+    ]
 }
 
 /// `2 (a.b) b - a`: `a` mirrored at the axis `b`, a unit vector.

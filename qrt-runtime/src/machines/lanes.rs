@@ -162,7 +162,7 @@ impl<S: pulp::Simd, const W: usize> Arith for Lanes<'_, S, W> {
         each!(self, mul_f64s, a, b)
     }
     #[inline(always)]
-    fn div(&mut self, a: Self::Real, b: Self::Real) -> Self::Real {
+    fn div(&mut self, a: Self::Real, b: Self::Real, _most: f64) -> Self::Real {
         each!(self, div_f64s, a, b)
     }
     #[inline(always)]
