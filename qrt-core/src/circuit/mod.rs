@@ -32,14 +32,18 @@
 //! count of these must agree for every content of its operands. Machines are built on one of the
 //! three alone, so that each checks the others.
 
+pub mod builder;
 mod evaluate;
 mod gate;
+pub mod lower;
 mod op;
+mod passes;
 mod program;
 mod register;
 
 pub use evaluate::Contents;
 pub use gate::{Circuit, Gate, Gates, Qubit};
 pub use op::{Op, Style, When};
+pub(crate) use passes::assemble;
 pub use program::{Instruction, Parameter, Program};
 pub use register::{Bit, Block, BlockId, Operand, Register, RegisterId, Role, Type, Word};

@@ -146,6 +146,11 @@ impl PathPoints {
         }
     }
 
+    /// Do pixels shift their points?
+    pub fn shifts(&self) -> bool {
+        self.sequence == Sequence::DigitalNet
+    }
+
     /// The index of coordinate `axis` of ray `depth` on path `id`.
     ///
     /// # Panics

@@ -92,7 +92,7 @@ impl CameraStage {
         // No direction is shorter than its forward part, 1.
         let starts = reach(camera, film).into_iter();
         let starts = starts.map(|start| (start - geometry.centre) * geometry.scale);
-        let far = starts.map(|start| start.length()).fold(0.0, f64::max) + geometry.radius();
+        let far = starts.map(DVec3::length).fold(0.0, f64::max) + geometry.radius();
         if basis.perspective {
             Self {
                 perspective: true,

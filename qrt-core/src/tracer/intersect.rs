@@ -224,6 +224,26 @@ impl Geometry {
         }
     }
 
+    /// Whether `ray` meets face number `number`, and at which distance.
+    #[inline(always)]
+    pub(crate) fn meet<A: Arith>(
+        &self,
+        cx: &mut A,
+        number: usize,
+        ray: &Ray<A>,
+    ) -> (A::Bool, A::Real) {
+        let face = &self.faces[number];
+        let plane = self.plane_of[face.label as usize] as usize;
+        let turned = match self.planes[plane].axis {
+            0 => Turned::new::<0>(ray),
+            1 => Turned::new::<1>(ray),
+            _ => Turned::new::<2>(ray),
+        };
+        let crossing = self.cross(cx, plane, &turned, ray.from);
+        let inside = within(cx, &face.slabs, crossing.point);
+        (cx.and(crossing.ahead, inside), crossing.distance)
+    }
+
     /// The faces on planes with main axis `AXIS`, in turn, with a running nearest.
     #[inline(always)]
     fn nearest_along<A: Arith, const AXIS: usize>(

@@ -101,6 +101,18 @@ impl<const C: usize> Stage<C> {
         }
     }
 
+    /// The same stage with radiances in units of the bound, so that no colour exceeds 1.
+    pub fn relative(mut self) -> Self {
+        for radiance in &mut self.radiance {
+            for (value, bound) in radiance.iter_mut().zip(self.bound) {
+                if bound > 0.0 {
+                    *value /= bound;
+                }
+            }
+        }
+        self
+    }
+
     /// D: rays on a path.
     pub fn depths(&self) -> usize {
         self.scatters.len() + 1

@@ -104,6 +104,7 @@ impl Packet {
             direction: d,
             origin_across: [o_next, o_last],
             direction_across: [d_next, d_last],
+            reach: f64::INFINITY,
         };
         let form = [real(&self.form[0]), real(&self.form[1])];
         let crossing = cross(cx, form, real(&self.offset), &ray);

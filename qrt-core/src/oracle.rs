@@ -1,0 +1,313 @@
+//! A scene's oracle: the paper's Path Tracing frame as a reversible program.
+//!
+//! The oracle of a channel flips the phase of every basis state (id, comparator) whose path's
+//! colour exceeds the comparator's threshold, and leaves all other qubits as they were:
+//!
+//! ```text
+//! compute        id -> colour_id            generate_ray, find_intersection, shade; per depth
+//! compare        flag = y < colour'         colour' = #thresholds that the colour exceeds
+//! flip           Z on the flag
+//! undo compare, undo compute
+//! ```
+//!
+//! The colour is held in units of the channel's proven bound, so that it is a number in [0, 1]
+//! whatever the scene's radiances; `colour'` is it rounded to a step `2^-c` (to the nearest under
+//! `midpoints`, up under `edges`), which makes the comparison one of integers:
+//! `#{y < 2^c : y < colour'} = min(colour', 2^c)` of a path's ids are good.
+//!
+//! One program serves all pixels of a film: what differs between them are classical words
+//! ([`crate::circuit::Parameter`]), loaded by Xs.
+
+use crate::circuit::builder::{BuildError, Builder, Passes, Real, Target};
+use crate::circuit::{
+    self, Bit, BlockId, Instruction, Op, Operand, Program, RegisterId, Role, Style, Type, Word,
+};
+use crate::sampling::{PathPoints, SamplingError};
+use crate::scene::{ComparatorAt, Nearest, Uncompute};
+use crate::tracer::{Arith, Records, Stage, trace};
+use crate::valid::ValidScene;
+use std::fmt;
+
+/// Fraction bits under `precision: { fraction: auto }`.
+pub const DEFAULT_FRACTION: u32 = 16;
+
+/// How a scene is compiled, where not as it says itself.
+#[derive(Clone, Copy, Debug)]
+pub struct Options {
+    /// How operations that leave something behind are lowered; by the scene's strategy unless set.
+    pub style: Option<Style>,
+    /// What is done to make the program cheaper.
+    pub passes: Passes,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            style: None,
+            passes: Passes::ALL,
+        }
+    }
+}
+
+/// Why a scene has no oracle.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum OracleError {
+    /// The program cannot be built.
+    Build(BuildError),
+    /// The scene's sequence cannot be made.
+    Sampling(SamplingError),
+}
+
+impl fmt::Display for OracleError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Build(error) => error.fmt(f),
+            Self::Sampling(error) => error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for OracleError {}
+
+impl From<BuildError> for OracleError {
+    fn from(error: BuildError) -> Self {
+        Self::Build(error)
+    }
+}
+
+impl From<SamplingError> for OracleError {
+    fn from(error: SamplingError) -> Self {
+        Self::Sampling(error)
+    }
+}
+
+/// A channel's part of an oracle.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Channel {
+    /// 0 red, 1 green, 2 blue.
+    pub number: usize,
+    /// The colour, in units of `scale 2^-fraction`.
+    pub colour: Operand,
+    /// How many thresholds the colour exceeds, before it is cut to `2^c`.
+    pub count: Operand,
+    /// The proven bound on a path's colour, in radiance.
+    pub scale: f64,
+}
+
+/// A scene's oracle: see [the module](self).
+#[derive(Clone, Debug)]
+pub struct Oracle {
+    /// What computes the colours.
+    pub program: Program,
+    /// The channels that it computes.
+    pub channels: Vec<Channel>,
+    /// The path's id.
+    pub id: RegisterId,
+    /// The comparator.
+    pub comparator: RegisterId,
+    /// The outcome of the comparison.
+    pub flag: RegisterId,
+    /// Fraction bits of every number.
+    pub fraction: u32,
+    /// The paths of a pixel.
+    pub points: PathPoints,
+    /// Columns and rows of the film.
+    pub film: [u32; 2],
+    /// Operations that the tracer asked for, and of these, those that were there already.
+    pub sharing: [u64; 2],
+}
+
+impl Oracle {
+    /// The oracle of one channel: 0 red, 1 green, 2 blue.
+    ///
+    /// # Errors
+    /// A scene whose numbers no register can hold.
+    pub fn new(scene: &ValidScene, channel: usize, options: Options) -> Result<Self, OracleError> {
+        Self::compile(scene, [channel], options)
+    }
+
+    /// One program for all three channels, which share their paths. What machines run for a
+    /// picture; a channel's own oracle is a part of it.
+    ///
+    /// # Errors
+    /// As [`Oracle::new`].
+    pub fn rgb(scene: &ValidScene, options: Options) -> Result<Self, OracleError> {
+        Self::compile(scene, [0, 1, 2], options)
+    }
+
+    fn compile<const C: usize>(
+        scene: &ValidScene,
+        channels: [usize; C],
+        options: Options,
+    ) -> Result<Self, OracleError> {
+        let written = scene.scene();
+        let stage = Stage::new(scene, channels).relative();
+        let points = PathPoints::new(&written.sampling)?;
+        let film = [written.film.width, written.film.height];
+        let fraction = written.precision.fraction.unwrap_or(DEFAULT_FRACTION);
+        let scoped = written.circuit.uncompute == Uncompute::Scoped;
+        let style = options
+            .style
+            .unwrap_or(if scoped { Style::Lean } else { Style::Wide });
+        let mut builder = Builder::new(Target {
+            fraction,
+            style,
+            points: &points,
+            film,
+            faces: scene.polygons().len() as u32,
+            passes: options.passes,
+        });
+        let bits = written.comparator.bits;
+        let comparator = builder.outside("comparator", Type::UInt, Role::Comparator, bits);
+        let flag = builder.outside("flag", Type::Bool, Role::Flag, 1);
+        let colours = match written.circuit.nearest {
+            Nearest::Running => trace(&mut builder, &stage, stage.geometry()),
+            Nearest::Paper => trace(&mut builder, &stage, &Records(&stage)),
+        };
+        let mut outputs = Vec::new();
+        for (k, &colour) in colours.iter().enumerate() {
+            let (colour, count) = builder.counted(colour, bits, written.comparator.at);
+            outputs.push(Channel {
+                number: channels[k],
+                colour,
+                count,
+                scale: stage.bound()[k],
+            });
+        }
+        let id = builder.id();
+        let sharing = builder.sharing();
+        let recorded = builder.finish()?;
+        let roots = outputs.iter().flat_map(|o| [o.colour, o.count]);
+        let roots: Vec<RegisterId> = roots.filter_map(register_of).collect();
+        let (program, renamed) =
+            circuit::assemble(recorded, &roots, options.passes, scoped, &[id, comparator]);
+        let rename = |operand: Operand| match operand {
+            Operand::Word(word) => Operand::Word(Word {
+                register: renamed
+                    .get(&word.register)
+                    .copied()
+                    .unwrap_or(word.register),
+                ..word
+            }),
+            constant @ Operand::Constant(_) => constant,
+        };
+        let mut program = program;
+        for output in &mut outputs {
+            output.colour = rename(output.colour);
+            output.count = rename(output.count);
+            if let Operand::Word(word) = output.colour {
+                let register = &mut program.registers[word.register.index()];
+                register.role = Role::Colour;
+                register.name = format!("colour.{}", ["r", "g", "b"][output.number]);
+            }
+        }
+        Ok(Self {
+            program,
+            channels: outputs,
+            id,
+            comparator,
+            flag,
+            fraction,
+            points,
+            film,
+            sharing,
+        })
+    }
+
+    /// Bits of the comparator.
+    pub fn comparator_bits(&self) -> u32 {
+        self.program.width(self.comparator)
+    }
+
+    /// Good ids of a path whose register `count` reads as `count`: of its `2^c` comparators, those
+    /// that the colour exceeds.
+    pub fn good(&self, count: i64) -> u64 {
+        count.clamp(0, 1 << self.comparator_bits()).cast_unsigned()
+    }
+
+    /// Compares with the comparator, flips the phase, and undoes the comparison: what stands
+    /// between compute and uncompute of channel number `channel` of [`Oracle::channels`].
+    pub fn flip(&self, channel: usize) -> Program {
+        let mut program = self.program.clone();
+        let block = BlockId(program.blocks.len() as u32);
+        program.blocks.push(circuit::Block {
+            parent: Some(BlockId::ROOT),
+            name: "compare and flip".to_owned(),
+            depth: None,
+            scope: false,
+        });
+        let first = program.ops.len() as u32;
+        let comparator = Word {
+            register: self.comparator,
+            offset: 0,
+            width: self.comparator_bits(),
+            signed: false,
+            shift: 0,
+        };
+        program.ops.push(Op::Less {
+            a: Operand::Word(comparator),
+            b: self.channels[channel].count,
+            target: self.flag,
+        });
+        program.ops.push(Op::Phase {
+            bit: Bit {
+                register: self.flag,
+                index: 0,
+                inverted: false,
+            },
+        });
+        let step = |op: u32, inverse: bool| Instruction { op, inverse, block };
+        program.instructions = vec![
+            step(first, false),
+            step(first + 1, false),
+            step(first, true),
+        ];
+        program.inputs = self.program.outputs();
+        program
+    }
+
+    /// All of it, for channel number `channel` of [`Oracle::channels`]: compute, compare, flip,
+    /// undo.
+    pub fn whole(&self, channel: usize) -> Program {
+        let mut whole = self.flip(channel);
+        let undo = self.program.inverse().instructions;
+        let flip = std::mem::take(&mut whole.instructions);
+        whole.instructions.clone_from(&self.program.instructions);
+        whole.instructions.extend(flip);
+        whole.instructions.extend(undo);
+        whole.inputs.clone_from(&self.program.inputs);
+        whole
+    }
+}
+
+fn register_of(operand: Operand) -> Option<RegisterId> {
+    match operand {
+        Operand::Word(word) => Some(word.register),
+        Operand::Constant(_) => None,
+    }
+}
+
+impl Builder<'_> {
+    /// A colour's register, and how many of `2^bits` thresholds it exceeds.
+    fn counted(&mut self, colour: Real, bits: u32, at: ComparatorAt) -> (Operand, Operand) {
+        self.enter_count();
+        let fraction = self.fraction_bits();
+        let (operand, _) = self.operand_of(colour);
+        // x > (y + s) 2^k is floor((x + r) / 2^k) > y, with r = 2^k - 1 less the threshold's share.
+        let step = fraction.saturating_sub(bits);
+        let rise = match at {
+            ComparatorAt::Midpoints if step > 0 => (1_i64 << (step - 1)) - 1,
+            ComparatorAt::Midpoints => 0,
+            ComparatorAt::Edges => (1 << step) - 1,
+        };
+        let rise = self.real(rise as f64 / (1_u64 << fraction) as f64);
+        let raised = self.add(colour, rise);
+        let raised = self.held(raised);
+        let exponent = f64::from(bits) - f64::from(fraction);
+        let count = self.scale(raised, exponent.exp2());
+        let (count, _) = self.operand_of(count);
+        self.leave();
+        (operand, count)
+    }
+}

@@ -1,0 +1,59 @@
+//! The paper's way to find the nearest intersection: a full record of the intersection with every
+//! primitive, and after each one a full record of the nearest so far.
+
+use super::geometry::NO_FACE;
+use super::intersect::{Hit, Nearest, Ray, point_at};
+use super::{Arith, Part, Stage};
+
+/// Records of every primitive, beside the geometry that [`Nearest`] is otherwise asked of. For
+/// comparison: the hits are the same.
+pub struct Records<'a, const C: usize>(pub &'a Stage<C>);
+
+/// Distance, point, normal, surface.
+type Record<A> = [<A as Arith>::Real; 8];
+
+impl<A: Arith, const C: usize> Nearest<A> for Records<'_, C> {
+    #[inline(always)]
+    fn nearest(&self, cx: &mut A, ray: &Ray<A>, wanted: A::Bool) -> Hit<A> {
+        let stage = self.0;
+        let zero = cx.real(0.0);
+        let mut nearest: Record<A> = [zero; 8];
+        nearest[0] = cx.nowhere(ray.reach);
+        let mut face = cx.index(NO_FACE);
+        let mut faces: Vec<usize> = (0..stage.geometry.faces.len()).collect();
+        faces.sort_by_key(|&face| stage.geometry.faces[face].label);
+        for number in faces {
+            let label = stage.geometry.faces[number].label;
+            cx.enter(Part::Primitive(label as usize));
+            let (meets, distance) = stage.geometry.meet(cx, number, ray);
+            let point = point_at(cx, ray, distance);
+            let normal = stage.normals[label as usize];
+            let surface = f64::from(stage.surface_of[label as usize]);
+            let mut record: Record<A> = [
+                distance, point[0], point[1], point[2], zero, zero, zero, zero,
+            ];
+            for (field, value) in record[4..]
+                .iter_mut()
+                .zip(normal.into_iter().chain([surface]))
+            {
+                *field = cx.real(value);
+            }
+            let nearer = cx.less(distance, nearest[0]);
+            let hit = cx.and(meets, nearer);
+            for (kept, new) in nearest.iter_mut().zip(record) {
+                *kept = cx.select(hit, new, *kept);
+                cx.record(new);
+                cx.record(*kept);
+            }
+            let label = cx.index(label);
+            face = cx.select_index(hit, label, face);
+            cx.leave();
+        }
+        Hit::new(cx, nearest[0], face, wanted)
+    }
+
+    #[inline(always)]
+    fn emitter(&self, cx: &mut A, ray: &Ray<A>, wanted: A::Bool) -> Hit<A> {
+        self.nearest(cx, ray, wanted)
+    }
+}
