@@ -2,7 +2,7 @@
 //!
 //! X, CNOT and Toffoli permute the basis states, so that each state is followed by itself, and a
 //! gate does the same to all of them: `t ^= 1`, `t ^= a`, `t ^= a & b`. A *row* holds one qubit of
-//! [`LANES`] states, a bit each, and a gate is a few instructions on vectors of bits. States span
+//! [`Gates::LANES`] states, a bit each, and a gate is a few instructions on vectors of bits. States span
 //! paths and pixels: what a pixel's circuit has built in, the classical words, are rows that gates
 //! read.
 //!
@@ -15,13 +15,14 @@ mod rows;
 #[cfg(test)]
 mod tests;
 
-pub use rows::{Dirty, LANES, Rows};
+pub use rows::{Dirty, Rows};
 
 use super::instructions::InstructionSet;
 use compile::Wiring;
 use pulp::{Simd, WithSimd, bytemuck};
 use qrt_core::circuit::Circuit;
 use rayon::prelude::*;
+use rows::LANES;
 use std::cell::Cell;
 use std::fmt;
 
@@ -75,6 +76,9 @@ pub struct Gates {
 }
 
 impl Gates {
+    /// States that a machine's rows hold.
+    pub const LANES: usize = LANES;
+
     /// A machine for circuits that share their qubits and their list of classical words: one
     /// circuit, or the parts of one between which the states are looked at.
     ///
@@ -113,7 +117,7 @@ impl Gates {
         self.gates[circuit] == 0
     }
 
-    /// Rows for [`LANES`] states, all of whose qubits are zero.
+    /// Rows for [`Gates::LANES`] states, all of whose qubits are zero.
     pub fn rows(&self) -> Rows {
         Rows::new(&self.wiring)
     }

@@ -10,7 +10,7 @@ use std::fmt;
 /// Longer rows hide the time that a row takes from being written to being read, and the choosing
 /// of what to execute; shorter ones fit a nearer cache. On a Zen 4 core, full adders over 24,000
 /// qubits run at 0.7, 1.0, 1.2 and 1.2e12 lane-gates a second at 512, 1024, 2048 and 4096 lanes.
-pub const LANES: usize = 2048;
+pub(super) const LANES: usize = 2048;
 
 /// Words of a row.
 const WORDS: usize = LANES / 64;
@@ -33,7 +33,7 @@ impl fmt::Display for Dirty {
     }
 }
 
-/// [`LANES`] states: their qubits, the signs of their amplitudes, and the classical words of their
+/// [`super::Gates::LANES`] states: their qubits, the signs of their amplitudes, and the classical words of their
 /// pixels.
 #[derive(Debug)]
 pub struct Rows {
@@ -89,7 +89,7 @@ impl Rows {
     /// `values`.
     ///
     /// # Panics
-    /// If there are more than 64 qubits or [`LANES`] values, or a qubit that the circuits do not
+    /// If there are more than 64 qubits or [`super::Gates::LANES`] values, or a qubit that the circuits do not
     /// have.
     pub fn get(&self, qubits: &[Qubit], values: &mut [u64]) {
         assert!(qubits.len() <= 64, "a value has 64 bits");
