@@ -9,11 +9,13 @@ mod fixed;
 mod gates;
 mod instructions;
 mod lanes;
+mod oracle;
 mod real;
 mod span;
 
 pub use fixed::{Extremes, Fixed, Lanes, contents};
 pub use gates::{Dirty, Gates, InvalidGate, Rows};
 pub use instructions::InstructionSet;
+pub use oracle::{Defect, Finished, OracleMachine, Parts};
 pub use real::{Block, PixelSum, Points, Real, Simd};
 pub use span::Span;
