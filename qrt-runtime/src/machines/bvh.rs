@@ -40,7 +40,8 @@ struct Node {
 enum Child {
     Absent,
     Node(u32),
-    Packet(u32),
+    /// Its number and its faces' main axis, which is known here before the packet is there.
+    Packet(u32, u8),
 }
 
 /// The hierarchy over the faces of a [`Geometry`].

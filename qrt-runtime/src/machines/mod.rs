@@ -5,6 +5,8 @@
 
 mod bvh;
 mod lanes;
+mod rays;
 mod real;
 
+pub use rays::{Met, SingleRay};
 pub use real::{Block, PixelSum, Points, Real, Simd};

@@ -99,7 +99,7 @@ impl Beam {
     fn around(lines: &[Line]) -> Option<Self> {
         let first = lines.first()?;
         let mut beam = Self {
-            origin: [first.origin(); 2],
+            origin: [[first.origin[0], first.origin[1], first.origin[2]]; 2],
             inverse: [first.inverse; 2],
             backwards: first.backwards,
             inverses: [[1.0; MOST_RAYS]; 3],
@@ -109,10 +109,9 @@ impl Beam {
             if line.backwards != beam.backwards {
                 return None;
             }
-            let origin = line.origin();
             for axis in 0..3 {
-                beam.origin[0][axis] = beam.origin[0][axis].min(origin[axis]);
-                beam.origin[1][axis] = beam.origin[1][axis].max(origin[axis]);
+                beam.origin[0][axis] = beam.origin[0][axis].min(line.origin[axis]);
+                beam.origin[1][axis] = beam.origin[1][axis].max(line.origin[axis]);
                 beam.inverse[0][axis] = beam.inverse[0][axis].min(line.inverse[axis]);
                 beam.inverse[1][axis] = beam.inverse[1][axis].max(line.inverse[axis]);
                 beam.inverses[axis][ray] = line.inverse[axis];
@@ -187,7 +186,7 @@ impl Bvh {
                     let node = &self.nodes[number as usize];
                     node.open_to_beam(cx.simd, beam, farthest, number, stack);
                 }
-                Child::Packet(number) => {
+                Child::Packet(number, axis) => {
                     let packet = &self.packets[number as usize];
                     let mut left = beam.meeting(cx.simd, node, child, &limits);
                     if left == 0 {
@@ -198,7 +197,7 @@ impl Bvh {
                         left &= left - 1;
                         let best = &mut found[ray].1;
                         let mut search = NearestFace { best: *best };
-                        packet.show(cx, &lines[ray], &mut search);
+                        packet.show(cx, axis, &lines[ray], &mut search);
                         *best = search.best;
                         limits[ray] = best.distance;
                     }

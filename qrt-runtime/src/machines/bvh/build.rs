@@ -145,7 +145,7 @@ impl Tree {
             let bounds = around(boxes, part);
             let child = if fit(axes, part) {
                 self.leaves.push(part.to_vec());
-                Child::Packet(self.leaves.len() as u32 - 1)
+                Child::Packet(self.leaves.len() as u32 - 1, axes[part[0] as usize])
             } else {
                 Child::Node(self.node(boxes, axes, part, depth))
             };

@@ -22,7 +22,6 @@ pub(super) struct Packet {
     edges: [[[f64; WIDE]; 3]; EDGES],
     /// Places in [`Geometry::faces`].
     rank: [u32; WIDE],
-    axis: u32,
     /// Edges of the face that has most.
     most_edges: u32,
 }
@@ -46,7 +45,6 @@ impl Packet {
             offset: [0.0; WIDE],
             edges: [everywhere; EDGES],
             most_edges: 0,
-            axis: 0,
             plane: [u64::MAX; WIDE],
             rank: [u32::MAX; WIDE],
         };
@@ -56,7 +54,6 @@ impl Packet {
             packet.form[0][lane] = plane.form[0];
             packet.form[1][lane] = plane.form[1];
             packet.offset[lane] = plane.offset;
-            packet.axis = plane.axis as u32;
             packet.plane[lane] = u64::from(number);
             packet.rank[lane] = rank;
             let mut edge = 0;
@@ -77,16 +74,17 @@ impl Packet {
     }
 
     /// Shows `search` the faces that the ray meets within its limit, until it has seen enough;
-    /// tells whether it has.
+    /// tells whether it has. `axis` is the faces' main axis.
     #[inline(always)]
     pub(super) fn show<S: pulp::Simd>(
         &self,
         cx: &mut Lanes<'_, S, 1>,
+        axis: u8,
         line: &Line,
         search: &mut impl Search,
     ) -> bool {
         for first in (0..WIDE).step_by(S::F64_LANES) {
-            let (hit, distances) = self.distances(cx, line, search.limit(), first);
+            let (hit, distances) = self.distances(cx, axis, line, search.limit(), first);
             let mut left = bits(cx.simd, hit);
             while left != 0 {
                 let lane = left.trailing_zeros() as usize;
@@ -104,6 +102,7 @@ impl Packet {
     fn distances<S: pulp::Simd>(
         &self,
         cx: &mut Lanes<'_, S, 1>,
+        axis: u8,
         line: &Line,
         limit: f64,
         first: usize,
@@ -111,7 +110,7 @@ impl Packet {
         let at = first / S::F64_LANES;
         let real = |column: &[f64; WIDE]| [S::as_simd_f64s(column).0[at]];
         let index = |column: &[u64; WIDE]| [S::as_simd_u64s(column).0[at]];
-        let axis = self.axis as usize;
+        let axis = usize::from(axis) % 3;
         let (o, d) = (&line.origin, &line.direction);
         let ray = Turned::<Lanes<'_, S, 1>> {
             origin: cx.real(o[axis]),

@@ -55,11 +55,6 @@ impl Line {
             from,
         }
     }
-
-    pub(super) fn origin(&self) -> [f64; 3] {
-        let [x, y, z, ..] = self.origin;
-        [x, y, z]
-    }
 }
 
 /// Children still to visit with the distances of their boxes, nearest last.
@@ -196,9 +191,9 @@ impl Bvh {
                         continue;
                     }
                 }
-                Child::Packet(number) => {
+                Child::Packet(number, axis) => {
                     let packet = &self.packets[number as usize];
-                    if packet.show(cx, line, search) {
+                    if packet.show(cx, axis, line, search) {
                         return true;
                     }
                 }
