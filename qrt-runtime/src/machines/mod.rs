@@ -10,6 +10,7 @@ mod gates;
 mod instructions;
 mod lanes;
 mod oracle;
+mod rays;
 mod real;
 mod span;
 
@@ -17,5 +18,6 @@ pub use fixed::{Extremes, Fixed, Lanes, contents};
 pub use gates::{Dirty, Gates, InvalidGate, Rows};
 pub use instructions::InstructionSet;
 pub use oracle::{Defect, Finished, OracleMachine, Parts};
+pub use rays::{Met, SingleRay};
 pub use real::{Block, PixelSum, Points, Real, Simd};
 pub use span::Span;
