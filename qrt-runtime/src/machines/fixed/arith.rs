@@ -251,7 +251,7 @@ fn divide<K: Lane>(
     let lanes = quotient.0.iter_mut().zip(&mut fits.0);
     for ((quotient, fits), (a, b)) in lanes.zip(a.0.iter().zip(&b.0)) {
         let holds = a.right(down) < *b;
-        let rest = if holds { *a } else { a.and(all) };
+        let rest = if holds { *a } else { K::cut(0) };
         let none = *b == K::cut(0);
         let divisor = if none { K::cut(1) } else { *b };
         let value = rest.divided(divisor, float);
