@@ -1,6 +1,6 @@
 //! What a step computes on the lanes of a block, for one type of lane.
 
-use super::lane::{Float, LANES, Lane, Row, Slots};
+use super::lane::{Float, LANES, Lane, Row, Slot, Slots};
 use super::steps::{Block, Seen};
 
 /// An operand: a value, or the same number in all lanes.
@@ -161,8 +161,8 @@ pub(super) enum Arith<K> {
 /// Where a linear map's source is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Source {
-    /// An input register of so many bits.
-    Input(u32, u32),
+    /// An input register.
+    Input(u32),
     /// `Long`
     Row(u32),
 }
@@ -212,28 +212,29 @@ fn select<K: Lane>(
     wrap: Wrap<K>,
 ) {
     let all = K::rows(slots);
+    // By masks: a choice between two places in memory would become a gather.
+    let choose = |when: u8, a: K, b: K| {
+        let chosen = K::cut(0).sub(K::cut(i64::from(when)));
+        wrap.of(b.xor(a.xor(b).and(chosen)))
+    };
     let lanes = t.0.iter_mut().zip(&when.0);
     match (a, b) {
         (Arg::Row(a), Arg::Row(b)) => {
             let pairs = all[a as usize].0.iter().zip(&all[b as usize].0);
-            for ((t, when), (a, b)) in lanes.zip(pairs) {
-                *t = wrap.of(if *when == 0 { *b } else { *a });
-            }
+            lanes
+                .zip(pairs)
+                .for_each(|((t, when), (a, b))| *t = choose(*when, *a, *b));
         }
         (Arg::Row(a), Arg::Splat(b)) => {
-            for ((t, when), a) in lanes.zip(&all[a as usize].0) {
-                *t = wrap.of(if *when == 0 { b } else { *a });
-            }
+            let lanes = lanes.zip(&all[a as usize].0);
+            lanes.for_each(|((t, when), a)| *t = choose(*when, *a, b));
         }
         (Arg::Splat(a), Arg::Row(b)) => {
-            for ((t, when), b) in lanes.zip(&all[b as usize].0) {
-                *t = wrap.of(if *when == 0 { *b } else { a });
-            }
+            let lanes = lanes.zip(&all[b as usize].0);
+            lanes.for_each(|((t, when), b)| *t = choose(*when, a, *b));
         }
         (Arg::Splat(a), Arg::Splat(b)) => {
-            for (t, when) in lanes {
-                *t = wrap.of(if *when == 0 { b } else { a });
-            }
+            lanes.for_each(|(t, when)| *t = choose(*when, a, b));
         }
     }
 }
@@ -305,7 +306,7 @@ fn parity<K: Lane>(
     // Parameters are added over GF(2) first and the number is cut last, so that `pattern` holds
     // the bits, not what the target's type makes of them.
     let run = match source {
-        Source::Input(input, _) => block.runs[input as usize],
+        Source::Input(input) => block.runs[input as usize],
         Source::Row(_) => None,
     };
     if let Some(first) = run {
@@ -322,7 +323,7 @@ fn parity<K: Lane>(
         let shift = parameter.map_or(0, |p| parameters[p as usize]);
         for lane in range {
             let source = match source {
-                Source::Input(input, _) => block.input(input, lane),
+                Source::Input(input) => block.input(input, lane),
                 Source::Row(row) => slots.longs[row as usize].0[lane].cast_unsigned(),
             };
             let bits = image(columns, source) ^ shift;
@@ -337,8 +338,8 @@ impl<K: Lane> Arith<K> {
     pub(super) fn run(
         &self,
         slots: &mut Slots,
-        spare: &mut Box<Row<K>>,
-        truth: &mut Box<Row<u8>>,
+        spare: &mut Slot<K>,
+        truth: &mut Slot<u8>,
         block: &Block<'_>,
     ) {
         let t = match *self {

@@ -8,6 +8,7 @@ mod arith;
 mod compile;
 mod lane;
 mod ops;
+mod product;
 mod reference;
 mod slots;
 mod steps;

@@ -4,7 +4,8 @@ use super::arith::{Arg, Arith, Source, Wrap, image};
 use super::compile::{Compiler, Value, kind_of, range, with_kind};
 use super::lane::{Float, Kind, LANES, Lane, Row};
 use super::pattern_bits;
-use super::steps::{Factor, Step};
+use super::product::{Factor, How, Product};
+use super::steps::Step;
 use qrt_core::circuit::{Bit, Op, Operand, RegisterId, When, Word};
 
 /// Bounds of what is cut to a register already.
@@ -320,74 +321,62 @@ impl Compiler<'_> {
         let fits = |bits: u32| low >= -1 << (bits - 1) && high < 1 << (bits - 1);
         let does = |kind: &Kind| fits(kind.bits()) || drop + width <= kind.bits();
         let wide = [Kind::Short, Kind::Int, Kind::Long].into_iter().find(does);
-        let shift = drop.min(wide.map_or(127, |kind| kind.bits() - 1));
-        let wrap = Wrap::new(width, signed);
-        let bounds = [low >> drop, high >> drop];
-        let bounds = bounds.map(|b| b.clamp(i64::MIN.into(), i64::MAX.into()) as i64);
-        let (kind, t) = match (narrow, wide) {
-            (Kind::Short, Some(Kind::Int)) => {
-                let to = own.clamp(Kind::Short, Kind::Int);
-                let wrap = if to == own { wrap } else { Wrap::none() };
-                let (a, b) = self.factors(a, b, Kind::Short);
-                let t = self.step(|t| Step::MulShort {
-                    a,
-                    b,
-                    drop: shift,
-                    wrap,
-                    to: (to, t),
-                });
-                (to, t)
-            }
-            (Kind::Short | Kind::Int, Some(Kind::Long)) => {
-                let to = own.clamp(Kind::Int, Kind::Long);
-                let wrap = if to == own { wrap } else { Wrap::none() };
-                let (a, b) = self.factors(a, b, Kind::Int);
-                let t = self.step(|t| Step::MulInt {
-                    a,
-                    b,
-                    drop: shift,
-                    wrap,
-                    to: (to, t),
-                });
-                (to, t)
-            }
+        let left = [low >> drop, high >> drop];
+        let left = left.map(|end| end.clamp(i64::MIN.into(), i64::MAX.into()) as i64);
+        let how = match (narrow, wide) {
+            (Kind::Short, Some(Kind::Int)) => How::Short,
+            (Kind::Short | Kind::Int, Some(Kind::Long)) => How::Int,
             (_, Some(kind)) => {
                 let t = with_kind!(kind, K => {
                     let a = self.operand::<K>(Operand::Word(a), kind);
                     let b = self.operand::<K>(b, kind);
                     let wrap = if kind == own { Wrap::new(width, signed) } else { Wrap::none() };
-                    self.step(|t| K::step(Arith::Mul { a, b, drop: shift, wrap, t }))
+                    let drop = drop.min(kind.bits() - 1);
+                    self.step(|t| K::step(Arith::Mul { a, b, drop, wrap, t }))
                 });
-                (kind, t)
+                let left = if kind == own { CUT } else { left };
+                return self.set(target, (kind, t), left);
             }
-            (_, None) => {
-                let wrap = if own == Kind::Long {
-                    wrap
-                } else {
-                    Wrap::none()
-                };
-                let (a, b) = self.factors(a, b, Kind::Long);
-                let t = self.step(|t| Step::MulLong {
-                    a,
-                    b,
-                    drop: shift,
-                    wrap,
-                    t,
-                });
-                (Kind::Long, t)
-            }
+            (_, None) => How::long(a.range(), bounds(b)),
         };
-        let bounds = if kind == own { CUT } else { bounds };
-        self.set(target, (kind, t), bounds);
-    }
-
-    fn factors(&mut self, a: Word, b: Operand, kind: Kind) -> (u32, Factor) {
+        // The narrower factor second.
+        let (a, b) = match b {
+            Operand::Word(b) if How::long(b.range(), a.range()) == How::Half => {
+                (b, Operand::Word(a))
+            }
+            b => (a, b),
+        };
+        let how = if wide.is_none() {
+            How::long(a.range(), bounds(b))
+        } else {
+            how
+        };
+        let [least, most] = how.results();
+        let to = own.clamp(least, most);
+        let kind = how.factors();
         let a = self.word(a, kind);
         let b = match b {
             Operand::Word(b) => Factor::Row(self.word(b, kind)),
             Operand::Constant(b) => Factor::Splat(b),
         };
-        (a, b)
+        let drop = drop.min(wide.map_or(127, |kind| kind.bits() - 1));
+        let wrap = if to == own {
+            Wrap::new(width, signed)
+        } else {
+            Wrap::none()
+        };
+        let t = self.step(|t| {
+            Step::Product(Product {
+                how,
+                a,
+                b,
+                drop,
+                wrap,
+                to: (to, t),
+            })
+        });
+        let left = if to == own { CUT } else { left };
+        self.set(target, (to, t), left);
     }
 
     fn division(&mut self, a: Word, b: Word, quotient: RegisterId, fits: RegisterId) {
@@ -452,18 +441,17 @@ impl Compiler<'_> {
         let (width, signed) = self.shape(target);
         let kind: Kind = kind_of(width, signed);
         let (_, value): Value = self.register(source);
-        let (bits, source) = match self.inputs.get(&value) {
-            Some((input, bits)) => (pattern_bits(*bits), Source::Input(*input, *bits)),
-            None => {
-                let content = Word {
-                    register: source,
-                    offset: 0,
-                    width: self.shape(source).0,
-                    signed: false,
-                    shift: 0,
-                };
-                (0, Source::Row(self.word(content, Kind::Long)))
-            }
+        let (bits, source) = if let Some((input, bits)) = self.inputs.get(&value) {
+            (pattern_bits(*bits), Source::Input(*input))
+        } else {
+            let content = Word {
+                register: source,
+                offset: 0,
+                width: self.shape(source).0,
+                signed: false,
+                shift: 0,
+            };
+            (0, Source::Row(self.word(content, Kind::Long)))
         };
         let t = with_kind!(kind, K => {
             let mut pattern = Box::new(Row([K::default(); LANES]));

@@ -17,7 +17,7 @@ impl Dice {
         z ^ z >> 31
     }
     fn below(&mut self, bound: u32) -> u32 {
-        ((self.word() >> 32) * u64::from(bound) >> 32) as u32
+        (((self.word() >> 32) * u64::from(bound)) >> 32) as u32
     }
     fn between(&mut self, low: u32, high: u32) -> u32 {
         low + self.below(high - low + 1)
@@ -152,7 +152,7 @@ impl Maker {
         let style = Style::Wide;
         let scratch = self.register(1, false);
         let drop = if self.dice.coin() {
-            self.dice.below(self.widest)
+            self.dice.below(2 * self.widest)
         } else {
             0
         };
@@ -288,31 +288,28 @@ impl Maker {
                 let copied = self.word(62, false);
                 let target = self.any_register();
                 self.push(Op::Copy { a: copied, target });
-                match kind {
-                    14 => Op::XorInto {
-                        a,
-                        when: self.dice.coin().then_some(bit),
-                        target,
-                    },
-                    _ => {
-                        let when = [When::Always, When::If(bit), When::Reversed(bit)];
-                        let when = when[self.dice.below(3) as usize];
-                        let op = Op::AddInto {
-                            a,
-                            subtract: self.dice.coin(),
-                            when,
-                            target,
-                        };
-                        if kind == 16 {
-                            // Undone, and done again.
-                            self.push(op.clone());
-                            self.push(op.clone());
-                            let last = self.program.instructions.len() - 1;
-                            self.program.instructions[last].inverse = true;
-                        }
-                        op
-                    }
+                if kind == 14 {
+                    let when = self.dice.coin().then_some(bit);
+                    self.push(Op::XorInto { a, when, target });
+                    return;
                 }
+                let when = [When::Always, When::If(bit), When::Reversed(bit)];
+                let when = when[self.dice.below(3) as usize];
+                let subtract = self.dice.coin();
+                let op = Op::AddInto {
+                    a,
+                    subtract,
+                    when,
+                    target,
+                };
+                if kind == 16 {
+                    // Undone, and done again.
+                    self.push(op.clone());
+                    self.push(op.clone());
+                    let last = self.program.instructions.len() - 1;
+                    self.program.instructions[last].inverse = true;
+                }
+                op
             }
             17 => {
                 let width = self.dice.between(1, self.widest);
@@ -436,7 +433,7 @@ proptest! {
             maker.op(kind);
         }
         let ids = 0..(1_u64 << id).min(LANES as u64);
-        let first = block * LANES as u64 & ((1 << id) - 1);
+        let first = (block * LANES as u64) & ((1 << id) - 1);
         let ids: Vec<u64> = ids.map(|lane| first + lane).collect();
         let others = contents_of(&mut maker.dice, widest, ids.len());
         maker.check(&ids, &others);
