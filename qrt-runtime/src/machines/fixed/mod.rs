@@ -23,6 +23,7 @@ use compile::Compiler;
 use lane::{Kind, LANES, Slots};
 use pulp::{Simd, WithSimd};
 use qrt_core::circuit::{Program, Word};
+use rayon::prelude::*;
 use slots::Counts;
 use steps::{Block, Spares, Step};
 
@@ -123,6 +124,19 @@ impl Fixed {
         for (output, (kind, place)) in outputs.iter_mut().zip(&self.outputs) {
             lanes.read(*kind, *place, output);
         }
+    }
+
+    /// Calls `block` for each of `0..blocks`, on all threads, each with lanes of its own. Results are
+    /// in the order of blocks.
+    pub fn blocks<T: Send>(
+        &self,
+        blocks: usize,
+        block: impl Fn(&mut Lanes, usize) -> T + Sync,
+    ) -> Vec<T> {
+        let numbers = (0..blocks).into_par_iter();
+        numbers
+            .map_init(|| self.lanes(), |lanes, number| block(lanes, number))
+            .collect()
     }
 
     /// Runs the program as [`Fixed::run`] does, and says in which lanes the sign is turned.
