@@ -1,7 +1,8 @@
 //! What a step computes on the lanes of a block, for one type of lane.
 
-use super::lane::{Float, LANES, Lane, Row, Slot, Slots};
+use super::lane::{Float, Lane, Row, Slot, Slots};
 use super::steps::{Block, Seen};
+use super::table::look_up;
 
 /// An operand: a value, or the same number in all lanes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -167,12 +168,6 @@ pub(super) enum Source {
     Row(u32),
 }
 
-/// Entries up to which a table is read by comparing the address with each.
-const FEW_ENTRIES: usize = 16;
-
-/// Lanes that such a table is read for at a time: a register or two.
-const READ: usize = 32;
-
 #[inline(always)]
 fn unary<K: Copy, T>(t: &mut Row<T>, a: &Row<K>, f: impl Fn(K) -> T) {
     for (t, a) in t.0.iter_mut().zip(&a.0) {
@@ -258,30 +253,6 @@ fn divide<K: Lane>(
         let value = rest.divided(divisor, float);
         *quotient = if none { all } else { value };
         *fits = u8::from(holds);
-    }
-}
-
-#[inline(always)]
-fn lookup<K: Lane>(t: &mut Row<K>, address: &Row<i32>, table: &[K]) {
-    if table.len() > FEW_ENTRIES {
-        for (t, address) in t.0.iter_mut().zip(&address.0) {
-            *t = table.get(*address as usize).copied().unwrap_or_default();
-        }
-        return;
-    }
-    let chunks = t.0.as_chunks_mut::<READ>().0.iter_mut();
-    for (t, address) in chunks.zip(address.0.as_chunks::<READ>().0) {
-        let mut found = [K::default(); READ];
-        for (place, entry) in table.iter().enumerate() {
-            for (found, address) in found.iter_mut().zip(address) {
-                *found = if *address == place as i32 {
-                    *entry
-                } else {
-                    *found
-                };
-            }
-        }
-        *t = found;
     }
 }
 
@@ -456,7 +427,7 @@ impl<K: Lane> Arith<K> {
                 ref table,
                 t,
             } => {
-                lookup(spare, &slots.ints[address as usize], table);
+                look_up(spare, &slots.ints[address as usize], table);
                 t
             }
             Self::Load { parameter, wrap, t } => {
@@ -557,5 +528,3 @@ impl<K: Lane> Arith<K> {
         }
     }
 }
-
-const _: () = assert!(LANES.is_multiple_of(READ));

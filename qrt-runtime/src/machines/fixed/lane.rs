@@ -135,7 +135,7 @@ fn floor_single(value: f32) -> i32 {
 
 /// The integer in 0 .. 2^52 that is the floor of this.
 #[inline(always)]
-fn floor_double(value: f64) -> i64 {
+pub(super) fn floor_double(value: f64) -> i64 {
     ((value.floor() + DOUBLE).to_bits() ^ DOUBLE.to_bits()).cast_signed()
 }
 

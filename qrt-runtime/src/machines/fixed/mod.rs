@@ -9,9 +9,11 @@ mod compile;
 mod lane;
 mod ops;
 mod product;
+mod quotient;
 mod reference;
 mod slots;
 mod steps;
+mod table;
 #[cfg(test)]
 mod tests;
 

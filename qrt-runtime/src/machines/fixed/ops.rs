@@ -5,7 +5,9 @@ use super::compile::{Compiler, Value, kind_of, range, with_kind};
 use super::lane::{Float, Kind, LANES, Lane, Row};
 use super::pattern_bits;
 use super::product::{Factor, How, Product};
+use super::quotient::Quotient;
 use super::steps::Step;
+use super::table;
 use qrt_core::circuit::{Bit, Op, Operand, RegisterId, When, Word};
 
 /// Bounds of what is cut to a register already.
@@ -160,10 +162,17 @@ impl Compiler<'_> {
                 for (column, target) in columns.iter().zip(targets) {
                     let (width, signed) = self.shape(*target);
                     let kind = kind_of(width, signed);
+                    if kind == Kind::Truth
+                        && let Some(table) = table::truths(column)
+                    {
+                        let t = self.step(|t| Step::TruthTable { address, table, t });
+                        self.set(*target, (kind, t), CUT);
+                        continue;
+                    }
                     let t = with_kind!(kind, K => {
                         let wrap = Wrap::<K>::new(width, signed);
-                        let table = column.iter().map(|entry| wrap.of(K::cut(*entry)));
-                        let table = table.collect();
+                        let entries = column.iter().map(|entry| wrap.of(K::cut(*entry)));
+                        let table = table::numbers(entries);
                         self.step(|t| K::step(Arith::Lookup { address, table, t }))
                     });
                     self.set(*target, (kind, t), CUT);
@@ -372,6 +381,7 @@ impl Compiler<'_> {
                 b,
                 drop,
                 wrap,
+                shape: (to == own).then_some((width, signed)),
                 to: (to, t),
             })
         });
@@ -384,6 +394,26 @@ impl Compiler<'_> {
         let numbers = union(union(a.range(), b.range()), range(width, false));
         let kind = Kind::of(numbers);
         let float = Float::of(a.bits().max(b.bits()));
+        let plain = [a, b].map(|word| Word { shift: 0, ..word });
+        if float == Float::Double
+            && width <= 52
+            && plain.iter().all(|word| Kind::of(word.range()) <= Kind::Int)
+        {
+            let up = [a.shift, b.shift];
+            let [a, b] = plain.map(|word| self.word(word, Kind::Int));
+            let kind = Kind::of(range(width, false)).max(Kind::Int);
+            let (value, holds) = (self.value(), self.value());
+            self.steps.push(Step::Quotient(Quotient {
+                a,
+                b,
+                up,
+                width,
+                to: (kind, value),
+                fits: holds,
+            }));
+            self.set(quotient, (kind, value), range(width, false));
+            return self.set(fits, (Kind::Truth, holds), [0, 1]);
+        }
         let (a, b) = (self.word(a, kind), self.word(b, kind));
         let (value, holds) = (self.value(), self.value());
         self.steps

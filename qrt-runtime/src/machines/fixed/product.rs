@@ -3,6 +3,7 @@
 use super::arith::Wrap;
 use super::lane::{Kind, Lane, Row, Slots};
 use super::steps::{Seen, Spares};
+use pulp::bytemuck;
 
 /// A second factor.
 #[derive(Clone, Copy, Debug)]
@@ -65,11 +66,32 @@ pub(super) struct Product {
     pub(super) b: Factor,
     pub(super) drop: u32,
     pub(super) wrap: Wrap<i64>,
+    /// The register's width and whether its top bit is a sign, if it is the target.
+    pub(super) shape: Option<(u32, bool)>,
     pub(super) to: (Kind, u32),
 }
 
 /// The lowest 32 bits.
 const LOW: i64 = 0xffff_ffff;
+
+/// Lanes two by two, those of even places in the lower halves.
+#[inline(always)]
+fn pairs(row: &Row<i32>) -> &[i64] {
+    bytemuck::cast_slice(&row.0)
+}
+
+/// The bits of `a b` above `drop` and below `drop + width`, of Ints: two lanes at a time, for there
+/// are instructions that multiply every other lane, and none that store half of each result. The
+/// two shifts that drop bits below also cut and extend what is left.
+#[inline(always)]
+fn ints(t: &mut Row<i32>, factors: impl Iterator<Item = [i64; 2]>, cut: impl Fn(i64) -> i64) {
+    let t: &mut [i64] = bytemuck::cast_slice_mut(&mut t.0);
+    for (t, [a, b]) in t.iter_mut().zip(factors) {
+        let low = cut(i64::from(a as i32) * i64::from(b as i32));
+        let high = cut((a >> 32) * (b >> 32));
+        *t = (low & LOW) | high << 32;
+    }
+}
 
 /// `floor(a b / 2^drop)` mod 2^64, for b of 32 bits.
 #[inline(always)]
@@ -138,6 +160,7 @@ impl Product {
             b,
             drop,
             wrap,
+            shape,
             to: (to, t),
         } = *self;
         let (factors, t) = ((a, b), t as usize);
@@ -150,6 +173,35 @@ impl Product {
             }
             (How::Short, _) => {
                 each(slots, &mut spares.int, factors, wrap, short);
+                std::mem::swap(&mut spares.int, &mut slots.ints[t]);
+            }
+            (How::Int, Kind::Int)
+                if let Some((width, signed)) = shape
+                    && drop + width <= 64 =>
+            {
+                let (left, right) = (64 - drop - width, 64 - width);
+                let row = &mut spares.int;
+                let a = pairs(&slots.ints[a as usize]).iter();
+                let signed_cut = |product: i64| product << left >> right;
+                let cut = |product: i64| ((product << left).cast_unsigned() >> right).cast_signed();
+                match (b, signed) {
+                    (Factor::Row(b), true) => {
+                        let b = pairs(&slots.ints[b as usize]);
+                        ints(row, a.zip(b).map(|(a, b)| [*a, *b]), signed_cut);
+                    }
+                    (Factor::Row(b), false) => {
+                        let b = pairs(&slots.ints[b as usize]);
+                        ints(row, a.zip(b).map(|(a, b)| [*a, *b]), cut);
+                    }
+                    (Factor::Splat(b), true) => {
+                        let b = b << 32 | b & LOW;
+                        ints(row, a.map(|a| [*a, b]), signed_cut);
+                    }
+                    (Factor::Splat(b), false) => {
+                        let b = b << 32 | b & LOW;
+                        ints(row, a.map(|a| [*a, b]), cut);
+                    }
+                }
                 std::mem::swap(&mut spares.int, &mut slots.ints[t]);
             }
             (How::Int, Kind::Int) => {

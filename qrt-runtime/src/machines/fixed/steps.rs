@@ -3,6 +3,7 @@
 use super::arith::{Arith, Wrap};
 use super::lane::{Kind, LANES, Lane, Row, Slot, Slots};
 use super::product::Product;
+use super::quotient::Quotient;
 use crate::machines::Span;
 use std::ops::Range;
 
@@ -20,6 +21,7 @@ pub(super) enum Step {
         wrap: Wrap<i64>,
     },
     Product(Product),
+    Quotient(Quotient),
     /// `t = (a ^ flip_a) & (b ^ flip_b)`
     And {
         a: (u32, bool),
@@ -31,6 +33,12 @@ pub(super) enum Step {
         a: u32,
         b: u32,
         flip: bool,
+        t: u32,
+    },
+    /// Truths of an Int address, in words of 32.
+    TruthTable {
+        address: u32,
+        table: Box<[u32]>,
         t: u32,
     },
     /// An Int from truths: slot, place and whether it is negated.
@@ -160,6 +168,7 @@ impl Step {
                 Kind::Long => cast::<i64, K>(slots, a, row, wrap, |a| a as K),
             }),
             Self::Product(ref product) => product.run(slots, spares),
+            Self::Quotient(ref quotient) => quotient.run(slots, spares),
             Self::And { a, b, t } => {
                 let (flip_a, flip_b) = (u8::from(a.1), u8::from(b.1));
                 let all = &slots.truths;
@@ -174,6 +183,14 @@ impl Step {
                 super::arith::rows(truth, &all[a as usize], &all[b as usize], |a, b| {
                     a ^ b ^ flip
                 });
+                std::mem::swap(truth, &mut slots.truths[t as usize]);
+            }
+            Self::TruthTable {
+                address,
+                ref table,
+                t,
+            } => {
+                super::table::look_up_truth(slots, truth, address, table);
                 std::mem::swap(truth, &mut slots.truths[t as usize]);
             }
             Self::Address { ref bits, t } => {
@@ -203,6 +220,7 @@ impl Step {
                 see(Seen::computed(to.0, &mut to.1));
             }
             Self::Product(product) => product.visit(&mut see),
+            Self::Quotient(quotient) => quotient.visit(&mut see),
             Self::And { a, b, t } => {
                 see(Seen::read(Kind::Truth, &mut a.0));
                 see(Seen::read(Kind::Truth, &mut b.0));
@@ -211,6 +229,10 @@ impl Step {
             Self::Xor { a, b, t, .. } => {
                 see(Seen::read(Kind::Truth, a));
                 see(Seen::read(Kind::Truth, b));
+                see(Seen::computed(Kind::Truth, t));
+            }
+            Self::TruthTable { address, t, .. } => {
+                see(Seen::read(Kind::Int, address));
                 see(Seen::computed(Kind::Truth, t));
             }
             Self::Address { bits, t } => {

@@ -250,7 +250,7 @@ impl Maker {
                 scratch,
             },
             13 => {
-                let bits = self.dice.between(0, 6);
+                let bits = self.dice.between(0, 9);
                 let word = self.word(61, true);
                 let row = self.dice.coin() && word.width >= bits;
                 let address = (0..bits).map(|place| {
@@ -464,6 +464,18 @@ fn divisions_and_roots_are_exact_at_their_edges() {
             b,
             style,
             quotient,
+            fits,
+            scratch,
+        });
+        // The same with zeros below the dividend, into a narrower quotient.
+        let narrow = maker.register((bits as u32).div_ceil(2), false);
+        let fits = maker.truth();
+        let shift = (62 - bits as u32).min(16);
+        maker.push(Op::Divide {
+            a: Word { shift, ..a },
+            b,
+            style,
+            quotient: narrow,
             fits,
             scratch,
         });
