@@ -6,6 +6,9 @@
 
 mod arith;
 mod compile;
+mod compute;
+mod fuse;
+mod in_place;
 mod lane;
 mod ops;
 mod product;
@@ -69,7 +72,8 @@ impl Fixed {
         let sign = compiler.sign;
         kept.extend(sign.map(|sign| (Kind::Truth, sign)));
         let values = compiler.value();
-        let mut steps = slots::needed(compiler.steps, values, &kept);
+        let steps = slots::needed(compiler.steps, values, &kept);
+        let mut steps = fuse::fused(steps, values, &kept);
         let counts = slots::assign(&mut steps, values, &mut kept);
         let widths = program.inputs.iter().map(|input| program.width(*input));
         Self {

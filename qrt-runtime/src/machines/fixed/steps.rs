@@ -172,7 +172,7 @@ impl Step {
             Self::And { a, b, t } => {
                 let (flip_a, flip_b) = (u8::from(a.1), u8::from(b.1));
                 let all = &slots.truths;
-                super::arith::rows(truth, &all[a.0 as usize], &all[b.0 as usize], |a, b| {
+                super::compute::rows(truth, &all[a.0 as usize], &all[b.0 as usize], |a, b| {
                     (a ^ flip_a) & (b ^ flip_b)
                 });
                 std::mem::swap(truth, &mut slots.truths[t as usize]);
@@ -180,7 +180,7 @@ impl Step {
             Self::Xor { a, b, flip, t } => {
                 let flip = u8::from(flip);
                 let all = &slots.truths;
-                super::arith::rows(truth, &all[a as usize], &all[b as usize], |a, b| {
+                super::compute::rows(truth, &all[a as usize], &all[b as usize], |a, b| {
                     a ^ b ^ flip
                 });
                 std::mem::swap(truth, &mut slots.truths[t as usize]);
