@@ -179,7 +179,7 @@ impl Builder<'_> {
         let range = Self::quotient_range(ar, br, self.fraction());
         let quotient = self.quotient(a, b, most, range);
         let ahead = self.both(behind.negated(), quotient.fits);
-        (ahead, quotient.value)
+        (ahead, self.rounded_down(quotient.value))
     }
 
     /// The greatest number of the register that holds quotients up to `most`.
