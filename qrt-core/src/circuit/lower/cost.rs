@@ -255,7 +255,7 @@ impl Lowering {
             }
             Op::Negate { a, when, target } => {
                 let bits = self.width(*target);
-                kept(self.negate_ands(&self.word(*a, bits), self.bit(*when)))
+                kept(negate_ands(&self.word(*a, bits), self.bit(*when)))
             }
             Op::Select { when, a, b, target } => {
                 let bits = self.width(*target);
@@ -368,18 +368,6 @@ impl Lowering {
         }
     }
 
-    fn negate_ands(&self, a: &[Wire], when: Wire) -> u64 {
-        let mut carry = when;
-        let mut ands = 0;
-        for place in 0..a.len().saturating_sub(1) {
-            carry = turned(a, place, when, carry).unwrap_or_else(|| {
-                ands += 1;
-                Wire::qubit(u32::MAX - ands)
-            });
-        }
-        u64::from(ands)
-    }
-
     fn add_into_ands(&self, a: Operand, subtract: bool, when: When, target: RegisterId) -> Ands {
         let t = super::qubits(&self.register(target));
         let (a, _, control) = self.addend(a, subtract, when, t.len());
@@ -404,7 +392,7 @@ impl Lowering {
         if needed == 0 {
             return Ands::default();
         }
-        let added = rows.rows.iter().take_while(|row| row.place < needed);
+        let added = rows.added.iter().take_while(|row| row.place < needed);
         if style == Style::Lean {
             let first = if rows.negative {
                 negation(rows.first.0.min(needed))
@@ -495,6 +483,18 @@ impl Lowering {
         };
         fits + some + copied + steps
     }
+}
+
+fn negate_ands(a: &[Wire], when: Wire) -> u64 {
+    let mut carry = when;
+    let mut ands = 0;
+    for place in 0..a.len().saturating_sub(1) {
+        carry = turned(a, place, when, carry).unwrap_or_else(|| {
+            ands += 1;
+            Wire::qubit(u32::MAX - ands)
+        });
+    }
+    u64::from(ands)
 }
 
 fn square_ands(a: Word, needed: usize, style: Style) -> Ands {
