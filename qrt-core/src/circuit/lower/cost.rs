@@ -8,7 +8,7 @@ use super::place::alone;
 use super::scale::{Rows, operands, top};
 use super::square;
 use super::table::Plan;
-use super::{Lowering, Qubit, Wire, constant, extended, invert};
+use super::{Lowering, Qubit, Wire, extended, invert};
 use std::collections::HashMap;
 use std::iter::Sum;
 use std::ops::Add;
@@ -448,29 +448,8 @@ impl Lowering {
         if n == 0 {
             return fits;
         }
-        let long = ones(number[..n].get(bits..).unwrap_or_default());
-        let some = if long > 0 && number.len() > n {
-            let some = comparison(&constant(0, bits), &divisor, keep);
-            if keep {
-                some
-            } else {
-                // Once more to return it; the last AND is then measured.
-                let again = Ands {
-                    toffoli: some.toffoli,
-                    kept: 0,
-                    both: some.both,
-                };
-                let once = Ands {
-                    toffoli: some.toffoli,
-                    kept: 0,
-                    both: some.both + some.kept,
-                };
-                once + again
-            }
-        } else {
-            Ands::default()
-        };
-        let copied = kept(ones(&high[..bits]) + long);
+        let cut = if number.len() > n { 0 } else { bits.min(n) };
+        let copied = kept(ones(&high[..bits]) + ones(&number[cut..n]));
         let steps = u64::from(b.width);
         let steps = if keep {
             let mut first = vec![number[n - 1]];
@@ -481,7 +460,7 @@ impl Lowering {
         } else {
             returned(steps * n as u64)
         };
-        fits + some + copied + steps
+        fits + copied + steps
     }
 }
 

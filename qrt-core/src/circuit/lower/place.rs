@@ -31,10 +31,6 @@ impl Pool {
     pub(super) fn in_use(&self) -> u32 {
         self.made - self.free.len() as u32
     }
-
-    pub(super) fn made(&self) -> u32 {
-        self.made
-    }
 }
 
 impl Lowering {
@@ -53,9 +49,32 @@ impl Lowering {
         }
     }
 
-    fn held(&self, registers: &[RegisterId]) -> Vec<(RegisterId, Vec<Qubit>)> {
-        let held = |id: &RegisterId| (*id, self.register(*id));
-        registers.iter().map(held).collect()
+    /// Registers that have qubits.
+    fn held(&self) -> Vec<(RegisterId, Vec<Qubit>)> {
+        let all = self.registers.iter().enumerate();
+        all.filter(|(_, qubits)| !qubits.is_empty())
+            .map(|(register, qubits)| (RegisterId(register as u32), qubits.clone()))
+            .collect()
+    }
+
+    /// Emits an operation or its inverse, and says how many qubits are in use meanwhile.
+    fn instruction(&mut self, program: &Program, op: &Op, inverse: bool) -> u32 {
+        let fresh = op.fresh();
+        for register in &fresh {
+            self.place(*register, program.width(*register));
+        }
+        self.pool.peak = self.pool.in_use();
+        let scratch = op.scratch().map(|id| self.register(id));
+        self.scratch = Some(scratch.unwrap_or_default());
+        let start = self.gates.len();
+        self.lower(op);
+        if inverse {
+            self.gates[start..].reverse();
+            for register in fresh.iter().rev() {
+                self.displace(*register);
+            }
+        }
+        self.pool.peak
     }
 }
 
@@ -93,6 +112,12 @@ pub(super) fn alone(op: &Op, width: impl Fn(RegisterId) -> u32) -> (Op, Lowering
 /// Lowers a program. Registers take qubits when they are computed, and leave them, zero, to others
 /// when they are undone.
 pub fn circuit(program: &Program) -> Circuit {
+    parts(program, &[]).into_iter().next().unwrap_or_default()
+}
+
+/// Lowers a program, cut before the instructions `cuts`, which ascend: parts that share their
+/// qubits.
+pub fn parts(program: &Program, cuts: &[usize]) -> Vec<Circuit> {
     let mut lowering = Lowering {
         registers: vec![Vec::new(); program.registers.len()],
         ..Lowering::default()
@@ -100,40 +125,31 @@ pub fn circuit(program: &Program) -> Circuit {
     for input in &program.inputs {
         lowering.place(*input, program.width(*input));
     }
-    let inputs = lowering.held(&program.inputs);
-    let mut ranges = Vec::with_capacity(program.instructions.len());
-    let mut in_use = Vec::with_capacity(program.instructions.len());
-    for instruction in &program.instructions {
-        let op = &program.ops[instruction.op as usize];
-        let fresh = op.fresh();
-        lowering.pool.peak = 0;
-        for register in &fresh {
-            lowering.place(*register, program.width(*register));
+    let ends = cuts.iter().copied().chain([program.instructions.len()]);
+    let mut parts = Vec::with_capacity(cuts.len() + 1);
+    let mut begin = 0;
+    for end in ends {
+        let mut part = Circuit {
+            inputs: lowering.held(),
+            parameters: program.parameters.clone(),
+            ..Circuit::default()
+        };
+        for instruction in &program.instructions[begin..end] {
+            let op = &program.ops[instruction.op as usize];
+            let start = lowering.gates.len();
+            part.in_use
+                .push(lowering.instruction(program, op, instruction.inverse));
+            part.ranges.push(start..lowering.gates.len());
         }
-        lowering.pool.peak = lowering.pool.peak.max(lowering.pool.in_use());
-        let start = lowering.gates.len();
-        let scratch = op.scratch().map(|id| lowering.register(id));
-        lowering.scratch = Some(scratch.unwrap_or_default());
-        lowering.lower(op);
-        if instruction.inverse {
-            lowering.gates[start..].reverse();
-            for register in fresh.iter().rev() {
-                lowering.displace(*register);
-            }
-        }
-        ranges.push(start..lowering.gates.len());
-        in_use.push(lowering.pool.peak);
+        part.gates = std::mem::take(&mut lowering.gates);
+        part.outputs = lowering.held();
+        parts.push(part);
+        begin = end;
     }
-    let outputs = lowering.held(&program.outputs());
-    Circuit {
-        gates: lowering.gates,
-        ranges,
-        qubits: lowering.pool.made(),
-        in_use,
-        inputs,
-        outputs,
-        parameters: program.parameters.clone(),
+    for part in &mut parts {
+        part.qubits = lowering.pool.made;
     }
+    parts
 }
 
 /// Toffoli depth: each gate as early as its qubits allow, and only Toffolis take time.
