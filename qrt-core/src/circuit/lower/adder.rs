@@ -1,172 +1,308 @@
-//! Sums.
+//! Additions and comparisons.
 //!
-//! Out of place, a carry needs one Toffoli and no ancilla: the target's bit i holds the carry into
-//! position i until the sum's bit replaces it there,
-//!
-//! ```text
-//! t_(i+1) = maj(a_i, b_i, t_i),      t_i ^= a_i ^ b_i
-//! ```
-//!
-//! In place, carries are computed into borrowed qubits and taken back from the top down: two
-//! Toffolis a bit (Vedral, Barenco & Ekert 1996 in the order of Cuccaro et al. 2004), which leaves
-//! operands with constants and repeated sign bits as they are. A condition costs one more a bit,
-//! for it need only gate the sum's bits and not the carries. Adding or subtracting by a bit costs
-//! CNOTs alone: `t - a = ~(~t + a)`.
+//! Out of place, the carry into bit i is computed where the sum's bit i will be, with one AND a bit
+//! (Gidney 2018), since `maj(a, b, c) = a ^ (a ^ b)(a ^ c)`. In place, carries go up a ladder and
+//! come down again: 2n - 2 Toffolis for n bits. A carry takes the place of the addend's bit where
+//! that is a qubit of its own (Cuccaro, Draper, Kutin and Moulton 2004), and a borrowed bit where it
+//! is a constant or the copy of a sign. A controlled addition adds to the ladder one Toffoli a bit,
+//! 3n - 2 in all (Takahashi, Tani and Kunihiro 2010).
 
-use super::wires::{Bit, ONE, Wires, ZERO, bit_at};
-use crate::circuit::Qubit;
+use super::{Gates, Lowering, Qubit, Wire};
 
-impl Wires<'_> {
-    /// `t = a + (b ^ turn) + carry`, for a zero t as wide as `t` is long. Operands' last bits are
-    /// their signs, or zeros.
-    pub(super) fn sum(&mut self, a: &[Bit], b: &[Bit], turn: Bit, carry: Bit, t: &[Qubit]) {
-        let mut carry = carry;
-        for (place, &target) in t.iter().enumerate() {
-            let (p, q) = (bit_at(a, place), bit_at(b, place));
-            let q = self.turned(q, turn);
-            if let Some(&next) = t.get(place + 1) {
-                let known = known_majority(p, q, carry);
-                if known.is_none() {
-                    self.majority(p, q, carry, next);
-                }
-                self.add_bit(p, target);
-                self.add_bit(q, target);
-                // A carry that stands in the target is part of the sum already.
-                if carry.qubit() != Some(target) {
-                    self.add_bit(carry, target);
-                }
-                carry = known.unwrap_or(Bit::of(next));
-            } else {
-                self.add_bit(p, target);
-                self.add_bit(q, target);
-                if carry.qubit() != Some(target) {
-                    self.add_bit(carry, target);
-                }
-            }
-            self.turned(bit_at(b, place), turn);
+/// How a carry came to be.
+enum Step {
+    /// It follows from the wires.
+    Free,
+    /// In the place of the addend's bit.
+    Replaced { carry: Qubit, addend: Qubit },
+    /// In a borrowed bit, by the gates of this range.
+    Borrowed { at: Qubit, gates: [usize; 2] },
+}
+
+impl Lowering {
+    /// Flips `target` if `wire` is inverted.
+    pub(super) fn flip(&mut self, wire: Wire, target: Qubit) {
+        if wire.inverted() {
+            self.x(target);
         }
     }
 
-    /// `t += (a ^ turn) + carry`, where `when` holds.
-    pub(super) fn sum_into(&mut self, a: &[Bit], turn: Bit, carry: Bit, when: Bit, t: &[Qubit]) {
-        let before = self.toffolis();
-        let mut carries = vec![carry];
-        let lent = self.borrow(t.len().saturating_sub(1));
-        for (place, &next) in lent.iter().enumerate() {
-            let q = self.turned(bit_at(a, place), turn);
-            let p = Bit::of(t[place]);
-            let known = known_majority(p, q, carries[place]);
-            if known.is_none() {
-                self.majority(p, q, carries[place], next);
-            }
-            carries.push(known.unwrap_or(Bit::of(next)));
-            self.turned(bit_at(a, place), turn);
+    /// Flips all of `target` where `wire` holds.
+    pub(super) fn flips(&mut self, wire: Wire, target: &[Qubit]) {
+        for t in target {
+            self.copy(wire, *t);
         }
-        self.returned += self.toffolis() - before;
-        for place in (0..t.len()).rev() {
-            let q = self.turned(bit_at(a, place), turn);
-            if let (Some(&next), Some(above)) = (lent.get(place), carries.get(place + 1))
-                && above.qubit() == Some(next)
-            {
-                self.majority(Bit::of(t[place]), q, carries[place], next);
-            }
-            self.gated(&[q, carries[place]], when, t[place]);
-            self.turned(bit_at(a, place), turn);
-        }
-        self.give_back(lent);
     }
 
-    /// `target ^= (sum of bits) and when`
-    fn gated(&mut self, bits: &[Bit], when: Bit, target: Qubit) {
-        if when == ONE {
-            for &bit in bits {
-                self.add_bit(bit, target);
+    /// `t ^= wire`
+    pub(super) fn copy(&mut self, wire: Wire, target: Qubit) {
+        if let Some(qubit) = wire.source() {
+            self.cx(qubit, target);
+        }
+        self.flip(wire, target);
+    }
+
+    pub(super) fn copies(&mut self, wires: &[Wire], target: &[Qubit]) {
+        for (wire, t) in wires.iter().zip(target) {
+            self.copy(*wire, *t);
+        }
+    }
+
+    /// `t ^= a ^ b`
+    pub(super) fn copy_two(&mut self, a: Wire, b: Wire, target: Qubit) {
+        if a.related(b) {
+            self.copy(Wire::constant(a != b), target);
+        } else {
+            let odd = a.inverted() != b.inverted();
+            self.copy(a.xor(a.inverted()), target);
+            self.copy(b.xor(b.inverted() != odd), target);
+        }
+    }
+
+    /// `t ^= a b`
+    pub(super) fn and(&mut self, a: Wire, b: Wire, target: Qubit) {
+        match (a.source(), b.source()) {
+            (Some(x), Some(y)) if x != y => {
+                self.flip(a, x);
+                self.flip(b, y);
+                self.ccx(x, y, target);
+                self.flip(b, y);
+                self.flip(a, x);
             }
+            _ if a == b || b == Wire::ONE => self.copy(a, target),
+            _ if a == Wire::ONE => self.copy(b, target),
+            _ => {}
+        }
+    }
+
+    /// `t ^= maj(a, b, c)`
+    pub(super) fn majority(&mut self, a: Wire, b: Wire, c: Wire, target: Qubit) {
+        if let Some(wire) = Wire::majority(a, b, c) {
+            self.copy(wire, target);
             return;
         }
-        // The sum is gathered in one of its qubits.
-        let mut flip = false;
-        let mut qubits: Vec<Qubit> = Vec::new();
-        for bit in bits {
-            match *bit {
-                Bit::Constant(value) => flip ^= value,
-                Bit::Qubit { qubit, inverted } => {
-                    flip ^= inverted;
-                    if let Some(place) = qubits.iter().position(|&q| q == qubit) {
-                        qubits.remove(place);
-                    } else {
-                        qubits.push(qubit);
-                    }
-                }
+        match [a.source(), b.source(), c.source()] {
+            [Some(x), Some(y), Some(z)] => {
+                self.cx(x, y);
+                self.cx(x, z);
+                let (y_wire, z_wire) = (Wire::qubit(y), Wire::qubit(z));
+                let turned = a.inverted();
+                self.and(
+                    y_wire.xor(b.inverted() != turned),
+                    z_wire.xor(c.inverted() != turned),
+                    target,
+                );
+                self.cx(x, z);
+                self.cx(x, y);
+                self.copy(a, target);
             }
-        }
-        // Not in the condition's.
-        if qubits.len() == 2 && when.qubit() == Some(qubits[1]) {
-            qubits.swap(0, 1);
-        }
-        let sum = match qubits[..] {
-            [] => Bit::Constant(flip),
-            [one] => Bit::of(one).xor(flip),
-            [one, other, ..] => {
-                self.cx(one, other);
-                Bit::of(other).xor(flip)
-            }
-        };
-        self.and(sum, when, target);
-        if let [one, other, ..] = qubits[..] {
-            self.cx(one, other);
+            [None, ..] => self.and_or(a, b, c, target),
+            [_, None, _] => self.and_or(b, a, c, target),
+            _ => self.and_or(c, a, b, target),
         }
     }
 
-    /// `target ^= a < b`, for operands whose last bits are their signs, or zeros.
-    pub(super) fn less(&mut self, a: &[Bit], b: &[Bit], target: Qubit) {
-        // With both signs turned, the order is that of unsigned numbers: the carry out of
-        // ~a + b tells it.
-        let width = a.len().max(b.len());
-        // Two unsigned numbers are in order as they are.
-        let unsigned = a.last() == Some(&ZERO) && b.last() == Some(&ZERO);
-        let width = width - usize::from(unsigned);
-        let bit =
-            |bits: &[Bit], place: usize| bit_at(bits, place).xor(!unsigned && place + 1 == width);
-        let lent = self.borrow(width.saturating_sub(1));
-        let before = self.toffolis();
-        let mut carries = vec![ZERO];
-        let start = self.gates.len();
-        for (place, &next) in lent.iter().enumerate() {
-            let (p, q) = (bit(a, place).not(), bit(b, place));
-            let known = known_majority(p, q, carries[place]);
-            if known.is_none() {
-                self.majority(p, q, carries[place], next);
+    /// The majority of a constant and two others: their AND or their OR.
+    fn and_or(&mut self, constant: Wire, a: Wire, b: Wire, target: Qubit) {
+        let or = constant.inverted();
+        self.and(a.xor(or), b.xor(or), target);
+        self.flip(constant, target);
+    }
+
+    /// `t = a + b + carry mod 2^w`, out of place; a and b have w wires.
+    pub(super) fn add(&mut self, a: &[Wire], b: &[Wire], carry: Wire, target: &[Qubit]) {
+        let same = settled(a, b);
+        let mut carry = carry;
+        for (place, t) in target.iter().enumerate() {
+            let (a, b, t) = (a[place], b[place], *t);
+            if place >= same + 2 {
+                self.cx(target[same + 1], t);
+                continue;
             }
-            carries.push(known.unwrap_or(Bit::of(next)));
+            let above = target.get(place + 1).copied();
+            let Some(above) = above.filter(|_| place <= same) else {
+                self.sum(a, b, carry, t);
+                continue;
+            };
+            let mut next = Wire::majority(a, b, carry);
+            if next == Some(Wire::qubit(t)) {
+                // The carry goes on, and t becomes the sum.
+                self.cx(t, above);
+                next = Some(Wire::qubit(above));
+            }
+            match [a.source(), b.source()] {
+                _ if next.is_some() => self.sum(a, b, carry, t),
+                [Some(x), Some(y)] if carry.source().is_some() => {
+                    if carry != Wire::qubit(t) {
+                        self.copy(carry, t);
+                    }
+                    self.cx(x, t);
+                    self.cx(x, y);
+                    let turned = a.inverted();
+                    let other = Wire::qubit(y).xor(b.inverted() != turned);
+                    self.and(Wire::qubit(t).xor(turned), other, above);
+                    self.copy(a, above);
+                    self.cx(x, y);
+                    self.cx(y, t);
+                    self.flip(a.xor(b.inverted()), t);
+                }
+                _ => {
+                    self.majority(a, b, carry, above);
+                    self.sum(a, b, carry, t);
+                }
+            }
+            carry = next.unwrap_or(Wire::qubit(above));
         }
-        let end = self.gates.len();
-        self.returned += self.toffolis() - before;
-        if width > 0 {
-            let last = width - 1;
-            let (p, q) = (bit(a, last).not(), bit(b, last));
-            match known_majority(p, q, carries[last]) {
-                Some(known) => self.add_bit(known, target),
-                None => self.majority(p, q, carries[last], target),
+    }
+
+    /// `t = a ^ b ^ carry`, where t may hold the carry.
+    fn sum(&mut self, a: Wire, b: Wire, carry: Wire, target: Qubit) {
+        if carry == Wire::qubit(target) {
+            self.copy_two(a, b, target);
+        } else if a.related(b) {
+            self.copy(carry.xor(a != b), target);
+        } else if b.related(carry) {
+            self.copy(a.xor(b != carry), target);
+        } else if a.related(carry) {
+            self.copy(b.xor(a != carry), target);
+        } else {
+            self.copy_two(a, b, target);
+            self.copy(carry, target);
+        }
+    }
+
+    /// `t += a + carry mod 2^w`, in place, where `when` holds; a has w wires, none of them of t or
+    /// of `when`.
+    pub(super) fn add_into(&mut self, a: &[Wire], carry: bool, when: Wire, target: &[Qubit]) {
+        let Some(top) = target.len().checked_sub(1) else {
+            return;
+        };
+        let mut carries = Vec::with_capacity(target.len());
+        let mut steps = Vec::with_capacity(top);
+        let mut carry = Wire::constant(carry);
+        let mut own = false;
+        for place in 0..top {
+            carries.push(carry);
+            let (addend, t) = (a[place], target[place]);
+            let next = Wire::majority(addend, Wire::qubit(t), carry);
+            let replaces = match (carry.source(), addend.source()) {
+                (Some(c), Some(x)) if own && !addend.inverted() && alone(a, place) => Some((c, x)),
+                _ => None,
+            };
+            own = next.is_none();
+            let step;
+            (carry, step) = match (next, replaces) {
+                (Some(wire), _) => (wire, Step::Free),
+                (None, Some((carry, addend))) => {
+                    self.cx(addend, t);
+                    self.cx(addend, carry);
+                    self.ccx(carry, t, addend);
+                    (Wire::qubit(addend), Step::Replaced { carry, addend })
+                }
+                (None, None) => {
+                    let at = self.pool.take();
+                    let start = self.gates.len();
+                    self.majority(Wire::qubit(t), addend, carry, at);
+                    let gates = [start, self.gates.len()];
+                    (Wire::qubit(at), Step::Borrowed { at, gates })
+                }
+            };
+            steps.push(step);
+        }
+        carries.push(carry);
+        self.sum_when(a[top], carry, when, target[top]);
+        for place in (0..top).rev() {
+            let t = target[place];
+            match steps[place] {
+                Step::Free => {}
+                Step::Replaced { carry, addend } => {
+                    self.ccx(carry, t, addend);
+                    self.cx(addend, carry);
+                    if when == Wire::ONE {
+                        self.cx(carry, t);
+                        continue;
+                    }
+                    self.cx(addend, t);
+                }
+                Step::Borrowed { at, gates } => {
+                    self.undo(gates[0], gates[1]);
+                    self.pool.give(at);
+                }
+            }
+            self.sum_when(a[place], carries[place], when, t);
+        }
+    }
+
+    /// `t ^= when (a ^ b)`
+    fn sum_when(&mut self, a: Wire, b: Wire, when: Wire, target: Qubit) {
+        match (a.source(), b.source()) {
+            _ if when == Wire::ONE => self.copy_two(a, b, target),
+            _ if a.related(b) => self.and(when, Wire::constant(a != b), target),
+            (None, _) => self.and(when, b.xor(a.inverted()), target),
+            (_, None) => self.and(when, a.xor(b.inverted()), target),
+            (Some(x), Some(y)) => {
+                self.cx(y, x);
+                self.and(when, a.xor(b.inverted()), target);
+                self.cx(y, x);
             }
         }
-        self.undo(start..end);
-        self.give_back(lent);
+    }
+
+    /// `t = a < b` of unsigned numbers of one width; the carries stay behind if `keep`.
+    pub(super) fn less(&mut self, a: &[Wire], b: &[Wire], target: Qubit, keep: bool) {
+        let Some(top) = a.len().checked_sub(1) else {
+            return;
+        };
+        // The carry out of ~a + b.
+        let mut carry = Wire::ZERO;
+        let mut ladder = Vec::new();
+        for place in 0..top {
+            let (x, y) = (a[place].xor(true), b[place]);
+            carry = Wire::majority(x, y, carry).unwrap_or_else(|| {
+                let at = if keep { self.draw() } else { self.pool.take() };
+                let start = self.gates.len();
+                self.majority(x, y, carry, at);
+                ladder.push((at, start, self.gates.len()));
+                Wire::qubit(at)
+            });
+        }
+        self.majority(a[top].xor(true), b[top], carry, target);
+        if !keep {
+            for (at, start, end) in ladder.into_iter().rev() {
+                self.undo(start, end);
+                self.pool.give(at);
+            }
+        }
     }
 }
 
-/// The majority where it is a constant; elsewhere it needs a qubit.
-fn known_majority(a: Bit, b: Bit, c: Bit) -> Option<Bit> {
-    let values = [a, b, c].map(|bit| match bit {
-        Bit::Constant(value) => Some(value),
-        Bit::Qubit { .. } => None,
-    });
-    let count = |wanted: bool| values.iter().filter(|v| **v == Some(wanted)).count();
-    if count(true) >= 2 {
-        Some(ONE)
-    } else if count(false) >= 2 {
-        Some(ZERO)
-    } else {
-        None
+/// Is the wire's qubit at no other place?
+fn alone(wires: &[Wire], place: usize) -> bool {
+    let source = wires[place].source();
+    let same = wires.iter().filter(|wire| wire.source() == source);
+    same.count() == 1
+}
+
+/// The place from which on neither of the numbers changes: there the carry settles, and two bits on
+/// so does the sum.
+pub(super) fn settled(a: &[Wire], b: &[Wire]) -> usize {
+    let mut place = a.len().saturating_sub(1);
+    while place > 0 && a[place - 1] == a[place] && b[place - 1] == b[place] {
+        place -= 1;
     }
+    place
+}
+
+/// ANDs that the carries out of the lowest `places` places of a + b + carry take, none of whose
+/// wires are in `0xf0000000..`; and the last carry.
+pub(super) fn carries(a: &[Wire], b: &[Wire], carry: Wire, places: usize) -> (u64, Wire) {
+    let mut carry = carry;
+    let mut ands = 0;
+    for (a, b) in a.iter().zip(b).take(places) {
+        carry = Wire::majority(*a, *b, carry).unwrap_or_else(|| {
+            ands += 1;
+            Wire::qubit(u32::MAX - ands)
+        });
+    }
+    (u64::from(ands), carry)
 }

@@ -1,358 +1,309 @@
-//! Products, squares, and products with constants.
+//! Products.
 //!
-//! A factor's bits as digits ±1 instead of 0 and 1, `2a + 1 = sum_i ±2^i` (the sign's turned),
-//! make each row of a product an addition or subtraction by a bit: CNOTs and one carry chain, where
-//! a row of ANDs would cost as much again. With the first two rows together,
+//! Of two ways the cheaper is taken.
 //!
-//! ```text
-//! a b = a_0 b - 2 (not a_1) b  +  sum_(i>=2) ±2^(i-1) b
-//! ```
+//! *Plain rows*: row i is `a_i b`, n ANDs, added at bit i.
 //!
-//! about `n^2 + n` Toffolis out of place. The square's digits multiply what is known of the number
-//! so far, `X_k^2 = X_(k-1)^2 ± 2^(k+1) X_(k-1) + 4^k`, which halves the rows; a constant's digits
-//! are the canonical signed ones (Reitwiesner 1960).
+//! *Signed digits*: with digits d = 2 a_i - 1 of either sign in place of the bits, and the top one
+//! turned since it is the sign's, `2a + 1 = sum d_i 2^i`; so `a b = -(not a_0) b + sum_{i > 0} d_i
+//! 2^(i - 1) b`. The first term takes n ANDs and a negation, and each of the others is an addition
+//! or subtraction, as the row's bit says: b is complemented by CNOTs from that bit, which is also the
+//! carry in. No row needs ANDs of its own, and the product takes about one Toffoli for each pair of
+//! bits. (Booth's idea of signed digits, with the digit 0 left out.)
 //!
-//! Rows out of place leave their partial sums in scratch qubits; in place they cost twice the
-//! Toffolis.
+//! Out of place each row's partial sum is n + 2 new bits, of which the lowest is the product's. In
+//! place, rows are added within the product's bits.
 
-use super::super::Style;
-use super::wires::{Bit, ONE, Wires, ZERO, bit_at};
-use crate::circuit::Qubit;
+use super::super::{Style, Word};
+use super::{Gates, Lowering, Qubit, Wire, extended, invert, qubits};
 
-/// Where a product's bits go: those below `drop` are scratch, those from it on the target's.
-pub(super) struct Product<'a> {
+/// Where the bits of a result go: those from `drop` on to the target, those below to scratch.
+pub(super) struct Landing<'a> {
     pub(super) drop: usize,
     pub(super) target: &'a [Qubit],
 }
 
-impl Product<'_> {
-    /// Bits that matter.
-    fn width(&self) -> usize {
-        self.drop + self.target.len()
-    }
-
-    fn place(&self, wires: &mut Wires<'_>, bit: usize) -> Qubit {
-        if bit < self.drop {
-            wires.fresh()
-        } else {
-            self.target[bit - self.drop]
-        }
-    }
-}
-
-/// A number without its zeros below, and how many these are.
-fn without_zeros(bits: &[Bit]) -> (&[Bit], usize) {
-    let zeros = bits.iter().take_while(|bit| **bit == ZERO).count();
-    (&bits[zeros..], zeros)
-}
-
-/// After the last row all bits are final.
-const ALL: usize = usize::MAX;
-
-/// A running sum whose low bits are final.
-struct Rows<'a, 'b> {
-    product: &'a Product<'b>,
-    style: Style,
-    /// The sum's bits from position `from` on; above its last it is extended by that.
-    sum: Vec<Bit>,
-    from: usize,
-    /// In place: the qubits of the whole product, of which the first `filled` hold the sum.
-    whole: Vec<Qubit>,
-    filled: usize,
-}
-
-/// What a row adds: `(b ^ turn) + carry` where `when` holds.
-struct Row<'a> {
-    b: &'a [Bit],
-    turn: Bit,
-    carry: Bit,
-    when: Bit,
-}
-
-impl<'a> Row<'a> {
-    /// b or its negative, by a bit.
-    fn signed(b: &'a [Bit], negative: Bit) -> Self {
+impl<'a> Landing<'a> {
+    /// Of a result with `shift` zeros below, of which `drop` bits are dropped.
+    pub(super) fn new(shift: u32, drop: u32, target: &'a [Qubit]) -> Self {
+        let zeros = (shift.saturating_sub(drop) as usize).min(target.len());
         Self {
-            b,
-            turn: negative,
-            carry: negative,
-            when: ONE,
-        }
-    }
-}
-
-impl<'a, 'b> Rows<'a, 'b> {
-    /// Rows over a sum that is `first` at position `at`.
-    fn new(
-        wires: &mut Wires<'_>,
-        product: &'a Product<'b>,
-        style: Style,
-        first: &[Bit],
-        at: usize,
-    ) -> Self {
-        let mut rows = Self {
-            product,
-            style,
-            sum: first.to_vec(),
-            from: at,
-            whole: Vec::new(),
-            filled: 0,
-        };
-        if style == Style::Lean {
-            let bits = 0..product.width();
-            rows.whole = bits.map(|bit| product.place(wires, bit)).collect();
-            rows.filled = (at + first.len()).min(rows.whole.len());
-            for (bit, &qubit) in first.iter().zip(rows.whole.iter().skip(at)) {
-                wires.add_bit(*bit, qubit);
-            }
-        }
-        rows
-    }
-
-    /// Adds a row at position `at`, below which all is final. The sum then has `width` bits from
-    /// there on, its sign the last, and its lowest `fixed` bits are final.
-    fn add(&mut self, wires: &mut Wires<'_>, row: &Row<'_>, at: usize, width: usize, fixed: usize) {
-        let end = self.product.width();
-        if at >= end {
-            return;
-        }
-        let width = width.min(end - at);
-        if self.style == Style::Lean {
-            self.extend(wires, at + width);
-            let t = &self.whole[at..at + width];
-            wires.sum_into(row.b, row.turn, row.carry, row.when, t);
-            return;
-        }
-        self.settle(wires, at);
-        let t: Vec<Qubit> = (0..width)
-            .map(|k| {
-                if k < fixed {
-                    self.product.place(wires, at + k)
-                } else {
-                    wires.fresh()
-                }
-            })
-            .collect();
-        wires.sum(&self.sum, row.b, row.turn, row.carry, &t);
-        self.sum = t.into_iter().map(Bit::of).collect();
-    }
-
-    /// In place: copies the sign up to position `end`.
-    fn extend(&mut self, wires: &mut Wires<'_>, end: usize) {
-        while self.filled < end.min(self.whole.len()) {
-            if let Some(below) = self.filled.checked_sub(1) {
-                wires.cx(self.whole[below], self.whole[self.filled]);
-            }
-            self.filled += 1;
+            drop: drop.saturating_sub(shift) as usize,
+            target: &target[zeros..],
         }
     }
 
-    /// The sum's bits below `at` are final.
-    fn settle(&mut self, wires: &mut Wires<'_>, at: usize) {
-        while self.from < at.min(self.product.width()) {
-            let bit = bit_at(&self.sum, 0);
-            if self.from >= self.product.drop {
-                let target = self.product.target[self.from - self.product.drop];
-                if bit.qubit() != Some(target) {
-                    wires.add_bit(bit, target);
-                }
-            }
-            if self.sum.len() > 1 {
-                self.sum.remove(0);
-            }
-            self.from += 1;
-        }
-    }
-
-    /// Everything is final.
-    fn finish(&mut self, wires: &mut Wires<'_>) {
-        match self.style {
-            Style::Wide => self.settle(wires, self.product.width()),
-            Style::Lean => self.extend(wires, self.product.width()),
-        }
-    }
-}
-
-impl Wires<'_> {
-    /// `t ^= a`, extended by its last bit.
-    pub(super) fn copy(&mut self, a: &[Bit], t: &[Qubit]) {
-        for (place, &target) in t.iter().enumerate() {
-            self.add_bit(bit_at(a, place), target);
-        }
-    }
-
-    /// `digit and b`, in scratch qubits.
-    fn ands(&mut self, digit: Bit, b: &[Bit], most: usize) -> Vec<Bit> {
-        b.iter()
-            .take(most)
-            .map(|&bit| match bit {
-                Bit::Constant(false) => ZERO,
-                bit => {
-                    let qubit = self.fresh();
-                    self.and(digit, bit, qubit);
-                    Bit::of(qubit)
-                }
-            })
-            .collect()
-    }
-
-    /// `floor(a b / 2^drop)`. The last bits of `a` and `b` are their signs, or zeros.
-    pub(super) fn product(&mut self, a: &[Bit], b: &[Bit], style: Style, product: &Product<'_>) {
-        let (a, low) = without_zeros(a);
-        let (b, more) = without_zeros(b);
-        let at = low + more;
-        if a.is_empty() || b.is_empty() || at >= product.width() {
-            return;
-        }
-        // An unsigned number's last bit is a zero, which is no digit.
-        let signed = a.last() != Some(&ZERO);
-        let digits = a.len() - usize::from(!signed);
-        let minus = |i: usize| signed && i + 1 == digits;
-        let room = product.width() - at;
-        if digits == 1 {
-            // 0 or b, or for a sign 0 or -b.
-            let row = self.ands(a[0], b, room);
-            if signed {
-                let mut rows = Rows::new(self, product, style, &[ZERO], at);
-                let row = Row::signed(&row, ONE);
-                rows.add(self, &row, at, b.len() + 1, ALL);
-                rows.finish(self);
-            } else {
-                Rows::new(self, product, style, &row, at).finish(self);
-            }
-            return;
-        }
-        // a_0 b - 2 (not a_1) b, or 2 a_1 b if that is the sign.
-        let second = a[1].xor(!minus(1));
-        let first = self.ands(a[0], b, room);
-        let mut rows = Rows::new(self, product, style, &first, at);
-        // The third row stands where the second does.
-        let fixed = if digits == 2 && signed { ALL } else { 0 };
-        match style {
-            Style::Wide => {
-                let row = self.ands(second, b, room.saturating_sub(1));
-                rows.add(self, &Row::signed(&row, ONE), at + 1, b.len() + 1, fixed);
-            }
-            Style::Lean => {
-                let row = Row {
-                    when: second,
-                    ..Row::signed(b, ONE)
-                };
-                rows.add(self, &row, at + 1, b.len() + 1, fixed);
-            }
-        }
-        for (i, &digit) in a.iter().enumerate().take(digits).skip(2) {
-            // Digit 1 adds, 0 subtracts; a sign the other way round.
-            let row = Row::signed(b, digit.xor(!minus(i)));
-            let fixed = if minus(i) { ALL } else { 1 };
-            rows.add(self, &row, at + i - 1, b.len() + 2, fixed);
-        }
-        if !signed {
-            // The sign of an unsigned number: a digit +1.
-            rows.add(
-                self,
-                &Row::signed(b, ZERO),
-                at + digits - 1,
-                b.len() + 2,
-                ALL,
-            );
-        }
-        rows.finish(self);
-    }
-
-    /// `floor(a^2 / 2^drop)`. The last bit of `a` is its sign, or a zero.
-    pub(super) fn square(&mut self, a: &[Bit], style: Style, product: &Product<'_>) {
-        let (a, zeros) = without_zeros(a);
-        let at = 2 * zeros;
-        if a.is_empty() || at >= product.width() {
-            return;
-        }
-        let n = a.len();
-        // With digits up to the k-th, X_k = sum_(i<=k) ±2^i and Y_k = (X_k^2 - 1)/4:
-        // Y_k = Y_(k-1) ± 2^(k-1) X_(k-1) + 4^(k-1), Y_0 = 0, and Y_(n-1) = a^2 + a.
-        let mut sum: Vec<Bit> = vec![ZERO];
-        let mut done: Vec<Bit> = Vec::new();
-        for k in 1..n {
-            // X_(k-1): the digits' bits with a 1 below, and the last one's complement as the sign.
-            let mut known = vec![ONE];
-            known.extend_from_slice(&a[..k - 1]);
-            known.push(a[k - 1].not());
-            let turn = a[k].xor(k + 1 != n);
-            while done.len() + 1 < k {
-                done.push(sum_bit(&sum, 0));
-                sum.remove(0);
-            }
-            // Y_(k-1) is below 4^(k-1): the constant has a place of its own.
-            let mut plus: Vec<Bit> = (0..k - 1).map(|place| sum_bit(&sum, place)).collect();
-            plus.extend([ONE, ZERO]);
-            let t: Vec<Qubit> = (0..=k).map(|_| self.fresh()).collect();
-            self.sum(&plus, &known, turn, turn, &t);
-            sum = t.into_iter().map(Bit::of).collect();
-        }
-        done.extend(sum);
-        done.push(ZERO);
-        done.truncate(product.width() - at);
-        // a^2 = (a^2 + a) - a
-        let mut rows = Rows::new(self, product, style, &done, at);
-        rows.add(self, &Row::signed(a, ONE), at, 2 * n, ALL);
-        rows.finish(self);
-    }
-
-    /// `floor(factor a / 2^drop)`. The last bit of `a` is its sign, or a zero.
-    pub(super) fn scale(&mut self, a: &[Bit], factor: i64, style: Style, product: &Product<'_>) {
-        let (a, zeros) = without_zeros(a);
-        let at = zeros + factor.trailing_zeros() as usize;
-        if a.is_empty() || at >= product.width() {
-            return;
-        }
-        let digits = digits(i128::from(factor >> factor.trailing_zeros()));
-        let mut rows = if digits[0].1 {
-            let mut rows = Rows::new(self, product, style, &[ZERO], at);
-            let fixed = if digits.len() == 1 { ALL } else { 1 };
-            rows.add(self, &Row::signed(a, ONE), at, a.len() + 1, fixed);
-            rows
+    /// Bits of a result of `bits` that are computed: those that the target has, and those below.
+    pub(super) fn needed(&self, bits: usize, signed: bool) -> usize {
+        if self.target.is_empty() || (self.drop >= bits && !signed) {
+            0
         } else {
-            Rows::new(self, product, style, a, at)
+            bits.min(self.drop + self.target.len())
+        }
+    }
+
+    /// The target's bit for bit `place` of the result.
+    pub(super) fn at(&self, place: usize) -> Option<Qubit> {
+        let place = place.checked_sub(self.drop)?;
+        self.target.get(place).copied()
+    }
+}
+
+/// Shape of a product: what its cost depends on.
+pub(super) struct Product {
+    /// Bits of a, and whether the top is a sign.
+    pub(super) rows: usize,
+    pub(super) a_signed: bool,
+    /// Bits of b.
+    pub(super) row: usize,
+    pub(super) b_signed: bool,
+    /// Bits of the product.
+    bits: usize,
+    /// Bits that are computed.
+    pub(super) needed: usize,
+}
+
+impl Product {
+    pub(super) fn new(a: Word, b: Word, landing: &Landing) -> Self {
+        let (rows, row) = (a.width as usize, b.width as usize);
+        let bits = if rows == 1 && !a.signed {
+            row
+        } else {
+            rows + row
         };
-        for (number, &(place, minus)) in digits.iter().enumerate().skip(1) {
-            // The sum so far is below 2^place a in magnitude.
-            let row = Row::signed(a, Bit::Constant(minus));
-            let fixed = if number + 1 == digits.len() { ALL } else { 1 };
-            rows.add(self, &row, at + place, a.len() + 2, fixed);
+        Self {
+            rows,
+            a_signed: a.signed,
+            row,
+            b_signed: b.signed,
+            bits,
+            needed: landing.needed(bits, a.signed || b.signed),
         }
-        rows.finish(self);
+    }
+
+    /// Digits: an unsigned number has a further one, its sign's.
+    pub(super) fn digits(&self) -> usize {
+        self.rows + usize::from(!self.a_signed)
     }
 }
 
-fn sum_bit(sum: &[Bit], place: usize) -> Bit {
-    sum.get(place).copied().unwrap_or(ZERO)
-}
+impl Lowering {
+    /// A bit for bit `place` of a result.
+    pub(super) fn land(&mut self, landing: &Landing, place: usize) -> Qubit {
+        landing.at(place).unwrap_or_else(|| self.draw())
+    }
 
-/// Signed digits of an odd number: places and whether they are subtracted. The first is a 1 where
-/// that costs no more digits.
-fn digits(factor: i128) -> Vec<(usize, bool)> {
-    let canonical = signed_digits(factor, 0);
-    if canonical[0].1 {
-        let mut other = vec![(0, false)];
-        other.extend(signed_digits((factor - 1) / 2, 1));
-        if other.len() <= canonical.len() {
-            return other;
+    pub(super) fn lands(&mut self, landing: &Landing, from: usize, bits: usize) -> Vec<Qubit> {
+        let places = from..from + bits;
+        places.map(|place| self.land(landing, place)).collect()
+    }
+
+    /// Bits for a partial sum at `from`, of which the lowest `last` are the result's.
+    pub(super) fn partial(
+        &mut self,
+        landing: &Landing,
+        from: usize,
+        bits: usize,
+        last: usize,
+    ) -> Vec<Qubit> {
+        let last = last.min(bits);
+        let mut partial = self.lands(landing, from, last);
+        partial.extend(self.draws(bits - last));
+        partial
+    }
+
+    /// Fills the target above the result's own bits with copies of the sign.
+    pub(super) fn extend_sign(&mut self, landing: &Landing, sign: Wire, bits: usize) {
+        for place in bits..landing.drop + landing.target.len() {
+            if let Some(t) = landing.at(place) {
+                self.copy(sign, t);
+            }
         }
     }
-    canonical
+
+    pub(super) fn multiply(&mut self, a: Word, b: Word, drop: u32, style: Style, target: &[Qubit]) {
+        let landing = Landing::new(a.shift + b.shift, drop, target);
+        let product = Product::new(a, b, &landing);
+        if product.needed == 0 {
+            return;
+        }
+        let plain = product.plain(style).toffoli <= product.signed(style).toffoli;
+        let mut a = self.word(Word { shift: 0, ..a }, product.rows);
+        let b = self.word(Word { shift: 0, ..b }, product.row);
+        let copies = self.detach(&mut a, &b);
+        let result = match (style, plain) {
+            (Style::Wide, true) => self.plain_rows(&product, &a, &b, &landing),
+            (Style::Wide, false) => self.digit_rows(&product, &a, &b, &landing),
+            (Style::Lean, true) => self.plain_rows_into(&product, &a, &b, &landing),
+            (Style::Lean, false) => self.digit_rows_into(&product, &a, &b, &landing),
+        };
+        if (product.a_signed || product.b_signed) && product.needed == product.bits {
+            self.extend_sign(&landing, result, product.needed);
+        }
+        self.attach(copies);
+    }
+
+    /// `t = bit b`
+    fn row(&mut self, bit: Wire, b: &[Wire], target: &[Qubit]) {
+        for (b, t) in b.iter().zip(target) {
+            self.and(bit, *b, *t);
+        }
+    }
+
+    /// Complements b's qubits where `sign` holds, and says what they are then; again, and they are b.
+    pub(super) fn complement(&mut self, sign: Wire, b: &[Wire]) -> Vec<Wire> {
+        if let Some(sign) = sign.source() {
+            for qubit in b.iter().filter_map(|wire| wire.source()) {
+                self.cx(sign, qubit);
+            }
+        }
+        let complement = |wire: &Wire| match wire.source() {
+            Some(_) => wire.xor(sign.inverted()),
+            None => sign.xor(wire.inverted()),
+        };
+        b.iter().map(complement).collect()
+    }
+
+    /// The negative of `y`, in `bits` bits.
+    fn negative(&mut self, y: &[Wire], above: Wire, target: &[Qubit]) {
+        let mut y = extended(y, above, target.len());
+        invert(&mut y, true);
+        let zeros = vec![Wire::ZERO; target.len()];
+        self.add(&zeros, &y, Wire::ONE, target);
+    }
+
+    fn plain_rows(&mut self, p: &Product, a: &[Wire], b: &[Wire], landing: &Landing) -> Wire {
+        let bits = p.row.min(p.needed);
+        let alone = p.rows == 1;
+        let last = if !alone {
+            1
+        } else if p.a_signed {
+            0
+        } else {
+            bits
+        };
+        let first = self.partial(landing, 0, bits, last);
+        self.row(a[0], b, &first);
+        let above = |t: &[Qubit], signed: bool| match t.last() {
+            Some(top) if signed => Wire::qubit(*top),
+            _ => Wire::ZERO,
+        };
+        if alone {
+            let above = above(&first, p.b_signed);
+            if !p.a_signed {
+                return above;
+            }
+            let target = self.lands(landing, 0, (p.row + 1).min(p.needed));
+            self.negative(&qubits(&first), above, &target);
+            return Wire::qubit(target[target.len() - 1]);
+        }
+        let mut sum = first;
+        let bits = a.iter().enumerate().take(p.rows.min(p.needed));
+        for (place, bit) in bits.skip(1) {
+            let last = place + 1 == p.rows;
+            let turned = last && p.a_signed;
+            let bits = (p.row + 1).min(p.needed - place);
+            let row = self.draws(p.row.min(bits));
+            self.row(*bit, b, &row);
+            let row_top = above(&row, p.b_signed);
+            let mut row = extended(&qubits(&row), row_top, bits);
+            invert(&mut row, turned);
+            let rest = extended(&qubits(&sum[1..]), above(&sum, p.b_signed), bits);
+            let t = self.partial(landing, place, bits, if last { bits } else { 1 });
+            self.add(&rest, &row, Wire::constant(turned), &t);
+            sum = t;
+        }
+        Wire::qubit(sum[sum.len() - 1])
+    }
+
+    fn digit_rows(&mut self, p: &Product, a: &[Wire], b: &[Wire], landing: &Landing) -> Wire {
+        let y = self.draws(p.row.min(p.needed));
+        self.row(a[0].xor(true), b, &y);
+        let y = qubits(&y);
+        let above = if p.b_signed {
+            y[y.len() - 1]
+        } else {
+            Wire::ZERO
+        };
+        let mut sum = self.draws((p.row + 1).min(p.needed));
+        self.negative(&y, above, &sum);
+        for place in 1..p.digits().min(p.needed + 1) {
+            let (last, sign) = digit(a, p, place);
+            let bits = (p.row + 2).min(p.needed + 1 - place);
+            let row = self.complement(sign, b);
+            let above = if p.b_signed { row[row.len() - 1] } else { sign };
+            let row = extended(&row, above, bits);
+            let rest = extended(&qubits(&sum), Wire::qubit(sum[sum.len() - 1]), bits);
+            let t = self.partial(landing, place - 1, bits, if last { bits } else { 1 });
+            self.add(&rest, &row, sign, &t);
+            self.complement(sign, b);
+            if t.len() == 1 {
+                return Wire::qubit(t[0]);
+            }
+            sum = t[1..].to_vec();
+        }
+        Wire::qubit(sum[sum.len() - 1])
+    }
+
+    fn plain_rows_into(&mut self, p: &Product, a: &[Wire], b: &[Wire], landing: &Landing) -> Wire {
+        let product = self.lands(landing, 0, p.needed);
+        self.row(a[0], b, &product[..p.row.min(p.needed)]);
+        if p.rows == 1 && p.a_signed {
+            self.negate_in_place(&product, p.row, p.b_signed);
+        }
+        if p.rows > 1 && p.b_signed && p.row < p.needed {
+            self.cx(product[p.row - 1], product[p.row]);
+        }
+        let rows = a.iter().enumerate().take(p.rows.min(p.needed));
+        for (place, bit) in rows.skip(1) {
+            let bits = (p.row + 1).min(p.needed - place);
+            let window = &product[place..place + bits];
+            if p.b_signed && bits > p.row {
+                self.cx(window[p.row - 1], window[p.row]);
+            }
+            let sign = Wire::constant(p.a_signed && place + 1 == p.rows);
+            let above = if p.b_signed { b[p.row - 1] } else { Wire::ZERO };
+            self.flips(sign, window);
+            self.add_into(&extended(b, above, bits), false, *bit, window);
+            self.flips(sign, window);
+        }
+        Wire::qubit(product[p.needed - 1])
+    }
+
+    fn digit_rows_into(&mut self, p: &Product, a: &[Wire], b: &[Wire], landing: &Landing) -> Wire {
+        let product = self.lands(landing, 0, p.needed);
+        self.row(a[0].xor(true), b, &product[..p.row.min(p.needed)]);
+        self.negate_in_place(&product, p.row, p.b_signed);
+        for place in 1..p.digits().min(p.needed + 1) {
+            let (_, sign) = digit(a, p, place);
+            let bits = (p.row + 2).min(p.needed + 1 - place);
+            let window = &product[place - 1..place - 1 + bits];
+            if bits > p.row + 1 {
+                self.cx(window[p.row], window[p.row + 1]);
+            }
+            let above = if p.b_signed { b[p.row - 1] } else { Wire::ZERO };
+            self.flips(sign, window);
+            self.add_into(&extended(b, above, bits), false, Wire::ONE, window);
+            self.flips(sign, window);
+        }
+        Wire::qubit(product[p.needed - 1])
+    }
+
+    /// The number in the lowest `bits` bits becomes its negative, of one bit more.
+    pub(super) fn negate_in_place(&mut self, number: &[Qubit], bits: usize, signed: bool) {
+        let window = &number[..(bits + 1).min(number.len())];
+        if signed && window.len() > bits {
+            self.cx(window[bits - 1], window[bits]);
+        }
+        self.flips(Wire::ONE, window);
+        let one = super::constant(1, window.len());
+        self.add_into(&one, false, Wire::ONE, window);
+    }
 }
 
-/// Canonical signed digits: no two neighbours.
-fn signed_digits(mut rest: i128, mut place: usize) -> Vec<(usize, bool)> {
-    let mut digits = Vec::new();
-    while rest != 0 {
-        if rest & 1 == 1 {
-            let minus = rest & 3 == 3;
-            digits.push((place, minus));
-            rest += if minus { 1 } else { -1 };
-        }
-        rest >>= 1;
-        place += 1;
-    }
-    digits
+/// Is the digit the last, and where is its row subtracted?
+fn digit(a: &[Wire], p: &Product, place: usize) -> (bool, Wire) {
+    let top = place + 1 == p.digits();
+    let bit = a.get(place).copied().unwrap_or(Wire::ZERO);
+    (top || place == p.needed, bit.xor(!top))
 }

@@ -1,144 +1,289 @@
-//! Tables (QROM).
+//! Tables: QROM, read by a one-hot address.
 //!
-//! The address's high bits are decoded into one-hot qubits by doubling: with each bit b, every
-//! qubit splits into itself without b and a new one with b. As one of them is 1, the last one of a
-//! level follows from b and the others by CNOTs: `2^h - h - 1` Toffolis in all, and no more for
-//! wider words. (Babbush et al. 2018 walk the same tree one path at a time, with few qubits.) The
-//! low address bits select among `2^l` words that are looked up together (Low, Kliuchnikov &
-//! Schaeffer 2018), for a Toffoli a bit and word beyond the first.
+//! The high bits of the address become a one-hot register by doubling in place: `new[i + 2^j] =
+//! old[i] and b`, then `old[i] ^= new[i + 2^j]`, for each further bit b. One-hot bits sum to 1, so the
+//! last new one of each bit takes CNOTs alone: 2^h - h - 1 Toffolis, fewer than the unary iteration
+//! of Babbush et al. (2018) by the h of its lone leaves, and no ancilla beyond the one-hot register,
+//! which stays. Entries are CNOTs from it.
+//!
+//! The low bits select among words read side by side (Low, Kliuchnikov and Schaeffer 2018), by a
+//! tree: a Toffoli for each pair of different functions of the address, and none for equal or
+//! opposite ones, nor for a function that another bit has already.
 
-use super::wires::{Bit, Wires};
-use crate::circuit::Qubit;
+use super::{Gates, Lowering, Qubit, Wire};
+use std::collections::HashMap;
 
-impl Wires<'_> {
-    /// The one-hot qubits of `address`, those below `count`.
-    fn one_hot(&mut self, address: &[Bit], count: usize) -> Vec<Bit> {
-        let mut hot = vec![Bit::Constant(true)];
-        for (level, &bit) in address.iter().enumerate() {
-            let old = 1_usize << level;
-            let made = count.saturating_sub(old).min(old);
-            let mut upper = Vec::with_capacity(made);
-            for (place, &below) in hot.iter().enumerate().take(made) {
-                let qubit = self.fresh();
-                if place + 1 == old {
-                    // b less the others.
-                    self.add_bit(bit, qubit);
-                    for &other in &upper {
-                        self.add_bit(other, qubit);
+/// A function of the address that has been planned.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Source {
+    Zero,
+    /// One of the low bits of the address.
+    Address(usize),
+    Node(usize),
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Function {
+    source: Source,
+    inverted: bool,
+}
+
+#[derive(Debug)]
+enum Node {
+    /// The sum of one-hot bits: by group, whether it is in it.
+    Leaf(Vec<u64>),
+    /// By a low bit of the address.
+    Select {
+        bit: usize,
+        low: Function,
+        high: Function,
+    },
+}
+
+/// What is computed for a table.
+pub(super) struct Plan {
+    /// Entries of the one-hot register; 1: there is none.
+    groups: usize,
+    low: usize,
+    /// Each after those that it reads.
+    nodes: Vec<Node>,
+    /// By column and by bit.
+    outputs: Vec<Vec<Function>>,
+}
+
+/// Bits of a vector.
+fn get(bits: &[u64], place: usize) -> bool {
+    bits[place / 64] >> (place % 64) & 1 == 1
+}
+
+fn vector(bits: usize, of: impl Fn(usize) -> bool) -> Vec<u64> {
+    let mut vector = vec![0; bits.div_ceil(64)];
+    for place in (0..bits).filter(|place| of(*place)) {
+        vector[place / 64] |= 1 << (place % 64);
+    }
+    vector
+}
+
+struct Planner {
+    groups: usize,
+    nodes: Vec<Node>,
+    known: HashMap<(usize, Vec<u64>), Function>,
+}
+
+impl Planner {
+    /// Plans a function of the group and the lowest `level` bits, the latter counting first.
+    fn plan(&mut self, level: usize, function: Vec<u64>) -> Function {
+        let bits = self.groups << level;
+        if get(&function, 0) {
+            let mut plan = self.plan(level, vector(bits, |place| !get(&function, place)));
+            plan.inverted = !plan.inverted;
+            return plan;
+        }
+        if function.iter().all(|word| *word == 0) {
+            return Function {
+                source: Source::Zero,
+                inverted: false,
+            };
+        }
+        let key = (level, function);
+        if let Some(known) = self.known.get(&key) {
+            return *known;
+        }
+        let plan = match level.checked_sub(1) {
+            None => self.node(Node::Leaf(key.1.clone())),
+            Some(below) => {
+                let half = 1 << below;
+                let part = |place: usize| (place >> below << level) | (place & (half - 1));
+                let low = vector(bits / 2, |place| get(&key.1, part(place)));
+                let high = vector(bits / 2, |place| get(&key.1, part(place) | half));
+                let (low, high) = (self.plan(below, low), self.plan(below, high));
+                if low == high {
+                    low
+                } else if low.source == Source::Zero && high.source == Source::Zero {
+                    Function {
+                        source: Source::Address(below),
+                        inverted: low.inverted,
                     }
                 } else {
-                    self.and(below, bit, qubit);
+                    let bit = below;
+                    self.node(Node::Select { bit, low, high })
                 }
-                upper.push(Bit::of(qubit));
             }
-            for (place, &high) in upper.iter().enumerate() {
-                match hot[place] {
-                    Bit::Constant(_) => {
-                        // 1 less b, in a qubit of its own.
-                        let qubit = self.fresh();
-                        self.add_bit(bit.not(), qubit);
-                        hot[place] = Bit::of(qubit);
+        };
+        self.known.insert(key, plan);
+        plan
+    }
+
+    fn node(&mut self, node: Node) -> Function {
+        self.nodes.push(node);
+        Function {
+            source: Source::Node(self.nodes.len() - 1),
+            inverted: false,
+        }
+    }
+}
+
+impl Plan {
+    /// For a table of which the targets have the widths `width`.
+    pub(super) fn new(
+        address_bits: usize,
+        columns: &[Box<[i64]>],
+        low: u32,
+        width: impl Fn(usize) -> usize,
+    ) -> Self {
+        let low = (low as usize).min(address_bits);
+        let all = 1_usize
+            .checked_shl(address_bits as u32)
+            .unwrap_or(usize::MAX);
+        let length = columns.iter().map(|column| column.len()).max().unwrap_or(0);
+        let length = length.clamp(1, all);
+        let groups = length.div_ceil(1 << low);
+        let mut planner = Planner {
+            groups,
+            nodes: Vec::new(),
+            known: HashMap::new(),
+        };
+        let mut outputs = Vec::with_capacity(columns.len());
+        for (index, column) in columns.iter().enumerate() {
+            // Entries beyond the last are as it is.
+            let entry = |place: usize| column.get(place).or(column.last()).copied().unwrap_or(0);
+            let output = |bit: usize| {
+                let holds = |place| entry(place) >> bit.min(63) & 1 == 1;
+                planner.plan(low, vector(groups << low, holds))
+            };
+            outputs.push((0..width(index)).map(output).collect());
+        }
+        Self {
+            groups,
+            low,
+            nodes: planner.nodes,
+            outputs,
+        }
+    }
+
+    /// By high bit of the address: the new bits of the one-hot register.
+    fn news(&self) -> impl Iterator<Item = usize> {
+        let groups = self.groups;
+        let olds = (0..).map(|bit| 1_usize << bit);
+        olds.take_while(move |old| *old < groups)
+            .map(move |old| old.min(groups - old))
+    }
+
+    /// Toffolis, all of which compute into clean bits.
+    pub(super) fn toffoli(&self) -> u64 {
+        let doubling: usize = self.news().map(|new| new - 1).sum();
+        let selected = self.nodes.iter().filter(|node| match node {
+            Node::Leaf(_) => false,
+            Node::Select { low, high, .. } => low.source != high.source,
+        });
+        doubling as u64 + selected.count() as u64
+    }
+}
+
+/// How many low bits of an address of `address_bits` best select among words read together: the
+/// number with the fewest Toffolis.
+pub fn best_low(address_bits: u32, columns: &[Box<[i64]>]) -> u32 {
+    let bits = |column: &[i64]| {
+        let bits = |entry: &i64| 65 - (entry ^ (entry >> 63)).leading_zeros();
+        column.iter().map(bits).max().unwrap_or(0) as usize
+    };
+    let widths: Vec<usize> = columns.iter().map(|column| bits(column)).collect();
+    let toffoli = |low: u32| {
+        Plan::new(address_bits as usize, columns, low, |column| widths[column]).toffoli()
+    };
+    let lows = 0..=address_bits.min(10);
+    lows.min_by_key(|low| (toffoli(*low), *low)).unwrap_or(0)
+}
+
+impl Lowering {
+    pub(super) fn table(
+        &mut self,
+        mut address: Vec<Wire>,
+        columns: &[Box<[i64]>],
+        low: u32,
+        targets: &[Vec<Qubit>],
+    ) {
+        let plan = Plan::new(address.len(), columns, low, |column| targets[column].len());
+        let copies = self.detach(&mut address, &[]);
+        let hot = self.one_hot(&plan, &address[plan.low..]);
+        let mut at: Vec<Option<(Qubit, bool)>> = vec![None; plan.nodes.len()];
+        for (outputs, target) in plan.outputs.iter().zip(targets) {
+            for (output, t) in outputs.iter().zip(target) {
+                if let Source::Node(node) = output.source {
+                    at[node].get_or_insert((*t, output.inverted));
+                }
+            }
+        }
+        let mut wires: Vec<Wire> = Vec::with_capacity(plan.nodes.len());
+        for (node, at) in plan.nodes.iter().zip(&at) {
+            let (t, inverted) = at.unwrap_or_else(|| (self.draw(), false));
+            match node {
+                Node::Leaf(ones) => {
+                    let count: u32 = ones.iter().map(|word| word.count_ones()).sum();
+                    let most = count as usize * 2 > plan.groups;
+                    if most != inverted {
+                        self.x(t);
                     }
-                    Bit::Qubit { qubit, .. } => self.add_bit(high, qubit),
+                    for (group, bit) in hot.iter().enumerate() {
+                        if get(ones, group) != most {
+                            self.cx(*bit, t);
+                        }
+                    }
+                }
+                Node::Select { bit, low, high } => {
+                    let low = wire(*low, &wires, &address);
+                    let high = wire(*high, &wires, &address);
+                    self.select_bit(address[*bit], high, low, t);
+                    self.flip(Wire::constant(inverted), t);
                 }
             }
-            hot.extend(upper);
+            wires.push(Wire::qubit(t).xor(inverted));
+        }
+        for (outputs, target) in plan.outputs.iter().zip(targets) {
+            for (output, t) in outputs.iter().zip(target) {
+                let wire = wire(*output, &wires, &address);
+                if wire != Wire::qubit(*t) {
+                    self.copy(wire, *t);
+                }
+            }
+        }
+        self.attach(copies);
+    }
+
+    fn one_hot(&mut self, plan: &Plan, address: &[Wire]) -> Vec<Qubit> {
+        if plan.groups == 1 {
+            return Vec::new();
+        }
+        let hot = self.draws(plan.groups);
+        self.x(hot[0]);
+        for (place, new) in plan.news().enumerate() {
+            let bit = address[place];
+            let Some(b) = bit.source() else {
+                continue;
+            };
+            self.flip(bit, b);
+            let (old, rest) = hot.split_at(1 << place);
+            let last = new - 1;
+            for (old, new) in old.iter().zip(&rest[..last]) {
+                self.ccx(*old, b, *new);
+                self.cx(*new, *old);
+            }
+            self.cx(b, rest[last]);
+            for other in &rest[..last] {
+                self.cx(*other, rest[last]);
+            }
+            self.cx(rest[last], old[last]);
+            self.flip(bit, b);
         }
         hot
     }
-
-    /// Looks words of `targets`' widths up. Entries are in two's complement.
-    pub(super) fn table(
-        &mut self,
-        address: &[Bit],
-        columns: &[Box<[i64]>],
-        low: usize,
-        targets: &[Vec<Qubit>],
-    ) {
-        let low = low.min(address.len());
-        let (select, high) = address.split_at(low);
-        let entries = columns.first().map_or(0, |column| column.len());
-        let rows = entries.div_ceil(1 << low).max(1);
-        let hot = self.one_hot(high, rows);
-        for (column, target) in columns.iter().zip(targets) {
-            for (place, &target) in target.iter().enumerate() {
-                let bit = |entry: usize| {
-                    let entry = entry.min(entries.saturating_sub(1));
-                    column
-                        .get(entry)
-                        .is_some_and(|e| e >> place.min(63) & 1 == 1)
-                };
-                self.looked_up(&hot, select, &bit, target);
-            }
-        }
-    }
-
-    /// One bit of a table: `bit(hot row, select)`.
-    fn looked_up(
-        &mut self,
-        hot: &[Bit],
-        select: &[Bit],
-        bit: &dyn Fn(usize) -> bool,
-        target: Qubit,
-    ) {
-        let Some((&last, rest)) = select.split_last() else {
-            let ones: Vec<bool> = (0..hot.len()).map(bit).collect();
-            self.row_sum(hot, &ones, target);
-            return;
-        };
-        // Without the last select bit, and what it changes.
-        let half = 1_usize << rest.len();
-        let spread = |entry: usize, upper: bool| {
-            let (row, word) = (entry >> rest.len(), entry & (half - 1));
-            (row << select.len()) | (usize::from(upper) * half) | word
-        };
-        let without = |entry: usize| bit(spread(entry, false));
-        let change = |entry: usize| bit(spread(entry, false)) != bit(spread(entry, true));
-        self.looked_up(hot, rest, &without, target);
-        let all = hot.len() << rest.len();
-        if (0..all).any(change) {
-            let qubit = self.fresh();
-            self.looked_up(hot, rest, &change, qubit);
-            self.and(last, Bit::of(qubit), target);
-        }
-    }
-
-    /// `target ^= sum of the hot qubits of the rows that are ones`
-    fn row_sum(&mut self, hot: &[Bit], ones: &[bool], target: Qubit) {
-        // One of the rows is hot: ones and zeros can change places.
-        let count = ones.iter().filter(|&&one| one).count();
-        let flip = 2 * count > ones.len();
-        if flip {
-            self.x(target);
-        }
-        for (&row, &one) in hot.iter().zip(ones) {
-            if one != flip {
-                self.add_bit(row, target);
-            }
-        }
-    }
 }
 
-/// Toffolis of a table whose words are chosen by `low` select bits.
-fn toffolis(address: u32, low: u32, columns: &[Box<[i64]>]) -> u64 {
-    let entries = columns.first().map_or(0, |column| column.len());
-    let rows = entries.div_ceil(1 << low).max(1) as u64;
-    let high = address - low;
-    let hot = rows.saturating_sub(u64::from(high) + 1);
-    let mut selects = 0;
-    for column in columns {
-        let changing = column
-            .iter()
-            .fold(0, |any, entry| any | (entry ^ column[0]));
-        let bits = u64::from(changing.count_ones().min(64));
-        selects += bits * ((1 << low) - 1);
-    }
-    hot + selects
-}
-
-/// The number of select bits that makes a table cheapest.
-pub(super) fn best(address: u32, columns: &[Box<[i64]>]) -> u32 {
-    (0..address)
-        .min_by_key(|&low| toffolis(address, low, columns))
-        .unwrap_or(0)
+fn wire(function: Function, nodes: &[Wire], address: &[Wire]) -> Wire {
+    let wire = match function.source {
+        Source::Zero => Wire::ZERO,
+        Source::Address(bit) => address[bit],
+        Source::Node(node) => nodes[node],
+    };
+    wire.xor(function.inverted)
 }

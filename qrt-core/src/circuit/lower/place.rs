@@ -1,0 +1,176 @@
+//! Placing registers on qubits.
+
+use super::super::{Circuit, Gate, Op, Program, Qubit, RegisterId};
+use super::Lowering;
+
+/// Qubits that nobody owns.
+#[derive(Default)]
+pub(super) struct Pool {
+    free: Vec<Qubit>,
+    made: u32,
+    /// The most that have been in use since it was last set.
+    pub(super) peak: u32,
+}
+
+impl Pool {
+    /// A qubit that is zero.
+    pub(super) fn take(&mut self) -> Qubit {
+        let qubit = self.free.pop().unwrap_or_else(|| {
+            self.made += 1;
+            self.made - 1
+        });
+        self.peak = self.peak.max(self.in_use());
+        qubit
+    }
+
+    /// Takes back a qubit, which is zero.
+    pub(super) fn give(&mut self, qubit: Qubit) {
+        self.free.push(qubit);
+    }
+
+    pub(super) fn in_use(&self) -> u32 {
+        self.made - self.free.len() as u32
+    }
+}
+
+impl Lowering {
+    /// Gives a register qubits.
+    pub(super) fn place(&mut self, register: RegisterId, width: u32) {
+        if self.registers[register.index()].is_empty() {
+            let qubits = (0..width).map(|_| self.pool.take()).collect();
+            self.registers[register.index()] = qubits;
+        }
+    }
+
+    fn displace(&mut self, register: RegisterId) {
+        let qubits = std::mem::take(&mut self.registers[register.index()]);
+        for qubit in qubits.into_iter().rev() {
+            self.pool.give(qubit);
+        }
+    }
+
+    /// Registers that have qubits.
+    fn held(&self) -> Vec<(RegisterId, Vec<Qubit>)> {
+        let all = self.registers.iter().enumerate();
+        all.filter(|(_, qubits)| !qubits.is_empty())
+            .map(|(register, qubits)| (RegisterId(register as u32), qubits.clone()))
+            .collect()
+    }
+
+    /// Emits an operation or its inverse, and says how many qubits are in use meanwhile.
+    fn instruction(&mut self, program: &Program, op: &Op, inverse: bool) -> u32 {
+        let fresh = op.fresh();
+        for register in &fresh {
+            self.place(*register, program.width(*register));
+        }
+        self.pool.peak = self.pool.in_use();
+        let scratch = op.scratch().map(|id| self.register(id));
+        self.scratch = Some(scratch.unwrap_or_default());
+        let start = self.gates.len();
+        self.lower(op);
+        if inverse {
+            self.gates[start..].reverse();
+            for register in fresh.iter().rev() {
+                self.displace(*register);
+            }
+        }
+        self.pool.peak
+    }
+}
+
+/// Width of the scratch register that `op` needs, given the widths of its other registers.
+pub fn scratch_width(op: &Op, width: impl Fn(RegisterId) -> u32) -> u32 {
+    if op.scratch().is_none() {
+        return 0;
+    }
+    let (op, mut lowering) = alone(op, width);
+    lowering.lower(&op);
+    lowering.drawn as u32
+}
+
+/// An operation with its registers, other than its scratch, placed on qubits of its own.
+pub(super) fn alone(op: &Op, width: impl Fn(RegisterId) -> u32) -> (Op, Lowering) {
+    let mut lowering = Lowering::default();
+    let mut op = op.clone();
+    let scratch = op.scratch();
+    let mut seen: Vec<RegisterId> = Vec::new();
+    op.rename(|id, _| {
+        let place = seen.iter().position(|known| known == id);
+        let place = place.unwrap_or_else(|| {
+            let width = if Some(*id) == scratch { 0 } else { width(*id) };
+            let place = RegisterId(seen.len() as u32);
+            seen.push(*id);
+            lowering.registers.push(Vec::new());
+            lowering.place(place, width);
+            place.index()
+        });
+        *id = RegisterId(place as u32);
+    });
+    (op, lowering)
+}
+
+/// Lowers a program. Registers take qubits when they are computed, and leave them, zero, to others
+/// when they are undone.
+pub fn circuit(program: &Program) -> Circuit {
+    parts(program, &[]).into_iter().next().unwrap_or_default()
+}
+
+/// Lowers a program, cut before the instructions `cuts`, which ascend: parts that share their
+/// qubits.
+pub fn parts(program: &Program, cuts: &[usize]) -> Vec<Circuit> {
+    let mut lowering = Lowering {
+        registers: vec![Vec::new(); program.registers.len()],
+        ..Lowering::default()
+    };
+    for input in &program.inputs {
+        lowering.place(*input, program.width(*input));
+    }
+    let ends = cuts.iter().copied().chain([program.instructions.len()]);
+    let mut parts = Vec::with_capacity(cuts.len() + 1);
+    let mut begin = 0;
+    for end in ends {
+        let mut part = Circuit {
+            inputs: lowering.held(),
+            parameters: program.parameters.clone(),
+            ..Circuit::default()
+        };
+        for instruction in &program.instructions[begin..end] {
+            let op = &program.ops[instruction.op as usize];
+            let start = lowering.gates.len();
+            part.in_use
+                .push(lowering.instruction(program, op, instruction.inverse));
+            part.ranges.push(start..lowering.gates.len());
+        }
+        part.gates = std::mem::take(&mut lowering.gates);
+        part.outputs = lowering.held();
+        parts.push(part);
+        begin = end;
+    }
+    for part in &mut parts {
+        part.qubits = lowering.pool.made;
+    }
+    parts
+}
+
+/// Toffoli depth: each gate as early as its qubits allow, and only Toffolis take time.
+pub fn depth(circuit: &Circuit) -> u64 {
+    let mut times = vec![0_u64; circuit.qubits as usize];
+    for gate in &circuit.gates {
+        match *gate {
+            Gate::X(_) | Gate::Load { .. } | Gate::Z(_) => {}
+            Gate::Cx(a, b) => {
+                let time = times[a as usize].max(times[b as usize]);
+                times[a as usize] = time;
+                times[b as usize] = time;
+            }
+            Gate::Ccx(a, b, c) => {
+                let [a, b, c] = [a, b, c].map(|qubit| qubit as usize);
+                let time = 1 + times[a].max(times[b]).max(times[c]);
+                times[a] = time;
+                times[b] = time;
+                times[c] = time;
+            }
+        }
+    }
+    times.into_iter().max().unwrap_or(0)
+}
