@@ -115,14 +115,17 @@ pub(super) fn merge_tables(draft: &mut Draft) {
         let mut columns = Vec::new();
         let mut targets = Vec::new();
         let mut leavings = None;
+        let mut how = super::Style::Wide;
         for &place in &places {
             if let Op::Table {
                 columns: c,
                 targets: t,
                 scratch,
+                style,
                 ..
             } = &draft.ops[place].0
             {
+                how = *style;
                 columns.extend(c.iter().cloned());
                 targets.extend(t.iter().copied());
                 leavings.get_or_insert(*scratch);
@@ -134,7 +137,11 @@ pub(super) fn merge_tables(draft: &mut Draft) {
             draft.registers[register.index()].block = block;
         }
         let op = Op::Table {
-            low: lower::best_low(address.len() as u32, &columns),
+            low: match how {
+                super::Style::Wide => lower::best_low(address.len() as u32, &columns),
+                super::Style::Lean => 0,
+            },
+            style: how,
             address: address.into(),
             columns: Arc::from(columns),
             targets: targets.into(),

@@ -210,11 +210,11 @@ impl Arith for Builder<'_> {
     fn enter(&mut self, part: Part) {
         let depth = |depth: usize| Some(depth as u32);
         match part {
-            Part::GenerateRay(k) => self.begin("generate_ray".to_owned(), depth(k), false),
+            Part::GenerateRay(k) => self.begin("generate_ray".to_owned(), depth(k), true),
             Part::FindIntersection(k) => self.begin("find_intersection".to_owned(), depth(k), true),
             Part::Plane(number) => self.begin(format!("plane {number}"), None, true),
             Part::Primitive(number) => self.begin(format!("primitive {number}"), None, true),
-            Part::Shade(k) => self.begin("shade".to_owned(), depth(k), false),
+            Part::Shade(k) => self.begin("shade".to_owned(), depth(k), true),
         }
     }
     fn leave(&mut self) {

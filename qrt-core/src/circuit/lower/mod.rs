@@ -33,13 +33,14 @@ mod square;
 mod table;
 #[cfg(test)]
 mod tests;
+mod walk;
 mod wire;
 
 pub use cost::{Cost, cost, tally};
 pub use place::{circuit, depth, parts, scratch_width};
 pub use table::best_low;
 
-use super::{Bit, Gate, Gates, Op, Operand, Qubit, RegisterId, When, Word};
+use super::{Bit, Gate, Gates, Op, Operand, Qubit, RegisterId, Style, When, Word};
 use place::Pool;
 use wire::Wire;
 
@@ -252,12 +253,16 @@ impl Lowering {
                 address,
                 columns,
                 low,
+                style,
                 targets,
                 ..
             } => {
                 let targets: Vec<_> = targets.iter().map(|id| self.register(*id)).collect();
                 let address: Vec<_> = address.iter().map(|bit| self.bit(*bit)).collect();
-                self.table(address, columns, *low, &targets);
+                match style {
+                    Style::Wide => self.table(address, columns, *low, &targets),
+                    Style::Lean => self.walk(address, columns, &targets),
+                }
             }
             Op::XorInto { a, when, target } => {
                 let target = self.register(*target);
