@@ -214,6 +214,12 @@ impl Arith for Builder<'_> {
             Part::FindIntersection(k) => self.begin("find_intersection".to_owned(), depth(k), true),
             Part::Plane(number) => self.begin(format!("plane {number}"), None, true),
             Part::Primitive(number) => self.begin(format!("primitive {number}"), None, true),
+            Part::Side(k) => self.begin("side".to_owned(), depth(k), true),
+            Part::Sample => self.begin("sample".to_owned(), None, true),
+            Part::Component(axis) => {
+                let name = ["x", "y", "z"].get(axis).copied().unwrap_or("component");
+                self.begin(name.to_owned(), None, true);
+            }
             Part::Shade(k) => self.begin("shade".to_owned(), depth(k), true),
         }
     }
