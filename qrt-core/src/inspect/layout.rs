@@ -73,6 +73,11 @@ impl Layout {
         self.offsets.get(register.index()).copied().flatten()
     }
 
+    /// Registers that the program has.
+    pub fn registers(&self) -> u64 {
+        self.offsets.iter().flatten().count() as u64
+    }
+
     fn begin(
         &mut self,
         program: &Program,

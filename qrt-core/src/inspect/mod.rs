@@ -11,6 +11,8 @@ mod number;
 mod passes;
 mod stages;
 pub mod svg;
+#[cfg(test)]
+mod tests;
 
 pub use blocks::BlockFigures;
 pub use frame::{Frame, FrameBox, Wire, text as frame_text};
@@ -127,9 +129,13 @@ impl Inspection {
         }
     }
 
-    /// The most qubits in use during some of the instructions.
+    /// The most qubits in use during some of the instructions; those of the inputs if there are
+    /// none.
     pub fn peak(&self, instructions: Range<usize>) -> u32 {
-        self.in_use[instructions].iter().copied().max().unwrap_or(0)
+        let inputs = self.whole.inputs.iter();
+        let inputs = inputs.map(|&input| self.whole.width(input)).sum();
+        let most = self.in_use[instructions].iter().copied().max();
+        most.unwrap_or(inputs)
     }
 
     /// Of the qubits in use when they are most: those of each of [`ROLES`], and the ancillas that

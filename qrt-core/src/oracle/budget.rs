@@ -101,3 +101,91 @@ impl OracleError {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::front::{Loaded, parse};
+
+    fn loaded(more: &str) -> Loaded {
+        let text = format!(
+            "\
+name: furnace
+camera: {{ perspective: {{ eye: [0, 0, 1], target: [0, 0, 0], vfov: 45 }} }}
+film: {{ width: 1, height: 1 }}
+materials: {{ sky: {{ emitter: {{ radiance: [1, 1, 1] }} }} }}
+geometry: [quad: {{ vertices: [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], material: sky }}]
+{more}"
+        );
+        parse(&text, "furnace.yaml", &[], "".as_ref()).unwrap()
+    }
+
+    const SPENT: Spent = Spent {
+        qubits: 1000,
+        toffoli: 12_345,
+    };
+
+    #[test]
+    fn a_scene_without_a_budget_may_spend_anything() {
+        for more in ["", "budget: {}", "budget: { qubits: 1000, toffoli: 12345 }"] {
+            assert_eq!(check_budget(&loaded(more).valid, SPENT), Ok(()), "{more}");
+        }
+    }
+
+    #[test]
+    fn advice_names_a_knob_that_is_not_yet_turned() {
+        for (more, advice) in [
+            ("", ["circuit.uncompute: scoped", "sampling.depths"]),
+            (
+                "circuit: { uncompute: scoped }",
+                ["sampling.depths", "circuit.uncompute: keep"],
+            ),
+            (
+                "circuit: { nearest: paper }",
+                ["circuit.uncompute: scoped", "circuit.nearest: running"],
+            ),
+        ] {
+            let loaded = loaded(&format!(
+                "{more}\nbudget: {{ qubits: 999, toffoli: 10000 }}"
+            ));
+            let problems = check_budget(&loaded.valid, SPENT).unwrap_err();
+            let codes: Vec<_> = problems.iter().map(|problem| problem.code).collect();
+            assert_eq!(codes, [codes::BUDGET_QUBITS, codes::BUDGET_TOFFOLI]);
+            for (problem, advice) in problems.iter().zip(advice) {
+                assert!(
+                    problem.help.as_ref().unwrap().contains(advice),
+                    "{problem:?}"
+                );
+            }
+            let text = loaded.report(problems).to_string();
+            assert!(
+                text.contains("the circuit has 12,345 Toffoli gates, 2,345 more"),
+                "{text}"
+            );
+            assert!(text.contains("--> furnace.yaml:7:19"), "{text}");
+        }
+    }
+
+    #[test]
+    fn what_fits_no_register_is_an_error_at_its_knob() {
+        let wide = OracleError::Build(BuildError::TooWide {
+            what: "a constant of the scene",
+            bits: 70,
+        });
+        let text = loaded("precision: { fraction: 30 }").report(vec![wide.problem()]);
+        let text = text.to_string();
+        for expected in [
+            "error[QRT0611]: a constant of the scene needs 70 bits",
+            "--> furnace.yaml:6:24",
+            "help: choose a smaller `precision.fraction`",
+        ] {
+            assert!(text.contains(expected), "{text}");
+        }
+        let quotient = OracleError::Build(BuildError::UnboundedQuotient);
+        let text = loaded("").report(vec![quotient.problem()]).to_string();
+        assert!(
+            text.contains("error[QRT0610]: ") && text.contains("help: keep the divisor away"),
+            "{text}"
+        );
+    }
+}

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 /// Of a row's name, with its branches.
-const NAME: usize = 30;
+const NAME: usize = 28;
 
 /// The figures; with `planes`, each plane of each search.
 pub(super) fn text(shown: &Shown<'_>, planes: bool) -> String {
@@ -39,9 +39,12 @@ fn headline(out: &mut String, shown: &Shown<'_>) {
     );
     let _ = writeln!(
         out,
-        "{} path bits, {} depths, {} comparator bits, {} fraction bits, uncompute {}, nearest {}\n",
+        "{} path bits, {}, {} comparator bits, {} fraction bits, uncompute {}, nearest {}\n",
         oracle.points.path_bits(),
-        written.sampling.depths.len(),
+        match written.sampling.depths.len() {
+            1 => "1 depth".to_owned(),
+            depths => format!("{depths} depths"),
+        },
         oracle.comparator_bits(),
         oracle.fraction,
         written.circuit.uncompute,
@@ -84,7 +87,7 @@ fn row(out: &mut String, branch: &str, name: &str, cost: Cost, all: u64, qubits:
     };
     let _ = writeln!(
         out,
-        "{:<NAME$}{:>14}{share:>7}{:>14}{:>15}{:>12}{:>8}",
+        "{:<NAME$}{:>14}{share:>6}{:>14}{:>15}{:>12}{:>11}",
         format!("{branch}{name}"),
         grouped(cost.toffoli),
         grouped(cost.and_measured),
@@ -98,7 +101,7 @@ fn costs(out: &mut String, inspection: &Inspection, planes: bool) {
     let all = inspection.total().toffoli;
     let _ = writeln!(
         out,
-        "{:<NAME$}{:>14}{:>7}{:>14}{:>15}{:>12}{:>8}",
+        "{:<NAME$}{:>14}{:>6}{:>14}{:>15}{:>12}{:>11}",
         "", "Toffoli", "%", "AND", "CNOT", "X", "qubits"
     );
     let part = |out: &mut String, part: Part| {
@@ -219,7 +222,7 @@ fn within(
 fn passes(out: &mut String, shown: &Shown<'_>) {
     let _ = writeln!(
         out,
-        "{:<NAME$}{:>14}{:>7}{:>14}{:>15}{:>20}",
+        "{:<NAME$}{:>14}{:>6}{:>14}{:>15}{:>20}",
         "passes, one after another", "Toffoli", "%", "operations", "qubits", "Toffoli removed"
     );
     let all = shown.passes.first().map_or(0, |first| first.toffoli);
@@ -236,7 +239,7 @@ fn passes(out: &mut String, shown: &Shown<'_>) {
         };
         let _ = writeln!(
             out,
-            "{:<NAME$}{:>14}{share:>7}{:>14}{:>15}{change:>20}",
+            "{:<NAME$}{:>14}{share:>6}{:>14}{:>15}{change:>20}",
             format!("  {}", pass.name),
             grouped(pass.toffoli),
             grouped(pass.ops),
@@ -260,13 +263,13 @@ fn registers(out: &mut String, inspection: &Inspection) {
     let (peak, ancillas) = inspection.peak_by_role();
     let _ = writeln!(
         out,
-        "{:<NAME$}{:>14}{:>7}{:>14}{:>15}",
+        "{:<NAME$}{:>14}{:>6}{:>14}{:>15}",
         "registers by role", "registers", "", "qubits", "at the peak"
     );
     for ((role, (registers, qubits)), peak) in ROLES.iter().zip(count).zip(peak) {
         let _ = writeln!(
             out,
-            "{:<NAME$}{:>14}{:>7}{:>14}{:>15}",
+            "{:<NAME$}{:>14}{:>6}{:>14}{:>15}",
             format!("  {role}"),
             grouped(registers),
             "",
@@ -277,7 +280,7 @@ fn registers(out: &mut String, inspection: &Inspection) {
     let ancillas = grouped(u64::from(ancillas));
     let _ = writeln!(
         out,
-        "{:<NAME$}{:>50}",
+        "{:<NAME$}{:>49}",
         "  ancillas of an operation", ancillas
     );
 }

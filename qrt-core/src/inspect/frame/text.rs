@@ -1,6 +1,6 @@
 //! The frame in a terminal: wires run down, so that depths need lines, not columns.
 
-use super::super::number::{grouped, short};
+use super::super::number::grouped;
 use super::Frame;
 use std::fmt::Write as _;
 
@@ -19,10 +19,15 @@ pub fn text(frame: &Frame) -> String {
     let cost = costs.max().unwrap_or(0).max("Toffoli".len());
     let singly: Vec<Vec<usize>> = (0..frame.wires.len()).map(|wire| vec![wire]).collect();
     let fits = |columns: &[Vec<usize>]| {
-        let width = WIRE.into_iter();
-        width
-            .filter(|width| label + 2 + width * columns.len() + cost <= COLUMNS)
-            .max()
+        let fits = |way: &usize| {
+            let heads = columns
+                .iter()
+                .enumerate()
+                .map(|(n, column)| way * n + head(frame, column).chars().count());
+            let rows = way * columns.len() + cost;
+            label + 2 + heads.fold(rows, usize::max) <= COLUMNS
+        };
+        WIRE.into_iter().find(fits)
     };
     let columns = match fits(&singly) {
         Some(_) => singly,
@@ -31,7 +36,7 @@ pub fn text(frame: &Frame) -> String {
     let way = fits(&columns).unwrap_or(WIRE[1]) - 1;
 
     let mut out = String::new();
-    heads(&mut out, frame, &columns, label, way);
+    heads(&mut out, frame, &columns, [label, way, cost]);
     for (place, item) in frame.boxes.iter().enumerate() {
         let mark = if item.inverse { "\u{2020}" } else { "" };
         let name = format!("{}{mark}", item.name);
@@ -69,28 +74,32 @@ pub fn text(frame: &Frame) -> String {
     out
 }
 
-/// Names and qubits of the wires, each hanging from the line of its own.
-fn heads(out: &mut String, frame: &Frame, columns: &[Vec<usize>], label: usize, way: usize) {
+/// Names and qubits of the wires, each hanging from the line of its own. Widths are those of the
+/// boxes' names, of the way from wire to wire, and of the costs.
+fn heads(out: &mut String, frame: &Frame, columns: &[Vec<usize>], [label, way, cost]: [usize; 3]) {
     for (n, column) in columns.iter().enumerate() {
         let _ = write!(out, "{:label$}  ", "");
         for _ in 0..n {
             let _ = write!(out, "\u{2502}{:1$}", "", way);
         }
-        let qubits: u64 = column.iter().map(|&wire| frame.wires[wire].qubits).sum();
-        let wire = &frame.wires[column[0]];
-        let name = match (column.len(), wire.depth) {
-            (1, _) => wire.name.clone(),
-            (_, Some(depth)) => format!("depth {depth}"),
-            _ => "other".to_owned(),
-        };
-        let _ = writeln!(out, "\u{250c} {name}: {}", grouped(qubits));
+        let _ = writeln!(out, "{}", head(frame, column));
     }
-    let toffoli: u64 = frame.boxes.iter().map(|b| b.cost.toffoli).sum();
     let _ = write!(out, "{:label$}  ", "");
     for _ in columns {
         let _ = write!(out, "\u{2502}{:1$}", "", way);
     }
-    let _ = writeln!(out, "Toffoli (in all {})", short(toffoli));
+    let _ = writeln!(out, "{:>cost$}", "Toffoli");
+}
+
+/// Name and qubits of a wire, or of those of a depth.
+fn head(frame: &Frame, column: &[usize]) -> String {
+    let qubits: u64 = column.iter().map(|&wire| frame.wires[wire].qubits).sum();
+    let wire = &frame.wires[column[0]];
+    let name = match (column.len(), wire.depth) {
+        (2.., Some(depth)) => format!("depth {depth}"),
+        _ => wire.name.clone(),
+    };
+    format!("\u{250c} {name}: {}", grouped(qubits))
 }
 
 /// The wires of a depth together, where the first of them is.

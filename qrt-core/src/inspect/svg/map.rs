@@ -33,7 +33,7 @@ pub fn registers(inspection: &Inspection, scene: &str) -> String {
         grouped(u64::from(inspection.qubits)),
         grouped(total.toffoli),
         grouped(inspection.toffoli_depth),
-        grouped(inspection.layout.lifetimes.len() as u64),
+        grouped(inspection.layout.registers()),
         grouped(u64::from(inspection.layout.height)),
     );
     let mut canvas = Canvas::new(WIDTH, HEIGHT, &title, &figures);
@@ -191,18 +191,30 @@ impl<'a> Map<'a> {
         self.inspection.whole.registers[lifetime.register.index()].role
     }
 
-    /// The most qubits in use, by column of pixels.
+    /// Qubits in use: a step for each instruction that is a column of pixels wide, and the most of
+    /// those within one column.
     fn in_use(&self, canvas: &mut Canvas) {
-        let mut columns: BTreeMap<u32, u32> = BTreeMap::new();
+        let mut points: Vec<(u32, u32)> = Vec::new();
+        // Is the last point that of a column?
+        let mut within = false;
         for (at, &in_use) in self.inspection.in_use.iter().enumerate() {
-            for column in [self.x(at).floor() as u32, self.x(at + 1).floor() as u32] {
-                let most = columns.entry(column).or_default();
-                *most = (*most).max(in_use);
+            let [start, end] = [at, at + 1].map(|at| self.x(at).floor() as u32);
+            match points.last_mut() {
+                Some((column, most)) if start == end && within && *column == start => {
+                    *most = in_use.max(*most);
+                }
+                _ => {
+                    points.push((start, in_use));
+                    within = start == end;
+                    if !within {
+                        points.push((end, in_use));
+                    }
+                }
             }
         }
         let mut d = String::new();
-        for (column, most) in columns {
-            let y = number(self.y(f64::from(most)));
+        for (column, in_use) in points {
+            let y = number(self.y(f64::from(in_use)));
             let _ = write!(d, "{}{column} {y}", if d.is_empty() { 'M' } else { 'L' });
         }
         if !d.is_empty() {
