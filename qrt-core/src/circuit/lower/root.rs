@@ -1,0 +1,71 @@
+//! Square roots.
+//!
+//! Digit by digit without restoring, two bits of the radicand a step. With Q the root so far, q its
+//! last bit and D the remainder, the next is `4D + pair - (4Q + 1)` where q holds and `4D + pair +
+//! (4Q + 3)` where it does not; both are `4D + pair + 3 + 4 (Q ^ q)`, with all bits of Q turned by q,
+//! so that a step is one addition. The sign of what comes out is the complement of the root's next
+//! bit, and its qubit is that bit's. After j steps D has j + 2 bits: k(k + 1)/2 Toffolis for a root of
+//! k bits, out of place.
+
+use super::super::{Style, Word};
+use super::{Gates, Lowering, Qubit, Wire, qubits};
+
+impl Lowering {
+    pub(super) fn root(&mut self, a: Word, style: Style, target: &[Qubit]) {
+        let k = a.bits().div_ceil(2) as usize;
+        let a = self.word(a, 2 * k);
+        match style {
+            Style::Wide => {
+                let mut root = target[..k.min(target.len())].to_vec();
+                root.extend(self.draws(k - root.len()));
+                let mut rest = vec![Wire::ZERO];
+                for step in 0..k {
+                    let place = k - 1 - step;
+                    let mut number = vec![a[2 * place], a[2 * place + 1]];
+                    number.append(&mut rest);
+                    let mut t = self.draws(step + 2);
+                    t.push(root[place]);
+                    let row = self.turn(&root, step);
+                    self.add(&number, &row, Wire::ZERO, &t);
+                    self.turn(&root, step);
+                    self.x(root[place]);
+                    t.pop();
+                    rest = qubits(&t);
+                }
+            }
+            Style::Lean => {
+                let mut all = self.draws(k + 1);
+                all.extend_from_slice(&target[..k.min(target.len())]);
+                let missing = 2 * k + 1 - all.len();
+                all.extend(self.draws(missing));
+                for (wire, t) in a.iter().zip(&all) {
+                    self.copy(*wire, *t);
+                }
+                let root = all[k + 1..].to_vec();
+                for step in 0..k {
+                    let place = k - 1 - step;
+                    let window = &all[2 * place..=2 * k - step];
+                    let row = self.turn(&root, step);
+                    self.add_into(&row, false, Wire::ONE, window);
+                    self.turn(&root, step);
+                    self.x(root[place]);
+                }
+            }
+        }
+    }
+
+    /// Turns the root's first bits by the last of them, and gives the step's addend; again, and they
+    /// are as they were.
+    fn turn(&mut self, root: &[Qubit], step: usize) -> Vec<Wire> {
+        let Some(last) = step.checked_sub(1).map(|before| root.len() - 1 - before) else {
+            return vec![Wire::ONE; 3];
+        };
+        let mut row = vec![Wire::ONE, Wire::ONE, Wire::ZERO];
+        for bit in &root[last + 1..] {
+            self.cx(root[last], *bit);
+            row.push(Wire::qubit(*bit));
+        }
+        row.push(Wire::qubit(root[last]));
+        row
+    }
+}

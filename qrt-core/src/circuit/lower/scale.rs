@@ -1,0 +1,244 @@
+//! Products with a constant.
+//!
+//! The factor in signed digits, no two of them next to each other (the canonical form, which has the
+//! fewest), is a sum of shifted copies, added or subtracted from the lowest up. Out of place, only
+//! where the copies overlap does an addition cost anything; in place, it takes twice as many
+//! Toffolis.
+
+use super::super::{Style, Word};
+use super::multiply::Landing;
+use super::{Gates, Lowering, Qubit, Wire, extended, invert, qubits};
+
+/// The addition of a shifted copy.
+pub(super) struct Row {
+    /// The lowest bit it changes.
+    pub(super) place: usize,
+    pub(super) subtract: bool,
+    /// Bits of the partial sum before and after it, and whether the top is a sign.
+    pub(super) before: (usize, bool),
+    pub(super) after: (usize, bool),
+}
+
+/// What a product with a constant consists of.
+pub(super) struct Rows {
+    /// Zeros below.
+    pub(super) shift: u32,
+    /// Is the lowest digit -1?
+    pub(super) negative: bool,
+    /// The first partial sum: a or -a.
+    pub(super) first: (usize, bool),
+    pub(super) rows: Vec<Row>,
+}
+
+impl Rows {
+    pub(super) fn new(a: Word, factor: i64) -> Self {
+        let zeros = factor.trailing_zeros() % 64;
+        let range = Word { shift: 0, ..a }.range();
+        let mut rest = i128::from(factor) >> zeros;
+        let mut sum = 0_i128;
+        let mut place = 0;
+        let mut digits = Vec::new();
+        while rest != 0 {
+            if rest & 1 == 1 {
+                let digit = if rest & 3 == 3 { -1 } else { 1 };
+                sum += digit << place;
+                digits.push((place, digit < 0, extent(range, sum)));
+                rest -= digit;
+            }
+            rest >>= 1;
+            place += 1;
+        }
+        let mut digits = digits.into_iter();
+        let (_, negative, first) = digits.next().unwrap_or((0, false, (1, false)));
+        let mut before = first;
+        let row = |(place, subtract, after)| {
+            let row = Row {
+                place,
+                subtract,
+                before,
+                after,
+            };
+            before = after;
+            row
+        };
+        Self {
+            shift: a.shift + zeros,
+            negative,
+            first,
+            rows: digits.map(row).collect(),
+        }
+    }
+
+    /// Bits of the product, and whether the top is a sign.
+    pub(super) fn extent(&self) -> (usize, bool) {
+        self.rows.last().map_or(self.first, |row| row.after)
+    }
+
+    /// Bits of what the rows that begin below `needed` give, and whether the top is a sign.
+    fn reached(&self, needed: usize) -> (usize, bool) {
+        let beyond = self.rows.iter().find(|row| row.place >= needed);
+        beyond.map_or(self.extent(), |row| row.before)
+    }
+
+    /// Are the lowest digit, -1, and the next, +1, one subtraction?
+    pub(super) fn fused(&self, needed: usize) -> bool {
+        let adds = |row: &Row| !row.subtract && row.place < needed;
+        self.negative && self.rows.first().is_some_and(adds)
+    }
+}
+
+/// Bits of the numbers in `range` times `factor`.
+fn extent(range: [i64; 2], factor: i128) -> (usize, bool) {
+    let ends = range.map(|end| i128::from(end) * factor);
+    let (low, high) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
+    let bits = |number: i128| 128 - number.leading_zeros() as usize;
+    if low < 0 {
+        (1 + bits(!low).max(bits(high)), true)
+    } else {
+        (bits(high).max(1), false)
+    }
+}
+
+pub(super) fn top(wires: &[Wire], signed: bool) -> Wire {
+    match wires.last() {
+        Some(top) if signed => *top,
+        _ => Wire::ZERO,
+    }
+}
+
+impl Lowering {
+    pub(super) fn scale(
+        &mut self,
+        a: Word,
+        factor: i64,
+        drop: u32,
+        style: Style,
+        target: &[Qubit],
+    ) {
+        let rows = Rows::new(a, factor);
+        let landing = Landing::new(rows.shift, drop, target);
+        let (bits, signed) = rows.extent();
+        let needed = landing.needed(bits, signed);
+        if needed == 0 {
+            return;
+        }
+        let own = self.word(Word { shift: 0, ..a }, a.width as usize);
+        let product = match style {
+            Style::Wide => self.scale_rows(a, &own, &rows, needed, &landing),
+            Style::Lean => self.scale_rows_into(a, &own, &rows, needed, &landing),
+        };
+        if signed && needed == bits {
+            self.extend_sign(&landing, product, needed);
+        }
+    }
+
+    fn scale_rows(
+        &mut self,
+        a: Word,
+        own: &[Wire],
+        rows: &Rows,
+        needed: usize,
+        landing: &Landing,
+    ) -> Wire {
+        let a_top = top(own, a.signed);
+        let mut sum = own.to_vec();
+        let next = |index: usize| rows.rows.get(index).map_or(needed, |row| row.place);
+        if rows.negative && !rows.fused(needed) {
+            let bits = rows.first.0.min(needed);
+            let t = self.partial(landing, 0, bits, next(0));
+            let mut number = extended(own, a_top, bits);
+            invert(&mut number, true);
+            self.add(&vec![Wire::ZERO; bits], &number, Wire::ONE, &t);
+            sum = qubits(&t);
+        }
+        for (index, row) in rows.rows.iter().enumerate() {
+            if row.place >= needed {
+                break;
+            }
+            let bits = row.after.0.min(needed);
+            let fused = index == 0 && rows.fused(needed);
+            let (from, rest, mut number) = operands(&sum, own, a_top, row, fused, bits);
+            let subtract = fused || row.subtract;
+            invert(&mut number, subtract);
+            let t = self.partial(landing, from, bits - from, next(index + 1) - from);
+            self.add(&rest, &number, Wire::constant(subtract), &t);
+            sum = extended(&sum, top(&sum, row.before.1), from);
+            sum.extend(qubits(&t));
+        }
+        let sum = extended(&sum, top(&sum, rows.reached(needed).1), needed);
+        for (place, wire) in sum.iter().enumerate() {
+            if let Some(t) = landing.at(place).filter(|t| *wire != Wire::qubit(*t)) {
+                self.copy(*wire, t);
+            }
+        }
+        sum[needed - 1]
+    }
+
+    fn scale_rows_into(
+        &mut self,
+        a: Word,
+        own: &[Wire],
+        rows: &Rows,
+        needed: usize,
+        landing: &Landing,
+    ) -> Wire {
+        let product = self.lands(landing, 0, needed);
+        let a_top = top(own, a.signed);
+        let bits = rows.first.0.min(needed);
+        self.copies(&extended(own, a_top, bits), &product);
+        if rows.negative {
+            let window = &product[..bits];
+            self.flips(Wire::ONE, window);
+            self.add_into(&super::constant(1, bits), false, Wire::ONE, window);
+        }
+        for row in &rows.rows {
+            if row.place >= needed {
+                break;
+            }
+            let bits = row.after.0.min(needed);
+            let (before, signed) = row.before;
+            for place in before..bits {
+                if signed {
+                    self.cx(product[before - 1], product[place]);
+                }
+            }
+            let window = &product[row.place..bits];
+            let number = extended(own, a_top, window.len());
+            let sign = Wire::constant(row.subtract);
+            self.flips(sign, window);
+            self.add_into(&number, false, Wire::ONE, window);
+            self.flips(sign, window);
+        }
+        let (bits, signed) = rows.reached(needed);
+        for place in bits..needed {
+            if signed {
+                self.cx(product[bits - 1], product[place]);
+            }
+        }
+        Wire::qubit(product[needed - 1])
+    }
+}
+
+/// Where a row begins, and what it adds or subtracts.
+pub(super) fn operands(
+    sum: &[Wire],
+    own: &[Wire],
+    a_top: Wire,
+    row: &Row,
+    fused: bool,
+    bits: usize,
+) -> (usize, Vec<Wire>, Vec<Wire>) {
+    if fused {
+        let mut shifted = vec![Wire::ZERO; row.place];
+        shifted.extend_from_slice(own);
+        let shifted = extended(&shifted, a_top, bits);
+        return (0, shifted, extended(own, a_top, bits));
+    }
+    let above = top(sum, row.before.1);
+    let rest = extended(
+        sum.get(row.place..).unwrap_or_default(),
+        above,
+        bits - row.place,
+    );
+    (row.place, rest, extended(own, a_top, bits - row.place))
+}

@@ -1,0 +1,4 @@
+//! Gates against integers.
+mod published;
+mod simulate;
+mod small;

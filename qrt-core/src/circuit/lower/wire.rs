@@ -1,0 +1,59 @@
+//! Wires: what a bit of an operand is.
+
+use super::Qubit;
+
+/// A qubit, its negation, or a constant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) struct Wire {
+    source: Option<Qubit>,
+    inverted: bool,
+}
+
+impl Wire {
+    pub(super) const ZERO: Self = Self::constant(false);
+    pub(super) const ONE: Self = Self::constant(true);
+
+    pub(super) const fn constant(value: bool) -> Self {
+        Self {
+            source: None,
+            inverted: value,
+        }
+    }
+
+    pub(super) const fn qubit(qubit: Qubit) -> Self {
+        Self {
+            source: Some(qubit),
+            inverted: false,
+        }
+    }
+
+    /// Its qubit; none for a constant.
+    pub(super) const fn source(self) -> Option<Qubit> {
+        self.source
+    }
+
+    /// Is it the negation of its qubit, or the constant 1?
+    pub(super) const fn inverted(self) -> bool {
+        self.inverted
+    }
+
+    #[must_use]
+    pub(super) const fn xor(self, inverted: bool) -> Self {
+        Self {
+            source: self.source,
+            inverted: self.inverted != inverted,
+        }
+    }
+
+    /// Are they equal, or each other's negation, whatever the qubits hold?
+    pub(super) fn related(self, other: Self) -> bool {
+        self.source == other.source
+    }
+
+    /// The majority of three, where it follows without a gate: that of two equal bits is that bit,
+    /// and that of two opposite ones the third.
+    pub(super) fn majority(a: Self, b: Self, c: Self) -> Option<Self> {
+        let of = |x: Self, y: Self, z: Self| x.related(y).then(|| if x == y { x } else { z });
+        of(a, b, c).or_else(|| of(a, c, b)).or_else(|| of(b, c, a))
+    }
+}
