@@ -1,6 +1,6 @@
 //! Costs by block.
 
-use super::{Inspection, Part, sum};
+use super::{Inspection, Part};
 use crate::circuit::lower::Cost;
 use crate::circuit::{Block, BlockId, RegisterId};
 use std::collections::HashMap;
@@ -40,9 +40,9 @@ impl Inspection {
         let compute = self.instructions(Part::Compute);
         for (at, instruction) in self.whole.instructions.iter().enumerate() {
             let [whole, computed] = &mut own[one[instruction.block.index()]];
-            *whole = sum([&*whole, &self.costs[at]]);
+            *whole = *whole + self.costs[at];
             if compute.contains(&at) {
-                *computed = sum([&*computed, &self.costs[at]]);
+                *computed = *computed + self.costs[at];
             }
         }
         let mut width = vec![0_u64; blocks.len()];
@@ -59,8 +59,8 @@ impl Inspection {
             {
                 let parent = one[parent.index()];
                 let inner = total[place];
-                for (outer, inner) in total[parent].iter_mut().zip(&inner) {
-                    *outer = sum([&*outer, inner]);
+                for (outer, inner) in total[parent].iter_mut().zip(inner) {
+                    *outer = *outer + inner;
                 }
                 width[parent] += width[place];
             }

@@ -89,11 +89,11 @@ impl Inspection {
             costs,
             ..
         } = dearest;
-        let circuit = lower::circuit(&whole);
+        let size = lower::size(&whole);
         Ok(Self {
-            toffoli_depth: lower::depth(&circuit),
-            qubits: circuit.qubits,
-            in_use: circuit.in_use,
+            toffoli_depth: size.depth,
+            qubits: size.qubits,
+            in_use: size.in_use,
             layout: Layout::of(&whole),
             channel,
             oracle,
@@ -104,12 +104,17 @@ impl Inspection {
 
     /// The cost of all of it.
     pub fn total(&self) -> Cost {
-        sum(&self.costs)
+        self.costs.iter().copied().sum()
     }
 
     /// The cost of a part; the three add up to [`Inspection::total`].
     pub fn part(&self, part: Part) -> Cost {
-        sum(&self.costs[self.instructions(part)])
+        self.cost(self.instructions(part))
+    }
+
+    /// The cost of some of the instructions.
+    pub fn cost(&self, instructions: Range<usize>) -> Cost {
+        self.costs[instructions].iter().copied().sum()
     }
 
     /// Toffolis times qubits: the size of the computation in space and time.
@@ -180,22 +185,10 @@ impl Candidate {
         let costs = lower::tally(&whole);
         Ok(Self {
             channel,
-            toffoli: sum(&costs).toffoli,
+            toffoli: costs.iter().copied().sum::<Cost>().toffoli,
             oracle,
             whole,
             costs,
         })
     }
-}
-
-/// The sum of some costs.
-pub fn sum<'a>(costs: impl IntoIterator<Item = &'a Cost>) -> Cost {
-    let mut sum = Cost::default();
-    for cost in costs {
-        sum.toffoli += cost.toffoli;
-        sum.and_measured += cost.and_measured;
-        sum.cnot += cost.cnot;
-        sum.x += cost.x;
-    }
-    sum
 }

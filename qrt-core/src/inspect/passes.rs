@@ -1,9 +1,8 @@
 //! What each pass takes away.
 
-use super::{Inspection, sum};
-use crate::circuit::Program;
+use super::Inspection;
 use crate::circuit::builder::Passes;
-use crate::circuit::lower;
+use crate::circuit::lower::{self, Cost};
 use crate::oracle::{Options, Oracle, OracleError};
 use crate::valid::ValidScene;
 
@@ -57,20 +56,16 @@ pub fn pass_figures(
         let whole = oracle.whole(0);
         figures.push(PassFigures {
             name,
-            toffoli: sum(&lower::tally(&whole)).toffoli,
+            toffoli: lower::tally(&whole).into_iter().sum::<Cost>().toffoli,
             ops: oracle.program.ops.len() as u64,
-            qubits: lower::circuit(&whole).qubits,
+            qubits: lower::size(&whole).qubits,
         });
     }
     figures.push(PassFigures {
         name: "merge",
         toffoli: inspection.total().toffoli,
-        ops: ops(&inspection.oracle.program),
+        ops: inspection.oracle.program.ops.len() as u64,
         qubits: inspection.qubits,
     });
     Ok(figures)
-}
-
-fn ops(program: &Program) -> u64 {
-    program.ops.len() as u64
 }

@@ -1,6 +1,6 @@
 //! The boxes of the paper's Path Tracing frame, found in the order of a program's instructions.
 
-use super::{Inspection, sum};
+use super::Inspection;
 use crate::circuit::lower::Cost;
 use crate::circuit::{BlockId, Op};
 use std::fmt;
@@ -131,7 +131,7 @@ impl Inspection {
             depth: None,
             block: None,
             inverse: false,
-            cost: sum(&self.costs[instructions.clone()]),
+            cost: self.cost(instructions.clone()),
             qubits: self.peak(instructions.clone()),
             instructions,
         }

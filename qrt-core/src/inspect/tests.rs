@@ -1,6 +1,7 @@
 //! Drawings and figures of a small scene's oracle.
 
 use super::*;
+use crate::circuit::lower::depth;
 use crate::front::parse;
 
 /// A lamp over a floor: two rays a path.
@@ -34,9 +35,9 @@ fn parts_stages_and_blocks_each_add_up_to_the_call() {
     for inspection in both() {
         let total = inspection.total();
         let parts = Part::ALL.map(|part| inspection.part(part));
-        assert_eq!(sum(&parts), total);
+        assert_eq!(parts.into_iter().sum::<Cost>(), total);
         let stages = inspection.stages();
-        assert_eq!(sum(stages.iter().map(|stage| &stage.cost)), total);
+        assert_eq!(stages.iter().map(|stage| stage.cost).sum::<Cost>(), total);
         let mut at = 0;
         for stage in &stages {
             assert_eq!(stage.instructions.start, at);
@@ -44,11 +45,21 @@ fn parts_stages_and_blocks_each_add_up_to_the_call() {
         }
         assert_eq!(at, inspection.whole.instructions.len());
         let blocks = inspection.blocks();
-        assert_eq!(sum(blocks.iter().map(|block| &block.own)), total);
+        assert_eq!(blocks.iter().map(|block| block.own).sum::<Cost>(), total);
         assert_eq!(blocks[0].total, total);
         assert_eq!(blocks[0].compute, inspection.part(Part::Compute));
         let (roles, ancillas) = inspection.peak_by_role();
         assert_eq!(roles.iter().sum::<u32>() + ancillas, inspection.qubits);
+    }
+}
+
+#[test]
+fn sizes_are_those_of_the_circuit() {
+    for inspection in both() {
+        let circuit = lower::circuit(&inspection.whole);
+        assert_eq!(inspection.qubits, circuit.qubits);
+        assert_eq!(inspection.in_use, circuit.in_use);
+        assert_eq!(inspection.toffoli_depth, depth(&circuit));
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::Shown;
 use qrt_core::circuit::lower::Cost;
-use qrt_core::inspect::{BlockFigures, CHANNELS, Inspection, Part, ROLES, Stage, grouped, sum};
+use qrt_core::inspect::{BlockFigures, CHANNELS, Inspection, Part, ROLES, Stage, grouped};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
@@ -53,10 +53,7 @@ fn headline(out: &mut String, shown: &Shown<'_>) {
     let figures = [
         (u64::from(inspection.qubits), "qubits"),
         (total.toffoli, "Toffoli"),
-        (
-            total.and_measured,
-            "AND, where they are undone by measurement",
-        ),
+        (total.and_measured, "AND, if they are undone by measurement"),
         (inspection.toffoli_depth, "Toffoli depth"),
         (inspection.toffoli_x_qubits(), "Toffoli x qubits"),
     ];
@@ -102,7 +99,7 @@ fn costs(out: &mut String, inspection: &Inspection, planes: bool) {
     let _ = writeln!(
         out,
         "{:<NAME$}{:>14}{:>6}{:>14}{:>15}{:>12}{:>11}",
-        "", "Toffoli", "%", "AND", "CNOT", "X", "qubits"
+        "", "Toffoli", "%", "measured AND", "CNOT", "X", "qubits"
     );
     let part = |out: &mut String, part: Part| {
         let qubits = inspection.peak(inspection.instructions(part));
@@ -125,7 +122,7 @@ fn costs(out: &mut String, inspection: &Inspection, planes: bool) {
         let (branch, below) = branches(last);
         match depth {
             Some(depth) => {
-                let cost = sum(stages.iter().map(|stage| &stage.cost));
+                let cost = stages.iter().map(|stage| stage.cost).sum();
                 let qubits = stages.iter().map(|stage| stage.qubits).max();
                 row(out, branch, &format!("depth {depth}"), cost, all, qubits);
                 for (place, stage) in stages.iter().enumerate() {
@@ -203,9 +200,10 @@ fn within(
     let rows: Vec<(String, Cost)> = kinds
         .iter()
         .flat_map(|(kind, blocks)| {
-            let total = sum(blocks.iter().map(|block| &block.compute));
+            let total = blocks.iter().map(|block| block.compute).sum();
+            let count = grouped(blocks.len() as u64);
             let plural = if blocks.len() == 1 { "" } else { "s" };
-            let mut rows = vec![(format!("{} {kind}{plural}", blocks.len()), total)];
+            let mut rows = vec![(format!("{count} {kind}{plural}"), total)];
             if each {
                 let single = blocks.iter();
                 rows.extend(single.map(|block| (format!("  {}", block.name), block.compute)));

@@ -36,7 +36,7 @@ mod tests;
 mod wire;
 
 pub use cost::{Cost, cost, tally};
-pub use place::{circuit, depth, scratch_width};
+pub use place::{Size, circuit, depth, scratch_width, size};
 pub use table::best_low;
 
 use super::{Bit, Gate, Gates, Op, Operand, Qubit, RegisterId, When, Word};

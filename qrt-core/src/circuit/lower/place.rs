@@ -93,6 +93,57 @@ pub(super) fn alone(op: &Op, width: impl Fn(RegisterId) -> u32) -> (Op, Lowering
 /// Lowers a program. Registers take qubits when they are computed, and leave them, zero, to others
 /// when they are undone.
 pub fn circuit(program: &Program) -> Circuit {
+    let mut gates = Vec::new();
+    let mut ranges = Vec::with_capacity(program.instructions.len());
+    let walked = walk(program, |next| {
+        let start = gates.len();
+        gates.append(next);
+        ranges.push(start..gates.len());
+    });
+    Circuit {
+        gates,
+        ranges,
+        qubits: walked.lowering.pool.made(),
+        in_use: walked.in_use,
+        inputs: walked.inputs,
+        outputs: walked.lowering.held(&program.outputs()),
+        parameters: program.parameters.clone(),
+    }
+}
+
+/// What [`circuit`] would be, without keeping its gates.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Size {
+    /// [`Circuit::qubits`]
+    pub qubits: u32,
+    /// [`Circuit::in_use`]
+    pub in_use: Vec<u32>,
+    /// [`depth`]
+    pub depth: u64,
+}
+
+/// The size of a program's circuit, whose gates may be more than fit into memory.
+pub fn size(program: &Program) -> Size {
+    let mut clock = Clock::default();
+    let walked = walk(program, |next| {
+        next.drain(..).for_each(|gate| clock.gate(gate));
+    });
+    Size {
+        qubits: walked.lowering.pool.made(),
+        in_use: walked.in_use,
+        depth: clock.latest(),
+    }
+}
+
+/// What is left of a lowering when its gates have been handed out.
+struct Walked {
+    lowering: Lowering,
+    inputs: Vec<(RegisterId, Vec<Qubit>)>,
+    in_use: Vec<u32>,
+}
+
+/// Lowers a program, instruction by instruction; `take` empties the list of each one's gates.
+fn walk(program: &Program, mut take: impl FnMut(&mut Vec<Gate>)) -> Walked {
     let mut lowering = Lowering {
         registers: vec![Vec::new(); program.registers.len()],
         ..Lowering::default()
@@ -101,7 +152,6 @@ pub fn circuit(program: &Program) -> Circuit {
         lowering.place(*input, program.width(*input));
     }
     let inputs = lowering.held(&program.inputs);
-    let mut ranges = Vec::with_capacity(program.instructions.len());
     let mut in_use = Vec::with_capacity(program.instructions.len());
     for instruction in &program.instructions {
         let op = &program.ops[instruction.op as usize];
@@ -111,50 +161,68 @@ pub fn circuit(program: &Program) -> Circuit {
             lowering.place(*register, program.width(*register));
         }
         lowering.pool.peak = lowering.pool.peak.max(lowering.pool.in_use());
-        let start = lowering.gates.len();
         let scratch = op.scratch().map(|id| lowering.register(id));
         lowering.scratch = Some(scratch.unwrap_or_default());
         lowering.lower(op);
         if instruction.inverse {
-            lowering.gates[start..].reverse();
+            lowering.gates.reverse();
             for register in fresh.iter().rev() {
                 lowering.displace(*register);
             }
         }
-        ranges.push(start..lowering.gates.len());
+        take(&mut lowering.gates);
         in_use.push(lowering.pool.peak);
     }
-    let outputs = lowering.held(&program.outputs());
-    Circuit {
-        gates: lowering.gates,
-        ranges,
-        qubits: lowering.pool.made(),
-        in_use,
+    Walked {
+        lowering,
         inputs,
-        outputs,
-        parameters: program.parameters.clone(),
+        in_use,
     }
 }
 
 /// Toffoli depth: each gate as early as its qubits allow, and only Toffolis take time.
 pub fn depth(circuit: &Circuit) -> u64 {
-    let mut times = vec![0_u64; circuit.qubits as usize];
-    for gate in &circuit.gates {
-        match *gate {
+    let mut clock = Clock::default();
+    circuit.gates.iter().for_each(|&gate| clock.gate(gate));
+    clock.latest()
+}
+
+/// By qubit: Toffolis that its content has to wait for.
+#[derive(Default)]
+struct Clock {
+    times: Vec<u64>,
+}
+
+impl Clock {
+    fn gate(&mut self, gate: Gate) {
+        match gate {
             Gate::X(_) | Gate::Load { .. } | Gate::Z(_) => {}
             Gate::Cx(a, b) => {
-                let time = times[a as usize].max(times[b as usize]);
-                times[a as usize] = time;
-                times[b as usize] = time;
+                let time = self.time(a).max(self.time(b));
+                self.set(&[a, b], time);
             }
             Gate::Ccx(a, b, c) => {
-                let [a, b, c] = [a, b, c].map(|qubit| qubit as usize);
-                let time = 1 + times[a].max(times[b]).max(times[c]);
-                times[a] = time;
-                times[b] = time;
-                times[c] = time;
+                let time = 1 + self.time(a).max(self.time(b)).max(self.time(c));
+                self.set(&[a, b, c], time);
             }
         }
     }
-    times.into_iter().max().unwrap_or(0)
+
+    fn time(&self, qubit: Qubit) -> u64 {
+        self.times.get(qubit as usize).copied().unwrap_or(0)
+    }
+
+    fn set(&mut self, qubits: &[Qubit], time: u64) {
+        for &qubit in qubits {
+            let place = qubit as usize;
+            if place >= self.times.len() {
+                self.times.resize(place + 1, 0);
+            }
+            self.times[place] = time;
+        }
+    }
+
+    fn latest(&self) -> u64 {
+        self.times.iter().copied().max().unwrap_or(0)
+    }
 }

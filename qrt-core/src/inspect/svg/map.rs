@@ -1,7 +1,7 @@
 //! The register map: time to the right, qubits up.
 
 use super::super::layout::Lifetime;
-use super::super::{Inspection, Part, ROLES, Stage, grouped, sum};
+use super::super::{Inspection, Part, ROLES, Stage, grouped};
 use super::{Canvas, SMALL, class, number, width_of};
 use crate::circuit::Role;
 use std::collections::BTreeMap;
@@ -118,7 +118,7 @@ impl<'a> Map<'a> {
             canvas.text("small mid", [x, PLOT[3] + 15.0], &grouped(time as u64));
             time += step;
         }
-        let unit = if sum(&self.inspection.costs).toffoli > 0 {
+        let unit = if self.inspection.total().toffoli > 0 {
             "Toffolis so far"
         } else {
             "instructions so far"
