@@ -133,7 +133,7 @@ fn draw_box(canvas: &mut Canvas, frame: &Frame, place: usize, item: &FrameBox) {
             }
         }
         let middle = f64::midpoint(top, bottom);
-        if width_of(&name) < BOX {
+        if width_of(&name) < BOX - 4.0 {
             canvas.text("mid", [x, middle + 4.0], &name);
         } else {
             let height = bottom - top - 4.0;
