@@ -3,8 +3,9 @@
 #![allow(clippy::unwrap_used)]
 
 use qrt::core::front;
+use qrt::core::tracer::NO_PLANE;
 use qrt::core::valid::ValidScene;
-use qrt::runtime::machines::{Real, Simd};
+use qrt::runtime::machines::{Real, Simd, SingleRay};
 use std::fmt::Write as _;
 use std::path::Path;
 
@@ -92,6 +93,54 @@ fn over_a_mesh_seen_from_afar() {
         &front::load(&knot, &sets)
             .unwrap_or_else(|e| panic!("{e}"))
             .valid,
+    );
+}
+
+/// Camera rays walk together where they go the same way: bundles of all widths, from one point or
+/// from many, along an axis or across, a few of them short of a value's lanes.
+#[test]
+fn over_bundles_of_rays() {
+    let knot = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes-yaml/knot.yaml");
+    let scene = front::load(&knot, &[]).unwrap_or_else(|e| panic!("{e}"));
+    let machine = || Real::new(&scene.valid, 3).unwrap();
+    let scalar = machine().with_simd(Simd::Scalar);
+    let (looped, boxed) = (machine().with_boxes(false), machine().with_boxes(true));
+    let mut state = 7_u64;
+    let mut random = move || {
+        state = state
+            .wrapping_mul(6364136223846793005)
+            .wrapping_add(1442695040888963407);
+        (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    };
+    let mut met = 0;
+    for bundle in 0..240 {
+        let spread = [0.0, 1e-3, 0.1][bundle % 3];
+        let width = [1e-4, 1e-2, 0.3, 1.0][bundle % 4];
+        let eye = [0; 3].map(|_| 1.5 * random());
+        let ahead = eye.map(|e| 0.4 * random() - e);
+        let rays: Vec<SingleRay> = (0..16 - bundle % 5)
+            .map(|_| {
+                let mut direction = ahead.map(|d| d + width * random());
+                if bundle % 7 == 0 {
+                    direction[bundle % 3] = 0.0_f64.copysign(random());
+                }
+                SingleRay {
+                    origin: eye.map(|e| e + spread * random()),
+                    direction,
+                    from: NO_PLANE,
+                }
+            })
+            .collect();
+        let expected = looped.nearest(&rays);
+        assert_eq!(expected, boxed.nearest(&rays), "bundle {bundle}");
+        if bundle % 16 == 0 {
+            assert_eq!(expected, scalar.nearest(&rays), "bundle {bundle}, one lane");
+        }
+        met += expected.iter().flatten().count();
+    }
+    assert!(
+        met > 1000,
+        "{met} rays met anything: the test would see nothing"
     );
 }
 

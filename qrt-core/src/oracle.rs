@@ -33,7 +33,7 @@ use crate::valid::ValidScene;
 use std::fmt;
 
 /// Fraction bits under `precision: { fraction: auto }`.
-pub const DEFAULT_FRACTION: u32 = 16;
+pub const DEFAULT_FRACTION: u32 = 14;
 
 /// How a scene is compiled, where not as it says itself.
 #[derive(Clone, Copy, Debug)]

@@ -50,6 +50,8 @@ pub struct Tile {
     pub pixels: Vec<[f64; 3]>,
     /// Oracle queries spent on each pixel.
     pub queries: Vec<u64>,
+    /// Good ids of each pixel's channels; 0 where none are counted.
+    pub good: Vec<[u64; 3]>,
 }
 
 /// An open checkpoint, locked against other processes.
@@ -65,8 +67,8 @@ pub struct Tile {
 ///     height: 1,
 ///     crop: [0, 0, 2, 1],
 /// };
-/// let (pixels, queries) = (vec![[0.5; 3]], vec![4096]);
-/// let tile = Tile { x: 1, y: 0, width: 1, height: 1, pixels, queries };
+/// let (pixels, queries, good) = (vec![[0.5; 3]], vec![4096], vec![[512; 3]]);
+/// let tile = Tile { x: 1, y: 0, width: 1, height: 1, pixels, queries, good };
 /// Checkpoint::create(&path, &header)?.append(&tile)?;
 /// let (_, finished) = Checkpoint::open(&path, &header)?;
 /// assert_eq!(finished, [tile]);

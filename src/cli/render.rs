@@ -10,7 +10,7 @@ use qrt_core::front;
 use qrt_core::scene::Estimator;
 use qrt_runtime::counting::AVAILABLE;
 use qrt_runtime::image::{self, Encoding, Metadata};
-use qrt_runtime::render::{Options, Progress, RenderError, Rendered, render};
+use qrt_runtime::render::{self, Options, Progress, RenderError, Rendered, render};
 use std::fs;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -88,6 +88,20 @@ pub(crate) struct RenderArgs {
 enum Model {
     /// In 64-bit floating point
     Real,
+    /// The oracle's program, operation by operation, on integers
+    Fixed,
+    /// The oracle's circuit, every gate of compute, flip and uncompute
+    Gates,
+}
+
+impl From<Model> for render::Model {
+    fn from(model: Model) -> Self {
+        match model {
+            Model::Real => Self::Real,
+            Model::Fixed => Self::Fixed,
+            Model::Gates => Self::Gates,
+        }
+    }
 }
 
 fn estimators() -> [&'static str; AVAILABLE.len()] {
@@ -103,7 +117,6 @@ fn crop(text: &str) -> Result<[u32; 4], String> {
 }
 
 pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
-    let Model::Real = args.model;
     let output = args.output.clone().unwrap_or_else(|| picture(&args.scene));
     let encoding = Encoding::of(&output, args.exposure)?;
     let files = [
@@ -135,6 +148,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     let options = Options {
         seed: args.seed,
         crop: args.crop,
+        model: args.model.into(),
         estimator: args.estimator.as_deref().and_then(Estimator::from_name),
         threads: args.threads.and_then(|n| NonZeroUsize::new(n as usize)),
         checkpoint: checkpoint.clone(),
@@ -219,13 +233,15 @@ fn summary(output: &Path, rendered: &Rendered, clipped: u64) -> String {
         ),
     };
     format!(
-        "{}: {} x {} pixels, {paths} paths in {:.2} s ({:.2} Mpaths/s), estimator {}, {} queries\n\
+        "{}: {} x {} pixels, {paths} paths in {:.2} s ({:.2} Mpaths/s), model {}, estimator {}, {} \
+         queries\n\
          {clipped}",
         output.display(),
         image.width,
         image.height,
         rendered.seconds,
         stats::paths_per_second(rendered) / 1e6,
+        rendered.model.name(),
         rendered.estimator,
         rendered.total_queries(),
     )

@@ -31,7 +31,7 @@ fn stats(scene: &ValidScene, rendered: &Rendered, clipped: u64) -> Value {
         "qrt": env!("CARGO_PKG_VERSION"),
         "scene": written.name,
         "scene_hash": scene.fingerprint().to_string(),
-        "model": "real",
+        "model": rendered.model.name(),
         "estimator": rendered.estimator.name(),
         "seed": rendered.seed,
         "width": written.film.width,

@@ -207,7 +207,7 @@ fn added(a: i64, b: i64, subtract: bool) -> i64 {
 fn divided(a: i64, b: i64, width: u32) -> (i64, bool) {
     let fits = i128::from(a) < i128::from(b) << width;
     let all = mask(width).cast_signed();
-    let a = if fits { a } else { a & all };
+    let a = if fits { a } else { 0 };
     let quotient = if b == 0 { all } else { a / b };
     (quotient, fits)
 }

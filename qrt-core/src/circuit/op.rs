@@ -147,7 +147,7 @@ pub enum Op {
         scratch: RegisterId,
     },
     /// `f = a < b 2^n`, and `q = floor(a' / b)`, where n is q's width and `a'` is a where f holds
-    /// and `a mod 2^n` where it does not; `q = 2^n - 1` where b is 0. Both operands are unsigned.
+    /// and 0 where it does not; `q = 2^n - 1` where b is 0. Both operands are unsigned.
     Divide {
         /// The dividend.
         a: Word,

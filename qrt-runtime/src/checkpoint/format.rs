@@ -7,7 +7,7 @@
 //! body    width, height, crop x, y, width, height (u32 each), u64 seed, scene hash, u32 count of
 //!         options, and for each its name and value; texts as u32 length and UTF-8
 //! record  x, y, width, height (u32 each), pixels (3 f64 each, rows from the top),
-//!         queries (u64 each), u32 CRC-32 of all before
+//!         queries (u64 each), good ids (3 u64 each), u32 CRC-32 of all before
 //! ```
 
 use super::{CheckpointError, Difference, Header, Tile};
@@ -15,10 +15,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 pub(super) const MAGIC: &[u8; 8] = b"QRTTILES";
-pub(super) const VERSION: u32 = 1;
+pub(super) const VERSION: u32 = 2;
 /// Bytes of a tile's record beside its pixels, and for each pixel.
 const RECORD: u64 = 20;
-const PIXEL: u64 = 32;
+const PIXEL: u64 = 56;
 
 impl Header {
     pub(super) fn encode(&self) -> Vec<u8> {
@@ -138,8 +138,8 @@ impl Tile {
         for value in self.pixels.iter().flatten() {
             bytes.extend(value.to_bits().to_le_bytes());
         }
-        for queries in &self.queries {
-            bytes.extend(queries.to_le_bytes());
+        for number in self.queries.iter().chain(self.good.iter().flatten()) {
+            bytes.extend(number.to_le_bytes());
         }
         seal(bytes)
     }
@@ -160,6 +160,7 @@ impl Tile {
             height,
             pixels: Vec::new(),
             queries: Vec::new(),
+            good: Vec::new(),
         };
         let area = tile.area_within(crop)?;
         let mut payload = take(bytes, area.checked_mul(PIXEL)?)?;
@@ -171,6 +172,10 @@ impl Tile {
         }
         for _ in 0..area {
             tile.queries.push(take_u64(payload)?);
+        }
+        for _ in 0..area {
+            let mut good = || take_u64(payload);
+            tile.good.push([good()?, good()?, good()?]);
         }
         Some(tile)
     }

@@ -31,6 +31,7 @@ fn tile(x: u32, y: u32, width: u32, height: u32) -> Tile {
         height,
         pixels,
         queries,
+        good: (0..area).map(|i| [u64::from(i); 3]).collect(),
     }
 }
 

@@ -6,15 +6,17 @@
 //! [`qrt_core::tracer::cross`] with the same constants, and ties go to the face that a loop over all
 //! faces would have kept: the result is the loop's, bit for bit.
 
+mod beam;
 mod build;
 mod packet;
 mod walk;
 
 use super::lanes::{Lanes, lanes, slots};
+use beam::{Rays, Scratch};
 use packet::Packet;
 use qrt_core::tracer::{Arith, Geometry, Hit, NO_FACE, Nearest, Ray};
 use std::cell::Cell;
-use walk::{Line, Stack};
+use walk::Line;
 
 /// Boxes of a node, and faces of a packet.
 pub(crate) const WIDE: usize = 8;
@@ -38,7 +40,8 @@ struct Node {
 enum Child {
     Absent,
     Node(u32),
-    Packet(u32),
+    /// Its number and its faces' main axis, which is known here before the packet is there.
+    Packet(u32, u8),
 }
 
 /// The hierarchy over the faces of a [`Geometry`].
@@ -57,7 +60,7 @@ impl Bvh {
     /// Over all faces of `geometry`.
     pub(crate) fn new(geometry: &Geometry) -> Self {
         let faces = &geometry.faces;
-        let tree = build::tree(&build::boxes(geometry));
+        let tree = build::tree(&build::boxes(geometry), &build::axes(geometry));
         let place = packet::planes_of_faces(geometry);
         Self {
             packets: tree
@@ -79,7 +82,7 @@ pub(crate) struct Indexed<'a> {
     geometry: &'a Geometry,
     bvh: &'a Bvh,
     /// Lent to one walk after the other.
-    stack: Cell<Stack>,
+    scratch: Cell<Scratch>,
 }
 
 impl<'a> Indexed<'a> {
@@ -87,7 +90,7 @@ impl<'a> Indexed<'a> {
         Self {
             geometry,
             bvh,
-            stack: Cell::default(),
+            scratch: Cell::default(),
         }
     }
 }
@@ -126,18 +129,22 @@ impl<'i, S: pulp::Simd, const W: usize> Nearest<Lanes<'i, S, W>> for Indexed<'_>
     ) -> Hit<Lanes<'i, S, W>> {
         let mut distance = cx.real(f64::MAX);
         let mut label = cx.index(NO_FACE);
-        let mut stack = self.stack.take();
-        let mut left = bits(cx, wanted);
-        while left != 0 {
-            let lane = left.trailing_zeros() as usize;
-            left &= left - 1;
-            if let Some(found) = self.bvh.nearest(cx.narrow(), &line(ray, lane), &mut stack) {
-                slots::<_, f64>(&mut distance)[lane] = found.distance;
-                let face = self.bvh.labels[found.rank as usize];
-                slots::<_, u64>(&mut label)[lane] = u64::from(face);
-            }
+        let mut scratch = self.scratch.take();
+        Rays {
+            bvh: self.bvh,
+            cx: *cx,
+            // A copy, so that the tracer's own can stay in registers.
+            ray: *ray,
+            wanted: bits(cx, wanted),
+            scratch: &mut scratch,
         }
-        self.stack.set(stack);
+        .find();
+        for &(lane, found) in scratch.found.iter().filter(|(_, f)| f.rank != u32::MAX) {
+            slots::<_, f64>(&mut distance)[lane] = found.distance;
+            let face = self.bvh.labels[found.rank as usize];
+            slots::<_, u64>(&mut label)[lane] = u64::from(face);
+        }
+        self.scratch.set(scratch);
         Hit::new(cx, distance, label, wanted)
     }
 
@@ -156,7 +163,7 @@ impl<'i, S: pulp::Simd, const W: usize> Nearest<Lanes<'i, S, W>> for Indexed<'_>
             return hit;
         }
         let mut hidden = cx.index(0);
-        let mut stack = self.stack.take();
+        let mut scratch = self.scratch.take();
         let mut left = bits(cx, hit.found);
         while left != 0 {
             let lane = left.trailing_zeros() as usize;
@@ -164,12 +171,12 @@ impl<'i, S: pulp::Simd, const W: usize> Nearest<Lanes<'i, S, W>> for Indexed<'_>
             let distance = lanes::<_, f64>(&hit.distance)[lane];
             if self
                 .bvh
-                .hides(cx.narrow(), &line(ray, lane), &mut stack, distance)
+                .hides(cx.narrow(), &line(ray, lane), &mut scratch.stack, distance)
             {
                 slots::<_, u64>(&mut hidden)[lane] = 1;
             }
         }
-        self.stack.set(stack);
+        self.scratch.set(scratch);
         let shown = cx.is(hidden, 0);
         hit.found = cx.and(hit.found, shown);
         hit

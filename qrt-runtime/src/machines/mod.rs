@@ -1,10 +1,23 @@
 //! Machines: what runs the tracer.
 //!
 //! [`Real`] reads it over lanes of `f64`: pictures, meshes, and the limit that every finite width
-//! converges to.
+//! converges to. [`Fixed`] evaluates the program that it is compiled to, operation by operation, on
+//! integers of its registers' widths. [`Gates`] executes the circuit of that program, gate by gate.
 
 mod bvh;
+mod fixed;
+mod gates;
+mod instructions;
 mod lanes;
+mod oracle;
+mod rays;
 mod real;
+mod span;
 
+pub use fixed::{Extremes, Fixed, Lanes, contents};
+pub use gates::{Dirty, Gates, InvalidGate, Rows};
+pub use instructions::InstructionSet;
+pub use oracle::{Defect, Finished, OracleMachine, Parts};
+pub use rays::{Met, SingleRay};
 pub use real::{Block, PixelSum, Points, Real, Simd};
+pub use span::Span;

@@ -4,7 +4,7 @@ use super::bvh::{Bvh, FEW_FACES, Faces, Indexed};
 use super::lanes::{BLOCK, Inputs, Lanes, lanes};
 
 /// Registers per value: two give the processor independent work while a division is under way.
-const WIDTH: usize = 2;
+pub(super) const WIDTH: usize = 2;
 
 use pulp::WithSimd;
 use qrt_core::sampling::PathPoints;
@@ -227,13 +227,22 @@ impl Real {
             count,
             colours,
         };
+        self.dispatch(block);
+    }
+
+    pub(super) fn boxes(&self) -> Option<&Bvh> {
+        self.bvh.as_ref()
+    }
+
+    /// Runs `work` with this machine's lanes.
+    pub(super) fn dispatch<F: WithSimd>(&self, work: F) -> F::Output {
         match self.simd {
             // This crate's unit tests do without: each instruction set is a tracer to compile.
             #[cfg(not(test))]
-            Simd::Widest => pulp::Arch::new().dispatch(block),
+            Simd::Widest => pulp::Arch::new().dispatch(work),
             #[cfg(test)]
-            Simd::Widest => block.with_simd(pulp::Scalar::new()),
-            Simd::Scalar => block.with_simd(pulp::Scalar::new()),
+            Simd::Widest => work.with_simd(pulp::Scalar::new()),
+            Simd::Scalar => work.with_simd(pulp::Scalar::new()),
         }
     }
 }

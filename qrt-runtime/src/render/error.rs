@@ -39,6 +39,11 @@ pub enum RenderError {
     },
     /// The sequence of paths can't be made.
     Sampling(qrt_core::sampling::SamplingError),
+    /// The scene has no circuit.
+    Oracle(qrt_core::oracle::OracleError),
+    /// The circuit does not do what an oracle must: a defect of qrt. The picture would prove
+    /// nothing, so there is none.
+    Defect(crate::machines::Defect),
     /// The pixels can't be counted as asked.
     Counting(CountingError),
     /// The threads can't be started.
@@ -80,10 +85,12 @@ impl RenderError {
             | Self::TooManyPaths { .. }
             | Self::Bound { .. }
             | Self::Sampling(_)
+            | Self::Oracle(_)
             | Self::Counting(_) => true,
             Self::Checkpoint(error) => matches!(error, CheckpointError::Differs { .. }),
             Self::Memory { .. }
             | Self::Threads(_)
+            | Self::Defect(_)
             | Self::OutOfBounds { .. }
             | Self::Interrupted { .. } => false,
         }
@@ -134,6 +141,11 @@ impl fmt::Display for RenderError {
                 name(*channel)
             ),
             Self::Sampling(error) => error.fmt(f),
+            Self::Oracle(error) => error.fmt(f),
+            Self::Defect(error) => write!(
+                f,
+                "{error}: a defect of qrt; the picture would prove nothing, so there is none"
+            ),
             Self::Counting(error) => error.fmt(f),
             Self::Threads(reason) => write!(f, "the threads cannot be started: {reason}"),
             Self::Checkpoint(error) => error.fmt(f),
@@ -168,6 +180,8 @@ impl std::error::Error for RenderError {
     fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
         match self {
             Self::Sampling(error) => Some(error),
+            Self::Oracle(error) => Some(error),
+            Self::Defect(error) => Some(error),
             Self::Counting(error) => Some(error),
             Self::Checkpoint(error) => Some(error),
             _ => None,
@@ -178,6 +192,18 @@ impl std::error::Error for RenderError {
 impl From<qrt_core::sampling::SamplingError> for RenderError {
     fn from(error: qrt_core::sampling::SamplingError) -> Self {
         Self::Sampling(error)
+    }
+}
+
+impl From<qrt_core::oracle::OracleError> for RenderError {
+    fn from(error: qrt_core::oracle::OracleError) -> Self {
+        Self::Oracle(error)
+    }
+}
+
+impl From<crate::machines::Defect> for RenderError {
+    fn from(error: crate::machines::Defect) -> Self {
+        Self::Defect(error)
     }
 }
 

@@ -18,7 +18,7 @@ impl Rendered {
         metadata.set("version", env!("CARGO_PKG_VERSION"))?;
         metadata.set("scene", written.name.as_str())?;
         metadata.set("scene_hash", scene.fingerprint().to_string())?;
-        metadata.set("model", "real")?;
+        metadata.set("model", self.model.name())?;
         metadata.set("estimator", self.estimator.name())?;
         metadata.set("seed", self.seed.to_string())?;
         metadata.set("sequence", sampling.sequence.name())?;

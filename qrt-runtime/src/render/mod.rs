@@ -3,7 +3,8 @@
 //! The machine traces all R paths of a pixel. Under the estimator `exact` the pixel is their mean,
 //!
 //! ```text
-//! pixel = 1/R sum_id colour_id
+//! pixel = 1/R sum_id colour_id            real
+//! pixel = scale S/N                       fixed, gates
 //! ```
 //!
 //! Under any other, each path's colour is compared with the C comparators of its channel, as the
@@ -51,8 +52,9 @@ pub use error::RenderError;
 
 use crate::checkpoint::{Checkpoint, Header, Tile};
 use crate::image::{Count, Image};
-use crate::machines::{Real, Simd};
-use pixel::{Pixel, Pixels, Totals};
+use crate::machines::{OracleMachine, Real, Simd};
+use pixel::{Pixels, Source, Totals};
+use qrt_core::oracle::Oracle;
 use qrt_core::scene::Estimator;
 use qrt_core::valid::ValidScene;
 use rayon::prelude::*;
@@ -63,6 +65,32 @@ use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 use tiles::Tiles;
 
+/// What traces the paths.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Model {
+    /// The tracer in 64-bit floating point.
+    #[default]
+    Real,
+    /// The oracle's program, operation by operation, on integers.
+    Fixed,
+    /// The oracle's circuit, gate by gate: compute, flip, uncompute.
+    Gates,
+}
+
+impl Model {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Real, Self::Fixed, Self::Gates];
+
+    /// As it is written.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Real => "real",
+            Self::Fixed => "fixed",
+            Self::Gates => "gates",
+        }
+    }
+}
+
 /// How to render. What isn't set follows from the scene.
 #[derive(Clone, Default)]
 pub struct Options<'a> {
@@ -71,6 +99,8 @@ pub struct Options<'a> {
     /// x, y, width and height of the part of the film to render, from its top left corner; all of
     /// it unless set.
     pub crop: Option<[u32; 4]>,
+    /// What traces the paths.
+    pub model: Model,
     /// The estimator, in place of the scene's.
     pub estimator: Option<Estimator>,
     /// Threads; as many as the machine has cores unless set.
@@ -112,6 +142,11 @@ pub struct Rendered {
     /// Queries of the oracle by pixel, as the image's pixels; all channels together. 0 under
     /// `exact`, which sums over all paths and asks no oracle.
     pub queries: Vec<u64>,
+    /// S, the good ids of every pixel's channels, as the image's pixels; none of the real model,
+    /// which has no ids but paths.
+    pub good: Option<Vec<[u64; 3]>>,
+    /// What traced the paths.
+    pub model: Model,
     /// x, y, width and height on the film.
     pub crop: [u32; 4],
     /// The estimator.
@@ -154,13 +189,14 @@ impl Rendered {
     pub fn counts(&self) -> impl Iterator<Item = Count> {
         tiles::pixels(self.crop)
             .zip(&self.image.pixels)
-            .flat_map(move |([x, y], pixel)| {
+            .enumerate()
+            .flat_map(move |(place, ([x, y], pixel))| {
                 (0..3).map(move |channel| Count {
                     x,
                     y,
                     channel,
                     value: pixel[channel],
-                    good: None,
+                    good: self.good.as_ref().map(|good| good[place][channel]),
                     total: self.ids,
                     scale: self.bound[channel],
                 })
@@ -168,7 +204,7 @@ impl Rendered {
     }
 }
 
-/// Renders a scene by the `real` machine.
+/// Renders a scene.
 ///
 /// # Errors
 /// See [`RenderError`]. An interruption is one: what is finished then is in the checkpoint.
@@ -181,8 +217,7 @@ pub fn render(scene: &ValidScene, options: &Options<'_>) -> Result<Rendered, Ren
     let crop = options.crop.unwrap_or([0, 0, film[0], film[1]]);
     check_crop(crop, film)?;
     let estimator = options.estimator.unwrap_or(written.counting.estimator);
-    let real = Real::new(scene, options.seed)?.with_simd(options.simd);
-    let paths = real.paths();
+    let paths = 1 << written.sampling.path_bits;
     let area = u64::from(crop[2]) * u64::from(crop[3]);
     let Some(all_paths) = area.checked_mul(paths) else {
         return Err(RenderError::TooManyPaths {
@@ -190,13 +225,24 @@ pub fn render(scene: &ValidScene, options: &Options<'_>) -> Result<Rendered, Ren
             path_bits: written.sampling.path_bits,
         });
     };
-    let pixels = Pixels::new(real, written, estimator, options.seed)?;
+    let source = match options.model {
+        Model::Real => Source::Real(Real::new(scene, options.seed)?.with_simd(options.simd)),
+        Model::Fixed | Model::Gates => {
+            let oracle = Oracle::rgb(scene, qrt_core::oracle::Options::default())?;
+            Source::Oracle(if options.model == Model::Fixed {
+                OracleMachine::fixed(oracle.into(), options.seed, false)
+            } else {
+                OracleMachine::gates(oracle.into(), options.seed, false)?
+            })
+        }
+    };
+    let pixels = Pixels::new(source, written, estimator, options.seed)?;
     let threads = options.threads.map_or(0, NonZeroUsize::get);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
     let pool = pool.map_err(|error| RenderError::Threads(error.to_string()))?;
 
     let mut film = Film::new(crop, area)?;
-    let finished = film.open(options, || header(scene, options.seed, estimator, crop))?;
+    let finished = film.open(options, || header(scene, options, estimator, crop))?;
     let resumed = finished.iter().filter(|&&f| f).count() as u64;
     let job = Job {
         tiles: Tiles::new(crop, options.tile, paths),
@@ -226,6 +272,8 @@ pub fn render(scene: &ValidScene, options: &Options<'_>) -> Result<Rendered, Ren
         Ok(()) => Ok(Rendered {
             image: film.image,
             queries: film.queries,
+            good: (options.model != Model::Real).then_some(film.good),
+            model: options.model,
             crop,
             estimator,
             seed: options.seed,
@@ -258,15 +306,15 @@ fn check_crop(crop: [u32; 4], film: [u32; 2]) -> Result<(), RenderError> {
 }
 
 /// What decides a pixel.
-fn header(scene: &ValidScene, seed: u64, estimator: Estimator, crop: [u32; 4]) -> Header {
+fn header(scene: &ValidScene, asked: &Options<'_>, estimator: Estimator, crop: [u32; 4]) -> Header {
     let options = [
-        ("model", "real"),
+        ("model", asked.model.name()),
         ("estimator", estimator.name()),
         ("version", env!("CARGO_PKG_VERSION")),
     ];
     Header {
         scene_hash: scene.fingerprint().to_string(),
-        seed,
+        seed: asked.seed,
         options: options
             .map(|(key, value)| (key.to_owned(), value.to_owned()))
             .into(),
@@ -320,6 +368,7 @@ impl Job<'_> {
             height,
             pixels: Vec::new(),
             queries: Vec::new(),
+            good: Vec::new(),
         };
         if !self.finished.is_empty()
             && tiles::rows(&tile, self.crop).all(|row| self.finished[row].iter().all(|&f| f))
@@ -336,11 +385,11 @@ impl Job<'_> {
                 !self.cancelled()
             };
             for &place in &places {
-                let totals = self.pixels.many(place, &traced);
+                let totals = self.pixels.many(place, &traced)?;
                 self.finish(&mut tile, place, &totals.ok_or(Stop::Cancelled)?)?;
             }
         } else {
-            for (&place, totals) in places.iter().zip(&self.pixels.few(&places)) {
+            for (&place, totals) in places.iter().zip(&self.pixels.few(&places)?) {
                 if self.cancelled() {
                     return Err(Stop::Cancelled);
                 }
@@ -355,9 +404,10 @@ impl Job<'_> {
 
     /// Adds a pixel to its tile.
     fn finish(&self, tile: &mut Tile, place: [u32; 2], totals: &Totals) -> Result<(), RenderError> {
-        let Pixel { colour, queries } = self.pixels.finish(place, totals)?;
-        tile.pixels.push(colour);
-        tile.queries.push(queries);
+        let pixel = self.pixels.finish(place, totals)?;
+        tile.pixels.push(pixel.colour);
+        tile.queries.push(pixel.queries);
+        tile.good.push(pixel.good);
         Ok(())
     }
 }
@@ -367,6 +417,7 @@ struct Film {
     crop: [u32; 4],
     image: Image,
     queries: Vec<u64>,
+    good: Vec<[u64; 3]>,
     finished: u64,
     checkpoint: Option<Checkpoint>,
 }
@@ -377,6 +428,9 @@ impl Film {
         let size = usize::try_from(area).map_err(|_| memory())?;
         let mut pixels = Vec::new();
         let mut queries = Vec::new();
+        let mut good = Vec::new();
+        good.try_reserve_exact(size).map_err(|_| memory())?;
+        good.resize(size, [0; 3]);
         pixels.try_reserve_exact(size).map_err(|_| memory())?;
         queries.try_reserve_exact(size).map_err(|_| memory())?;
         pixels.resize(size, [0.0; 3]);
@@ -389,6 +443,7 @@ impl Film {
                 pixels,
             },
             queries,
+            good,
             finished: 0,
             checkpoint: None,
         })
@@ -437,8 +492,10 @@ impl Film {
         let rows = tiles::rows(tile, self.crop);
         let colours = tile.pixels.chunks_exact(width);
         let queries = tile.queries.chunks_exact(width);
-        for (row, (colours, queries)) in rows.zip(colours.zip(queries)) {
+        let good = tile.good.chunks_exact(width);
+        for ((row, good), (colours, queries)) in rows.zip(good).zip(colours.zip(queries)) {
             self.image.pixels[row.clone()].copy_from_slice(colours);
+            self.good[row.clone()].copy_from_slice(good);
             self.queries[row].copy_from_slice(queries);
         }
     }

@@ -3,7 +3,7 @@
 use super::RenderError;
 use super::sum::Sum;
 use crate::counting::{AmplitudeEstimator, Comparators, Problem, estimator};
-use crate::machines::{Block, Real};
+use crate::machines::{Block, Defect, OracleMachine, Real};
 use crate::random::Stream;
 use qrt_core::scene::{Estimator, Scene};
 use rayon::prelude::*;
@@ -33,11 +33,22 @@ pub(super) struct Totals {
 pub(super) struct Pixel {
     pub(super) colour: [f64; 3],
     pub(super) queries: u64,
+    /// S; 0 where none are counted.
+    pub(super) good: [u64; 3],
+}
+
+/// What traces the paths.
+pub(super) enum Source {
+    /// Colours, in radiance.
+    Real(Real),
+    /// Counts of thresholds that colours exceed.
+    Oracle(OracleMachine),
 }
 
 /// How the pixels of a scene get their colours.
 pub(super) struct Pixels {
-    real: Real,
+    source: Source,
+    comparator_bits: u32,
     bound: [f64; 3],
     seed: u64,
     paths: u64,
@@ -52,13 +63,19 @@ struct Counter {
 
 impl Pixels {
     pub(super) fn new(
-        real: Real,
+        source: Source,
         scene: &Scene,
         estimate: Estimator,
         seed: u64,
     ) -> Result<Self, RenderError> {
-        let bound = real.stage().bound();
-        let paths = real.paths();
+        let (bound, paths) = match &source {
+            Source::Real(real) => (real.stage().bound(), real.paths()),
+            Source::Oracle(machine) => {
+                let channels = &machine.oracle().channels;
+                let scale = |c: usize| channels.get(c).map_or(0.0, |channel| channel.scale);
+                ([scale(0), scale(1), scale(2)], machine.paths())
+            }
+        };
         for (channel, bound) in bound.into_iter().enumerate() {
             let summable = bound <= f64::MAX / 2.0 / paths as f64;
             // Nor is NaN.
@@ -76,7 +93,8 @@ impl Pixels {
             })
         };
         Ok(Self {
-            real,
+            source,
+            comparator_bits: scene.comparator.bits,
             bound,
             seed,
             paths,
@@ -94,11 +112,33 @@ impl Pixels {
     }
 
     /// The totals of all paths of `pixels`, which have few each.
-    pub(super) fn few(&self, pixels: &[[u32; 2]]) -> Vec<Totals> {
+    pub(super) fn few(&self, pixels: &[[u32; 2]]) -> Result<Vec<Totals>, Defect> {
         let mut totals = vec![Totals::default(); pixels.len()];
-        self.real
-            .trace(pixels, |block| self.take(&mut totals[block.pixel], &block));
-        totals
+        self.trace(pixels, 0..self.paths, &mut totals)?;
+        Ok(totals)
+    }
+
+    /// Adds the paths `ids` of `pixels` to their `totals`.
+    fn trace(
+        &self,
+        pixels: &[[u32; 2]],
+        ids: Range<u64>,
+        totals: &mut [Totals],
+    ) -> Result<(), Defect> {
+        match &self.source {
+            Source::Real(real) => {
+                real.trace_range(pixels, ids, |block| {
+                    self.take(&mut totals[block.pixel], &block);
+                });
+                Ok(())
+            }
+            Source::Oracle(machine) => machine.trace(pixels, ids, |finished| {
+                let totals = &mut totals[finished.pixel];
+                for (total, good) in totals.good.iter_mut().zip(finished.good) {
+                    *total += good.iter().sum::<i64>().cast_unsigned();
+                }
+            }),
+        }
     }
 
     /// The totals of the many paths of one pixel, on all threads. `traced` is told of every run
@@ -107,7 +147,7 @@ impl Pixels {
         &self,
         pixel: [u32; 2],
         traced: &(impl Fn(u64) -> bool + Sync),
-    ) -> Option<Totals> {
+    ) -> Result<Option<Totals>, Defect> {
         let part = RUN.max(self.paths / PARTS);
         let parts = (0..self.paths.div_ceil(part)).into_par_iter();
         let totals = parts.map(|n| {
@@ -115,12 +155,15 @@ impl Pixels {
             self.part(pixel, n * part..end, traced)
         });
         // In the order of ids, whichever was first.
-        let totals: Vec<Totals> = totals.collect::<Option<_>>()?;
+        let totals: Vec<Option<Totals>> = totals.collect::<Result<_, _>>()?;
+        let Some(totals) = totals.into_iter().collect::<Option<Vec<Totals>>>() else {
+            return Ok(None);
+        };
         let mut whole = Totals::default();
         for later in &totals {
             whole.append(later);
         }
-        Some(whole)
+        Ok(Some(whole))
     }
 
     fn part(
@@ -128,20 +171,19 @@ impl Pixels {
         pixel: [u32; 2],
         ids: Range<u64>,
         traced: &impl Fn(u64) -> bool,
-    ) -> Option<Totals> {
-        let mut totals = Totals::default();
+    ) -> Result<Option<Totals>, Defect> {
+        let mut totals = [Totals::default()];
         let mut first = ids.start;
         while first < ids.end {
             let end = (first + RUN).min(ids.end);
-            self.real.trace_range(&[pixel], first..end, |block| {
-                self.take(&mut totals, &block);
-            });
+            self.trace(&[pixel], first..end, &mut totals)?;
             if !traced(end - first) {
-                return None;
+                return Ok(None);
             }
             first = end;
         }
-        Some(totals)
+        let [totals] = totals;
+        Ok(Some(totals))
     }
 
     fn take(&self, totals: &mut Totals, block: &Block<'_>) {
@@ -174,7 +216,12 @@ impl Pixels {
         let mut finished = Pixel {
             colour: [0.0; 3],
             queries: 0,
+            good: match self.source {
+                Source::Real(_) => [0; 3],
+                Source::Oracle(_) => totals.good,
+            },
         };
+        let ids = self.paths << self.comparator_bits;
         for channel in 0..3 {
             let (paths, colour) = totals.stray[channel];
             let bound = self.bound[channel];
@@ -188,6 +235,9 @@ impl Pixels {
                 });
             }
             finished.colour[channel] = match &self.counter {
+                None if matches!(self.source, Source::Oracle(_)) => {
+                    bound * (totals.good[channel] as f64 / ids as f64)
+                }
                 None => totals.colour[channel].value() / self.paths as f64,
                 // Nothing to count: black is proven.
                 Some(_) if bound == 0.0 => 0.0,
@@ -245,7 +295,7 @@ sampling: { path_bits: 5 }
 
     fn wall(estimator: Estimator) -> Pixels {
         let scene = parse(WALL, "wall.yaml", &[], "".as_ref()).unwrap().valid;
-        let real = Real::new(&scene, 0).unwrap();
+        let real = Source::Real(Real::new(&scene, 0).unwrap());
         Pixels::new(real, scene.scene(), estimator, 0).unwrap()
     }
 
@@ -253,13 +303,17 @@ sampling: { path_bits: 5 }
     fn a_path_beyond_its_bound_is_reported_and_never_clamped() {
         for estimator in [Estimator::Exact, Estimator::Sine] {
             let mut pixels = wall(estimator);
-            let totals = pixels.few(&[[1, 0]]);
+            let totals = pixels.few(&[[1, 0]]).unwrap();
             assert!(pixels.finish([1, 0], &totals[0]).is_ok());
             // Rounding is no defect; anything above is.
             pixels.bound = [2.0 - 1e-12, 1.0, 0.0];
-            assert!(pixels.finish([1, 0], &pixels.few(&[[1, 0]])[0]).is_ok());
+            assert!(
+                pixels
+                    .finish([1, 0], &pixels.few(&[[1, 0]]).unwrap()[0])
+                    .is_ok()
+            );
             pixels.bound = [2.0, 1.0 - 1e-9, 0.0];
-            match pixels.finish([1, 0], &pixels.few(&[[1, 0]])[0]) {
+            match pixels.finish([1, 0], &pixels.few(&[[1, 0]]).unwrap()[0]) {
                 Err(RenderError::OutOfBounds {
                     pixel: [1, 0],
                     channel: 1,
@@ -269,7 +323,7 @@ sampling: { path_bits: 5 }
                 }) => {}
                 other => panic!("{:?}", other.map(|pixel| pixel.colour)),
             }
-            let parts = pixels.many([1, 0], &|_| true).unwrap();
+            let parts = pixels.many([1, 0], &|_| true).unwrap().unwrap();
             assert!(pixels.finish([1, 0], &parts).is_err());
         }
     }

@@ -190,23 +190,24 @@ impl Lowering {
                 _ => None,
             };
             own = next.is_none();
-            (carry, _) = match (next, replaces) {
-                (Some(wire), _) => (wire, steps.push(Step::Free)),
+            let step;
+            (carry, step) = match (next, replaces) {
+                (Some(wire), _) => (wire, Step::Free),
                 (None, Some((carry, addend))) => {
                     self.cx(addend, t);
                     self.cx(addend, carry);
                     self.ccx(carry, t, addend);
-                    let step = Step::Replaced { carry, addend };
-                    (Wire::qubit(addend), steps.push(step))
+                    (Wire::qubit(addend), Step::Replaced { carry, addend })
                 }
                 (None, None) => {
                     let at = self.pool.take();
                     let start = self.gates.len();
                     self.majority(Wire::qubit(t), addend, carry, at);
                     let gates = [start, self.gates.len()];
-                    (Wire::qubit(at), steps.push(Step::Borrowed { at, gates }))
+                    (Wire::qubit(at), Step::Borrowed { at, gates })
                 }
             };
+            steps.push(step);
         }
         carries.push(carry);
         self.sum_when(a[top], carry, when, target[top]);

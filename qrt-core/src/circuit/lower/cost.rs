@@ -8,7 +8,7 @@ use super::place::alone;
 use super::scale::{Rows, operands, top};
 use super::square;
 use super::table::Plan;
-use super::{Lowering, Qubit, Wire, constant, extended, invert};
+use super::{Lowering, Qubit, Wire, extended, invert};
 use std::collections::HashMap;
 use std::iter::Sum;
 use std::ops::Add;
@@ -255,7 +255,7 @@ impl Lowering {
             }
             Op::Negate { a, when, target } => {
                 let bits = self.width(*target);
-                kept(self.negate_ands(&self.word(*a, bits), self.bit(*when)))
+                kept(negate_ands(&self.word(*a, bits), self.bit(*when)))
             }
             Op::Select { when, a, b, target } => {
                 let bits = self.width(*target);
@@ -368,18 +368,6 @@ impl Lowering {
         }
     }
 
-    fn negate_ands(&self, a: &[Wire], when: Wire) -> u64 {
-        let mut carry = when;
-        let mut ands = 0;
-        for place in 0..a.len().saturating_sub(1) {
-            carry = turned(a, place, when, carry).unwrap_or_else(|| {
-                ands += 1;
-                Wire::qubit(u32::MAX - ands)
-            });
-        }
-        u64::from(ands)
-    }
-
     fn add_into_ands(&self, a: Operand, subtract: bool, when: When, target: RegisterId) -> Ands {
         let t = super::qubits(&self.register(target));
         let (a, _, control) = self.addend(a, subtract, when, t.len());
@@ -404,7 +392,7 @@ impl Lowering {
         if needed == 0 {
             return Ands::default();
         }
-        let added = rows.rows.iter().take_while(|row| row.place < needed);
+        let added = rows.added.iter().take_while(|row| row.place < needed);
         if style == Style::Lean {
             let first = if rows.negative {
                 negation(rows.first.0.min(needed))
@@ -460,29 +448,8 @@ impl Lowering {
         if n == 0 {
             return fits;
         }
-        let long = ones(number[..n].get(bits..).unwrap_or_default());
-        let some = if long > 0 && number.len() > n {
-            let some = comparison(&constant(0, bits), &divisor, keep);
-            if keep {
-                some
-            } else {
-                // Once more to return it; the last AND is then measured.
-                let again = Ands {
-                    toffoli: some.toffoli,
-                    kept: 0,
-                    both: some.both,
-                };
-                let once = Ands {
-                    toffoli: some.toffoli,
-                    kept: 0,
-                    both: some.both + some.kept,
-                };
-                once + again
-            }
-        } else {
-            Ands::default()
-        };
-        let copied = kept(ones(&high[..bits]) + long);
+        let cut = if number.len() > n { 0 } else { bits.min(n) };
+        let copied = kept(ones(&high[..bits]) + ones(&number[cut..n]));
         let steps = u64::from(b.width);
         let steps = if keep {
             let mut first = vec![number[n - 1]];
@@ -493,8 +460,20 @@ impl Lowering {
         } else {
             returned(steps * n as u64)
         };
-        fits + some + copied + steps
+        fits + copied + steps
     }
+}
+
+fn negate_ands(a: &[Wire], when: Wire) -> u64 {
+    let mut carry = when;
+    let mut ands = 0;
+    for place in 0..a.len().saturating_sub(1) {
+        carry = turned(a, place, when, carry).unwrap_or_else(|| {
+            ands += 1;
+            Wire::qubit(u32::MAX - ands)
+        });
+    }
+    u64::from(ands)
 }
 
 fn square_ands(a: Word, needed: usize, style: Style) -> Ands {

@@ -5,8 +5,9 @@
 //! what comes out is the complement of the quotient's bit, and its qubit is that bit's. Remainders lie
 //! in [-b, b), and have one bit more than b.
 //!
-//! Where b is 0 the dividend's bits would reach the sign of the remainder if the quotient is wider
-//! than b; those bits are therefore ANDed with `b != 0`.
+//! The dividend's bits are ANDed with `a < b 2^n` if it has more than n bits. If it has not, the
+//! quotient always fits unless b is 0; then the dividend's bits would reach the sign of the remainder
+//! if the quotient is wider than b, and those alone are ANDed.
 
 use super::super::{Style, Word};
 use super::{Gates, Lowering, Qubit, Wire, extended, qubits};
@@ -40,25 +41,14 @@ impl Lowering {
             self.and(Wire::qubit(fits), *wire, t);
             *wire = Wire::qubit(t);
         }
-        // Bits that would reach the sign of the remainder.
-        let long = (bits..n).any(|place| number[place].source().is_some());
-        let mut some = Wire::ONE;
-        let mut borrowed = None;
-        if long && number.len() == n {
-            some = Wire::qubit(fits);
-        } else if long {
-            let at = if keep { self.draw() } else { self.pool.take() };
-            self.less(&vec![Wire::ZERO; bits], &b, at, keep);
-            some = Wire::qubit(at);
-            borrowed = Some(at).filter(|_| !keep);
-        }
+        let cut = if number.len() > n { 0 } else { bits };
         match style {
             Style::Wide => {
                 let mut low = number[..n].to_vec();
-                for wire in low.iter_mut().skip(bits) {
+                for wire in low.iter_mut().skip(cut) {
                     if wire.source().is_some() {
                         let t = self.draw();
-                        self.and(some, *wire, t);
+                        self.and(Wire::qubit(fits), *wire, t);
                         *wire = Wire::qubit(t);
                     }
                 }
@@ -70,15 +60,15 @@ impl Lowering {
                 let mut all = self.draws(bits);
                 all.extend_from_slice(quotient);
                 for (place, wire) in number[..n].iter().enumerate() {
-                    let some = if place < bits { Wire::ONE } else { some };
-                    self.and(some, *wire, all[place]);
+                    let fits = if place < cut {
+                        Wire::ONE
+                    } else {
+                        Wire::qubit(fits)
+                    };
+                    self.and(fits, *wire, all[place]);
                 }
                 for (wire, t) in high.iter().zip(&all[n..]) {
                     self.and(Wire::qubit(fits), *wire, *t);
-                }
-                if let Some(at) = borrowed {
-                    self.less(&vec![Wire::ZERO; bits], &b, at, false);
-                    self.pool.give(at);
                 }
                 self.remainders_into(&b, &all, n);
             }

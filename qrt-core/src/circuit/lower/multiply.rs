@@ -198,12 +198,13 @@ impl Lowering {
             return Wire::qubit(target[target.len() - 1]);
         }
         let mut sum = first;
-        for place in 1..p.rows.min(p.needed) {
+        let bits = a.iter().enumerate().take(p.rows.min(p.needed));
+        for (place, bit) in bits.skip(1) {
             let last = place + 1 == p.rows;
             let turned = last && p.a_signed;
             let bits = (p.row + 1).min(p.needed - place);
             let row = self.draws(p.row.min(bits));
-            self.row(a[place], b, &row);
+            self.row(*bit, b, &row);
             let row_top = above(&row, p.b_signed);
             let mut row = extended(&qubits(&row), row_top, bits);
             invert(&mut row, turned);
@@ -253,7 +254,8 @@ impl Lowering {
         if p.rows > 1 && p.b_signed && p.row < p.needed {
             self.cx(product[p.row - 1], product[p.row]);
         }
-        for place in 1..p.rows.min(p.needed) {
+        let rows = a.iter().enumerate().take(p.rows.min(p.needed));
+        for (place, bit) in rows.skip(1) {
             let bits = (p.row + 1).min(p.needed - place);
             let window = &product[place..place + bits];
             if p.b_signed && bits > p.row {
@@ -262,7 +264,7 @@ impl Lowering {
             let sign = Wire::constant(p.a_signed && place + 1 == p.rows);
             let above = if p.b_signed { b[p.row - 1] } else { Wire::ZERO };
             self.flips(sign, window);
-            self.add_into(&extended(b, above, bits), false, a[place], window);
+            self.add_into(&extended(b, above, bits), false, *bit, window);
             self.flips(sign, window);
         }
         Wire::qubit(product[p.needed - 1])

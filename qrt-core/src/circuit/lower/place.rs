@@ -31,13 +31,21 @@ impl Pool {
     pub(super) fn in_use(&self) -> u32 {
         self.made - self.free.len() as u32
     }
-
-    pub(super) fn made(&self) -> u32 {
-        self.made
-    }
 }
 
 impl Lowering {
+    /// With the program's inputs placed.
+    fn on(program: &Program) -> Self {
+        let mut lowering = Self {
+            registers: vec![Vec::new(); program.registers.len()],
+            ..Self::default()
+        };
+        for input in &program.inputs {
+            lowering.place(*input, program.width(*input));
+        }
+        lowering
+    }
+
     /// Gives a register qubits.
     pub(super) fn place(&mut self, register: RegisterId, width: u32) {
         if self.registers[register.index()].is_empty() {
@@ -53,9 +61,32 @@ impl Lowering {
         }
     }
 
-    fn held(&self, registers: &[RegisterId]) -> Vec<(RegisterId, Vec<Qubit>)> {
-        let held = |id: &RegisterId| (*id, self.register(*id));
-        registers.iter().map(held).collect()
+    /// Registers that have qubits.
+    fn held(&self) -> Vec<(RegisterId, Vec<Qubit>)> {
+        let all = self.registers.iter().enumerate();
+        all.filter(|(_, qubits)| !qubits.is_empty())
+            .map(|(register, qubits)| (RegisterId(register as u32), qubits.clone()))
+            .collect()
+    }
+
+    /// Emits an operation or its inverse, and says how many qubits are in use meanwhile.
+    fn instruction(&mut self, program: &Program, op: &Op, inverse: bool) -> u32 {
+        let fresh = op.fresh();
+        for register in &fresh {
+            self.place(*register, program.width(*register));
+        }
+        self.pool.peak = self.pool.in_use();
+        let scratch = op.scratch().map(|id| self.register(id));
+        self.scratch = Some(scratch.unwrap_or_default());
+        let start = self.gates.len();
+        self.lower(op);
+        if inverse {
+            self.gates[start..].reverse();
+            for register in fresh.iter().rev() {
+                self.displace(*register);
+            }
+        }
+        self.pool.peak
     }
 }
 
@@ -93,136 +124,49 @@ pub(super) fn alone(op: &Op, width: impl Fn(RegisterId) -> u32) -> (Op, Lowering
 /// Lowers a program. Registers take qubits when they are computed, and leave them, zero, to others
 /// when they are undone.
 pub fn circuit(program: &Program) -> Circuit {
-    let mut gates = Vec::new();
-    let mut ranges = Vec::with_capacity(program.instructions.len());
-    let walked = walk(program, |next| {
-        let start = gates.len();
-        gates.append(next);
-        ranges.push(start..gates.len());
-    });
-    Circuit {
-        gates,
-        ranges,
-        qubits: walked.lowering.pool.made(),
-        in_use: walked.in_use,
-        inputs: walked.inputs,
-        outputs: walked.lowering.held(&program.outputs()),
-        parameters: program.parameters.clone(),
+    parts(program, &[]).into_iter().next().unwrap_or_default()
+}
+
+/// Lowers a program, cut before the instructions `cuts`, which ascend: parts that share their
+/// qubits.
+pub fn parts(program: &Program, cuts: &[usize]) -> Vec<Circuit> {
+    let mut lowering = Lowering::on(program);
+    let ends = cuts.iter().copied().chain([program.instructions.len()]);
+    let mut parts = Vec::with_capacity(cuts.len() + 1);
+    let mut begin = 0;
+    for end in ends {
+        let mut part = Circuit {
+            inputs: lowering.held(),
+            parameters: program.parameters.clone(),
+            ..Circuit::default()
+        };
+        for instruction in &program.instructions[begin..end] {
+            let op = &program.ops[instruction.op as usize];
+            let start = lowering.gates.len();
+            part.in_use
+                .push(lowering.instruction(program, op, instruction.inverse));
+            part.ranges.push(start..lowering.gates.len());
+        }
+        part.gates = std::mem::take(&mut lowering.gates);
+        part.outputs = lowering.held();
+        parts.push(part);
+        begin = end;
     }
-}
-
-/// What [`circuit`] would be, without keeping its gates.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Size {
-    /// [`Circuit::qubits`]
-    pub qubits: u32,
-    /// [`Circuit::in_use`]
-    pub in_use: Vec<u32>,
-    /// [`depth`]
-    pub depth: u64,
-}
-
-/// The size of a program's circuit, whose gates may be more than fit into memory.
-pub fn size(program: &Program) -> Size {
-    let mut clock = Clock::default();
-    let walked = walk(program, |next| {
-        next.drain(..).for_each(|gate| clock.gate(gate));
-    });
-    Size {
-        qubits: walked.lowering.pool.made(),
-        in_use: walked.in_use,
-        depth: clock.latest(),
+    for part in &mut parts {
+        part.qubits = lowering.pool.made;
     }
+    parts
 }
 
-/// What is left of a lowering when its gates have been handed out.
-struct Walked {
-    lowering: Lowering,
-    inputs: Vec<(RegisterId, Vec<Qubit>)>,
-    in_use: Vec<u32>,
-}
-
-/// Lowers a program, instruction by instruction; `take` empties the list of each one's gates.
-fn walk(program: &Program, mut take: impl FnMut(&mut Vec<Gate>)) -> Walked {
-    let mut lowering = Lowering {
-        registers: vec![Vec::new(); program.registers.len()],
-        ..Lowering::default()
-    };
-    for input in &program.inputs {
-        lowering.place(*input, program.width(*input));
-    }
-    let inputs = lowering.held(&program.inputs);
-    let mut in_use = Vec::with_capacity(program.instructions.len());
+/// Lowers a program instruction by instruction: `each` gets its gates, which are not kept, and how
+/// many qubits are in use meanwhile. The number of qubits in all is returned.
+pub(super) fn walk(program: &Program, mut each: impl FnMut(&[Gate], u32)) -> u32 {
+    let mut lowering = Lowering::on(program);
     for instruction in &program.instructions {
         let op = &program.ops[instruction.op as usize];
-        let fresh = op.fresh();
-        lowering.pool.peak = 0;
-        for register in &fresh {
-            lowering.place(*register, program.width(*register));
-        }
-        lowering.pool.peak = lowering.pool.peak.max(lowering.pool.in_use());
-        let scratch = op.scratch().map(|id| lowering.register(id));
-        lowering.scratch = Some(scratch.unwrap_or_default());
-        lowering.lower(op);
-        if instruction.inverse {
-            lowering.gates.reverse();
-            for register in fresh.iter().rev() {
-                lowering.displace(*register);
-            }
-        }
-        take(&mut lowering.gates);
-        in_use.push(lowering.pool.peak);
+        let in_use = lowering.instruction(program, op, instruction.inverse);
+        each(&lowering.gates, in_use);
+        lowering.gates.clear();
     }
-    Walked {
-        lowering,
-        inputs,
-        in_use,
-    }
-}
-
-/// Toffoli depth: each gate as early as its qubits allow, and only Toffolis take time.
-pub fn depth(circuit: &Circuit) -> u64 {
-    let mut clock = Clock::default();
-    circuit.gates.iter().for_each(|&gate| clock.gate(gate));
-    clock.latest()
-}
-
-/// By qubit: Toffolis that its content has to wait for.
-#[derive(Default)]
-struct Clock {
-    times: Vec<u64>,
-}
-
-impl Clock {
-    fn gate(&mut self, gate: Gate) {
-        match gate {
-            Gate::X(_) | Gate::Load { .. } | Gate::Z(_) => {}
-            Gate::Cx(a, b) => {
-                let time = self.time(a).max(self.time(b));
-                self.set(&[a, b], time);
-            }
-            Gate::Ccx(a, b, c) => {
-                let time = 1 + self.time(a).max(self.time(b)).max(self.time(c));
-                self.set(&[a, b, c], time);
-            }
-        }
-    }
-
-    fn time(&self, qubit: Qubit) -> u64 {
-        self.times.get(qubit as usize).copied().unwrap_or(0)
-    }
-
-    fn set(&mut self, qubits: &[Qubit], time: u64) {
-        for &qubit in qubits {
-            let place = qubit as usize;
-            if place >= self.times.len() {
-                self.times.resize(place + 1, 0);
-            }
-            self.times[place] = time;
-        }
-    }
-
-    fn latest(&self) -> u64 {
-        self.times.iter().copied().max().unwrap_or(0)
-    }
+    lowering.pool.made
 }

@@ -27,7 +27,7 @@ pub(super) struct Rows {
     pub(super) negative: bool,
     /// The first partial sum: a or -a.
     pub(super) first: (usize, bool),
-    pub(super) rows: Vec<Row>,
+    pub(super) added: Vec<Row>,
 }
 
 impl Rows {
@@ -65,25 +65,25 @@ impl Rows {
             shift: a.shift + zeros,
             negative,
             first,
-            rows: digits.map(row).collect(),
+            added: digits.map(row).collect(),
         }
     }
 
     /// Bits of the product, and whether the top is a sign.
     pub(super) fn extent(&self) -> (usize, bool) {
-        self.rows.last().map_or(self.first, |row| row.after)
+        self.added.last().map_or(self.first, |row| row.after)
     }
 
     /// Bits of what the rows that begin below `needed` give, and whether the top is a sign.
     fn reached(&self, needed: usize) -> (usize, bool) {
-        let beyond = self.rows.iter().find(|row| row.place >= needed);
+        let beyond = self.added.iter().find(|row| row.place >= needed);
         beyond.map_or(self.extent(), |row| row.before)
     }
 
     /// Are the lowest digit, -1, and the next, +1, one subtraction?
     pub(super) fn fused(&self, needed: usize) -> bool {
         let adds = |row: &Row| !row.subtract && row.place < needed;
-        self.negative && self.rows.first().is_some_and(adds)
+        self.negative && self.added.first().is_some_and(adds)
     }
 }
 
@@ -142,7 +142,7 @@ impl Lowering {
     ) -> Wire {
         let a_top = top(own, a.signed);
         let mut sum = own.to_vec();
-        let next = |index: usize| rows.rows.get(index).map_or(needed, |row| row.place);
+        let next = |index: usize| rows.added.get(index).map_or(needed, |row| row.place);
         if rows.negative && !rows.fused(needed) {
             let bits = rows.first.0.min(needed);
             let t = self.partial(landing, 0, bits, next(0));
@@ -151,7 +151,7 @@ impl Lowering {
             self.add(&vec![Wire::ZERO; bits], &number, Wire::ONE, &t);
             sum = qubits(&t);
         }
-        for (index, row) in rows.rows.iter().enumerate() {
+        for (index, row) in rows.added.iter().enumerate() {
             if row.place >= needed {
                 break;
             }
@@ -191,7 +191,7 @@ impl Lowering {
             self.flips(Wire::ONE, window);
             self.add_into(&super::constant(1, bits), false, Wire::ONE, window);
         }
-        for row in &rows.rows {
+        for row in &rows.added {
             if row.place >= needed {
                 break;
             }

@@ -183,13 +183,11 @@ impl Plan {
 /// How many low bits of an address of `address_bits` best select among words read together: the
 /// number with the fewest Toffolis.
 pub fn best_low(address_bits: u32, columns: &[Box<[i64]>]) -> u32 {
-    let bits = |column: &Box<[i64]>| {
-        let most = column
-            .iter()
-            .map(|entry| 65 - (entry ^ (entry >> 63)).leading_zeros());
-        most.max().unwrap_or(0) as usize
+    let bits = |column: &[i64]| {
+        let bits = |entry: &i64| 65 - (entry ^ (entry >> 63)).leading_zeros();
+        column.iter().map(bits).max().unwrap_or(0) as usize
     };
-    let widths: Vec<usize> = columns.iter().map(bits).collect();
+    let widths: Vec<usize> = columns.iter().map(|column| bits(column)).collect();
     let toffoli = |low: u32| {
         Plan::new(address_bits as usize, columns, low, |column| widths[column]).toffoli()
     };

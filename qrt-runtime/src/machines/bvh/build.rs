@@ -1,4 +1,7 @@
 //! Building the tree: binned surface area heuristic, then eight children a node.
+//!
+//! The faces of a leaf share a main axis, so that a packet sees a ray turned one way only. Of a
+//! smooth mesh's leaves most do by themselves.
 
 use super::{Child, Node, WIDE};
 use glam::DVec3;
@@ -75,22 +78,37 @@ pub(super) fn boxes(geometry: &Geometry) -> Vec<Bounds> {
         .collect()
 }
 
-/// The tree over `boxes`.
-pub(super) fn tree(boxes: &[Bounds]) -> Tree {
+/// The main axes of all faces.
+pub(super) fn axes(geometry: &Geometry) -> Vec<u8> {
+    let mut axes = Vec::with_capacity(geometry.faces.len());
+    for plane in &geometry.planes {
+        axes.resize(plane.faces.end, plane.axis as u8);
+    }
+    axes
+}
+
+/// The tree over faces with these `boxes` and main `axes`.
+pub(super) fn tree(boxes: &[Bounds], axes: &[u8]) -> Tree {
     let mut tree = Tree {
         nodes: Vec::new(),
         leaves: Vec::new(),
     };
     if !boxes.is_empty() {
         let mut faces: Vec<u32> = (0..boxes.len() as u32).collect();
-        tree.node(boxes, &mut faces, 0);
+        tree.node(boxes, axes, &mut faces, 0);
     }
     tree
 }
 
+/// Do `faces` make one packet?
+fn fit(axes: &[u8], faces: &[u32]) -> bool {
+    let axis = |face: u32| axes[face as usize];
+    faces.len() <= WIDE && faces.iter().all(|&face| axis(face) == axis(faces[0]))
+}
+
 impl Tree {
     /// A node over `faces`, whose number it returns. `depth` counts binary splits above.
-    fn node(&mut self, boxes: &[Bounds], faces: &mut [u32], depth: usize) -> u32 {
+    fn node(&mut self, boxes: &[Bounds], axes: &[u8], faces: &mut [u32], depth: usize) -> u32 {
         let number = self.nodes.len() as u32;
         let empty = [
             [f64::INFINITY; WIDE],
@@ -110,22 +128,26 @@ impl Tree {
         let mut parts = vec![(faces, depth)];
         while parts.len() < WIDE {
             let largest = (0..parts.len())
-                .filter(|&part| parts[part].0.len() > WIDE)
+                .filter(|&part| !fit(axes, parts[part].0))
                 .max_by(|&a, &b| cost(boxes, parts[a].0).total_cmp(&cost(boxes, parts[b].0)));
             let Some(largest) = largest else { break };
             let (part, depth) = parts.swap_remove(largest);
-            let middle = split(boxes, part, depth);
+            let middle = if part.len() <= WIDE {
+                split_by_axis(axes, part)
+            } else {
+                split(boxes, part, depth)
+            };
             let (left, right) = part.split_at_mut(middle);
             parts.push((left, depth + 1));
             parts.push((right, depth + 1));
         }
         for (place, (part, depth)) in parts.into_iter().enumerate() {
             let bounds = around(boxes, part);
-            let child = if part.len() <= WIDE {
+            let child = if fit(axes, part) {
                 self.leaves.push(part.to_vec());
-                Child::Packet(self.leaves.len() as u32 - 1)
+                Child::Packet(self.leaves.len() as u32 - 1, axes[part[0] as usize])
             } else {
-                Child::Node(self.node(boxes, part, depth))
+                Child::Node(self.node(boxes, axes, part, depth))
             };
             let node = &mut self.nodes[number as usize];
             node.children[place] = child;
@@ -146,6 +168,15 @@ fn around(boxes: &[Bounds], faces: &[u32]) -> Bounds {
 
 fn cost(boxes: &[Bounds], faces: &[u32]) -> f64 {
     around(boxes, faces).area() * faces.len() as f64
+}
+
+/// Reorders `faces`, which don't share a main axis, and returns where to cut them: those on the
+/// first one's axis come first.
+fn split_by_axis(axes: &[u8], faces: &mut [u32]) -> usize {
+    let axis = |face: u32| axes[face as usize];
+    let first = axis(faces[0]);
+    faces.sort_by_key(|&face| (axis(face) != first, face));
+    faces.partition_point(|&face| axis(face) == first)
 }
 
 /// Reorders `faces` and returns where to cut them: both sides are non-empty.

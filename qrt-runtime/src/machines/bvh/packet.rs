@@ -1,6 +1,7 @@
 //! Eight faces, tried at once.
 
 use super::WIDE;
+use super::walk::{Line, Search};
 use crate::machines::lanes::Lanes;
 use pulp::bytemuck;
 use qrt_core::tracer::{Arith, Geometry, Turned, cross, weighted};
@@ -8,21 +9,21 @@ use qrt_core::tracer::{Arith, Geometry, Turned, cross, weighted};
 /// Edges of a face, at most.
 const EDGES: usize = 4;
 
-/// Eight faces: constants side by side. An absent face has a plane that no ray crosses.
+/// Eight faces with one main axis: constants side by side, in the order in which they are read. An
+/// absent face has a plane that no ray crosses.
 #[derive(Clone, Debug)]
-#[repr(align(64))]
+#[repr(C, align(64))]
 pub(super) struct Packet {
     /// The plane's form and offset.
     form: [[f64; WIDE]; 2],
     offset: [f64; WIDE],
+    plane: [u64; WIDE],
     /// Per edge, `a x + b y >= low`.
     edges: [[[f64; WIDE]; 3]; EDGES],
-    /// Edges of the face that has most.
-    most_edges: usize,
-    axis: [u64; WIDE],
-    plane: [u64; WIDE],
     /// Places in [`Geometry::faces`].
-    pub(super) rank: [u32; WIDE],
+    rank: [u32; WIDE],
+    /// Edges of the face that has most.
+    most_edges: u32,
 }
 
 /// By place in [`Geometry::faces`]: the face's plane.
@@ -35,7 +36,7 @@ pub(super) fn planes_of_faces(geometry: &Geometry) -> Vec<u32> {
 }
 
 impl Packet {
-    /// The faces `ranks`, at most eight.
+    /// The faces `ranks`, at most eight, which share a main axis.
     pub(super) fn new(geometry: &Geometry, planes: &[u32], ranks: &[u32]) -> Self {
         let everywhere = [[0.0; WIDE], [0.0; WIDE], [f64::NEG_INFINITY; WIDE]];
         let mut packet = Self {
@@ -44,7 +45,6 @@ impl Packet {
             offset: [0.0; WIDE],
             edges: [everywhere; EDGES],
             most_edges: 0,
-            axis: [0; WIDE],
             plane: [u64::MAX; WIDE],
             rank: [u32::MAX; WIDE],
         };
@@ -54,7 +54,6 @@ impl Packet {
             packet.form[0][lane] = plane.form[0];
             packet.form[1][lane] = plane.form[1];
             packet.offset[lane] = plane.offset;
-            packet.axis[lane] = plane.axis as u64;
             packet.plane[lane] = u64::from(number);
             packet.rank[lane] = rank;
             let mut edge = 0;
@@ -69,57 +68,71 @@ impl Packet {
                     edge += 1;
                 }
             }
-            packet.most_edges = packet.most_edges.max(edge);
+            packet.most_edges = packet.most_edges.max(edge as u32);
         }
         packet
     }
 
-    /// Which faces the ray meets within `limit`, beginning at face `first`, and their distances.
-    /// `turned` is the ray seen along x, y and z.
+    /// Shows `search` the faces that the ray meets within its limit, until it has seen enough;
+    /// tells whether it has. `axis` is the faces' main axis.
     #[inline(always)]
-    pub(super) fn distances<S: pulp::Simd>(
+    pub(super) fn show<S: pulp::Simd>(
         &self,
         cx: &mut Lanes<'_, S, 1>,
-        turned: &[[f64; 6]; 3],
-        from: u64,
+        axis: u8,
+        line: &Line,
+        search: &mut impl Search,
+    ) -> bool {
+        for first in (0..WIDE).step_by(S::F64_LANES) {
+            let (hit, distances) = self.distances(cx, axis, line, search.limit(), first);
+            let mut left = bits(cx.simd, hit);
+            while left != 0 {
+                let lane = left.trailing_zeros() as usize;
+                left &= left - 1;
+                if search.meet(self.rank[first + lane], unpack(&distances)[lane]) {
+                    return true;
+                }
+            }
+        }
+        false
+    }
+
+    /// Which faces the ray meets within `limit`, beginning at face `first`, and their distances.
+    #[inline(always)]
+    fn distances<S: pulp::Simd>(
+        &self,
+        cx: &mut Lanes<'_, S, 1>,
+        axis: u8,
+        line: &Line,
         limit: f64,
         first: usize,
     ) -> (S::m64s, S::f64s) {
         let at = first / S::F64_LANES;
         let real = |column: &[f64; WIDE]| [S::as_simd_f64s(column).0[at]];
         let index = |column: &[u64; WIDE]| [S::as_simd_u64s(column).0[at]];
-        let axis = index(&self.axis);
-        let (is_x, is_y) = (cx.is(axis, 0), cx.is(axis, 1));
-        let mut part = [[cx.simd.splat_f64s(0.0)]; 6];
-        for (k, part) in part.iter_mut().enumerate() {
-            let x = cx.real(turned[0][k]);
-            let y = cx.real(turned[1][k]);
-            let z = cx.real(turned[2][k]);
-            let yz = cx.select(is_y, y, z);
-            *part = cx.select(is_x, x, yz);
-        }
-        let [o, o_next, o_last, d, d_next, d_last] = part;
+        let axis = usize::from(axis) % 3;
+        let (o, d) = (&line.origin, &line.direction);
         let ray = Turned::<Lanes<'_, S, 1>> {
-            origin: o,
-            direction: d,
-            origin_across: [o_next, o_last],
-            direction_across: [d_next, d_last],
+            origin: cx.real(o[axis]),
+            direction: cx.real(d[axis]),
+            origin_across: [cx.real(o[axis + 1]), cx.real(o[axis + 2])],
+            direction_across: [cx.real(d[axis + 1]), cx.real(d[axis + 2])],
             reach: f64::INFINITY,
         };
         let form = [real(&self.form[0]), real(&self.form[1])];
         let crossing = cross(cx, form, real(&self.offset), &ray);
         let limit = cx.real(limit);
         let near = cx.less_equal(crossing.distance, limit);
-        let left = [cx
-            .simd
-            .equal_u64s(index(&self.plane)[0], cx.simd.splat_u64s(from))];
-        let other = cx.not(left);
-        let near = cx.and(near, other);
         let mut hit = cx.and(crossing.ahead, near);
         if !cx.possible(hit) {
             return (hit[0], crossing.distance[0]);
         }
-        for edge in &self.edges[..self.most_edges] {
+        let left = [cx
+            .simd
+            .equal_u64s(index(&self.plane)[0], cx.simd.splat_u64s(line.from))];
+        let other = cx.not(left);
+        hit = cx.and(hit, other);
+        for edge in &self.edges[..self.most_edges as usize] {
             let form = [real(&edge[0]), real(&edge[1])];
             let value = weighted(cx, form, crossing.point);
             let inside = cx.less_equal(real(&edge[2]), value);
@@ -131,7 +144,7 @@ impl Packet {
 
 /// The lanes of a register as a slice.
 #[inline(always)]
-pub(super) fn unpack<T: bytemuck::Pod>(register: &T) -> &[f64] {
+fn unpack<T: bytemuck::Pod>(register: &T) -> &[f64] {
     bytemuck::cast_slice(std::slice::from_ref(register))
 }
 

@@ -1,18 +1,22 @@
 //! One ray through the tree.
 
-use super::packet::{bits, unpack};
+use super::packet::bits;
 use super::{Bvh, Child, Node, WIDE};
 use crate::machines::lanes::Lanes;
 
 /// A ray, prepared.
+#[derive(Clone, Copy)]
 pub(super) struct Line {
-    origin: [f64; 3],
-    inverse: [f64; 3],
-    /// 1 where the direction is negative: which corner of a box the ray meets last.
-    backwards: [usize; 3],
-    /// Origin and direction along each axis and the two after it.
-    turned: [[f64; 6]; 3],
-    from: u64,
+    /// Along x, y, z, x, y, so that those from any axis on are neighbours.
+    pub(super) origin: [f64; 5],
+    pub(super) direction: [f64; 5],
+    /// Of each component of the direction.
+    pub(super) inverse: [f64; 3],
+    /// A box's plane is at the distance `plane inverse + start`.
+    pub(super) start: [f64; 3],
+    /// Is the direction negative?
+    pub(super) backwards: [bool; 3],
+    pub(super) from: u64,
 }
 
 /// A face that the ray meets: its place in the geometry's faces.
@@ -22,26 +26,32 @@ pub(super) struct Found {
     pub(super) rank: u32,
 }
 
+impl Found {
+    pub(super) const NONE: Self = Self {
+        distance: f64::MAX,
+        rank: u32::MAX,
+    };
+}
+
 impl Line {
-    pub(super) fn new(origin: [f64; 3], direction: [f64; 3], from: u64) -> Self {
-        let turn = |k: usize| {
-            let (next, last) = ((k + 1) % 3, (k + 2) % 3);
-            let (o, d) = (origin, direction);
-            [o[k], o[next], o[last], d[k], d[next], d[last]]
-        };
+    #[inline(always)]
+    pub(super) fn new([x, y, z]: [f64; 3], direction: [f64; 3], from: u64) -> Self {
+        let [dx, dy, dz] = direction;
         // A finite inverse keeps 0 * inf out of the boxes' tests.
         let inverse = |d: f64| {
-            1.0 / if d.abs() < 1e-150 {
-                1e-150_f64.copysign(d)
+            1.0 / if d.abs() < 1e-100 {
+                1e-100_f64.copysign(d)
             } else {
                 d
             }
         };
+        let inverse = [inverse(dx), inverse(dy), inverse(dz)];
         Self {
-            origin,
-            inverse: direction.map(inverse),
-            backwards: direction.map(|d| usize::from(d.is_sign_negative())),
-            turned: [turn(0), turn(1), turn(2)],
+            origin: [x, y, z, x, y],
+            direction: [dx, dy, dz, dx, dy],
+            inverse,
+            start: [-x * inverse[0], -y * inverse[1], -z * inverse[2]],
+            backwards: direction.map(f64::is_sign_negative),
             from,
         }
     }
@@ -51,7 +61,7 @@ impl Line {
 pub(super) type Stack = Vec<(f64, Child)>;
 
 /// What a walk looks for. (A trait and not a closure: see [`crate::machines::lanes`].)
-trait Search {
+pub(super) trait Search {
     /// Nothing beyond this distance matters.
     fn limit(&self) -> f64;
     /// The ray meets face `rank` at `distance`: has the search seen enough?
@@ -59,8 +69,14 @@ trait Search {
 }
 
 /// The nearest face; of equally near ones the first.
-struct NearestFace {
-    best: Found,
+pub(super) struct NearestFace {
+    pub(super) best: Found,
+}
+
+impl Default for NearestFace {
+    fn default() -> Self {
+        Self { best: Found::NONE }
+    }
 }
 
 impl Search for NearestFace {
@@ -97,8 +113,8 @@ impl Search for Hides<'_> {
     }
 }
 
-/// A walk, to be run as a function of its own: it has the registers to itself, and is compiled
-/// apart from the tracer.
+/// A walk of one ray, to be run as a function of its own: it has the registers to itself, and is
+/// compiled apart from the tracer.
 struct Walk<'a, S, T> {
     bvh: &'a Bvh,
     cx: Lanes<'a, S, 1>,
@@ -125,31 +141,6 @@ impl<S: pulp::Simd, T: Search> pulp::WithSimd for Walk<'_, S, T> {
 }
 
 impl Bvh {
-    /// The nearest face.
-    #[inline(always)]
-    pub(super) fn nearest<S: pulp::Simd>(
-        &self,
-        cx: Lanes<'_, S, 1>,
-        line: &Line,
-        stack: &mut Stack,
-    ) -> Option<Found> {
-        let mut search = NearestFace {
-            best: Found {
-                distance: f64::MAX,
-                rank: u32::MAX,
-            },
-        };
-        apart(Walk {
-            bvh: self,
-            cx,
-            line,
-            stack,
-            search: &mut search,
-            enough: &mut false,
-        });
-        (search.best.rank != u32::MAX).then_some(search.best)
-    }
-
     /// Does a face that emits nothing hide an emitter at `distance`?
     #[inline(always)]
     pub(super) fn hides<S: pulp::Simd>(
@@ -178,7 +169,7 @@ impl Bvh {
     /// Shows `search` the faces that the ray meets within its limit, until it has seen enough;
     /// tells whether it has.
     #[inline(always)]
-    fn walk<S: pulp::Simd, T: Search>(
+    pub(super) fn walk<S: pulp::Simd, T: Search>(
         &self,
         cx: &mut Lanes<'_, S, 1>,
         line: &Line,
@@ -200,21 +191,10 @@ impl Bvh {
                         continue;
                     }
                 }
-                Child::Packet(number) => {
+                Child::Packet(number, axis) => {
                     let packet = &self.packets[number as usize];
-                    for first in (0..WIDE).step_by(S::F64_LANES) {
-                        let limit = search.limit();
-                        let (hit, distances) =
-                            packet.distances(cx, &line.turned, line.from, limit, first);
-                        let mut left = bits(cx.simd, hit);
-                        while left != 0 {
-                            let lane = left.trailing_zeros() as usize;
-                            left &= left - 1;
-                            let rank = packet.rank[first + lane];
-                            if search.meet(rank, unpack(&distances)[lane]) {
-                                return true;
-                            }
-                        }
+                    if packet.show(cx, axis, line, search) {
+                        return true;
                     }
                 }
                 Child::Absent => {}
@@ -245,40 +225,50 @@ impl Node {
         stack: &mut Stack,
     ) -> Child {
         let simd = cx.simd;
-        let base = stack.len();
+        let mut nears = [0.0; WIDE];
+        let mut left = 0;
         for first in (0..WIDE).step_by(S::F64_LANES) {
             let at = first / S::F64_LANES;
             let mut near = simd.splat_f64s(0.0);
             let mut far = simd.splat_f64s(limit);
             for axis in 0..3 {
-                let origin = simd.splat_f64s(line.origin[axis]);
                 let inverse = simd.splat_f64s(line.inverse[axis]);
-                let backwards = line.backwards[axis];
+                let start = simd.splat_f64s(line.start[axis]);
+                let backwards = usize::from(line.backwards[axis]);
                 let enter = S::as_simd_f64s(&self.boxes[backwards][axis]).0[at];
                 let leave = S::as_simd_f64s(&self.boxes[1 - backwards][axis]).0[at];
-                let enter = simd.mul_f64s(simd.sub_f64s(enter, origin), inverse);
-                let leave = simd.mul_f64s(simd.sub_f64s(leave, origin), inverse);
+                // Fused or not: the boxes' margins are far above either's rounding.
+                let enter = simd.mul_add_e_f64s(enter, inverse, start);
+                let leave = simd.mul_add_e_f64s(leave, inverse, start);
                 near = simd.max_f64s(near, enter);
                 far = simd.min_f64s(far, leave);
             }
-            let met = simd.less_than_or_equal_f64s(near, far);
-            let mut left = bits(simd, met);
-            while left != 0 {
-                let lane = left.trailing_zeros() as usize;
-                left &= left - 1;
-                let near = unpack(&near)[lane];
-                // Insertion keeps the farthest first; there are few.
-                let mut place = stack.len();
-                stack.push((near, self.children[first + lane]));
-                while place > base && stack[place - 1].0 < near {
-                    stack.swap(place - 1, place);
-                    place -= 1;
-                }
-            }
+            S::as_mut_simd_f64s(&mut nears).0[at] = near;
+            left |= bits(simd, simd.less_than_or_equal_f64s(near, far)) << first;
         }
-        if stack.len() == base {
+        if left == 0 {
             return Child::Absent;
         }
-        stack.pop().map_or(Child::Absent, |(_, child)| child)
+        // One child, by far the most frequent, takes no detour over the stack.
+        let lane = left.trailing_zeros() as usize % WIDE;
+        left &= left - 1;
+        let mut nearest = (nears[lane], self.children[lane]);
+        let base = stack.len();
+        while left != 0 {
+            let lane = left.trailing_zeros() as usize % WIDE;
+            left &= left - 1;
+            let mut other = (nears[lane], self.children[lane]);
+            if other.0 < nearest.0 {
+                std::mem::swap(&mut other, &mut nearest);
+            }
+            // Insertion keeps the farthest first; there are few.
+            let mut place = stack.len();
+            stack.push(other);
+            while place > base && stack[place - 1].0 < other.0 {
+                stack.swap(place - 1, place);
+                place -= 1;
+            }
+        }
+        nearest.1
     }
 }

@@ -1,4 +1,5 @@
 //! Gates against integers.
 mod published;
+mod random;
 mod simulate;
 mod small;

@@ -1,0 +1,59 @@
+//! A mesh of 65,536 triangles, and how it is looked at.
+
+use super::knot;
+use qrt::core::front;
+use qrt::core::valid::ValidScene;
+use std::path::Path;
+
+/// Pixels along each side of the film.
+pub(crate) const SIDE: u32 = 32;
+
+/// A scene with a knot, and how ours stands in it: the view of the independent renderer's own mesh
+/// scene, whose speed relative to its box is the one to compare with, and a close one.
+pub(crate) const VIEW: [&str; 3] = [
+    "tests/references/torusknot8k.yaml",
+    "[90, 0, 0]",
+    "[0, 0.6, -0.2]",
+];
+pub(crate) const CLOSE: [&str; 3] = ["scenes-yaml/knot.yaml", "[0, 30, 0]", "[0, 0, 0]"];
+
+/// Corners of a section of the knot's tube, and sections, for all of its triangles.
+pub(crate) const WHOLE: [u32; 2] = [32, 1024];
+
+pub(crate) fn sets(depth: usize, path_bits: u32) -> Vec<String> {
+    let depths = vec!["{ bits: [8, 8] }"; depth].join(", ");
+    vec![
+        format!("film.width={SIDE}"),
+        format!("film.height={SIDE}"),
+        format!("sampling.path_bits={path_bits}"),
+        format!("sampling.depths=[{depths}]"),
+    ]
+}
+
+/// The scene at `path` in the repository `root`.
+pub(crate) fn load(root: &Path, path: &str, sets: &[String]) -> ValidScene {
+    front::load(&root.join(path), sets)
+        .unwrap_or_else(|report| panic!("{report}"))
+        .valid
+}
+
+/// A knot of `2 * around * along` triangles, traced along paths of four rays.
+pub(crate) fn mesh(
+    root: &Path,
+    view: [&str; 3],
+    [around, along]: [u32; 2],
+    path_bits: u32,
+) -> ValidScene {
+    let folder = std::env::temp_dir().join(format!("qrt-bench-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a temporary folder");
+    let obj = folder.join("knot.obj");
+    std::fs::write(&obj, knot::torus_knot(around, along)).expect("a mesh file");
+    let mut sets = sets(4, path_bits);
+    let [scene, rotate, translate] = view;
+    sets.push(format!("geometry[2].mesh.obj={}", obj.display()));
+    sets.push(format!("geometry[2].mesh.rotate={rotate}"));
+    sets.push(format!("geometry[2].mesh.translate={translate}"));
+    let scene = load(root, scene, &sets);
+    std::fs::remove_dir_all(&folder).expect("the folder is ours");
+    scene
+}

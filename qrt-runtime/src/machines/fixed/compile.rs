@@ -1,0 +1,281 @@
+//! From a program to steps on values, each of the narrowest kind that holds it.
+
+use super::arith::{Arg, Arith, Wrap};
+use super::lane::{Kind, Lane};
+use super::steps::Step;
+use qrt_core::circuit::{Bit, Operand, Program, RegisterId, Type, Word};
+use std::collections::HashMap;
+
+/// A value: its kind and its number among all.
+pub(super) type Value = (Kind, u32);
+
+/// `$body`, with `$K` the type of lane of `$kind`.
+macro_rules! with_kind {
+    ($kind:expr, $K:ident => $body:expr) => {
+        match $kind {
+            Kind::Truth => {
+                type $K = u8;
+                $body
+            }
+            Kind::Short => {
+                type $K = i16;
+                $body
+            }
+            Kind::Int => {
+                type $K = i32;
+                $body
+            }
+            Kind::Long => {
+                type $K = i64;
+                $body
+            }
+        }
+    };
+}
+
+/// What `width` bits are, unsigned or in two's complement.
+pub(super) fn range(width: u32, signed: bool) -> [i64; 2] {
+    let all = |bits: u32| (1_i128 << bits) - 1;
+    let [low, high] = if signed {
+        [-1 - all(width - 1), all(width - 1)]
+    } else {
+        [0, all(width)]
+    };
+    [low as i64, i64::try_from(high).unwrap_or(i64::MAX)]
+}
+
+/// The kind of a register.
+pub(super) fn kind_of(width: u32, signed: bool) -> Kind {
+    if width == 1 && !signed {
+        Kind::Truth
+    } else {
+        Kind::of(range(width, signed))
+    }
+}
+
+/// Does the type read its top bit as a sign?
+pub(super) fn negative(ty: Type) -> bool {
+    matches!(ty, Type::Int | Type::Fixed { .. })
+}
+
+/// The content of an operand that differs from its register's: which bits, and the kind wanted.
+type Reading = (u32, Option<Word>, Kind);
+
+pub(super) struct Compiler<'a> {
+    pub(super) program: &'a Program,
+    pub(super) steps: Vec<Step>,
+    values: u32,
+    pub(super) registers: Vec<Option<Value>>,
+    readings: HashMap<Reading, u32>,
+    bits: HashMap<(u32, u32), u32>,
+    pub(super) addresses: HashMap<Vec<(u32, u32, bool)>, u32>,
+    /// By value that an input register came with: its place, and its bits.
+    pub(super) inputs: HashMap<u32, (u32, u32)>,
+    pub(super) sign: Option<u32>,
+}
+
+pub(super) use with_kind;
+
+impl<'a> Compiler<'a> {
+    pub(super) fn new(program: &'a Program) -> Self {
+        let mut compiler = Self {
+            program,
+            steps: Vec::new(),
+            values: 0,
+            registers: vec![None; program.registers.len()],
+            readings: HashMap::new(),
+            bits: HashMap::new(),
+            addresses: HashMap::new(),
+            sign: None,
+            inputs: HashMap::new(),
+        };
+        for (input, register) in program.inputs.iter().enumerate() {
+            let input = input as u32;
+            compiler.input(input, *register);
+        }
+        let all = &program.instructions;
+        let computed = all.iter().rposition(|instruction| !instruction.inverse);
+        for instruction in &all[..computed.map_or(0, |last| last + 1)] {
+            let op = &program.ops[instruction.op as usize];
+            if !instruction.inverse {
+                compiler.op(op);
+            } else if op.targets().is_empty() {
+                compiler.in_place(op, true);
+            }
+        }
+        compiler
+    }
+
+    /// The values that `outputs` read, in slots of the kinds returned.
+    pub(super) fn outputs(&mut self, outputs: &[Word]) -> Vec<Value> {
+        let read = outputs.iter().map(|word| {
+            let kind = Kind::of(word.range());
+            (kind, self.word(*word, kind))
+        });
+        read.collect()
+    }
+
+    pub(super) fn value(&mut self) -> u32 {
+        self.values += 1;
+        self.values - 1
+    }
+
+    pub(super) fn shape(&self, register: RegisterId) -> (u32, bool) {
+        let register = &self.program.registers[register.index()];
+        (register.width, negative(register.ty))
+    }
+
+    pub(super) fn kind(&self, register: RegisterId) -> Kind {
+        let (width, signed) = self.shape(register);
+        kind_of(width, signed)
+    }
+
+    /// The register's content. One that nothing computed is zero.
+    pub(super) fn register(&mut self, register: RegisterId) -> Value {
+        if let Some(value) = self.registers[register.index()] {
+            return value;
+        }
+        let kind = self.kind(register);
+        let zero = self.constant(kind, 0);
+        self.registers[register.index()] = Some((kind, zero));
+        (kind, zero)
+    }
+
+    pub(super) fn cast(&mut self, from: Value, kind: Kind, wrap: Wrap<i64>) -> u32 {
+        self.step(|t| Step::Cast {
+            from,
+            to: (kind, t),
+            wrap,
+        })
+    }
+
+    /// The word's number, or its lowest bits if `kind` has fewer.
+    pub(super) fn word(&mut self, word: Word, kind: Kind) -> u32 {
+        if kind == Kind::Truth {
+            return self.lowest_bit(word);
+        }
+        let (from, value) = self.register(word.register);
+        let (width, signed) = self.shape(word.register);
+        let whole = word.offset == 0 && word.width == width && word.shift == 0;
+        // A part of the whole may be all that the kind keeps.
+        let low = word.offset == 0 && word.shift == 0 && word.width >= kind.bits();
+        let free = (whole && word.signed == signed) || low && width >= word.width;
+        if free && from == kind {
+            return value;
+        }
+        let reading = (value, (!free).then_some(word), kind);
+        if let Some(read) = self.readings.get(&reading) {
+            return *read;
+        }
+        let read = if free {
+            self.cast((from, value), kind, Wrap::none())
+        } else {
+            self.cut((from, value), (width, signed), word, kind)
+        };
+        self.readings.insert(reading, read);
+        read
+    }
+
+    fn cut(&mut self, from: Value, (width, signed): (u32, bool), word: Word, kind: Kind) -> u32 {
+        let wide = from.0.max(Kind::of(word.range())).max(kind);
+        let value = if from.0 == wide {
+            from.1
+        } else {
+            self.cast(from, wide, Wrap::none())
+        };
+        let extended = word.offset + word.width == width && word.signed == signed;
+        let left = if extended {
+            0
+        } else {
+            wide.bits() - word.offset - word.width
+        };
+        let right = left + word.offset;
+        let t = self.step(|t| {
+            with_kind!(wide, K => K::step(Arith::Cut {
+                a: value,
+                left,
+                right,
+                signed: word.signed,
+                up: word.shift,
+                t,
+            }))
+        });
+        if wide == kind {
+            return t;
+        }
+        self.cast((wide, t), kind, Wrap::none())
+    }
+
+    /// The word's number mod 2, as a truth.
+    pub(super) fn lowest_bit(&mut self, word: Word) -> u32 {
+        if word.shift == 0 {
+            return self.bit(Bit {
+                register: word.register,
+                index: word.offset,
+                inverted: false,
+            });
+        }
+        self.constant(Kind::Truth, 0)
+    }
+
+    pub(super) fn constant(&mut self, kind: Kind, value: i64) -> u32 {
+        self.step(|t| {
+            with_kind!(kind, K => K::step(Arith::Wrap {
+                a: Arg::Splat(K::cut(value)),
+                wrap: Wrap::none(),
+                t,
+            }))
+        })
+    }
+
+    pub(super) fn operand<K: Lane>(&mut self, operand: Operand, kind: Kind) -> Arg<K> {
+        match operand {
+            Operand::Word(word) => Arg::Row(self.word(word, kind)),
+            Operand::Constant(value) => Arg::Splat(K::cut(value)),
+        }
+    }
+
+    /// The bit's truth before its negation.
+    pub(super) fn bit(&mut self, bit: Bit) -> u32 {
+        let (kind, value) = self.register(bit.register);
+        if kind == Kind::Truth {
+            return value;
+        }
+        if let Some(read) = self.bits.get(&(value, bit.index)) {
+            return *read;
+        }
+        let index = bit.index;
+        let read = self.step(|t| with_kind!(kind, K => K::step(Arith::Bit { a: value, index, t })));
+        self.bits.insert((value, bit.index), read);
+        read
+    }
+
+    /// Adds a step that computes a value, and returns this.
+    pub(super) fn step(&mut self, step: impl FnOnce(u32) -> Step) -> u32 {
+        let t = self.value();
+        self.steps.push(step(t));
+        t
+    }
+
+    /// Gives the register a value, of which it keeps the lowest bits. The number is in `bounds`.
+    pub(super) fn set(&mut self, register: RegisterId, (kind, value): Value, bounds: [i64; 2]) {
+        let (width, signed) = self.shape(register);
+        let own = kind_of(width, signed);
+        let [low, high] = range(width, signed);
+        let fits = low <= bounds[0] && bounds[1] <= high;
+        let value = if kind == own && fits {
+            value
+        } else if kind == own {
+            self.step(|t| {
+                with_kind!(kind, K => K::step(Arith::Wrap {
+                    a: Arg::Row(value),
+                    wrap: Wrap::new(width, signed),
+                    t,
+                }))
+            })
+        } else {
+            self.cast((kind, value), own, Wrap::new(width, signed))
+        };
+        self.registers[register.index()] = Some((own, value));
+    }
+}

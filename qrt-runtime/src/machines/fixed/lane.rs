@@ -1,0 +1,216 @@
+//! Lanes of integers: how the values of a block of states lie in memory.
+
+use super::arith::Arith;
+use super::steps::Step;
+
+/// States of a block.
+///
+/// Longer blocks spread the cost of choosing a step over more lanes; shorter ones keep a program's
+/// live values in the nearest cache.
+pub(super) const LANES: usize = 512;
+
+/// How the lanes of a value are stored: the narrowest that all of its contents fit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub(super) enum Kind {
+    /// A truth: a byte that is 0 or 1.
+    Truth,
+    /// 16 bits.
+    Short,
+    /// 32 bits.
+    Int,
+    /// 64 bits.
+    Long,
+}
+
+impl Kind {
+    /// Bits of a lane.
+    pub(super) fn bits(self) -> u32 {
+        match self {
+            Self::Truth => 1,
+            Self::Short => 16,
+            Self::Int => 32,
+            Self::Long => 64,
+        }
+    }
+
+    /// The narrowest kind of number that holds all of `low ..= high`.
+    pub(super) fn of([low, high]: [i64; 2]) -> Self {
+        let holds = |bits: u32| low >= -1 << (bits - 1) && high < 1 << (bits - 1);
+        if holds(16) {
+            Self::Short
+        } else if holds(32) {
+            Self::Int
+        } else {
+            Self::Long
+        }
+    }
+}
+
+/// The lanes of one value, aligned to cache lines.
+#[derive(Clone, Debug)]
+#[repr(align(64))]
+pub(super) struct Row<K>(pub(super) [K; LANES]);
+
+impl<K: Copy + Default> Default for Row<K> {
+    fn default() -> Self {
+        Self([K::default(); LANES])
+    }
+}
+
+/// Values' lanes by kind.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Slots {
+    pub(super) truths: Vec<Box<Row<u8>>>,
+    pub(super) shorts: Vec<Box<Row<i16>>>,
+    pub(super) ints: Vec<Box<Row<i32>>>,
+    pub(super) longs: Vec<Box<Row<i64>>>,
+}
+
+/// A type of lane.
+pub(super) trait Lane: Copy + Default + PartialEq + PartialOrd + std::fmt::Debug {
+    const BITS: u32;
+    /// The lowest bits.
+    fn cut(value: i64) -> Self;
+    fn add(self, other: Self) -> Self;
+    fn sub(self, other: Self) -> Self;
+    fn mul(self, other: Self) -> Self;
+    fn and(self, other: Self) -> Self;
+    fn xor(self, other: Self) -> Self;
+    fn left(self, by: u32) -> Self;
+    /// With copies of the sign.
+    fn right(self, by: u32) -> Self;
+    /// With zeros.
+    fn right_unsigned(self, by: u32) -> Self;
+    /// `floor(a / b)` of numbers not negative, exact for fewer than `Float` bits; b is not 0.
+    fn divided(self, by: Self, how: Float) -> Self;
+    /// `floor(sqrt(a))` of a number not negative.
+    fn root(self, how: Float) -> Self;
+    fn rows(slots: &Slots) -> &[Box<Row<Self>>];
+    fn rows_mut(slots: &mut Slots) -> &mut Vec<Box<Row<Self>>>;
+    fn step(arith: Arith<Self>) -> Step;
+}
+
+/// What divisions and square roots go through.
+///
+/// A quotient of integers a < 2^p and b, rounded to p bits, has the floor of the exact one: this
+/// lies at least 1/b below the next integer, and the rounding error is at most (a/b) 2^-p < 1/b.
+/// The same holds of square roots: below k their distance to k is more than 1/(2k), and the error
+/// at most half a unit in the last place, which is no more than that as long as k^2 <= 2^p.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Float {
+    /// Numbers below 2^24: `f32`.
+    Single,
+    /// Numbers below 2^52: `f64`, into and out of which go the bits of the significand.
+    Double,
+    /// Integers.
+    None,
+}
+
+impl Float {
+    /// For numbers of `bits` bits.
+    pub(super) fn of(bits: u32) -> Self {
+        match bits {
+            0..=24 => Self::Single,
+            25..=52 => Self::Double,
+            _ => Self::None,
+        }
+    }
+}
+
+/// 2^52: what added to a smaller integer leaves this in the lowest bits of the significand.
+const SIGNIFICAND: f64 = 4_503_599_627_370_496.0;
+
+/// An integer in 0 .. 2^52.
+#[inline(always)]
+fn double(value: i64) -> f64 {
+    f64::from_bits(value.cast_unsigned() | SIGNIFICAND.to_bits()) - SIGNIFICAND
+}
+
+/// `floor(a / b)` of integers in 0 .. 2^52, b above 0.
+#[inline(always)]
+fn divided_double(a: i64, b: i64) -> i64 {
+    let quotient = (double(a) / double(b)).floor();
+    ((quotient + SIGNIFICAND).to_bits() ^ SIGNIFICAND.to_bits()).cast_signed()
+}
+
+#[inline(always)]
+fn root_double(a: i64) -> i64 {
+    let root = double(a).sqrt().floor();
+    ((root + SIGNIFICAND).to_bits() ^ SIGNIFICAND.to_bits()).cast_signed()
+}
+
+macro_rules! lane {
+    ($type:ident, $unsigned:ident, $bits:literal, $rows:ident, $step:ident) => {
+        impl Lane for $type {
+            const BITS: u32 = $bits;
+            #[inline(always)]
+            fn cut(value: i64) -> Self {
+                value as Self
+            }
+            #[inline(always)]
+            fn add(self, other: Self) -> Self {
+                self.wrapping_add(other)
+            }
+            #[inline(always)]
+            fn sub(self, other: Self) -> Self {
+                self.wrapping_sub(other)
+            }
+            #[inline(always)]
+            fn mul(self, other: Self) -> Self {
+                self.wrapping_mul(other)
+            }
+            #[inline(always)]
+            fn and(self, other: Self) -> Self {
+                self & other
+            }
+            #[inline(always)]
+            fn xor(self, other: Self) -> Self {
+                self ^ other
+            }
+            #[inline(always)]
+            fn left(self, by: u32) -> Self {
+                self.wrapping_shl(by)
+            }
+            #[inline(always)]
+            fn right(self, by: u32) -> Self {
+                self.wrapping_shr(by)
+            }
+            #[inline(always)]
+            fn right_unsigned(self, by: u32) -> Self {
+                (self as $unsigned).wrapping_shr(by) as Self
+            }
+            #[inline(always)]
+            fn divided(self, by: Self, how: Float) -> Self {
+                match how {
+                    Float::Single => (self as f32 / by as f32) as i32 as Self,
+                    Float::Double => divided_double(self as i64, by as i64) as Self,
+                    Float::None => self.checked_div(by).unwrap_or(0),
+                }
+            }
+            #[inline(always)]
+            fn root(self, how: Float) -> Self {
+                match how {
+                    Float::Single => (self as f32).sqrt() as i32 as Self,
+                    Float::Double => root_double(self as i64) as Self,
+                    Float::None => (self as $unsigned).isqrt() as Self,
+                }
+            }
+            #[inline(always)]
+            fn rows(slots: &Slots) -> &[Box<Row<Self>>] {
+                &slots.$rows
+            }
+            #[inline(always)]
+            fn rows_mut(slots: &mut Slots) -> &mut Vec<Box<Row<Self>>> {
+                &mut slots.$rows
+            }
+            fn step(arith: Arith<Self>) -> Step {
+                Step::$step(arith)
+            }
+        }
+    };
+}
+
+lane!(u8, u8, 8, truths, Truth);
+lane!(i16, u16, 16, shorts, Short);
+lane!(i32, u32, 32, ints, Int);
+lane!(i64, u64, 64, longs, Long);

@@ -1,0 +1,480 @@
+//! What steps each operation becomes.
+
+use super::arith::{Arg, Arith, Source, Wrap, image};
+use super::compile::{Compiler, Value, kind_of, range, with_kind};
+use super::lane::{Float, Kind, LANES, Lane, Row};
+use super::pattern_bits;
+use super::steps::{Factor, Step};
+use qrt_core::circuit::{Bit, Op, Operand, RegisterId, When, Word};
+
+/// Bounds of what is cut to a register already.
+const CUT: [i64; 2] = [0, 0];
+
+/// The numbers that an operand can be.
+fn bounds(operand: Operand) -> [i64; 2] {
+    match operand {
+        Operand::Word(word) => word.range(),
+        Operand::Constant(value) => [value, value],
+    }
+}
+
+fn union([a, b]: [i64; 2], [c, d]: [i64; 2]) -> [i64; 2] {
+    [a.min(c), b.max(d)]
+}
+
+/// Which of the steps of two operands an addition is, and the like.
+#[derive(Clone, Copy)]
+enum Pair {
+    Add,
+    Sub,
+    Xor,
+}
+
+impl Compiler<'_> {
+    pub(super) fn input(&mut self, input: u32, register: RegisterId) {
+        let (width, signed) = self.shape(register);
+        let kind = kind_of(width, signed);
+        let t = self.step(|t| {
+            with_kind!(kind, K => K::step(Arith::Input { input, wrap: Wrap::new(width, signed), t }))
+        });
+        self.inputs.insert(t, (input, width));
+        self.set(register, (kind, t), CUT);
+    }
+
+    /// Adds the steps of an operation.
+    pub(super) fn op(&mut self, op: &Op) {
+        match op {
+            Op::Copy { a, target } => {
+                let kind = self.kind(*target);
+                let read = self.word(*a, kind);
+                self.set(*target, (kind, read), a.range());
+            }
+            Op::Load { parameter, target } => {
+                let (parameter, target) = (*parameter, *target);
+                let (width, signed) = self.shape(target);
+                let kind = kind_of(width, signed);
+                let wrap = (width, signed);
+                let t = self.step(|t| {
+                    with_kind!(kind, K => K::step(Arith::Load {
+                        parameter,
+                        wrap: Wrap::new(wrap.0, wrap.1),
+                        t,
+                    }))
+                });
+                self.set(target, (kind, t), CUT);
+            }
+            Op::Parity {
+                source,
+                columns,
+                parameter,
+                target,
+            } => self.parity(*source, columns, *parameter, *target),
+            Op::And { a, b, target } => {
+                let both = [(self.bit(*a), a.inverted), (self.bit(*b), b.inverted)];
+                let [a, b] = both;
+                let t = self.step(|t| Step::And { a, b, t });
+                self.set(*target, (Kind::Truth, t), [0, 1]);
+            }
+            Op::Xor { a, b, target } => {
+                let flip = a.inverted != b.inverted;
+                let [a, b] = [self.bit(*a), self.bit(*b)];
+                let t = self.step(|t| Step::Xor { a, b, flip, t });
+                self.set(*target, (Kind::Truth, t), [0, 1]);
+            }
+            Op::Add {
+                a,
+                b,
+                subtract,
+                target,
+            } => {
+                let kind = self.kind(*target);
+                let pair = if *subtract { Pair::Sub } else { Pair::Add };
+                with_kind!(kind, K => {
+                    let a = self.operand::<K>(*a, kind);
+                    let b = self.operand::<K>(*b, kind);
+                    self.pair(pair, *target, a, b);
+                });
+            }
+            Op::Negate { a, when, target } => {
+                let kind = self.kind(*target);
+                let a = Operand::Word(*a);
+                with_kind!(kind, K => {
+                    let t = self.negated::<K>(a, *when, kind, *target);
+                    self.set(*target, (kind, t), CUT);
+                });
+            }
+            Op::Select { when, a, b, target } => {
+                let kind = self.kind(*target);
+                with_kind!(kind, K => {
+                    let a = self.operand::<K>(*a, kind);
+                    let b = self.operand::<K>(*b, kind);
+                    let t = self.selected::<K>(*when, a, b, *target);
+                    self.set(*target, (kind, t), CUT);
+                });
+            }
+            Op::Less { a, b, target } => {
+                let kind = Kind::of(union(bounds(*a), bounds(*b)));
+                let t = with_kind!(kind, K => {
+                    let a = self.operand::<K>(*a, kind);
+                    let b = self.operand::<K>(*b, kind);
+                    self.step(|t| K::step(Arith::Less { a, b, t }))
+                });
+                self.set(*target, (Kind::Truth, t), [0, 1]);
+            }
+            Op::Multiply {
+                a, b, drop, target, ..
+            } => self.product(*a, Operand::Word(*b), *drop, *target),
+            Op::Square {
+                a, drop, target, ..
+            } => self.product(*a, Operand::Word(*a), *drop, *target),
+            Op::Scale {
+                a,
+                factor,
+                drop,
+                target,
+                ..
+            } => self.product(*a, Operand::Constant(*factor), *drop, *target),
+            Op::Divide {
+                a,
+                b,
+                quotient,
+                fits,
+                ..
+            } => self.division(*a, *b, *quotient, *fits),
+            Op::SquareRoot { a, target, .. } => {
+                let kind = Kind::of(a.range());
+                let float = Float::of(a.bits());
+                let a_value = self.word(*a, kind);
+                let t = self
+                    .step(|t| with_kind!(kind, K => K::step(Arith::Root { a: a_value, float, t })));
+                self.set(*target, (kind, t), range(a.bits().div_ceil(2), false));
+            }
+            Op::Table {
+                address,
+                columns,
+                targets,
+                ..
+            } => {
+                let address = self.address(address);
+                for (column, target) in columns.iter().zip(targets) {
+                    let (width, signed) = self.shape(*target);
+                    let kind = kind_of(width, signed);
+                    let t = with_kind!(kind, K => {
+                        let wrap = Wrap::<K>::new(width, signed);
+                        let table = column.iter().map(|entry| wrap.of(K::cut(*entry)));
+                        let table = table.collect();
+                        self.step(|t| K::step(Arith::Lookup { address, table, t }))
+                    });
+                    self.set(*target, (kind, t), CUT);
+                }
+            }
+            Op::XorInto { .. } | Op::AddInto { .. } | Op::Swap { .. } | Op::Phase { .. } => {
+                self.in_place(op, false);
+            }
+        }
+    }
+
+    /// Adds the steps of an operation in place, or of its inverse.
+    pub(super) fn in_place(&mut self, op: &Op, inverse: bool) {
+        match op {
+            Op::XorInto { a, when, target } => {
+                let (kind, old) = self.register(*target);
+                with_kind!(kind, K => {
+                    let a = self.operand::<K>(*a, kind);
+                    self.pair(Pair::Xor, *target, Arg::Row(old), a);
+                });
+                self.only(*when, *target, old);
+            }
+            Op::AddInto {
+                a,
+                subtract,
+                when,
+                target,
+            } => {
+                let (kind, old) = self.register(*target);
+                let pair = if *subtract == inverse {
+                    Pair::Add
+                } else {
+                    Pair::Sub
+                };
+                with_kind!(kind, K => {
+                    let a = match when {
+                        When::Reversed(bit) => Arg::Row(self.negated::<K>(*a, *bit, kind, *target)),
+                        When::Always | When::If(_) => self.operand::<K>(*a, kind),
+                    };
+                    self.pair(pair, *target, Arg::Row(old), a);
+                });
+                if let When::If(bit) = when {
+                    self.only(Some(*bit), *target, old);
+                }
+            }
+            Op::Swap { a, b, when } => {
+                let [from_a, from_b] = [(*a, *b), (*b, *a)].map(|(from, to)| {
+                    let (width, signed) = self.shape(to);
+                    let word = Word {
+                        register: from,
+                        offset: 0,
+                        width,
+                        signed,
+                        shift: 0,
+                    };
+                    self.word(word, kind_of(width, signed))
+                });
+                let [old_a, old_b] = [*a, *b].map(|register| self.register(register));
+                self.registers[a.index()] = Some((old_a.0, from_b));
+                self.registers[b.index()] = Some((old_b.0, from_a));
+                self.only(*when, *a, old_a.1);
+                self.only(*when, *b, old_b.1);
+            }
+            Op::Phase { bit } => {
+                let turned = self.bit(*bit);
+                let flip = bit.inverted;
+                let old = self.sign.unwrap_or_else(|| self.constant(Kind::Truth, 0));
+                let sign = self.step(|t| Step::Xor {
+                    a: old,
+                    b: turned,
+                    flip,
+                    t,
+                });
+                self.sign = Some(sign);
+            }
+            _ => {}
+        }
+    }
+
+    /// Leaves the register's new value only where `when` holds.
+    fn only(&mut self, when: Option<Bit>, register: RegisterId, old: u32) {
+        let Some(when) = when else { return };
+        let (kind, new) = self.register(register);
+        let t = with_kind!(kind, K => {
+            self.selected::<K>(when, Arg::Row(new), Arg::Row(old), register)
+        });
+        self.set(register, (kind, t), CUT);
+    }
+
+    /// Of lanes of the target's kind.
+    fn pair<K: Lane>(&mut self, pair: Pair, target: RegisterId, a: Arg<K>, b: Arg<K>) {
+        let (width, signed) = self.shape(target);
+        let wrap = Wrap::new(width, signed);
+        let t = self.step(|t| {
+            K::step(match pair {
+                Pair::Add => Arith::Add { a, b, wrap, t },
+                Pair::Sub => Arith::Sub { a, b, wrap, t },
+                Pair::Xor => Arith::Xor { a, b, wrap, t },
+            })
+        });
+        self.set(target, (kind_of(width, signed), t), CUT);
+    }
+
+    fn selected<K: Lane>(&mut self, bit: Bit, a: Arg<K>, b: Arg<K>, target: RegisterId) -> u32 {
+        let when = self.bit(bit);
+        let (a, b) = if bit.inverted { (b, a) } else { (a, b) };
+        let (width, signed) = self.shape(target);
+        let wrap = Wrap::new(width, signed);
+        self.step(|t| {
+            K::step(Arith::Select {
+                when,
+                a,
+                b,
+                wrap,
+                t,
+            })
+        })
+    }
+
+    /// `if bit { -a } else { a }`, cut to the target.
+    fn negated<K: Lane>(&mut self, a: Operand, bit: Bit, kind: Kind, target: RegisterId) -> u32 {
+        match self.operand::<K>(a, kind) {
+            Arg::Splat(a) => {
+                let minus = K::cut(0).sub(a);
+                self.selected(bit, Arg::Splat(minus), Arg::Splat(a), target)
+            }
+            Arg::Row(a) => {
+                let when = self.bit(bit);
+                let (width, signed) = self.shape(target);
+                let wrap = Wrap::new(width, signed);
+                self.step(|t| {
+                    K::step(Arith::Negate {
+                        when,
+                        inverted: bit.inverted,
+                        a,
+                        wrap,
+                        t,
+                    })
+                })
+            }
+        }
+    }
+
+    fn product(&mut self, a: Word, b: Operand, drop: u32, target: RegisterId) {
+        let (width, signed) = self.shape(target);
+        let own = kind_of(width, signed);
+        let corners = a
+            .range()
+            .map(|a| bounds(b).map(|b| i128::from(a) * i128::from(b)));
+        let corners = corners.as_flattened();
+        let low = corners.iter().copied().fold(i128::MAX, i128::min);
+        let high = corners.iter().copied().fold(i128::MIN, i128::max);
+        let narrow = Kind::of(a.range()).max(Kind::of(bounds(b)));
+        // Where the product does not fit, its lowest bits do, if no others are asked for.
+        let fits = |bits: u32| low >= -1 << (bits - 1) && high < 1 << (bits - 1);
+        let does = |kind: &Kind| fits(kind.bits()) || drop + width <= kind.bits();
+        let wide = [Kind::Short, Kind::Int, Kind::Long].into_iter().find(does);
+        let shift = drop.min(wide.map_or(127, |kind| kind.bits() - 1));
+        let wrap = Wrap::new(width, signed);
+        let bounds = [low >> drop, high >> drop];
+        let bounds = bounds.map(|b| b.clamp(i64::MIN.into(), i64::MAX.into()) as i64);
+        let (kind, t) = match (narrow, wide) {
+            (Kind::Short, Some(Kind::Int)) => {
+                let to = own.clamp(Kind::Short, Kind::Int);
+                let wrap = if to == own { wrap } else { Wrap::none() };
+                let (a, b) = self.factors(a, b, Kind::Short);
+                let t = self.step(|t| Step::MulShort {
+                    a,
+                    b,
+                    drop: shift,
+                    wrap,
+                    to: (to, t),
+                });
+                (to, t)
+            }
+            (Kind::Short | Kind::Int, Some(Kind::Long)) => {
+                let to = own.clamp(Kind::Int, Kind::Long);
+                let wrap = if to == own { wrap } else { Wrap::none() };
+                let (a, b) = self.factors(a, b, Kind::Int);
+                let t = self.step(|t| Step::MulInt {
+                    a,
+                    b,
+                    drop: shift,
+                    wrap,
+                    to: (to, t),
+                });
+                (to, t)
+            }
+            (_, Some(kind)) => {
+                let t = with_kind!(kind, K => {
+                    let a = self.operand::<K>(Operand::Word(a), kind);
+                    let b = self.operand::<K>(b, kind);
+                    let wrap = if kind == own { Wrap::new(width, signed) } else { Wrap::none() };
+                    self.step(|t| K::step(Arith::Mul { a, b, drop: shift, wrap, t }))
+                });
+                (kind, t)
+            }
+            (_, None) => {
+                let wrap = if own == Kind::Long {
+                    wrap
+                } else {
+                    Wrap::none()
+                };
+                let (a, b) = self.factors(a, b, Kind::Long);
+                let t = self.step(|t| Step::MulLong {
+                    a,
+                    b,
+                    drop: shift,
+                    wrap,
+                    t,
+                });
+                (Kind::Long, t)
+            }
+        };
+        let bounds = if kind == own { CUT } else { bounds };
+        self.set(target, (kind, t), bounds);
+    }
+
+    fn factors(&mut self, a: Word, b: Operand, kind: Kind) -> (u32, Factor) {
+        let a = self.word(a, kind);
+        let b = match b {
+            Operand::Word(b) => Factor::Row(self.word(b, kind)),
+            Operand::Constant(b) => Factor::Splat(b),
+        };
+        (a, b)
+    }
+
+    fn division(&mut self, a: Word, b: Word, quotient: RegisterId, fits: RegisterId) {
+        let (width, _) = self.shape(quotient);
+        let numbers = union(union(a.range(), b.range()), range(width, false));
+        let kind = Kind::of(numbers);
+        let float = Float::of(a.bits().max(b.bits()));
+        let (a, b) = (self.word(a, kind), self.word(b, kind));
+        let (value, holds) = (self.value(), self.value());
+        self.steps
+            .push(with_kind!(kind, K => K::step(Arith::Divide {
+                a,
+                b,
+                width,
+                float,
+                quotient: value,
+                fits: holds,
+            })));
+        self.set(quotient, (kind, value), range(width, false));
+        self.set(fits, (Kind::Truth, holds), [0, 1]);
+    }
+
+    /// An Int that the bits are the digits of.
+    fn address(&mut self, bits: &[Bit]) -> u32 {
+        let word = bits.first().map(|first| Word {
+            register: first.register,
+            offset: first.index,
+            width: bits.len() as u32,
+            signed: false,
+            shift: 0,
+        });
+        let neighbours = bits
+            .windows(2)
+            .all(|pair| pair[0].register == pair[1].register && pair[0].index + 1 == pair[1].index);
+        match word {
+            Some(word) if neighbours && !bits.iter().any(|bit| bit.inverted) => {
+                self.word(word, Kind::Int)
+            }
+            _ => {
+                let digits = bits.iter().enumerate();
+                let digits =
+                    digits.map(|(place, bit)| (self.bit(*bit), place as u32, bit.inverted));
+                let digits: Vec<_> = digits.collect();
+                if let Some(address) = self.addresses.get(&digits) {
+                    return *address;
+                }
+                let bits = digits.clone().into();
+                let address = self.step(|t| Step::Address { bits, t });
+                self.addresses.insert(digits, address);
+                address
+            }
+        }
+    }
+
+    fn parity(
+        &mut self,
+        source: RegisterId,
+        columns: &[u64],
+        parameter: Option<u32>,
+        target: RegisterId,
+    ) {
+        let (width, signed) = self.shape(target);
+        let kind: Kind = kind_of(width, signed);
+        let (_, value): Value = self.register(source);
+        let (bits, source) = match self.inputs.get(&value) {
+            Some((input, bits)) => (pattern_bits(*bits), Source::Input(*input, *bits)),
+            None => {
+                let content = Word {
+                    register: source,
+                    offset: 0,
+                    width: self.shape(source).0,
+                    signed: false,
+                    shift: 0,
+                };
+                (0, Source::Row(self.word(content, Kind::Long)))
+            }
+        };
+        let t = with_kind!(kind, K => {
+            let mut pattern = Box::new(Row([K::default(); LANES]));
+            for (lane, slot) in pattern.0.iter_mut().enumerate() {
+                let low = lane as u64 & ((1 << bits) - 1);
+                *slot = K::cut(image(columns, low).cast_signed());
+            }
+            let columns = columns.into();
+            let wrap = Wrap::new(width, signed);
+            self.step(|t| K::step(Arith::Parity { source, columns, pattern, parameter, wrap, t }))
+        });
+        self.set(target, (kind, t), CUT);
+    }
+}

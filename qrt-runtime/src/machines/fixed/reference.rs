@@ -1,0 +1,77 @@
+//! A program's contents by the definition of its operations, one state at a time.
+
+use qrt_core::circuit::{Contents, Program};
+
+/// What the registers hold after the program, of the state whose input registers hold `inputs`, in
+/// the pixel with these classical words.
+///
+/// # Panics
+/// If there are fewer inputs or parameters than the program has.
+pub fn contents(program: &Program, inputs: &[u64], parameters: &[u64]) -> Contents {
+    follow(program, inputs, parameters, |_| {})
+}
+
+fn follow(
+    program: &Program,
+    inputs: &[u64],
+    parameters: &[u64],
+    mut after: impl FnMut(&Contents),
+) -> Contents {
+    let widths: Vec<u32> = program.registers.iter().map(|r| r.width).collect();
+    let mut contents = Contents {
+        registers: vec![0; widths.len()],
+        parameters: parameters.to_vec(),
+        widths,
+        negative: false,
+    };
+    for (place, register) in program.inputs.iter().enumerate() {
+        contents.registers[register.index()] = inputs[place];
+    }
+    after(&contents);
+    for instruction in &program.instructions {
+        let op = &program.ops[instruction.op as usize];
+        if instruction.inverse {
+            contents.uncompute(op);
+        } else {
+            contents.compute(op);
+        }
+        after(&contents);
+    }
+    contents
+}
+
+/// The least and the greatest number that each register of a program has held, as its type reads
+/// it. All have held 0.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Extremes {
+    /// By register.
+    pub registers: Vec<[i64; 2]>,
+}
+
+impl Extremes {
+    /// Of no state yet.
+    pub fn new(program: &Program) -> Self {
+        Self {
+            registers: vec![[0, 0]; program.registers.len()],
+        }
+    }
+
+    /// Runs the program as [`contents`] does, and takes in what its registers hold on the way.
+    ///
+    /// # Panics
+    /// As [`contents`].
+    pub fn record(&mut self, program: &Program, inputs: &[u64], parameters: &[u64]) -> Contents {
+        follow(program, inputs, parameters, |contents| {
+            let held = self.registers.iter_mut().zip(&program.registers);
+            for ((extremes, register), bits) in held.zip(&contents.registers) {
+                let unused = 64 - register.width;
+                let number = if super::compile::negative(register.ty) {
+                    (bits << unused).cast_signed() >> unused
+                } else {
+                    bits.cast_signed()
+                };
+                *extremes = [extremes[0].min(number), extremes[1].max(number)];
+            }
+        })
+    }
+}

@@ -1,0 +1,90 @@
+//! Which slot each value takes, and which steps run at all.
+
+use super::lane::{Kind, Slots};
+use super::steps::Step;
+
+/// How many slots of each kind.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Counts([usize; 4]);
+
+impl Counts {
+    pub(super) fn slots(self) -> Slots {
+        let [truths, shorts, ints, longs] = self.0;
+        Slots {
+            truths: vec![Box::default(); truths],
+            shorts: vec![Box::default(); shorts],
+            ints: vec![Box::default(); ints],
+            longs: vec![Box::default(); longs],
+        }
+    }
+}
+
+/// Leaves out the steps that nothing kept depends on.
+pub(super) fn needed(steps: Vec<Step>, values: u32, kept: &[(Kind, u32)]) -> Vec<Step> {
+    let mut wanted = vec![false; values as usize];
+    for (_, value) in kept {
+        wanted[*value as usize] = true;
+    }
+    let mut left = Vec::new();
+    for mut step in steps.into_iter().rev() {
+        let mut runs = false;
+        step.visit(|seen| runs |= seen.computed && wanted[*seen.place as usize]);
+        if runs {
+            step.visit(|seen| wanted[*seen.place as usize] |= !seen.computed);
+            left.push(step);
+        }
+    }
+    left.reverse();
+    left
+}
+
+/// Replaces values' numbers by places among the slots of their kind, which are taken again once
+/// nothing reads them any more; those in `kept` stay.
+pub(super) fn assign(steps: &mut [Step], values: u32, kept: &mut [(Kind, u32)]) -> Counts {
+    const NEVER: usize = usize::MAX;
+    let mut last = vec![0; values as usize];
+    for (place, step) in steps.iter_mut().enumerate() {
+        step.visit(|seen| last[*seen.place as usize] = place);
+    }
+    for (_, value) in &*kept {
+        last[*value as usize] = NEVER;
+    }
+    let mut slot = vec![0_u32; values as usize];
+    let mut counts = Counts::default();
+    let mut free: [Vec<u32>; 4] = Default::default();
+    for (place, step) in steps.iter_mut().enumerate() {
+        let mut over = Vec::new();
+        step.visit(|seen| {
+            let value = *seen.place as usize;
+            if !seen.computed && last[value] == place && !over.contains(&(seen.kind, value)) {
+                over.push((seen.kind, value));
+            }
+        });
+        // Results are computed beside the slots, so that one may take an operand's.
+        for (kind, value) in over {
+            free[kind as usize].push(slot[value]);
+        }
+        let mut unread = Vec::new();
+        step.visit(|seen| {
+            let value = *seen.place as usize;
+            if seen.computed {
+                let kind = seen.kind as usize;
+                slot[value] = free[kind].pop().unwrap_or_else(|| {
+                    counts.0[kind] += 1;
+                    counts.0[kind] as u32 - 1
+                });
+                if last[value] == place {
+                    unread.push((kind, slot[value]));
+                }
+            }
+        });
+        for (kind, place) in unread {
+            free[kind].push(place);
+        }
+        step.visit(|seen| *seen.place = slot[*seen.place as usize]);
+    }
+    for (_, value) in kept {
+        *value = slot[*value as usize];
+    }
+    counts
+}

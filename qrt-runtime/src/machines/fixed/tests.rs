@@ -1,0 +1,521 @@
+use super::*;
+use proptest::prelude::*;
+use qrt_core::circuit::{
+    Bit, BlockId, Instruction, Op, Operand, Parameter, Register, RegisterId, Role, Style, Type,
+    When,
+};
+
+/// Choices keyed by a seed.
+struct Dice(u64);
+
+impl Dice {
+    fn word(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ z >> 30).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ z >> 27).wrapping_mul(0x94D0_49BB_1331_11EB);
+        z ^ z >> 31
+    }
+    fn below(&mut self, bound: u32) -> u32 {
+        ((self.word() >> 32) * u64::from(bound) >> 32) as u32
+    }
+    fn between(&mut self, low: u32, high: u32) -> u32 {
+        low + self.below(high - low + 1)
+    }
+    fn coin(&mut self) -> bool {
+        self.below(2) == 1
+    }
+}
+
+/// A program of operations of one's choice, on operands of chance.
+struct Maker {
+    dice: Dice,
+    program: Program,
+    /// Widest register.
+    widest: u32,
+}
+
+const PARAMETERS: usize = 3;
+
+impl Maker {
+    /// With registers of up to `widest` bits, the first of them the path's id.
+    fn new(seed: u64, id: u32, widest: u32) -> Self {
+        let mut maker = Self {
+            dice: Dice(seed),
+            program: Program::default(),
+            widest,
+        };
+        let bits = widest.min(40);
+        maker.program.parameters = vec![
+            Parameter::Shift {
+                depth: 0,
+                axis: 0,
+                bits
+            };
+            PARAMETERS
+        ];
+        let id = maker.register(id, false);
+        let other = maker.register(widest, true);
+        maker.program.inputs = vec![id, other];
+        for parameter in 0..PARAMETERS as u32 {
+            let target = maker.any_register();
+            maker.push(Op::Load { parameter, target });
+        }
+        maker
+    }
+
+    fn register(&mut self, width: u32, signed: bool) -> RegisterId {
+        let id = RegisterId(self.program.registers.len() as u32);
+        self.program.registers.push(Register {
+            name: format!("r{}", id.0),
+            ty: if signed { Type::Int } else { Type::UInt },
+            role: Role::Work,
+            width,
+            block: BlockId::ROOT,
+        });
+        id
+    }
+
+    fn any_register(&mut self) -> RegisterId {
+        let width = self.dice.between(1, self.widest);
+        let signed = self.dice.coin();
+        self.register(width, signed)
+    }
+
+    fn truth(&mut self) -> RegisterId {
+        self.register(1, false)
+    }
+
+    fn push(&mut self, op: Op) {
+        self.program.instructions.push(Instruction {
+            op: self.program.ops.len() as u32,
+            inverse: false,
+            block: BlockId::ROOT,
+        });
+        self.program.ops.push(op);
+    }
+
+    fn old(&mut self) -> RegisterId {
+        // The latest more often.
+        let all = self.program.registers.len() as u32;
+        let back = if self.dice.coin() { all.min(6) } else { all };
+        RegisterId(all - 1 - self.dice.below(back))
+    }
+
+    fn bit(&mut self) -> Bit {
+        let register = self.old();
+        Bit {
+            register,
+            index: self.dice.below(self.program.width(register)),
+            inverted: self.dice.coin(),
+        }
+    }
+
+    fn word(&mut self, most: u32, unsigned: bool) -> Word {
+        let register = self.old();
+        let width = self.program.width(register);
+        let whole = self.dice.below(3) == 0 && width <= most;
+        let offset = if whole { 0 } else { self.dice.below(width) };
+        let rest = (width - offset).min(most);
+        let width = if whole {
+            width
+        } else {
+            self.dice.between(1, rest)
+        };
+        let up = (most - width).min(12);
+        let shift = if self.dice.below(3) == 0 {
+            self.dice.below(up + 1)
+        } else {
+            0
+        };
+        Word {
+            register,
+            offset,
+            width,
+            signed: !unsigned && self.dice.coin(),
+            shift,
+        }
+    }
+
+    fn operand(&mut self) -> Operand {
+        if self.dice.below(3) == 0 {
+            let bits = self.dice.between(1, self.widest.min(60));
+            let number = (self.dice.word() >> (64 - bits)) as i64;
+            Operand::Constant(if self.dice.coin() { number } else { -number })
+        } else {
+            Operand::Word(self.word(61, false))
+        }
+    }
+
+    /// Operation `kind` of 19.
+    fn op(&mut self, kind: u32) {
+        let style = Style::Wide;
+        let scratch = self.register(1, false);
+        let drop = if self.dice.coin() {
+            self.dice.below(self.widest)
+        } else {
+            0
+        };
+        let op = match kind {
+            0 => Op::Copy {
+                a: self.word(62, false),
+                target: self.any_register(),
+            },
+            1 => {
+                let source = if self.dice.coin() {
+                    RegisterId(0)
+                } else {
+                    self.old()
+                };
+                let parameter = self.dice.coin().then(|| self.dice.below(PARAMETERS as u32));
+                let columns = (0..self.program.width(source)).map(|_| self.dice.word());
+                let columns = columns.collect();
+                Op::Parity {
+                    source,
+                    columns,
+                    parameter,
+                    target: self.any_register(),
+                }
+            }
+            2 => Op::And {
+                a: self.bit(),
+                b: self.bit(),
+                target: self.truth(),
+            },
+            3 => Op::Xor {
+                a: self.bit(),
+                b: self.bit(),
+                target: self.truth(),
+            },
+            4 => Op::Add {
+                a: self.operand(),
+                b: self.operand(),
+                subtract: self.dice.coin(),
+                target: self.any_register(),
+            },
+            5 => Op::Negate {
+                a: self.word(62, false),
+                when: self.bit(),
+                target: self.any_register(),
+            },
+            6 => Op::Select {
+                when: self.bit(),
+                a: self.operand(),
+                b: self.operand(),
+                target: self.any_register(),
+            },
+            7 => Op::Less {
+                a: self.operand(),
+                b: self.operand(),
+                target: self.truth(),
+            },
+            8 => Op::Multiply {
+                a: self.word(62, false),
+                b: self.word(62, false),
+                drop,
+                style,
+                target: self.any_register(),
+                scratch,
+            },
+            9 => Op::Square {
+                a: self.word(62, false),
+                drop,
+                style,
+                target: self.any_register(),
+                scratch,
+            },
+            10 => Op::Scale {
+                a: self.word(62, false),
+                factor: (self.dice.word() as i64 >> self.dice.between(2, 62)) | 1,
+                drop,
+                style,
+                target: self.any_register(),
+                scratch,
+            },
+            11 => {
+                let width = self.dice.between(1, self.widest);
+                Op::Divide {
+                    a: self.word(62, true),
+                    b: self.word(62, true),
+                    style,
+                    quotient: self.register(width, false),
+                    fits: self.truth(),
+                    scratch,
+                }
+            }
+            12 => Op::SquareRoot {
+                a: self.word(62, true),
+                style,
+                target: self.any_register(),
+                scratch,
+            },
+            13 => {
+                let bits = self.dice.between(0, 6);
+                let word = self.word(61, true);
+                let row = self.dice.coin() && word.width >= bits;
+                let address = (0..bits).map(|place| {
+                    if row {
+                        let index = word.offset + place;
+                        Bit {
+                            register: word.register,
+                            index,
+                            inverted: false,
+                        }
+                    } else {
+                        self.bit()
+                    }
+                });
+                let address: Vec<Bit> = address.collect();
+                let entries = self.dice.between(1, 1 << bits);
+                let columns = (0..2).map(|_| {
+                    let column = (0..entries).map(|_| self.dice.word() as i64 >> 3);
+                    column.collect::<Box<[i64]>>()
+                });
+                let columns: Vec<_> = columns.collect();
+                let targets = [self.any_register(), self.any_register()];
+                Op::Table {
+                    address: address.into(),
+                    columns: columns.into(),
+                    low: 0,
+                    targets: targets.into(),
+                    scratch,
+                }
+            }
+            // In place: of a copy of its own, so that no operand is changed.
+            14..=16 => {
+                let a = self.operand();
+                let bit = self.bit();
+                let copied = self.word(62, false);
+                let target = self.any_register();
+                self.push(Op::Copy { a: copied, target });
+                match kind {
+                    14 => Op::XorInto {
+                        a,
+                        when: self.dice.coin().then_some(bit),
+                        target,
+                    },
+                    _ => {
+                        let when = [When::Always, When::If(bit), When::Reversed(bit)];
+                        let when = when[self.dice.below(3) as usize];
+                        let op = Op::AddInto {
+                            a,
+                            subtract: self.dice.coin(),
+                            when,
+                            target,
+                        };
+                        if kind == 16 {
+                            // Undone, and done again.
+                            self.push(op.clone());
+                            self.push(op.clone());
+                            let last = self.program.instructions.len() - 1;
+                            self.program.instructions[last].inverse = true;
+                        }
+                        op
+                    }
+                }
+            }
+            17 => {
+                let width = self.dice.between(1, self.widest);
+                let when = self.dice.coin().then(|| self.bit());
+                let words = [self.word(62, false), self.word(62, false)];
+                let signed = [self.dice.coin(), self.dice.coin()];
+                let pair = signed.map(|signed| self.register(width, signed));
+                for (a, target) in words.into_iter().zip(pair) {
+                    self.push(Op::Copy { a, target });
+                }
+                let [a, b] = pair;
+                Op::Swap { a, b, when }
+            }
+            _ => Op::Phase { bit: self.bit() },
+        };
+        self.push(op);
+    }
+
+    /// Compares every register's content with its definition, in every instruction set.
+    fn check(self, states: &[u64], others: &[u64]) {
+        let program = self.program;
+        let mut dice = self.dice;
+        let outputs: Vec<Word> = (0..program.registers.len() as u32)
+            .map(|register| Word {
+                register: RegisterId(register),
+                offset: 0,
+                width: program.registers[register as usize].width,
+                signed: compile::negative(program.registers[register as usize].ty),
+                shift: 0,
+            })
+            .collect();
+        let bits = self.widest.min(40);
+        let pixels: Vec<[u64; PARAMETERS]> = (0..2)
+            .map(|_| std::array::from_fn(|_| dice.word() >> (64 - bits)))
+            .collect();
+        let half = states.len() / 2;
+        let spans = [(half, &pixels[0]), (states.len() - half, &pixels[1])];
+        let spans = spans.map(|(lanes, parameters)| Span { lanes, parameters });
+        let expected = states.iter().zip(others).enumerate();
+        let expected: Vec<_> = expected
+            .map(|(lane, (id, other))| {
+                contents(&program, &[*id, *other], &pixels[usize::from(lane >= half)])
+            })
+            .collect();
+        for set in InstructionSet::available() {
+            let machine = Fixed::new(&program, &outputs).with_instructions(set);
+            let mut lanes = machine.lanes();
+            let mut values = vec![vec![0; states.len()]; outputs.len()];
+            let mut slices: Vec<&mut [i64]> = values.iter_mut().map(Vec::as_mut_slice).collect();
+            machine.run(&mut lanes, &[states, others], &spans, &mut slices);
+            let mut signs = vec![false; states.len()];
+            machine.signs(&mut lanes, &[states, others], &spans, &mut signs);
+            for (lane, expected) in expected.iter().enumerate() {
+                for (output, values) in outputs.iter().zip(&values) {
+                    let register = output.register.index();
+                    assert_eq!(
+                        values[lane],
+                        output.read(expected.registers[register]),
+                        "r{register} in lane {lane}, {set:?}: {:?}",
+                        program.ops
+                    );
+                }
+                assert_eq!(signs[lane], expected.negative, "lane {lane}, {set:?}");
+            }
+        }
+    }
+}
+
+const KINDS: u32 = 19;
+
+/// Contents of `width` bits that are likely to matter: any, and those near the ends.
+fn contents_of(dice: &mut Dice, width: u32, many: usize) -> Vec<u64> {
+    let any = |dice: &mut Dice| match dice.below(4) {
+        0 => u64::from(dice.below(3)),
+        1 => !u64::from(dice.below(3)),
+        2 => (1 << dice.below(64)) - u64::from(dice.below(2)),
+        _ => dice.word(),
+    };
+    (0..many)
+        .map(|_| any(dice) & (u64::MAX >> (64 - width)))
+        .collect()
+}
+
+#[test]
+fn every_operation_is_right_on_all_small_contents() {
+    for kind in 0..KINDS {
+        for seed in 0..60 {
+            // 5 bits of the id and 4 of the other register: all of them, in one block.
+            let mut maker = Maker::new(seed + u64::from(kind) * 1000, 5, 4);
+            maker.op(kind);
+            let all: Vec<u64> = (0..512).collect();
+            let [low, high] = [|s: u64| s & 31, |s: u64| s >> 5];
+            let low: Vec<u64> = all.iter().copied().map(low).collect();
+            let high: Vec<u64> = all.iter().copied().map(high).collect();
+            maker.check(&low, &high);
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(400))]
+
+    #[test]
+    fn every_operation_is_right_at_every_width(
+        seed: u64, kind in 0..KINDS, widest in 1..=62_u32, lanes in 1..40_usize,
+    ) {
+        let mut maker = Maker::new(seed, widest, widest);
+        for _ in 0..4 {
+            maker.op(kind);
+        }
+        let ids = contents_of(&mut maker.dice, widest, lanes);
+        let others = contents_of(&mut maker.dice, widest, lanes);
+        maker.check(&ids, &others);
+    }
+
+    #[test]
+    fn programs_are_right(seed: u64, widest in 1..=62_u32, id in 1..=20_u32, block in 0..8_u64) {
+        let mut maker = Maker::new(seed, id, widest);
+        for _ in 0..60 {
+            let kind = maker.dice.below(KINDS);
+            maker.op(kind);
+        }
+        let ids = 0..(1_u64 << id).min(LANES as u64);
+        let first = block * LANES as u64 & ((1 << id) - 1);
+        let ids: Vec<u64> = ids.map(|lane| first + lane).collect();
+        let others = contents_of(&mut maker.dice, widest, ids.len());
+        maker.check(&ids, &others);
+    }
+}
+
+#[test]
+fn divisions_and_roots_are_exact_at_their_edges() {
+    // Quotients next to an integer, and numbers next to a square, for every way of computing them.
+    for bits in [4, 12, 15, 16, 23, 24, 25, 31, 32, 40, 51, 52, 53, 61, 62] {
+        let mut maker = Maker::new(bits, bits as u32, bits as u32);
+        let mut dice = Dice(bits);
+        let word = |register: u32| Word {
+            register: RegisterId(register),
+            offset: 0,
+            width: bits as u32,
+            signed: false,
+            shift: 0,
+        };
+        let quotient = maker.register(bits as u32, false);
+        let fits = maker.truth();
+        let root = maker.register((bits as u32).div_ceil(2), false);
+        let scratch = maker.truth();
+        let style = Style::Wide;
+        let (a, b) = (word(0), word(1));
+        maker.push(Op::Divide {
+            a,
+            b,
+            style,
+            quotient,
+            fits,
+            scratch,
+        });
+        maker.push(Op::SquareRoot {
+            a,
+            style,
+            target: root,
+            scratch,
+        });
+        let all = u64::MAX >> (64 - bits);
+        let pairs = (0..LANES as u64).map(|lane| {
+            let b = dice.word() >> dice.between(64 - bits as u32, 63);
+            let b = b.clamp(1, all);
+            let multiple = (dice.word() & all) / b * b;
+            let k = (dice.word() & all).isqrt();
+            let a = if lane % 2 == 0 { multiple } else { k * k };
+            (a.saturating_sub(u64::from(lane / 2 % 2 == 0)), b)
+        });
+        let (ids, others): (Vec<u64>, Vec<u64>) = pairs.unzip();
+        maker.check(&ids, &others);
+    }
+}
+
+#[test]
+fn extremes_are_what_registers_held() {
+    let mut maker = Maker::new(1, 4, 4);
+    let (a, target) = (
+        Word {
+            register: RegisterId(0),
+            offset: 0,
+            width: 4,
+            signed: true,
+            shift: 0,
+        },
+        maker.register(6, true),
+    );
+    let a = Operand::Word(a);
+    maker.push(Op::Add {
+        a,
+        b: a,
+        subtract: false,
+        target,
+    });
+    let program = maker.program;
+    let mut extremes = Extremes::new(&program);
+    for id in 0..16 {
+        let held = extremes.record(&program, &[id, 0], &[0; PARAMETERS]);
+        assert_eq!(held, contents(&program, &[id, 0], &[0; PARAMETERS]));
+    }
+    assert_eq!(extremes.registers[0], [0, 15]);
+    assert_eq!(extremes.registers[target.index()], [-16, 14]);
+}

@@ -1,0 +1,178 @@
+//! The gates machine: a circuit, gate by gate, on basis states.
+//!
+//! X, CNOT and Toffoli permute the basis states, so that each state is followed by itself, and a
+//! gate does the same to all of them: `t ^= 1`, `t ^= a`, `t ^= a & b`. A *row* holds one qubit of
+//! [`Gates::LANES`] states, a bit each, and a gate is a few instructions on vectors of bits. States span
+//! paths and pixels: what a pixel's circuit has built in, the classical words, are rows that gates
+//! read.
+//!
+//! It knows nothing of numbers. What it computes is what the list of gates computes, which is why
+//! the machine that computes with integers is held against it.
+
+mod compile;
+mod patterns;
+mod rows;
+#[cfg(test)]
+mod tests;
+
+pub use rows::{Dirty, Rows};
+
+use super::instructions::InstructionSet;
+use compile::Wiring;
+use pulp::{Simd, WithSimd, bytemuck};
+use qrt_core::circuit::Circuit;
+use rayon::prelude::*;
+use rows::LANES;
+use std::cell::Cell;
+use std::fmt;
+
+/// A gate that a circuit cannot have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct InvalidGate {
+    /// The circuit's place in the list that was given.
+    pub circuit: usize,
+    /// The gate's place in it.
+    pub gate: usize,
+}
+
+impl fmt::Display for InvalidGate {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "gate {} of circuit {} is controlled by its own target, or names a qubit or a \
+             parameter that the circuit does not have",
+            self.gate, self.circuit
+        )
+    }
+}
+
+impl std::error::Error for InvalidGate {}
+
+/// Circuits, ready to be run on rows of states.
+///
+/// ```
+/// use qrt_core::circuit::{Circuit, Gate};
+/// use qrt_runtime::machines::Gates;
+///
+/// // A half adder: the sum of qubits 0 and 1, in 1 and 2.
+/// let gates = vec![Gate::Ccx(0, 1, 2), Gate::Cx(0, 1)];
+/// let circuit = Circuit { gates, qubits: 3, ..Circuit::default() };
+/// let machine = Gates::new(&[&circuit])?;
+/// let mut rows = machine.rows();
+/// rows.set(&[0], &[0, 1, 0, 1]);
+/// rows.set(&[1], &[0, 0, 1, 1]);
+/// machine.run(0, &mut rows);
+/// let mut sums = [0; 4];
+/// rows.get(&[1, 2], &mut sums);
+/// assert_eq!(sums, [0, 1, 1, 2]);
+/// # Ok::<(), qrt_runtime::machines::InvalidGate>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Gates {
+    code: Vec<Box<[u32]>>,
+    gates: Vec<usize>,
+    wiring: Wiring,
+    instructions: InstructionSet,
+}
+
+impl Gates {
+    /// States that a machine's rows hold.
+    pub const LANES: usize = LANES;
+
+    /// A machine for circuits that share their qubits and their list of classical words: one
+    /// circuit, or the parts of one between which the states are looked at.
+    ///
+    /// # Errors
+    /// If a gate is not one: see [`InvalidGate`].
+    pub fn new(circuits: &[&Circuit]) -> Result<Self, InvalidGate> {
+        let wiring = Wiring::new(circuits);
+        let code = circuits.iter().enumerate().map(|(place, circuit)| {
+            let compiled = wiring.compile(circuit);
+            compiled.map_err(|gate| InvalidGate {
+                circuit: place,
+                gate,
+            })
+        });
+        Ok(Self {
+            code: code.collect::<Result<_, _>>()?,
+            gates: circuits.iter().map(|circuit| circuit.gates.len()).collect(),
+            wiring,
+            instructions: InstructionSet::widest(),
+        })
+    }
+
+    /// With another instruction set.
+    pub fn with_instructions(mut self, instructions: InstructionSet) -> Self {
+        self.instructions = instructions;
+        self
+    }
+
+    /// Gates of circuit `circuit` of those given.
+    pub fn len(&self, circuit: usize) -> usize {
+        self.gates[circuit]
+    }
+
+    /// Has circuit `circuit` no gates?
+    pub fn is_empty(&self, circuit: usize) -> bool {
+        self.gates[circuit] == 0
+    }
+
+    /// Rows for [`Gates::LANES`] states, all of whose qubits are zero.
+    pub fn rows(&self) -> Rows {
+        Rows::new(&self.wiring)
+    }
+
+    /// Runs circuit `circuit` of those given on every state of `rows`, which are of this machine.
+    pub fn run(&self, circuit: usize, rows: &mut Rows) {
+        self.instructions.dispatch(Run {
+            code: &self.code[circuit],
+            rows: rows.all(),
+        });
+    }
+
+    /// Calls `block` for each of `0..blocks`, on all threads, each with rows of its own; they come
+    /// as the last block on that thread left them. Results are in the order of blocks.
+    pub fn blocks<T: Send>(
+        &self,
+        blocks: usize,
+        block: impl Fn(&mut Rows, usize) -> T + Sync,
+    ) -> Vec<T> {
+        let numbers = (0..blocks).into_par_iter();
+        numbers
+            .map_init(|| self.rows(), |rows, number| block(rows, number))
+            .collect()
+    }
+}
+
+struct Run<'a> {
+    code: &'a [u32],
+    rows: &'a mut [u64],
+}
+
+impl WithSimd for Run<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        const WORDS: usize = LANES / 64;
+        match S::U64_LANES {
+            8 => run::<S, { WORDS / 8 }>(simd, self.code, self.rows),
+            4 => run::<S, { WORDS / 4 }>(simd, self.code, self.rows),
+            2 => run::<S, { WORDS / 2 }>(simd, self.code, self.rows),
+            _ => run::<pulp::Scalar, WORDS>(pulp::Scalar::new(), self.code, self.rows),
+        }
+    }
+}
+
+#[inline(always)]
+fn run<S: Simd, const N: usize>(simd: S, mut code: &[u32], rows: &mut [u64]) {
+    let vectors: &mut [S::u64s] = bytemuck::cast_slice_mut(rows);
+    let (rows, _) = vectors.as_chunks_mut::<N>();
+    let rows = Cell::from_mut(rows).as_slice_of_cells();
+    while let [head, rest @ ..] = code {
+        let (number, count) = compile::parts(*head);
+        let (operands, rest) = rest.split_at(count * patterns::PATTERNS[number].rows);
+        patterns::execute::<S, N>(simd, rows, number, operands);
+        code = rest;
+    }
+}

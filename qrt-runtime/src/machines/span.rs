@@ -1,0 +1,10 @@
+//! Which pixels the lanes of a block belong to.
+
+/// Neighbouring lanes of one pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Span<'a> {
+    /// How many.
+    pub lanes: usize,
+    /// The pixel's classical words: [`qrt_core::circuit::Parameter::value`] of each.
+    pub parameters: &'a [u64],
+}
