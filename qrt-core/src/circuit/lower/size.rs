@@ -20,7 +20,7 @@ pub fn size(program: &Program) -> Size {
     let mut clock = Clock::default();
     let mut in_use = Vec::with_capacity(program.instructions.len());
     let qubits = walk(program, |gates, meanwhile| {
-        gates.iter().for_each(|&gate| clock.gate(gate));
+        clock.run(gates);
         in_use.push(meanwhile);
     });
     Size {
@@ -33,7 +33,7 @@ pub fn size(program: &Program) -> Size {
 /// Toffoli depth: each gate as early as its qubits allow, and only Toffolis take time.
 pub fn depth(circuit: &Circuit) -> u64 {
     let mut clock = Clock::default();
-    circuit.gates.iter().for_each(|&gate| clock.gate(gate));
+    clock.run(&circuit.gates);
     clock.latest()
 }
 
@@ -44,6 +44,12 @@ struct Clock {
 }
 
 impl Clock {
+    fn run(&mut self, gates: &[Gate]) {
+        for &gate in gates {
+            self.gate(gate);
+        }
+    }
+
     fn gate(&mut self, gate: Gate) {
         match gate {
             Gate::X(_) | Gate::Load { .. } | Gate::Z(_) => {}

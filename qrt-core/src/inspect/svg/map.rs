@@ -39,9 +39,12 @@ pub fn registers(inspection: &Inspection, scene: &str) -> String {
     let mut canvas = Canvas::new(WIDTH, HEIGHT, &title, &figures);
     legend(&mut canvas);
     map.axes(&mut canvas);
-    map.lifetimes(&mut canvas);
+    let labels = map.lifetimes(&mut canvas);
     map.in_use(&mut canvas);
     map.stages(&mut canvas);
+    for (place, label) in labels {
+        canvas.text("small", place, &label);
+    }
     canvas.finish()
 }
 
@@ -144,7 +147,8 @@ impl<'a> Map<'a> {
         ]
     }
 
-    fn lifetimes(&self, canvas: &mut Canvas) {
+    /// Draws the registers, and returns the names that have room on them.
+    fn lifetimes(&self, canvas: &mut Canvas) -> Vec<([f64; 2], String)> {
         let lifetimes = &self.inspection.layout.lifetimes;
         let all = lifetimes.len() <= MOST;
         let mut cells = Cells::default();
@@ -169,6 +173,7 @@ impl<'a> Map<'a> {
             }
         }
         cells.draw(canvas);
+        let mut labels = Vec::new();
         for lifetime in large {
             let place = self.place(lifetime);
             let register = &self.inspection.whole.registers[lifetime.register.index()];
@@ -182,9 +187,10 @@ impl<'a> Map<'a> {
             let label = format!("{}: {ty}", register.name);
             if place[3] >= 13.0 && place[2] >= width_of(&label) {
                 let [x, y, _, height] = place;
-                canvas.text("small", [x + 4.0, y + height / 2.0 + 4.0], &label);
+                labels.push(([x + 4.0, y + height / 2.0 + 4.0], label));
             }
         }
+        labels
     }
 
     fn role(&self, lifetime: &Lifetime) -> Role {
