@@ -48,17 +48,15 @@ impl Arith for Builder<'_> {
         Real::constant(self.farthest(most))
     }
     fn inside(&mut self, low: f64, value: Real, high: f64) -> Bool {
-        // Outwards by what a hit's coordinates may be off: a product and a sum, rounded down.
-        let reach = 2.0 * self.ulp();
+        // Outwards by what a hit's coordinates may be off.
+        let reach = self.ulp();
         let mut inside = Bool::Constant(true);
         if low.is_finite() {
-            let bound = ((low - reach) * self.units()).floor() * self.ulp();
-            let below = self.is_less(value, Real::constant(bound));
+            let below = self.is_less(value, Real::constant(low - reach));
             inside = self.both(inside, below.negated());
         }
         if high.is_finite() {
-            let bound = ((high + reach) * self.units()).ceil() * self.ulp();
-            let above = self.is_less(Real::constant(bound), value);
+            let above = self.is_less(Real::constant(high + reach), value);
             inside = self.both(inside, above.negated());
         }
         inside
@@ -251,6 +249,7 @@ impl Builder<'_> {
         }
         let apart = |x: Real| Real {
             offset: Affine::ZERO,
+            bias: 0.0,
             ..x
         };
         if a.offset == b.offset && a.node.is_some() && b.node.is_some() {

@@ -69,6 +69,11 @@ impl Builder<'_> {
 
     /// The value of a new register of `range`.
     pub(super) fn computed(&mut self, word: Word, range: [i64; 2]) -> Real {
+        let register = &mut self.registers[word.register.index()];
+        if word.width == register.width && word.shift == 0 {
+            // The first to read all of it is who computed it.
+            register.range.get_or_insert(range);
+        }
         self.value(Value {
             range,
             word: Some(word),
@@ -118,7 +123,9 @@ impl Builder<'_> {
             let (word, range) = self.loaded(a.offset);
             return whole(Operand::Word(word), range);
         };
-        if a.offset == Affine::ZERO {
+        let offset = a.offset.plus(Affine::constant(a.bias));
+        let slight = a.offset.is_constant() && offset.constant.abs() <= 0.75 * self.ulp();
+        if a.offset == Affine::ZERO || slight {
             let word = self.word_of(node);
             return Plain {
                 operand: Operand::Word(word),
@@ -128,16 +135,16 @@ impl Builder<'_> {
         }
         if let (Some(table), true) = (&self.values[node as usize].table, a.offset.is_constant()) {
             let sign = if a.negated { -1.0 } else { 1.0 };
-            let constant = a.offset.constant;
+            let constant = offset.constant;
             let shifted = table.map(|entry| sign * entry + constant);
             let shifted = self.tabulated(shifted);
             return self.plain(shifted);
         }
-        let (offset, extent) = if a.offset.is_constant() {
-            let value = self.rounded(a.offset.constant);
+        let (offset, extent) = if offset.is_constant() {
+            let value = self.rounded(offset.constant);
             (Operand::Constant(value), [value; 2])
         } else {
-            let (word, range) = self.loaded(a.offset);
+            let (word, range) = self.loaded(offset);
             (Operand::Word(word), range)
         };
         let word = self.word_of(node);
@@ -194,6 +201,7 @@ impl Builder<'_> {
 
     pub(super) fn plus(&mut self, a: Real, b: Real) -> Real {
         let offset = a.offset.plus(b.offset);
+        let bias = a.bias + b.bias;
         let (Some(x), Some(y)) = (a.node, b.node) else {
             let (node, negated) = match a.node {
                 Some(_) => (a.node, a.negated),
@@ -203,6 +211,7 @@ impl Builder<'_> {
                 node,
                 negated,
                 offset,
+                bias,
             };
         };
         if let Some(sum) = self.tabulate_pair(a, b, self.fraction() + 2, |a, b| a + b) {
@@ -217,7 +226,11 @@ impl Builder<'_> {
                 ..a
             };
             let twice = self.times_constant(bare, 2.0);
-            return Real { offset, ..twice };
+            return Real {
+                offset,
+                bias,
+                ..twice
+            };
         }
         // A subtrahend comes second; of two equal signs the order is the nodes'.
         let (first, second) = match (a.negated, b.negated) {
@@ -242,6 +255,7 @@ impl Builder<'_> {
         };
         Real {
             offset: sum.offset.plus(offset),
+            bias,
             ..sum
         }
     }
@@ -252,6 +266,7 @@ impl Builder<'_> {
             return Real::constant(0.0);
         }
         let offset = a.offset.scaled(factor);
+        let bias = a.bias * factor;
         let Some(node) = a.node else {
             return Real::fixed(offset);
         };
@@ -268,6 +283,7 @@ impl Builder<'_> {
         let scaled = if negated { scaled.negative() } else { scaled };
         Real {
             offset: scaled.offset.plus(offset),
+            bias: scaled.bias + bias,
             ..scaled
         }
     }
@@ -314,6 +330,7 @@ impl Builder<'_> {
         let product = self.computed(Self::whole(target, width, signed), range);
         match (product.node, (-k).max(0)) {
             (Some(node), shift) if shift > 0 => self.shifted(node, shift),
+            _ if drop > 0 => self.rounded_down(product),
             _ => product,
         }
     }
@@ -338,8 +355,23 @@ impl Builder<'_> {
         let range = range.map(|end| end >> drop);
         let word = dropped(word, drop);
         match word {
-            Some(word) => self.computed(word, range),
+            Some(word) => {
+                let floor = self.computed(word, range);
+                self.rounded_down(floor)
+            }
             None => Real::constant(0.0),
+        }
+    }
+
+    /// A number that was rounded down from one with many more bits.
+    pub(super) fn rounded_down(&self, a: Real) -> Real {
+        Real {
+            bias: if a.node.is_some() {
+                0.5 * self.ulp()
+            } else {
+                0.0
+            },
+            ..a
         }
     }
 
@@ -386,6 +418,7 @@ impl Builder<'_> {
             })[0];
             self.computed(Self::whole(target, width, signed), range)
         };
+        let product = self.rounded_down(product);
         if negated { product.negative() } else { product }
     }
 

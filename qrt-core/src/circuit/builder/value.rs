@@ -87,6 +87,9 @@ pub struct Real {
     pub(super) node: Option<u32>,
     pub(super) negated: bool,
     pub(super) offset: Affine,
+    /// What rounding down has taken from it on average. It joins the offset where there is one;
+    /// by itself it is not worth an addition.
+    pub(super) bias: f64,
 }
 
 impl Real {
@@ -99,6 +102,7 @@ impl Real {
             node: None,
             negated: false,
             offset,
+            bias: 0.0,
         }
     }
 
@@ -107,6 +111,7 @@ impl Real {
             node: Some(node),
             negated: false,
             offset: Affine::ZERO,
+            bias: 0.0,
         }
     }
 
@@ -120,6 +125,7 @@ impl Real {
             node: self.node,
             negated: self.node.is_some() && !self.negated,
             offset: self.offset.scaled(-1.0),
+            bias: -self.bias,
         }
     }
 }

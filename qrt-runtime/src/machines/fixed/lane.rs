@@ -57,13 +57,16 @@ impl<K: Copy + Default> Default for Row<K> {
     }
 }
 
+/// Where a value's lanes are: results are computed beside and swapped in, pointers alone.
+pub(super) type Slot<K> = Box<Row<K>>;
+
 /// Values' lanes by kind.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Slots {
-    pub(super) truths: Vec<Box<Row<u8>>>,
-    pub(super) shorts: Vec<Box<Row<i16>>>,
-    pub(super) ints: Vec<Box<Row<i32>>>,
-    pub(super) longs: Vec<Box<Row<i64>>>,
+    pub(super) truths: Vec<Slot<u8>>,
+    pub(super) shorts: Vec<Slot<i16>>,
+    pub(super) ints: Vec<Slot<i32>>,
+    pub(super) longs: Vec<Slot<i64>>,
 }
 
 /// A type of lane.
@@ -85,8 +88,8 @@ pub(super) trait Lane: Copy + Default + PartialEq + PartialOrd + std::fmt::Debug
     fn divided(self, by: Self, how: Float) -> Self;
     /// `floor(sqrt(a))` of a number not negative.
     fn root(self, how: Float) -> Self;
-    fn rows(slots: &Slots) -> &[Box<Row<Self>>];
-    fn rows_mut(slots: &mut Slots) -> &mut Vec<Box<Row<Self>>>;
+    fn rows(slots: &Slots) -> &[Slot<Self>];
+    fn rows_mut(slots: &mut Slots) -> &mut Vec<Slot<Self>>;
     fn step(arith: Arith<Self>) -> Step;
 }
 
@@ -98,9 +101,9 @@ pub(super) trait Lane: Copy + Default + PartialEq + PartialOrd + std::fmt::Debug
 /// at most half a unit in the last place, which is no more than that as long as k^2 <= 2^p.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Float {
-    /// Numbers below 2^24: `f32`.
+    /// Numbers below 2^23: `f32`.
     Single,
-    /// Numbers below 2^52: `f64`, into and out of which go the bits of the significand.
+    /// Numbers below 2^52: `f64`.
     Double,
     /// Integers.
     None,
@@ -110,33 +113,36 @@ impl Float {
     /// For numbers of `bits` bits.
     pub(super) fn of(bits: u32) -> Self {
         match bits {
-            0..=24 => Self::Single,
-            25..=52 => Self::Double,
+            0..=23 => Self::Single,
+            24..=52 => Self::Double,
             _ => Self::None,
         }
     }
 }
 
-/// 2^52: what added to a smaller integer leaves this in the lowest bits of the significand.
-const SIGNIFICAND: f64 = 4_503_599_627_370_496.0;
+/// 2^23 and 2^52: what added to a smaller integer leaves this in the lowest bits of the significand.
+const SINGLE: f32 = 8_388_608.0;
+const DOUBLE: f64 = 4_503_599_627_370_496.0;
+
+// Through the significand, because conversions by `as` saturate, which costs more than the division,
+// and those of 64 bits are missing from most instruction sets.
+
+/// The integer in 0 .. 2^23 that is the floor of this.
+#[inline(always)]
+fn floor_single(value: f32) -> i32 {
+    ((value.floor() + SINGLE).to_bits() ^ SINGLE.to_bits()).cast_signed()
+}
+
+/// The integer in 0 .. 2^52 that is the floor of this.
+#[inline(always)]
+pub(super) fn floor_double(value: f64) -> i64 {
+    ((value.floor() + DOUBLE).to_bits() ^ DOUBLE.to_bits()).cast_signed()
+}
 
 /// An integer in 0 .. 2^52.
 #[inline(always)]
 fn double(value: i64) -> f64 {
-    f64::from_bits(value.cast_unsigned() | SIGNIFICAND.to_bits()) - SIGNIFICAND
-}
-
-/// `floor(a / b)` of integers in 0 .. 2^52, b above 0.
-#[inline(always)]
-fn divided_double(a: i64, b: i64) -> i64 {
-    let quotient = (double(a) / double(b)).floor();
-    ((quotient + SIGNIFICAND).to_bits() ^ SIGNIFICAND.to_bits()).cast_signed()
-}
-
-#[inline(always)]
-fn root_double(a: i64) -> i64 {
-    let root = double(a).sqrt().floor();
-    ((root + SIGNIFICAND).to_bits() ^ SIGNIFICAND.to_bits()).cast_signed()
+    f64::from_bits(value.cast_unsigned() | DOUBLE.to_bits()) - DOUBLE
 }
 
 macro_rules! lane {
@@ -182,25 +188,25 @@ macro_rules! lane {
             #[inline(always)]
             fn divided(self, by: Self, how: Float) -> Self {
                 match how {
-                    Float::Single => (self as f32 / by as f32) as i32 as Self,
-                    Float::Double => divided_double(self as i64, by as i64) as Self,
+                    Float::Single => floor_single(self as i32 as f32 / by as i32 as f32) as Self,
+                    Float::Double => floor_double(double(self as i64) / double(by as i64)) as Self,
                     Float::None => self.checked_div(by).unwrap_or(0),
                 }
             }
             #[inline(always)]
             fn root(self, how: Float) -> Self {
                 match how {
-                    Float::Single => (self as f32).sqrt() as i32 as Self,
-                    Float::Double => root_double(self as i64) as Self,
+                    Float::Single => floor_single((self as i32 as f32).sqrt()) as Self,
+                    Float::Double => floor_double(double(self as i64).sqrt()) as Self,
                     Float::None => (self as $unsigned).isqrt() as Self,
                 }
             }
             #[inline(always)]
-            fn rows(slots: &Slots) -> &[Box<Row<Self>>] {
+            fn rows(slots: &Slots) -> &[Slot<Self>] {
                 &slots.$rows
             }
             #[inline(always)]
-            fn rows_mut(slots: &mut Slots) -> &mut Vec<Box<Row<Self>>> {
+            fn rows_mut(slots: &mut Slots) -> &mut Vec<Slot<Self>> {
                 &mut slots.$rows
             }
             fn step(arith: Arith<Self>) -> Step {

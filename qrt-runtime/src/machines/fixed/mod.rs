@@ -6,11 +6,17 @@
 
 mod arith;
 mod compile;
+mod compute;
+mod fuse;
+mod in_place;
 mod lane;
 mod ops;
+mod product;
+mod quotient;
 mod reference;
 mod slots;
 mod steps;
+mod table;
 #[cfg(test)]
 mod tests;
 
@@ -22,6 +28,7 @@ use compile::Compiler;
 use lane::{Kind, LANES, Slots};
 use pulp::{Simd, WithSimd};
 use qrt_core::circuit::{Program, Word};
+use rayon::prelude::*;
 use slots::Counts;
 use steps::{Block, Spares, Step};
 
@@ -65,7 +72,8 @@ impl Fixed {
         let sign = compiler.sign;
         kept.extend(sign.map(|sign| (Kind::Truth, sign)));
         let values = compiler.value();
-        let mut steps = slots::needed(compiler.steps, values, &kept);
+        let steps = slots::needed(compiler.steps, values, &kept);
+        let mut steps = fuse::fused(steps, values, &kept);
         let counts = slots::assign(&mut steps, values, &mut kept);
         let widths = program.inputs.iter().map(|input| program.width(*input));
         Self {
@@ -122,6 +130,19 @@ impl Fixed {
         for (output, (kind, place)) in outputs.iter_mut().zip(&self.outputs) {
             lanes.read(*kind, *place, output);
         }
+    }
+
+    /// Calls `block` for each of `0..blocks`, on all threads, each with lanes of its own. Results are
+    /// in the order of blocks.
+    pub fn blocks<T: Send>(
+        &self,
+        blocks: usize,
+        block: impl Fn(&mut Lanes, usize) -> T + Sync,
+    ) -> Vec<T> {
+        let numbers = (0..blocks).into_par_iter();
+        numbers
+            .map_init(|| self.lanes(), |lanes, number| block(lanes, number))
+            .collect()
     }
 
     /// Runs the program as [`Fixed::run`] does, and says in which lanes the sign is turned.

@@ -1,14 +1,19 @@
 //! What steps each operation becomes.
 
-use super::arith::{Arg, Arith, Source, Wrap, image};
+use super::arith::{Arith, Source, Wrap};
 use super::compile::{Compiler, Value, kind_of, range, with_kind};
+use super::compute::image;
+use super::in_place::Pair;
 use super::lane::{Float, Kind, LANES, Lane, Row};
 use super::pattern_bits;
-use super::steps::{Factor, Step};
-use qrt_core::circuit::{Bit, Op, Operand, RegisterId, When, Word};
+use super::product::{Factor, How, Product};
+use super::quotient::Quotient;
+use super::steps::Step;
+use super::table;
+use qrt_core::circuit::{Bit, Op, Operand, RegisterId, Word};
 
 /// Bounds of what is cut to a register already.
-const CUT: [i64; 2] = [0, 0];
+pub(super) const CUT: [i64; 2] = [0, 0];
 
 /// The numbers that an operand can be.
 fn bounds(operand: Operand) -> [i64; 2] {
@@ -20,14 +25,6 @@ fn bounds(operand: Operand) -> [i64; 2] {
 
 fn union([a, b]: [i64; 2], [c, d]: [i64; 2]) -> [i64; 2] {
     [a.min(c), b.max(d)]
-}
-
-/// Which of the steps of two operands an addition is, and the like.
-#[derive(Clone, Copy)]
-enum Pair {
-    Add,
-    Sub,
-    Xor,
 }
 
 impl Compiler<'_> {
@@ -159,10 +156,17 @@ impl Compiler<'_> {
                 for (column, target) in columns.iter().zip(targets) {
                     let (width, signed) = self.shape(*target);
                     let kind = kind_of(width, signed);
+                    if kind == Kind::Truth
+                        && let Some(table) = table::truths(column)
+                    {
+                        let t = self.step(|t| Step::TruthTable { address, table, t });
+                        self.set(*target, (kind, t), CUT);
+                        continue;
+                    }
                     let t = with_kind!(kind, K => {
                         let wrap = Wrap::<K>::new(width, signed);
-                        let table = column.iter().map(|entry| wrap.of(K::cut(*entry)));
-                        let table = table.collect();
+                        let entries = column.iter().map(|entry| wrap.of(K::cut(*entry)));
+                        let table = table::numbers(entries);
                         self.step(|t| K::step(Arith::Lookup { address, table, t }))
                     });
                     self.set(*target, (kind, t), CUT);
@@ -170,138 +174,6 @@ impl Compiler<'_> {
             }
             Op::XorInto { .. } | Op::AddInto { .. } | Op::Swap { .. } | Op::Phase { .. } => {
                 self.in_place(op, false);
-            }
-        }
-    }
-
-    /// Adds the steps of an operation in place, or of its inverse.
-    pub(super) fn in_place(&mut self, op: &Op, inverse: bool) {
-        match op {
-            Op::XorInto { a, when, target } => {
-                let (kind, old) = self.register(*target);
-                with_kind!(kind, K => {
-                    let a = self.operand::<K>(*a, kind);
-                    self.pair(Pair::Xor, *target, Arg::Row(old), a);
-                });
-                self.only(*when, *target, old);
-            }
-            Op::AddInto {
-                a,
-                subtract,
-                when,
-                target,
-            } => {
-                let (kind, old) = self.register(*target);
-                let pair = if *subtract == inverse {
-                    Pair::Add
-                } else {
-                    Pair::Sub
-                };
-                with_kind!(kind, K => {
-                    let a = match when {
-                        When::Reversed(bit) => Arg::Row(self.negated::<K>(*a, *bit, kind, *target)),
-                        When::Always | When::If(_) => self.operand::<K>(*a, kind),
-                    };
-                    self.pair(pair, *target, Arg::Row(old), a);
-                });
-                if let When::If(bit) = when {
-                    self.only(Some(*bit), *target, old);
-                }
-            }
-            Op::Swap { a, b, when } => {
-                let [from_a, from_b] = [(*a, *b), (*b, *a)].map(|(from, to)| {
-                    let (width, signed) = self.shape(to);
-                    let word = Word {
-                        register: from,
-                        offset: 0,
-                        width,
-                        signed,
-                        shift: 0,
-                    };
-                    self.word(word, kind_of(width, signed))
-                });
-                let [old_a, old_b] = [*a, *b].map(|register| self.register(register));
-                self.registers[a.index()] = Some((old_a.0, from_b));
-                self.registers[b.index()] = Some((old_b.0, from_a));
-                self.only(*when, *a, old_a.1);
-                self.only(*when, *b, old_b.1);
-            }
-            Op::Phase { bit } => {
-                let turned = self.bit(*bit);
-                let flip = bit.inverted;
-                let old = self.sign.unwrap_or_else(|| self.constant(Kind::Truth, 0));
-                let sign = self.step(|t| Step::Xor {
-                    a: old,
-                    b: turned,
-                    flip,
-                    t,
-                });
-                self.sign = Some(sign);
-            }
-            _ => {}
-        }
-    }
-
-    /// Leaves the register's new value only where `when` holds.
-    fn only(&mut self, when: Option<Bit>, register: RegisterId, old: u32) {
-        let Some(when) = when else { return };
-        let (kind, new) = self.register(register);
-        let t = with_kind!(kind, K => {
-            self.selected::<K>(when, Arg::Row(new), Arg::Row(old), register)
-        });
-        self.set(register, (kind, t), CUT);
-    }
-
-    /// Of lanes of the target's kind.
-    fn pair<K: Lane>(&mut self, pair: Pair, target: RegisterId, a: Arg<K>, b: Arg<K>) {
-        let (width, signed) = self.shape(target);
-        let wrap = Wrap::new(width, signed);
-        let t = self.step(|t| {
-            K::step(match pair {
-                Pair::Add => Arith::Add { a, b, wrap, t },
-                Pair::Sub => Arith::Sub { a, b, wrap, t },
-                Pair::Xor => Arith::Xor { a, b, wrap, t },
-            })
-        });
-        self.set(target, (kind_of(width, signed), t), CUT);
-    }
-
-    fn selected<K: Lane>(&mut self, bit: Bit, a: Arg<K>, b: Arg<K>, target: RegisterId) -> u32 {
-        let when = self.bit(bit);
-        let (a, b) = if bit.inverted { (b, a) } else { (a, b) };
-        let (width, signed) = self.shape(target);
-        let wrap = Wrap::new(width, signed);
-        self.step(|t| {
-            K::step(Arith::Select {
-                when,
-                a,
-                b,
-                wrap,
-                t,
-            })
-        })
-    }
-
-    /// `if bit { -a } else { a }`, cut to the target.
-    fn negated<K: Lane>(&mut self, a: Operand, bit: Bit, kind: Kind, target: RegisterId) -> u32 {
-        match self.operand::<K>(a, kind) {
-            Arg::Splat(a) => {
-                let minus = K::cut(0).sub(a);
-                self.selected(bit, Arg::Splat(minus), Arg::Splat(a), target)
-            }
-            Arg::Row(a) => {
-                let when = self.bit(bit);
-                let (width, signed) = self.shape(target);
-                let wrap = Wrap::new(width, signed);
-                self.step(|t| {
-                    K::step(Arith::Negate {
-                        when,
-                        inverted: bit.inverted,
-                        a,
-                        wrap,
-                        t,
-                    })
-                })
             }
         }
     }
@@ -320,74 +192,63 @@ impl Compiler<'_> {
         let fits = |bits: u32| low >= -1 << (bits - 1) && high < 1 << (bits - 1);
         let does = |kind: &Kind| fits(kind.bits()) || drop + width <= kind.bits();
         let wide = [Kind::Short, Kind::Int, Kind::Long].into_iter().find(does);
-        let shift = drop.min(wide.map_or(127, |kind| kind.bits() - 1));
-        let wrap = Wrap::new(width, signed);
-        let bounds = [low >> drop, high >> drop];
-        let bounds = bounds.map(|b| b.clamp(i64::MIN.into(), i64::MAX.into()) as i64);
-        let (kind, t) = match (narrow, wide) {
-            (Kind::Short, Some(Kind::Int)) => {
-                let to = own.clamp(Kind::Short, Kind::Int);
-                let wrap = if to == own { wrap } else { Wrap::none() };
-                let (a, b) = self.factors(a, b, Kind::Short);
-                let t = self.step(|t| Step::MulShort {
-                    a,
-                    b,
-                    drop: shift,
-                    wrap,
-                    to: (to, t),
-                });
-                (to, t)
-            }
-            (Kind::Short | Kind::Int, Some(Kind::Long)) => {
-                let to = own.clamp(Kind::Int, Kind::Long);
-                let wrap = if to == own { wrap } else { Wrap::none() };
-                let (a, b) = self.factors(a, b, Kind::Int);
-                let t = self.step(|t| Step::MulInt {
-                    a,
-                    b,
-                    drop: shift,
-                    wrap,
-                    to: (to, t),
-                });
-                (to, t)
-            }
+        let left = [low >> drop, high >> drop];
+        let left = left.map(|end| end.clamp(i64::MIN.into(), i64::MAX.into()) as i64);
+        let how = match (narrow, wide) {
+            (Kind::Short, Some(Kind::Int)) => How::Short,
+            (Kind::Short | Kind::Int, Some(Kind::Long)) => How::Int,
             (_, Some(kind)) => {
                 let t = with_kind!(kind, K => {
                     let a = self.operand::<K>(Operand::Word(a), kind);
                     let b = self.operand::<K>(b, kind);
                     let wrap = if kind == own { Wrap::new(width, signed) } else { Wrap::none() };
-                    self.step(|t| K::step(Arith::Mul { a, b, drop: shift, wrap, t }))
+                    let drop = drop.min(kind.bits() - 1);
+                    self.step(|t| K::step(Arith::Mul { a, b, drop, wrap, t }))
                 });
-                (kind, t)
+                let left = if kind == own { CUT } else { left };
+                return self.set(target, (kind, t), left);
             }
-            (_, None) => {
-                let wrap = if own == Kind::Long {
-                    wrap
-                } else {
-                    Wrap::none()
-                };
-                let (a, b) = self.factors(a, b, Kind::Long);
-                let t = self.step(|t| Step::MulLong {
-                    a,
-                    b,
-                    drop: shift,
-                    wrap,
-                    t,
-                });
-                (Kind::Long, t)
-            }
+            (_, None) => How::long(a.range(), bounds(b)),
         };
-        let bounds = if kind == own { CUT } else { bounds };
-        self.set(target, (kind, t), bounds);
-    }
-
-    fn factors(&mut self, a: Word, b: Operand, kind: Kind) -> (u32, Factor) {
+        // The narrower factor second.
+        let (a, b) = match b {
+            Operand::Word(b) if How::long(b.range(), a.range()) == How::Half => {
+                (b, Operand::Word(a))
+            }
+            b => (a, b),
+        };
+        let how = if wide.is_none() {
+            How::long(a.range(), bounds(b))
+        } else {
+            how
+        };
+        let [least, most] = how.results();
+        let to = own.clamp(least, most);
+        let kind = how.factors();
         let a = self.word(a, kind);
         let b = match b {
             Operand::Word(b) => Factor::Row(self.word(b, kind)),
             Operand::Constant(b) => Factor::Splat(b),
         };
-        (a, b)
+        let drop = drop.min(wide.map_or(127, |kind| kind.bits() - 1));
+        let wrap = if to == own {
+            Wrap::new(width, signed)
+        } else {
+            Wrap::none()
+        };
+        let t = self.step(|t| {
+            Step::Product(Product {
+                how,
+                a,
+                b,
+                drop,
+                wrap,
+                shape: (to == own).then_some((width, signed)),
+                to: (to, t),
+            })
+        });
+        let left = if to == own { CUT } else { left };
+        self.set(target, (to, t), left);
     }
 
     fn division(&mut self, a: Word, b: Word, quotient: RegisterId, fits: RegisterId) {
@@ -395,6 +256,26 @@ impl Compiler<'_> {
         let numbers = union(union(a.range(), b.range()), range(width, false));
         let kind = Kind::of(numbers);
         let float = Float::of(a.bits().max(b.bits()));
+        let plain = [a, b].map(|word| Word { shift: 0, ..word });
+        if float == Float::Double
+            && width <= 52
+            && plain.iter().all(|word| Kind::of(word.range()) <= Kind::Int)
+        {
+            let up = [a.shift, b.shift];
+            let [a, b] = plain.map(|word| self.word(word, Kind::Int));
+            let kind = Kind::of(range(width, false)).max(Kind::Int);
+            let (value, holds) = (self.value(), self.value());
+            self.steps.push(Step::Quotient(Quotient {
+                a,
+                b,
+                up,
+                width,
+                to: (kind, value),
+                fits: holds,
+            }));
+            self.set(quotient, (kind, value), range(width, false));
+            return self.set(fits, (Kind::Truth, holds), [0, 1]);
+        }
         let (a, b) = (self.word(a, kind), self.word(b, kind));
         let (value, holds) = (self.value(), self.value());
         self.steps
@@ -452,18 +333,17 @@ impl Compiler<'_> {
         let (width, signed) = self.shape(target);
         let kind: Kind = kind_of(width, signed);
         let (_, value): Value = self.register(source);
-        let (bits, source) = match self.inputs.get(&value) {
-            Some((input, bits)) => (pattern_bits(*bits), Source::Input(*input, *bits)),
-            None => {
-                let content = Word {
-                    register: source,
-                    offset: 0,
-                    width: self.shape(source).0,
-                    signed: false,
-                    shift: 0,
-                };
-                (0, Source::Row(self.word(content, Kind::Long)))
-            }
+        let (bits, source) = if let Some((input, bits)) = self.inputs.get(&value) {
+            (pattern_bits(*bits), Source::Input(*input))
+        } else {
+            let content = Word {
+                register: source,
+                offset: 0,
+                width: self.shape(source).0,
+                signed: false,
+                shift: 0,
+            };
+            (0, Source::Row(self.word(content, Kind::Long)))
         };
         let t = with_kind!(kind, K => {
             let mut pattern = Box::new(Row([K::default(); LANES]));

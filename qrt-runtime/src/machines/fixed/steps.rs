@@ -1,7 +1,9 @@
 //! Steps: what a program becomes before it runs.
 
 use super::arith::{Arith, Wrap};
-use super::lane::{Kind, LANES, Lane, Row, Slots};
+use super::lane::{Kind, LANES, Lane, Row, Slot, Slots};
+use super::product::Product;
+use super::quotient::Quotient;
 use crate::machines::Span;
 use std::ops::Range;
 
@@ -18,30 +20,8 @@ pub(super) enum Step {
         to: (Kind, u32),
         wrap: Wrap<i64>,
     },
-    /// `t = a b >> drop`: Short factors, the product in 32 bits.
-    MulShort {
-        a: u32,
-        b: Factor,
-        drop: u32,
-        wrap: Wrap<i64>,
-        to: (Kind, u32),
-    },
-    /// The same of Int factors, the product in 64 bits.
-    MulInt {
-        a: u32,
-        b: Factor,
-        drop: u32,
-        wrap: Wrap<i64>,
-        to: (Kind, u32),
-    },
-    /// The same of Long factors, the product in 128 bits.
-    MulLong {
-        a: u32,
-        b: Factor,
-        drop: u32,
-        wrap: Wrap<i64>,
-        t: u32,
-    },
+    Product(Product),
+    Quotient(Quotient),
     /// `t = (a ^ flip_a) & (b ^ flip_b)`
     And {
         a: (u32, bool),
@@ -55,18 +35,17 @@ pub(super) enum Step {
         flip: bool,
         t: u32,
     },
+    /// Truths of an Int address, in words of 32.
+    TruthTable {
+        address: u32,
+        table: Box<[u32]>,
+        t: u32,
+    },
     /// An Int from truths: slot, place and whether it is negated.
     Address {
         bits: Box<[(u32, u32, bool)]>,
         t: u32,
     },
-}
-
-/// A second factor.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Factor {
-    Row(u32),
-    Splat(i64),
 }
 
 /// A value that a step reads or computes: its kind, and its place.
@@ -127,10 +106,10 @@ impl Block<'_> {
 /// Where results are computed before they take their slots.
 #[derive(Clone, Debug)]
 pub(super) struct Spares {
-    pub(super) truth: [Box<Row<u8>>; 2],
-    pub(super) short: Box<Row<i16>>,
-    pub(super) int: Box<Row<i32>>,
-    pub(super) long: Box<Row<i64>>,
+    pub(super) truth: [Slot<u8>; 2],
+    pub(super) short: Slot<i16>,
+    pub(super) int: Slot<i32>,
+    pub(super) long: Slot<i64>,
 }
 
 /// `$body` with `$row` a spare of kind `$kind` and its lanes' type `$K`, then swapped into `$t`.
@@ -168,30 +147,6 @@ fn cast<A: Lane, T: Lane>(
     }
 }
 
-macro_rules! multiply {
-    ($narrow:ident, $wide:ident, $slots:ident, $row:ident: $K:ident, $a:expr, $b:expr, $drop:expr, $wrap:expr) => {{
-        let wrap = Wrap {
-            mask: $K::cut($wrap.mask),
-            half: $K::cut($wrap.half),
-        };
-        let all = $narrow::rows($slots);
-        let a = &all[$a as usize].0;
-        match $b {
-            Factor::Row(b) => {
-                for (t, (a, b)) in $row.0.iter_mut().zip(a.iter().zip(&all[b as usize].0)) {
-                    *t = wrap.of(((*a as $wide * *b as $wide) >> $drop) as $K);
-                }
-            }
-            Factor::Splat(b) => {
-                let b = b as $wide;
-                for (t, a) in $row.0.iter_mut().zip(a) {
-                    *t = wrap.of(((*a as $wide * b) >> $drop) as $K);
-                }
-            }
-        }
-    }};
-}
-
 impl Step {
     /// Runs the step on all lanes.
     #[inline(always)]
@@ -212,57 +167,12 @@ impl Step {
                 Kind::Int => cast::<i32, K>(slots, a, row, wrap, |a| a as K),
                 Kind::Long => cast::<i64, K>(slots, a, row, wrap, |a| a as K),
             }),
-            Self::MulShort {
-                a,
-                b,
-                drop,
-                wrap,
-                to: (to, t),
-            } => match to {
-                Kind::Short => {
-                    let row = &mut spares.short;
-                    multiply!(i16, i32, slots, row: i16, a, b, drop, wrap);
-                    std::mem::swap(row, &mut slots.shorts[t as usize]);
-                }
-                _ => {
-                    let row = &mut spares.int;
-                    multiply!(i16, i32, slots, row: i32, a, b, drop, wrap);
-                    std::mem::swap(row, &mut slots.ints[t as usize]);
-                }
-            },
-            Self::MulInt {
-                a,
-                b,
-                drop,
-                wrap,
-                to: (to, t),
-            } => match to {
-                Kind::Int => {
-                    let row = &mut spares.int;
-                    multiply!(i32, i64, slots, row: i32, a, b, drop, wrap);
-                    std::mem::swap(row, &mut slots.ints[t as usize]);
-                }
-                _ => {
-                    let row = &mut spares.long;
-                    multiply!(i32, i64, slots, row: i64, a, b, drop, wrap);
-                    std::mem::swap(row, &mut slots.longs[t as usize]);
-                }
-            },
-            Self::MulLong {
-                a,
-                b,
-                drop,
-                wrap,
-                t,
-            } => {
-                let row = &mut spares.long;
-                multiply!(i64, i128, slots, row: i64, a, b, drop, wrap);
-                std::mem::swap(row, &mut slots.longs[t as usize]);
-            }
+            Self::Product(ref product) => product.run(slots, spares),
+            Self::Quotient(ref quotient) => quotient.run(slots, spares),
             Self::And { a, b, t } => {
                 let (flip_a, flip_b) = (u8::from(a.1), u8::from(b.1));
                 let all = &slots.truths;
-                super::arith::rows(truth, &all[a.0 as usize], &all[b.0 as usize], |a, b| {
+                super::compute::rows(truth, &all[a.0 as usize], &all[b.0 as usize], |a, b| {
                     (a ^ flip_a) & (b ^ flip_b)
                 });
                 std::mem::swap(truth, &mut slots.truths[t as usize]);
@@ -270,9 +180,17 @@ impl Step {
             Self::Xor { a, b, flip, t } => {
                 let flip = u8::from(flip);
                 let all = &slots.truths;
-                super::arith::rows(truth, &all[a as usize], &all[b as usize], |a, b| {
+                super::compute::rows(truth, &all[a as usize], &all[b as usize], |a, b| {
                     a ^ b ^ flip
                 });
+                std::mem::swap(truth, &mut slots.truths[t as usize]);
+            }
+            Self::TruthTable {
+                address,
+                ref table,
+                t,
+            } => {
+                super::table::look_up_truth(slots, truth, address, table);
                 std::mem::swap(truth, &mut slots.truths[t as usize]);
             }
             Self::Address { ref bits, t } => {
@@ -301,18 +219,8 @@ impl Step {
                 see(Seen::read(from.0, &mut from.1));
                 see(Seen::computed(to.0, &mut to.1));
             }
-            Self::MulShort { a, b, to, .. } => {
-                factors(&mut see, Kind::Short, a, b);
-                see(Seen::computed(to.0, &mut to.1));
-            }
-            Self::MulInt { a, b, to, .. } => {
-                factors(&mut see, Kind::Int, a, b);
-                see(Seen::computed(to.0, &mut to.1));
-            }
-            Self::MulLong { a, b, t, .. } => {
-                factors(&mut see, Kind::Long, a, b);
-                see(Seen::computed(Kind::Long, t));
-            }
+            Self::Product(product) => product.visit(&mut see),
+            Self::Quotient(quotient) => quotient.visit(&mut see),
             Self::And { a, b, t } => {
                 see(Seen::read(Kind::Truth, &mut a.0));
                 see(Seen::read(Kind::Truth, &mut b.0));
@@ -323,6 +231,10 @@ impl Step {
                 see(Seen::read(Kind::Truth, b));
                 see(Seen::computed(Kind::Truth, t));
             }
+            Self::TruthTable { address, t, .. } => {
+                see(Seen::read(Kind::Int, address));
+                see(Seen::computed(Kind::Truth, t));
+            }
             Self::Address { bits, t } => {
                 for (truth, _, _) in bits {
                     see(Seen::read(Kind::Truth, truth));
@@ -330,12 +242,5 @@ impl Step {
                 see(Seen::computed(Kind::Int, t));
             }
         }
-    }
-}
-
-fn factors(see: &mut impl FnMut(Seen<'_>), kind: Kind, a: &mut u32, b: &mut Factor) {
-    see(Seen::read(kind, a));
-    if let Factor::Row(b) = b {
-        see(Seen::read(kind, b));
     }
 }

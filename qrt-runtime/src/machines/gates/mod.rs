@@ -70,7 +70,7 @@ impl std::error::Error for InvalidGate {}
 #[derive(Clone, Debug)]
 pub struct Gates {
     code: Vec<Box<[u32]>>,
-    gates: Vec<usize>,
+    lengths: Vec<usize>,
     wiring: Wiring,
     instructions: InstructionSet,
 }
@@ -95,7 +95,7 @@ impl Gates {
         });
         Ok(Self {
             code: code.collect::<Result<_, _>>()?,
-            gates: circuits.iter().map(|circuit| circuit.gates.len()).collect(),
+            lengths: circuits.iter().map(|circuit| circuit.gates.len()).collect(),
             wiring,
             instructions: InstructionSet::widest(),
         })
@@ -109,12 +109,12 @@ impl Gates {
 
     /// Gates of circuit `circuit` of those given.
     pub fn len(&self, circuit: usize) -> usize {
-        self.gates[circuit]
+        self.lengths[circuit]
     }
 
     /// Has circuit `circuit` no gates?
     pub fn is_empty(&self, circuit: usize) -> bool {
-        self.gates[circuit] == 0
+        self.lengths[circuit] == 0
     }
 
     /// Rows for [`Gates::LANES`] states, all of whose qubits are zero.

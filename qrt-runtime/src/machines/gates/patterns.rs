@@ -43,7 +43,7 @@ macro_rules! apply {
     };
 }
 
-/// Patterns, each as `number: (rows only read) (rows written) { gates }`.
+/// Patterns, each as `number: (rows that end as they were) (the others) { gates }`.
 macro_rules! patterns {
     ($($number:literal: ($($read:ident)*) ($($write:ident)*) { $($gate:ident $($q:ident)+;)+ })+) => {
         /// All patterns, by number.
@@ -70,7 +70,7 @@ macro_rules! patterns {
                         $(let $write = rows[$write as usize].as_array_of_cells();)*
                         for vector in 0..N {
                             let places = ($(&$write[vector],)*);
-                            $(let $read = $read[vector].get();)*
+                            $(#[allow(unused_mut)] let mut $read = $read[vector].get();)*
                             $(let mut $write = $write[vector].get();)*
                             $(apply!(simd, $gate $($q)+);)+
                             store!(places, $($write)*);
@@ -126,6 +126,36 @@ patterns! {
     12: (c) (a b t) { cx c a; cx c b; ccx a b t; cx c t; }
     13: (c) (a b t) { cx c t; ccx a b t; cx c b; cx c a; }
     // A full adder: the same, then a as it was and the sum in b.
-    14: (c) (a b t) { cx c a; cx c b; ccx a b t; cx c t; cx c a; cx a b; }
-    15: (c) (a b t) { cx a b; cx c a; cx c t; ccx a b t; cx c b; cx c a; }
+    14: (a c) (b t) { cx c a; cx c b; ccx a b t; cx c t; cx c a; cx a b; }
+    15: (a c) (b t) { cx a b; cx c a; cx c t; ccx a b t; cx c b; cx c a; }
+    // A full adder out of place: the carry c becomes the sum, and t the carry; of a + b, of a - b
+    // and of b - a.
+    16: (a b) (c t) { cx a c; cx a b; ccx c b t; cx a t; cx a b; cx b c; }
+    17: (a b) (c t) { cx b c; cx a b; cx a t; ccx c b t; cx a b; cx a c; }
+    18: (a b) (c t) {
+        cx a c; cx a b; x b; ccx c b t; x b; cx a t; cx a b; cx b c; x c;
+    }
+    19: (a b) (c t) {
+        x c; cx b c; cx a b; cx a t; x b; ccx c b t; x b; cx a b; cx a c;
+    }
+    20: (a b) (c t) {
+        cx a c; cx a b; x c; x b; ccx c b t; x b; x c; cx a t; x t; cx a b; cx b c; x c;
+    }
+    21: (a b) (c t) {
+        x c; cx b c; cx a b; x t; cx a t; x c; x b; ccx c b t; x b; x c; cx a b; cx a c;
+    }
+    // Majorities out of place, whose operands stay.
+    22: (a b c) (t) { cx a b; cx a c; ccx b c t; cx a c; cx a b; cx a t; }
+    23: (a b c) (t) { cx a t; cx a b; cx a c; ccx b c t; cx a c; cx a b; }
+    // Conjunctions with a negation.
+    24: (a b) (t) { x a; ccx a b t; x a; }
+    25: (a) (t) { cx a t; x t; }
+    26: (a) (t) { x t; cx a t; }
+    // Many into one, as tables are read.
+    27: (a b c d) (t) { cx a t; cx b t; cx c t; cx d t; }
+    28: (a b c d e f g h) (t) {
+        cx a t; cx b t; cx c t; cx d t; cx e t; cx f t; cx g t; cx h t;
+    }
+    // One into many.
+    29: (a) (s t u v) { cx a s; cx a t; cx a u; cx a v; }
 }

@@ -45,7 +45,7 @@ fn circuit(gates: Vec<Gate>, qubits: u32) -> Circuit {
     }
 }
 
-const QUBITS: u32 = 7;
+const QUBITS: u32 = 9;
 
 fn gate() -> impl Strategy<Value = Gate> {
     let distinct = Just((0..QUBITS).collect::<Vec<Qubit>>()).prop_shuffle();
@@ -83,7 +83,7 @@ fn gates() -> impl Strategy<Value = Vec<Gate>> {
     proptest::collection::vec(piece, 0..40).prop_map(|pieces| pieces.concat())
 }
 
-/// All states of the qubits, in 16 pixels.
+/// All states of the qubits, in 4 pixels.
 fn check(gates: &[Gate], set: InstructionSet) {
     let circuit = circuit(gates.to_vec(), QUBITS);
     let machine = Gates::new(&[&circuit]).unwrap().with_instructions(set);
@@ -91,7 +91,7 @@ fn check(gates: &[Gate], set: InstructionSet) {
     let qubits: Vec<Qubit> = (0..QUBITS).collect();
     let states = 1 << QUBITS;
     let contents: Vec<u64> = (0..LANES as u64).map(|lane| lane % states).collect();
-    let words: Vec<[u64; 2]> = (0..16).map(|pixel| [pixel % 8, pixel / 8]).collect();
+    let words: Vec<[u64; 2]> = (0..4).map(|pixel| [3 * pixel % 8, pixel / 2]).collect();
     let spans = words.iter().map(|words| Span {
         lanes: states as usize,
         parameters: words,

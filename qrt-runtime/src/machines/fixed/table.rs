@@ -1,0 +1,91 @@
+//! Tables read in all lanes.
+
+use super::lane::{Lane, Row, Slots};
+
+/// Entries up to which a table of numbers is read by comparing the address with each: about as many
+/// as vectors compare in the time in which the lanes load one entry after the other.
+const FEW: usize = 16;
+
+/// Entries of a table of truths up to which it is kept in words of 32.
+const TRUTHS: usize = 256;
+
+/// A table of numbers, 0 beyond its entries: if few, then filled up to 2, 4, 8 or 16.
+pub(super) fn numbers<K: Lane>(entries: impl Iterator<Item = K>) -> Box<[K]> {
+    let mut table: Vec<K> = entries.collect();
+    if table.len() <= FEW {
+        let full = table.len().next_power_of_two().max(2);
+        table.resize(full, K::default());
+    }
+    table.into()
+}
+
+/// A table of truths as bits of 1, 2, 4 or 8 words, if it is short enough.
+pub(super) fn truths(entries: &[i64]) -> Option<Box<[u32]>> {
+    let words = entries.len().div_ceil(32).next_power_of_two();
+    let mut bits = vec![0; words];
+    for (place, entry) in entries.iter().enumerate() {
+        bits[place / 32] |= ((entry & 1) as u32) << (place % 32);
+    }
+    (entries.len() <= TRUTHS).then(|| bits.into())
+}
+
+/// The entry at each lane's address, 0 beyond.
+#[inline(always)]
+pub(super) fn look_up<K: Lane>(t: &mut Row<K>, address: &Row<i32>, table: &[K]) {
+    match table.len() {
+        2 => few::<K, 2>(t, address, table),
+        4 => few::<K, 4>(t, address, table),
+        8 => few::<K, 8>(t, address, table),
+        FEW => few::<K, FEW>(t, address, table),
+        _ => {
+            for (t, address) in t.0.iter_mut().zip(&address.0) {
+                *t = table.get(*address as usize).copied().unwrap_or_default();
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn few<K: Lane, const N: usize>(t: &mut Row<K>, address: &Row<i32>, table: &[K]) {
+    let Some(table) = table.first_chunk::<N>() else {
+        return;
+    };
+    for (t, address) in t.0.iter_mut().zip(&address.0) {
+        let mut found = K::default();
+        for (place, entry) in table.iter().enumerate() {
+            // A mask: choices in a row would become a jump.
+            let here = K::cut(-i64::from(*address == place as i32));
+            found = found.xor(entry.and(here));
+        }
+        *t = found;
+    }
+}
+
+/// The truth at each lane's address, 0 beyond.
+#[inline(always)]
+pub(super) fn look_up_truth(slots: &Slots, t: &mut Row<u8>, address: u32, table: &[u32]) {
+    let address = &slots.ints[address as usize];
+    match *table {
+        [a] => truth(t, address, [a]),
+        [a, b] => truth(t, address, [a, b]),
+        [a, b, c, d] => truth(t, address, [a, b, c, d]),
+        [a, b, c, d, e, f, g, h] => truth(t, address, [a, b, c, d, e, f, g, h]),
+        _ => {}
+    }
+}
+
+#[inline(always)]
+fn truth<const N: usize>(t: &mut Row<u8>, address: &Row<i32>, table: [u32; N]) {
+    for (t, address) in t.0.iter_mut().zip(&address.0) {
+        let address = address.cast_unsigned();
+        let mut word = 0;
+        for (place, bits) in table.into_iter().enumerate() {
+            word = if address >> 5 == place as u32 {
+                bits
+            } else {
+                word
+            };
+        }
+        *t = (word >> (address & 31) & 1) as u8;
+    }
+}
