@@ -200,6 +200,7 @@ mod tests {
                     role: Role::Work,
                     width,
                     block: BlockId::ROOT,
+                    range: None,
                 })
                 .collect(),
             blocks: vec![Block {
