@@ -45,7 +45,11 @@ pub struct FrameBox {
     pub writes: Vec<usize>,
 }
 
-/// The call as boxes on wires: see [the module](self).
+/// The call as boxes on wires.
+///
+/// The id, the comparator, the colour and the flag have wires of their own; so has what each box
+/// computes and another box reads. All other qubits, with the ancillas that operations borrow, are
+/// the wire `work`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Frame {
     /// From the top; the last is `work`.

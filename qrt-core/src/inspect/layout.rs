@@ -22,7 +22,13 @@ pub struct Lifetime {
     pub instructions: Range<usize>,
 }
 
-/// The lifetimes of a program's registers: see [the module](self).
+/// The lifetimes of a program's registers, laid out contiguously in the order in which they are
+/// computed, each on the lowest qubits that are free side by side.
+///
+/// Under `keep` that places one above the other. Under `scoped` the qubits of finished scopes are
+/// used again, so that registers of different times can have one offset; and as registers stay
+/// whole here, the layout can be a little higher than the qubits in use, which single qubits'
+/// placement reaches.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Layout {
     /// In the order in which they begin.
