@@ -18,6 +18,10 @@
 //! One program serves all pixels of a film: what differs between them are classical words
 //! ([`crate::circuit::Parameter`]), loaded by Xs.
 
+mod budget;
+
+pub use budget::{Spent, check_budget};
+
 use crate::circuit::builder::{BuildError, Builder, Passes, Real, Target};
 use crate::circuit::{
     self, Bit, BlockId, Instruction, Op, Operand, Program, RegisterId, Role, Style, Type, Word,

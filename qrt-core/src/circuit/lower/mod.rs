@@ -29,6 +29,7 @@ mod multiply;
 mod place;
 mod root;
 mod scale;
+mod size;
 mod square;
 mod table;
 #[cfg(test)]
@@ -37,7 +38,8 @@ mod walk;
 mod wire;
 
 pub use cost::{Cost, cost, tally};
-pub use place::{circuit, depth, parts, scratch_width};
+pub use place::{circuit, parts, scratch_width};
+pub use size::{Size, depth, size};
 pub use table::best_low;
 
 use super::{Bit, Gate, Gates, Op, Operand, Qubit, RegisterId, Style, When, Word};
