@@ -75,6 +75,7 @@ impl Maker {
             role: Role::Work,
             width,
             block: BlockId::ROOT,
+            range: None,
         });
         id
     }
