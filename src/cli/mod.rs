@@ -6,12 +6,14 @@
 mod completions;
 mod count;
 mod failure;
+mod interrupt;
 mod new;
 mod progress;
 mod render;
 mod schema;
 mod stats;
 mod terminal;
+mod verify;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
@@ -42,6 +44,7 @@ pub(crate) struct Cli {
 enum Command {
     Render(render::RenderArgs),
     Count(count::CountArgs),
+    Verify(verify::VerifyArgs),
     New(new::NewArgs),
     Schema(schema::SchemaArgs),
     Completions(completions::CompletionsArgs),
@@ -51,6 +54,7 @@ pub(crate) fn main() -> ExitCode {
     let done = match Cli::parse().command {
         Command::Render(args) => render::run(&args),
         Command::Count(args) => count::run(&args),
+        Command::Verify(args) => verify::run(&args),
         Command::New(args) => new::run(&args),
         Command::Schema(_) => schema::run(),
         Command::Completions(args) => completions::run(args),

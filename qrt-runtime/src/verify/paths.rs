@@ -1,44 +1,68 @@
-struct Trio<'a> {
-    oracle: &'a Oracle,
-    real: &'a Real,
-    fixed: &'a OracleMachine,
-    gates: &'a OracleMachine,
-    at: ComparatorAt,
+//! A run of paths on all three machines.
+
+use super::{Mismatch, SHOWN};
+use crate::machines::{Defect, OracleMachine, Real};
+use qrt_core::oracle::Oracle;
+use qrt_core::scene::ComparatorAt;
+use std::ops::Range;
+
+/// Sums over paths of a pixel.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Found {
+    pub(super) real: [f64; 3],
+    pub(super) fixed: [f64; 3],
+    pub(super) parted: u64,
+    pub(super) mismatched: u64,
+    pub(super) mismatches: Vec<Mismatch>,
+}
+
+impl Found {
+    /// Takes in the next run.
+    pub(super) fn add(&mut self, next: Self) {
+        for c in 0..3 {
+            self.real[c] += next.real[c];
+            self.fixed[c] += next.fixed[c];
+        }
+        self.parted += next.parted;
+        self.mismatched += next.mismatched;
+        let room = SHOWN - self.mismatches.len().min(SHOWN);
+        self.mismatches
+            .extend(next.mismatches.into_iter().take(room));
+    }
+}
+
+/// The three machines.
+pub(super) struct Trio<'a> {
+    pub(super) oracle: &'a Oracle,
+    pub(super) real: &'a Real,
+    pub(super) fixed: &'a OracleMachine,
+    pub(super) gates: &'a OracleMachine,
+    pub(super) at: ComparatorAt,
 }
 
 impl Trio<'_> {
-    fn pixel(&self, pixel: [u32; 2]) -> Result<Found, Defect> {
-        let paths = self.fixed.paths();
-        let mut found = Found::default();
-        let mut first = 0;
-        while first < paths {
-            let ids = first..(first + RUN).min(paths);
-            let mut real: [Vec<f64>; 3] = Default::default();
-            self.real.trace_range(&[pixel], ids.clone(), |block| {
-                for (all, colours) in real.iter_mut().zip(block.colours) {
-                    all.extend_from_slice(colours);
-                }
-            });
-            let fixed = columns(self.fixed, pixel, ids.clone())?;
-            let gates = columns(self.gates, pixel, ids.clone())?;
-            self.compare(pixel, ids.start, [&real[0], &real[1], &real[2]], &fixed, &gates, &mut found);
-            first = ids.end;
-        }
-        for sum in found.real.iter_mut().chain(&mut found.fixed) {
-            *sum /= paths as f64;
-        }
-        Ok(found)
+    /// Compares paths of a pixel.
+    pub(super) fn run(&self, pixel: [u32; 2], ids: Range<u64>) -> Result<Found, Defect> {
+        let mut real: [Vec<f64>; 3] = Default::default();
+        self.real.trace_range(&[pixel], ids.clone(), |block| {
+            for (all, colours) in real.iter_mut().zip(block.colours) {
+                all.extend_from_slice(colours);
+            }
+        });
+        let fixed = columns(self.fixed, pixel, ids.clone())?;
+        let gates = columns(self.gates, pixel, ids.clone())?;
+        Ok(self.compare(pixel, ids.start, &real, &fixed, &gates))
     }
 
     fn compare(
         &self,
         pixel: [u32; 2],
         first: u64,
-        real: [&Vec<f64>; 3],
+        real: &[Vec<f64>; 3],
         fixed: &Columns,
         gates: &Columns,
-        found: &mut Found,
-    ) {
+    ) -> Found {
+        let mut found = Found::default();
         let ulp = 1.0 / (1_u64 << self.oracle.fraction) as f64;
         for c in 0..3 {
             let scale = self.oracle.channels[c].scale;
@@ -65,6 +89,7 @@ impl Trio<'_> {
                 }
             }
         }
+        found
     }
 
     /// `#{y < 2^c : x > (y + s) / 2^c}` for the colour `x 2^-fraction`, s being 1/2 or 0: in exact
@@ -95,11 +120,7 @@ struct Columns {
     colours: [Vec<i64>; 3],
 }
 
-fn columns(
-    machine: &OracleMachine,
-    pixel: [u32; 2],
-    ids: std::ops::Range<u64>,
-) -> Result<Columns, Defect> {
+fn columns(machine: &OracleMachine, pixel: [u32; 2], ids: Range<u64>) -> Result<Columns, Defect> {
     let mut columns = Columns::default();
     machine.trace(&[pixel], ids, |finished| {
         for c in 0..3 {
