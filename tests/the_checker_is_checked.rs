@@ -323,7 +323,7 @@ fn a_wrong_table_entry_is_caught_if_it_changes_a_path() {
         }
     }
     println!("of 40 wrong entries {caught} change a path, and are caught; {harmless} do not");
-    assert!(caught > 10, "{caught}");
+    assert!(caught > 3, "{caught}");
 }
 
 /// All colours and comparators are tried, so that nothing is left to chance.
@@ -425,7 +425,7 @@ fn mutated(gate: Gate, kind: usize, other: Qubit) -> Option<Gate> {
 /// The hardest to find: compute is wrong in one gate, and uncompute undoes exactly that.
 #[test]
 fn one_wrong_gate_that_is_undone_is_caught_if_it_changes_a_path() {
-    const MUTATIONS: usize = 240;
+    const MUTATIONS: usize = 120;
     for (key, sets) in [&[][..], &["circuit.uncompute=scoped"]]
         .into_iter()
         .enumerate()

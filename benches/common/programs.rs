@@ -226,6 +226,7 @@ impl Maker {
                 let column: Box<[i64]> = entries.collect();
                 let columns = vec![column];
                 Op::Table {
+                    style: Style::Wide,
                     address: bits.collect(),
                     columns: columns.into(),
                     low: 0,

@@ -8,6 +8,7 @@ use super::place::alone;
 use super::scale::{Rows, operands, top};
 use super::square;
 use super::table::Plan;
+use super::walk;
 use super::{Lowering, Qubit, Wire, extended, invert};
 use std::collections::HashMap;
 use std::iter::Sum;
@@ -338,11 +339,15 @@ impl Lowering {
                 address,
                 columns,
                 low,
+                style,
                 targets,
                 ..
             } => {
                 let width = |column: usize| self.width(targets[column]);
-                kept(Plan::new(address.len(), columns, *low, width).toffoli())
+                match style {
+                    Style::Wide => kept(Plan::new(address.len(), columns, *low, width).toffoli()),
+                    Style::Lean => returned(walk::ands(address.len(), columns, width)),
+                }
             }
             Op::XorInto { a, when, target } => {
                 let Some(when) = when.map(|bit| self.bit(bit)) else {

@@ -201,6 +201,7 @@ fn tables_are_read_by_few_toffolis() {
                 inverted: false,
             });
             let op = Op::Table {
+                style: Style::Wide,
                 address: address.collect(),
                 columns: columns.clone(),
                 low,
