@@ -10,12 +10,14 @@ use circuits::{Paths, film, from_file, oracle, paths};
 use qrt::core::circuit::Gate;
 use qrt::runtime::machines::OracleMachine;
 
-/// A film of 8 x 8 pixels with 2^4 paths each.
-const SMALL: [&str; 4] = [
+/// A film of 8 x 8 pixels with 2^4 paths each, and numbers short enough for a circuit that is soon
+/// built.
+const SMALL: [&str; 5] = [
     "film.width=8",
     "film.height=8",
     "sampling.path_bits=4",
-    "comparator.bits=8",
+    "precision.fraction=8",
+    "comparator.bits=6",
 ];
 
 fn agrees(file: &str, sets: &[&str]) {
@@ -42,13 +44,25 @@ fn agrees(file: &str, sets: &[&str]) {
     // Black pictures agree easily.
     let paths = known.unwrap();
     assert_eq!(paths.good[0].len(), 64 << 4);
-    let lit = paths.good[0].iter().filter(|good| **good > 0).count();
+    let lit = paths.colours[0].iter().filter(|colour| **colour > 0);
+    let lit = lit.count();
     assert!(lit > 10, "{file}: of {} paths, {lit} are lit", 64 << 4);
 }
 
 #[test]
 fn of_the_cornell_box() {
     agrees("scenes-yaml/cornell-box.yaml", &[]);
+}
+
+/// As it is written: with numbers of 14 fraction bits, and 2^12 comparators.
+#[test]
+fn of_a_scene_as_it_is_written() {
+    let sets = ["film.width=4", "film.height=4", "sampling.path_bits=6"];
+    let oracle = oracle(&from_file("scenes-yaml/floor-and-light.yaml", &sets));
+    let pixels = film(&oracle);
+    let fixed = paths(&OracleMachine::fixed(oracle.clone(), 1, true), &pixels).unwrap();
+    let gates = OracleMachine::gates(oracle, 1, true).unwrap();
+    assert!(paths(&gates, &pixels).unwrap() == fixed);
 }
 
 #[test]
