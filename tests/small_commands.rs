@@ -57,7 +57,7 @@ fn completions_name_every_command() {
     let folder = Folder::new();
     for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
         let script = folder.works(&["completions", shell]);
-        for command in ["render", "count", "new", "schema", "completions"] {
+        for command in ["render", "inspect", "count", "new", "schema", "completions"] {
             assert!(script.contains(command), "{shell}: {command}");
         }
     }
@@ -70,7 +70,7 @@ fn help_and_version_are_there() {
     let version = folder.works(&["--version"]);
     assert_eq!(version, format!("qrt {}\n", env!("CARGO_PKG_VERSION")));
     assert!(folder.fails(2, &[]).contains("Usage: qrt <COMMAND>"));
-    for command in ["render", "count", "new", "schema", "completions"] {
+    for command in ["render", "inspect", "count", "new", "schema", "completions"] {
         let help = folder.works(&[command, "--help"]);
         assert!(help.contains("Examples:"), "{command}");
         assert!(

@@ -88,6 +88,7 @@ impl Maker {
             role: Role::Work,
             width,
             block: BlockId::ROOT,
+            range: None,
         });
         id
     }
@@ -225,6 +226,7 @@ impl Maker {
                 let column: Box<[i64]> = entries.collect();
                 let columns = vec![column];
                 Op::Table {
+                    style: Style::Wide,
                     address: bits.collect(),
                     columns: columns.into(),
                     low: 0,

@@ -2,8 +2,8 @@
 //!
 //! Codes are stable: a number, once given, keeps its meaning. `QRT01..` is about the text and its
 //! structure, `QRT02..` about values and names, `QRT03..` about geometry and meshes, `QRT04..`
-//! about expressions and BSDFs, `QRT05..` about sampling and limits, `QRT09..` about the use of
-//! the command line.
+//! about expressions and BSDFs, `QRT05..` about sampling and limits, `QRT06..` about the circuit,
+//! `QRT09..` about the use of the command line.
 
 /// A row of the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -197,6 +197,14 @@ codes! {
         "Remove it: the primary ray samples the pixel square";
     ACCURACY_CONFLICT = "QRT0506", "an accuracy beside a knob that it replaces",
         "Keep one of the two";
+    BUDGET_QUBITS = "QRT0601", "a circuit with more qubits than the budget allows",
+        "Uncompute earlier, or use fewer path bits, depths or fraction bits; or raise the limit";
+    BUDGET_TOFFOLI = "QRT0602", "a circuit with more Toffoli gates than the budget allows",
+        "Use fewer depths, primitives or fraction bits; or raise the limit";
+    QUOTIENT_UNBOUNDED = "QRT0610", "a quotient that no register can hold",
+        "Keep the divisor away from 0";
+    NUMBER_TOO_WIDE = "QRT0611", "a number that no register can hold",
+        "Use fewer fraction bits, or a smaller scene";
     SET_SYNTAX = "QRT0901", "an override that is not key=value",
         "Write `--set sampling.path_bits=14` or `--set 'film={ width: 8, height: 8 }'`";
     SET_PLACE = "QRT0902", "an override of something that is not there",

@@ -4,6 +4,7 @@ pub mod codes;
 pub mod diagnostics;
 pub mod expr;
 pub mod front;
+pub mod inspect;
 pub mod oracle;
 pub mod report;
 pub mod sampling;

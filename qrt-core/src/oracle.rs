@@ -18,6 +18,10 @@
 //! One program serves all pixels of a film: what differs between them are classical words
 //! ([`crate::circuit::Parameter`]), loaded by Xs.
 
+mod budget;
+
+pub use budget::{Spent, check_budget};
+
 use crate::circuit::builder::{BuildError, Builder, Passes, Real, Target};
 use crate::circuit::{
     self, Bit, BlockId, Instruction, Op, Operand, Program, RegisterId, Role, Style, Type, Word,
@@ -29,7 +33,7 @@ use crate::valid::ValidScene;
 use std::fmt;
 
 /// Fraction bits under `precision: { fraction: auto }`.
-pub const DEFAULT_FRACTION: u32 = 14;
+pub const DEFAULT_FRACTION: u32 = 16;
 
 /// How a scene is compiled, where not as it says itself.
 #[derive(Clone, Copy, Debug)]

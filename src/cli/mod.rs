@@ -6,6 +6,8 @@
 mod completions;
 mod count;
 mod failure;
+mod files;
+mod inspect;
 mod new;
 mod progress;
 mod render;
@@ -30,6 +32,7 @@ Examples:
   qrt new box               write a first scene, box.yaml
   qrt render box.yaml       render it to box.png
   qrt render --help         all about rendering
+  qrt inspect box.yaml      what its circuit costs, and where
 
 Exit codes: 0; 1 the job failed or was interrupted; 2 the command line or the scene is at fault."
 )]
@@ -41,6 +44,7 @@ pub(crate) struct Cli {
 #[derive(Debug, Subcommand)]
 enum Command {
     Render(render::RenderArgs),
+    Inspect(inspect::InspectArgs),
     Count(count::CountArgs),
     New(new::NewArgs),
     Schema(schema::SchemaArgs),
@@ -50,6 +54,7 @@ enum Command {
 pub(crate) fn main() -> ExitCode {
     let done = match Cli::parse().command {
         Command::Render(args) => render::run(&args),
+        Command::Inspect(args) => inspect::run(&args),
         Command::Count(args) => count::run(&args),
         Command::New(args) => new::run(&args),
         Command::Schema(_) => schema::run(),

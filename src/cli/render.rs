@@ -1,6 +1,7 @@
 //! `qrt render`: a scene becomes a picture.
 
 use super::failure::Failure;
+use super::files::{can_be_written, is_device, keep_apart};
 use super::progress::Bar;
 use super::{stats, terminal};
 use clap::builder::PossibleValuesParser;
@@ -204,44 +205,6 @@ fn checkpoint(output: &Path) -> Option<PathBuf> {
     let mut name = output.as_os_str().to_owned();
     name.push(".qrt-partial");
     Some(name.into())
-}
-
-/// Finds out before the work what can be known of it: that there is a folder to write to, and no
-/// folder in the file's place.
-fn can_be_written(file: &Path) -> Result<(), Failure> {
-    if file.is_dir() {
-        let message = format!("`{}` is a folder", file.display());
-        return Err(Failure::Usage(message));
-    }
-    match file.parent() {
-        Some(folder) if folder != Path::new("") && !folder.is_dir() => Err(Failure::Job(format!(
-            "`{}`: there is no folder `{}`",
-            file.display(),
-            folder.display()
-        ))),
-        _ => Ok(()),
-    }
-}
-
-/// A device or a pipe: what is there and is no file.
-fn is_device(path: &Path) -> bool {
-    fs::metadata(path).is_ok_and(|found| !found.is_file())
-}
-
-/// Refuses to write one file over another, or over the scene. Devices take what is written to them
-/// one after another.
-fn keep_apart<'a>(files: impl Iterator<Item = &'a Path>) -> Result<(), Failure> {
-    let mut known: Vec<PathBuf> = Vec::new();
-    for file in files {
-        // A file that isn't there yet is told by its name.
-        let real = fs::canonicalize(file).unwrap_or_else(|_| file.to_path_buf());
-        if !is_device(&real) && known.contains(&real) {
-            let message = format!("`{}` is used for two different things", file.display());
-            return Err(Failure::Usage(message));
-        }
-        known.push(real);
-    }
-    Ok(())
 }
 
 /// A flag that the first Ctrl-C sets. The second ends the process at once; the finished tiles are

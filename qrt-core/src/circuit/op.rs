@@ -180,9 +180,11 @@ pub enum Op {
         address: Box<[Bit]>,
         /// Entries by column.
         columns: Arc<[Box<[i64]>]>,
-        /// Of the address bits, how many of the lowest select among words read together: what a
-        /// plain unary iteration does has 0.
+        /// Of the address bits, how many of the lowest select among words read together, under
+        /// [`Style::Wide`].
         low: u32,
+        /// How it is lowered.
+        style: Style,
         /// t_k
         targets: Box<[RegisterId]>,
         /// What is left behind.

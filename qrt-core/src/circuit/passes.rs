@@ -74,13 +74,17 @@ pub(super) fn needed(draft: &mut Draft, roots: &[RegisterId]) {
 /// Makes one table of all that have the same address and can run where the first one does.
 pub(super) fn merge_tables(draft: &mut Draft) {
     let mut defined: HashMap<RegisterId, usize> = HashMap::new();
-    let mut groups: HashMap<Vec<super::Bit>, Vec<usize>> = HashMap::new();
-    for (place, (op, _)) in draft.ops.iter().enumerate() {
+    let mut groups: HashMap<(Vec<super::Bit>, Option<BlockId>), Vec<usize>> = HashMap::new();
+    for (place, (op, block)) in draft.ops.iter().enumerate() {
         for target in op.targets() {
             defined.insert(target, place);
         }
-        if let Op::Table { address, .. } = op {
-            groups.entry(address.to_vec()).or_default().push(place);
+        if let Op::Table { address, style, .. } = op {
+            // Without scratch a table is there for its block alone: what another one needs of it
+            // would have to be kept in between.
+            let block = (*style == super::Style::Lean).then_some(*block);
+            let key = (address.to_vec(), block);
+            groups.entry(key).or_default().push(place);
         }
     }
     // By the place before which it is inserted.
@@ -88,7 +92,7 @@ pub(super) fn merge_tables(draft: &mut Draft) {
     let mut gone: HashSet<usize> = HashSet::new();
     let mut groups: Vec<_> = groups.into_iter().collect();
     groups.sort_by_key(|(_, places)| places[0]);
-    for (address, places) in groups {
+    for ((address, _), places) in groups {
         // The block around all of them, as far as the address is known before the part of it in
         // which the first one stands.
         let first = places[0];
@@ -115,14 +119,17 @@ pub(super) fn merge_tables(draft: &mut Draft) {
         let mut columns = Vec::new();
         let mut targets = Vec::new();
         let mut leavings = None;
+        let mut how = super::Style::Wide;
         for &place in &places {
             if let Op::Table {
                 columns: c,
                 targets: t,
                 scratch,
+                style,
                 ..
             } = &draft.ops[place].0
             {
+                how = *style;
                 columns.extend(c.iter().cloned());
                 targets.extend(t.iter().copied());
                 leavings.get_or_insert(*scratch);
@@ -134,7 +141,11 @@ pub(super) fn merge_tables(draft: &mut Draft) {
             draft.registers[register.index()].block = block;
         }
         let op = Op::Table {
-            low: lower::best_low(address.len() as u32, &columns),
+            low: match how {
+                super::Style::Wide => lower::best_low(address.len() as u32, &columns),
+                super::Style::Lean => 0,
+            },
+            style: how,
             address: address.into(),
             columns: Arc::from(columns),
             targets: targets.into(),

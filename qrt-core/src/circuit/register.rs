@@ -103,6 +103,9 @@ pub struct Register {
     pub width: u32,
     /// The block whose operation computes it.
     pub block: BlockId,
+    /// The least and the greatest number that it holds, in units of its lowest bit, where the
+    /// builder has proven that.
+    pub range: Option<[i64; 2]>,
 }
 
 /// A block of a [`super::Program`].

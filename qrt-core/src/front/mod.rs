@@ -26,6 +26,18 @@ pub struct Loaded {
     pub valid: ValidScene,
     /// Its text as written.
     pub source: Source,
+    /// Texts of overrides.
+    overrides: Vec<Source>,
+    tree: Node,
+}
+
+impl Loaded {
+    /// A report of problems that were found in the scene after it was loaded, each at its place.
+    pub fn report(&self, problems: Vec<Problem>) -> Report {
+        let mut sources = vec![self.source.clone()];
+        sources.extend(self.overrides.iter().cloned());
+        Report::of_tree(sources, &self.tree, Vec::new(), problems)
+    }
 }
 
 /// The scene of the file at `path`, with overrides such as `film.width=8`, meshes and all.
@@ -84,7 +96,9 @@ fn from_source(
     match of_tree(&tree, folder) {
         Ok(valid) if problems.is_empty() => Ok(Loaded {
             valid,
-            source: sources.swap_remove(0),
+            source: sources.remove(0),
+            overrides: sources,
+            tree,
         }),
         Ok(_) => Err(Report::of_placed(sources, problems)),
         Err(found) => Err(Report::of_tree(sources, &tree, problems, found)),

@@ -41,6 +41,12 @@ pub enum Part {
     Primitive(usize),
     /// What the vertex at the end of the ray of this depth emits towards the camera.
     Shade(usize),
+    /// On which side the ray of this depth meets the surface.
+    Side(usize),
+    /// The sampled direction in the local frame, within a ray.
+    Sample,
+    /// One component of a vector, within a ray.
+    Component(usize),
 }
 
 /// The arithmetic of a machine.

@@ -1,6 +1,6 @@
 //! The frame itself: the paper's `Path Tracing` box.
 
-use super::intersect::{Nearest, Ray, point_at};
+use super::intersect::{Nearest, Ray};
 use super::scatter::{Vertex, members};
 use super::vector::{self, Vector};
 use super::{Arith, Part, Stage};
@@ -54,8 +54,10 @@ pub fn trace<A: Arith, N: Nearest<A>, const C: usize>(
             break;
         }
         vertex.normal = cx.rows(&stage.normals, hit.face);
+        cx.enter(Part::Side(depth));
         vertex.slope = vector::dot(cx, &ray.direction, &vertex.normal);
         vertex.front = cx.less(vertex.slope, zero);
+        cx.leave();
         if let Some(emits) = emits {
             cx.enter(Part::Shade(depth));
             let shows = cx.and(emits, vertex.front);
@@ -86,10 +88,15 @@ pub fn trace<A: Arith, N: Nearest<A>, const C: usize>(
         vertex.tangent = [tx, ty, tz];
         vertex.bitangent = [bx, by, bz];
         let scattered = scatter.scatter(cx, &vertex);
-        let point = point_at(cx, &ray, hit.distance);
+        let centre = [gx, gy, gz];
+        let origin = [
+            start_along(cx, &ray, hit.distance, &centre, 0),
+            start_along(cx, &ray, hit.distance, &centre, 1),
+            start_along(cx, &ray, hit.distance, &centre, 2),
+        ];
         let from = cx.entry(&stage.geometry.plane_of, hit.face);
         ray = Ray {
-            origin: inward(cx, &point, &[gx, gy, gz]),
+            origin,
             direction: scattered.direction,
             from,
             reach: stage.reach,
@@ -103,12 +110,24 @@ pub fn trace<A: Arith, N: Nearest<A>, const C: usize>(
     colour
 }
 
-/// `point`, drawn a little towards the `centre` of its face.
+/// Where the next ray starts, along one axis: the point of `ray` at `distance`, drawn a little
+/// towards the `centre` of its face.
 #[inline(always)]
-fn inward<A: Arith>(cx: &mut A, point: &Vector<A>, centre: &Vector<A>) -> Vector<A> {
-    let way = vector::sub(cx, centre, point);
+fn start_along<A: Arith>(
+    cx: &mut A,
+    ray: &Ray<A>,
+    distance: A::Real,
+    centre: &Vector<A>,
+    axis: usize,
+) -> A::Real {
+    cx.enter(Part::Component(axis));
+    let way = cx.mul(ray.direction[axis], distance);
+    let point = cx.add(ray.origin[axis], way);
+    let rest = cx.sub(centre[axis], point);
     let share = cx.inward();
     let share = cx.real(share);
-    let step = vector::scale(cx, &way, share);
-    vector::add(cx, point, &step)
+    let step = cx.mul(rest, share);
+    let start = cx.add(point, step);
+    cx.leave();
+    start
 }

@@ -7,7 +7,7 @@ use super::microfacet;
 use super::phong::PhongStage;
 use super::sampled::{Angles, Compiled};
 use super::vector::{self, Vector};
-use super::{Arith, Axis, Coordinate, Sampled};
+use super::{Arith, Axis, Coordinate, Part, Sampled};
 use crate::expr::{Expr, Variable};
 use crate::sampling::maps;
 use crate::scene::{Map, Rgb};
@@ -242,7 +242,14 @@ impl<const C: usize> ScatterStage<C> {
         let mut chosen: Option<Scattered<A, C>> = None;
         let tint = cx.rows(&self.tint, at.surface);
         let mapped = if self.uses_map {
+            // Asked for here, so that they belong to the ray and not to this part of it alone.
+            for axis in [Axis::U, Axis::V] {
+                let depth = self.depth;
+                let _ = cx.coordinate(Coordinate { depth, axis });
+            }
+            cx.enter(Part::Sample);
             let [x, y, z, factor] = self.map.evaluate(cx, self.depth, None);
+            cx.leave();
             Some(([x, y, z], factor))
         } else {
             None
@@ -560,12 +567,26 @@ fn nothing<A: Arith, const C: usize>(cx: &mut A, at: &Vertex<A>) -> Scattered<A,
 fn to_scene<A: Arith>(cx: &mut A, at: &Vertex<A>, local: &Vector<A>) -> Vector<A> {
     let under = cx.neg(local[2]);
     let height = cx.select(at.front, local[2], under);
-    let x = vector::scale(cx, &at.tangent, local[0]);
-    let y = vector::scale(cx, &at.bitangent, local[1]);
-    let z = vector::scale(cx, &at.normal, height);
-    let flat = vector::add(cx, &x, &y);
-    let direction = vector::add(cx, &flat, &z);
-    unit(cx, &direction)
+    let local = [local[0], local[1], height];
+    [
+        along(cx, at, &local, 0),
+        along(cx, at, &local, 1),
+        along(cx, at, &local, 2),
+    ]
+}
+
+/// One component of `x T + y B + h N`.
+#[inline(always)]
+fn along<A: Arith>(cx: &mut A, at: &Vertex<A>, local: &Vector<A>, axis: usize) -> A::Real {
+    cx.enter(Part::Component(axis));
+    let x = cx.mul(at.tangent[axis], local[0]);
+    let y = cx.mul(at.bitangent[axis], local[1]);
+    let z = cx.mul(at.normal[axis], local[2]);
+    let flat = cx.add(x, y);
+    let sum = cx.add(flat, z);
+    let sum = cx.known(sum, -1.0, 1.0);
+    cx.leave();
+    sum
 }
 
 /// A direction of unit length, up to rounding.

@@ -210,11 +210,17 @@ impl Arith for Builder<'_> {
     fn enter(&mut self, part: Part) {
         let depth = |depth: usize| Some(depth as u32);
         match part {
-            Part::GenerateRay(k) => self.begin("generate_ray".to_owned(), depth(k), false),
+            Part::GenerateRay(k) => self.begin("generate_ray".to_owned(), depth(k), true),
             Part::FindIntersection(k) => self.begin("find_intersection".to_owned(), depth(k), true),
             Part::Plane(number) => self.begin(format!("plane {number}"), None, true),
             Part::Primitive(number) => self.begin(format!("primitive {number}"), None, true),
-            Part::Shade(k) => self.begin("shade".to_owned(), depth(k), false),
+            Part::Side(k) => self.begin("side".to_owned(), depth(k), true),
+            Part::Sample => self.begin("sample".to_owned(), None, true),
+            Part::Component(axis) => {
+                let name = ["x", "y", "z"].get(axis).copied().unwrap_or("component");
+                self.begin(name.to_owned(), None, true);
+            }
+            Part::Shade(k) => self.begin("shade".to_owned(), depth(k), true),
         }
     }
     fn leave(&mut self) {

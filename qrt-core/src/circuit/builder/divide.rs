@@ -176,7 +176,12 @@ impl Builder<'_> {
         let (Some((a, ar)), Some((b, br))) = (self.unsigned(a), self.unsigned(b)) else {
             return (Bool::Constant(false), Real::constant(0.0));
         };
-        let range = Self::quotient_range(ar, br, self.fraction());
+        // What lies behind is read without its sign, and may look larger than anything ahead.
+        let range = if behind == Bool::Constant(false) {
+            Self::quotient_range(ar, br, self.fraction())
+        } else {
+            [0, i64::MAX]
+        };
         let quotient = self.quotient(a, b, most, range);
         let ahead = self.both(behind.negated(), quotient.fits);
         (ahead, self.rounded_down(quotient.value))

@@ -287,6 +287,7 @@ impl<'a> Builder<'a> {
             role,
             width,
             block,
+            range: None,
         });
         id
     }

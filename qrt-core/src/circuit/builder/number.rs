@@ -69,6 +69,11 @@ impl Builder<'_> {
 
     /// The value of a new register of `range`.
     pub(super) fn computed(&mut self, word: Word, range: [i64; 2]) -> Real {
+        let register = &mut self.registers[word.register.index()];
+        if word.width == register.width && word.shift == 0 {
+            // The first to read all of it is who computed it.
+            register.range.get_or_insert(range);
+        }
         self.value(Value {
             range,
             word: Some(word),

@@ -199,8 +199,10 @@ impl Builder<'_> {
     ) -> RegisterId {
         let columns: Arc<[Box<[i64]>]> = Arc::new([entries]);
         let address: Box<[Bit]> = address.into();
+        let style = self.target.style;
         self.emit(&[(ty, width)], |t, scratch| Op::Table {
             low: 0,
+            style,
             address,
             columns,
             targets: t.into(),

@@ -8,6 +8,7 @@ use super::place::alone;
 use super::scale::{Rows, operands, top};
 use super::square;
 use super::table::Plan;
+use super::walk;
 use super::{Lowering, Qubit, Wire, extended, invert};
 use std::collections::HashMap;
 use std::iter::Sum;
@@ -157,7 +158,7 @@ fn comparison(a: &[Wire], b: &[Wire], keep: bool) -> Ands {
     ladder + kept(u64::from(last))
 }
 
-/// A negation of a number of `bits` bits less one: the carry starts as the lowest bit.
+/// A sum of `bits` bits of which the first carry follows from the wires, as a negation's does.
 fn negation(bits: usize) -> u64 {
     bits.saturating_sub(2) as u64
 }
@@ -338,11 +339,15 @@ impl Lowering {
                 address,
                 columns,
                 low,
+                style,
                 targets,
                 ..
             } => {
                 let width = |column: usize| self.width(targets[column]);
-                kept(Plan::new(address.len(), columns, *low, width).toffoli())
+                match style {
+                    Style::Wide => kept(Plan::new(address.len(), columns, *low, width).toffoli()),
+                    Style::Lean => returned(walk::ands(address.len(), columns, width)),
+                }
             }
             Op::XorInto { a, when, target } => {
                 let Some(when) = when.map(|bit| self.bit(bit)) else {
@@ -479,18 +484,14 @@ fn negate_ands(a: &[Wire], when: Wire) -> u64 {
 fn square_ands(a: Word, needed: usize, style: Style) -> Ands {
     let own = a.width as usize;
     let digits = own + usize::from(!a.signed);
-    if own == 1 || needed < 3 {
+    if own == 1 || needed == 0 {
         return Ands::default();
     }
-    let first = kept((own - 1).min(needed - 2) as u64);
-    let bits = digits.min(needed - 2);
-    let rows = (1..digits - 1).map(|place| {
-        let left = needed.saturating_sub(2 * place + 1);
-        (digits - place + 1).min(left).saturating_sub(1) as u64
-    });
+    // The carry into a row's second bit is the sum's.
+    let rows = (1..digits.min(needed + 1)).map(|place| negation(square::row_bits(place, needed)));
     let rows: u64 = rows.sum();
     match style {
-        Style::Wide => first + kept(negation(bits).min(own as u64 - 2) + rows),
-        Style::Lean => first + returned(negation(bits) + rows),
+        Style::Wide => kept(rows + negation(needed)),
+        Style::Lean => returned(rows + needed as u64 - 1),
     }
 }

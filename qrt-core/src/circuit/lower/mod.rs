@@ -29,17 +29,20 @@ mod multiply;
 mod place;
 mod root;
 mod scale;
+mod size;
 mod square;
 mod table;
 #[cfg(test)]
 mod tests;
+mod walk;
 mod wire;
 
 pub use cost::{Cost, cost, tally};
-pub use place::{circuit, depth, parts, scratch_width};
+pub use place::{circuit, parts, scratch_width};
+pub use size::{Size, depth, size};
 pub use table::best_low;
 
-use super::{Bit, Gate, Gates, Op, Operand, Qubit, RegisterId, When, Word};
+use super::{Bit, Gate, Gates, Op, Operand, Qubit, RegisterId, Style, When, Word};
 use place::Pool;
 use wire::Wire;
 
@@ -252,12 +255,16 @@ impl Lowering {
                 address,
                 columns,
                 low,
+                style,
                 targets,
                 ..
             } => {
                 let targets: Vec<_> = targets.iter().map(|id| self.register(*id)).collect();
                 let address: Vec<_> = address.iter().map(|bit| self.bit(*bit)).collect();
-                self.table(address, columns, *low, &targets);
+                match style {
+                    Style::Wide => self.table(address, columns, *low, &targets),
+                    Style::Lean => self.walk(address, columns, &targets),
+                }
             }
             Op::XorInto { a, when, target } => {
                 let target = self.register(*target);

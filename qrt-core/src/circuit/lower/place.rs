@@ -34,6 +34,18 @@ impl Pool {
 }
 
 impl Lowering {
+    /// With the program's inputs placed.
+    fn on(program: &Program) -> Self {
+        let mut lowering = Self {
+            registers: vec![Vec::new(); program.registers.len()],
+            ..Self::default()
+        };
+        for input in &program.inputs {
+            lowering.place(*input, program.width(*input));
+        }
+        lowering
+    }
+
     /// Gives a register qubits.
     pub(super) fn place(&mut self, register: RegisterId, width: u32) {
         if self.registers[register.index()].is_empty() {
@@ -118,13 +130,7 @@ pub fn circuit(program: &Program) -> Circuit {
 /// Lowers a program, cut before the instructions `cuts`, which ascend: parts that share their
 /// qubits.
 pub fn parts(program: &Program, cuts: &[usize]) -> Vec<Circuit> {
-    let mut lowering = Lowering {
-        registers: vec![Vec::new(); program.registers.len()],
-        ..Lowering::default()
-    };
-    for input in &program.inputs {
-        lowering.place(*input, program.width(*input));
-    }
+    let mut lowering = Lowering::on(program);
     let ends = cuts.iter().copied().chain([program.instructions.len()]);
     let mut parts = Vec::with_capacity(cuts.len() + 1);
     let mut begin = 0;
@@ -152,25 +158,15 @@ pub fn parts(program: &Program, cuts: &[usize]) -> Vec<Circuit> {
     parts
 }
 
-/// Toffoli depth: each gate as early as its qubits allow, and only Toffolis take time.
-pub fn depth(circuit: &Circuit) -> u64 {
-    let mut times = vec![0_u64; circuit.qubits as usize];
-    for gate in &circuit.gates {
-        match *gate {
-            Gate::X(_) | Gate::Load { .. } | Gate::Z(_) => {}
-            Gate::Cx(a, b) => {
-                let time = times[a as usize].max(times[b as usize]);
-                times[a as usize] = time;
-                times[b as usize] = time;
-            }
-            Gate::Ccx(a, b, c) => {
-                let [a, b, c] = [a, b, c].map(|qubit| qubit as usize);
-                let time = 1 + times[a].max(times[b]).max(times[c]);
-                times[a] = time;
-                times[b] = time;
-                times[c] = time;
-            }
-        }
+/// Lowers a program instruction by instruction: `each` gets its gates, which are not kept, and how
+/// many qubits are in use meanwhile. The number of qubits in all is returned.
+pub(super) fn walk(program: &Program, mut each: impl FnMut(&[Gate], u32)) -> u32 {
+    let mut lowering = Lowering::on(program);
+    for instruction in &program.instructions {
+        let op = &program.ops[instruction.op as usize];
+        let in_use = lowering.instruction(program, op, instruction.inverse);
+        each(&lowering.gates, in_use);
+        lowering.gates.clear();
     }
-    times.into_iter().max().unwrap_or(0)
+    lowering.pool.made
 }

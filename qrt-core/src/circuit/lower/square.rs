@@ -1,10 +1,10 @@
 //! Squares.
 //!
-//! With digits of either sign, `2a + 1 = sum d_i 2^i` (see [`super::multiply`]), the product of two
-//! digits is a sign, and of each pair one product suffices: with `h_i = a >> (i + 1)` and u_i = h_i
-//! where a_i holds and its complement elsewhere, `a^2 = -a + 2 sum 4^i (u_i + 1)`. The rows need no
-//! ANDs, and get shorter: about n^2 / 2 Toffolis in all. The first of them and -a are together
-//! `a_0 - 4 (not a_0) h_0`.
+//! With digits of either sign, `2a + 1 = sum d_i 2^i` (see [`super::multiply`]), and with X_k the sum
+//! of those up to the k-th, `X_k^2 = X_(k-1)^2 + d_k 2^(k+1) X_(k-1) + 4^k`: a row adds or subtracts
+//! what is known of the number so far, which takes no ANDs, and rows are half as long as a product's.
+//! Of `Y_k = (X_k^2 - 1) / 4` the last is `a^2 + a`, from which a is subtracted. About n^2 / 2
+//! Toffolis in all.
 
 use super::super::{Style, Word};
 use super::multiply::Landing;
@@ -16,100 +16,79 @@ pub(super) fn needed(a: Word, landing: &Landing) -> usize {
     landing.needed(bits, false)
 }
 
+/// Bits that row `place` changes, from bit `place - 1` on.
+pub(super) fn row_bits(place: usize, needed: usize) -> usize {
+    (place + 1).min((needed + 1).saturating_sub(place))
+}
+
 impl Lowering {
     pub(super) fn square(&mut self, a: Word, drop: u32, style: Style, target: &[Qubit]) {
         let landing = Landing::new(2 * a.shift, drop, target);
         let needed = needed(a, &landing);
+        if needed == 0 {
+            return;
+        }
         // A sign bit, and 0 above where there is none.
         let digits = a.width as usize + usize::from(!a.signed);
-        let a = self.word(Word { shift: 0, ..a }, digits);
-        if let Some(t) = landing.at(0).filter(|_| needed > 0) {
-            self.copy(a[0], t);
-        }
-        let single = a.len() == 1 || a[1] == Wire::ZERO;
-        if single || needed < 3 {
+        let own = self.word(Word { shift: 0, ..a }, digits);
+        if a.width == 1 {
+            if let Some(t) = landing.at(0) {
+                self.copy(own[0], t);
+            }
             return;
         }
         match style {
-            Style::Wide => self.square_rows(&a, needed, &landing),
-            Style::Lean => self.square_rows_into(&a, needed, &landing),
+            Style::Wide => self.square_rows(&own, needed, &landing),
+            Style::Lean => self.square_rows_into(&own, needed, &landing),
         }
     }
 
     fn square_rows(&mut self, a: &[Wire], needed: usize, landing: &Landing) {
-        let n = a.len();
-        let first = self.first_row(a, needed - 2);
-        let bits = n.min(needed - 2);
-        let last = if n == 2 { bits } else { 1 };
-        let mut sum = self.partial(landing, 2, bits, last);
-        let mut y = extended(&first, first[first.len() - 1], bits);
-        invert(&mut y, true);
-        self.add(&vec![Wire::ZERO; bits], &y, Wire::ONE, &sum);
-        sum.remove(0);
-        for place in 1..n - 1 {
-            let from = 2 * place + 1;
-            let Some(bits) = needed.checked_sub(from).filter(|bits| *bits > 0) else {
-                break;
-            };
-            let bits = bits.min(n - place + 1);
-            let last = if place + 2 == n { bits } else { 2 };
-            let sign = a[place].xor(true);
-            let row = self.complement(sign, &a[place + 1..]);
-            let row = extended(&row, row[row.len() - 1], bits);
-            let rest = extended(&qubits(&sum), Wire::qubit(sum[sum.len() - 1]), bits);
-            let t = self.partial(landing, from, bits, last);
-            self.add(&rest, &row, Wire::ONE, &t);
-            self.complement(sign, &a[place + 1..]);
-            sum = t.get(2..).unwrap_or_default().to_vec();
+        let mut sum = vec![Wire::ZERO];
+        for place in 1..a.len().min(needed + 1) {
+            let bits = row_bits(place, needed);
+            let (known, turn) = row(a, place);
+            let mut rest: Vec<Wire> = sum[place - 1..].iter().copied().take(place - 1).collect();
+            rest.extend([Wire::ONE, Wire::ZERO]);
+            let t = self.draws(bits);
+            let turned = self.complement(turn, &known);
+            self.add(&rest[..bits], &turned[..bits], turn, &t);
+            self.complement(turn, &known);
+            sum.truncate(place - 1);
+            sum.extend(qubits(&t));
+            // The sum is even.
+            sum[0] = Wire::ZERO;
         }
-    }
-
-    /// `(not a_0) h_0`, out of place.
-    fn first_row(&mut self, a: &[Wire], needed: usize) -> Vec<Wire> {
-        let mut row = Vec::new();
-        for bit in a[1..].iter().take(needed) {
-            row.push(if bit.source().is_some() {
-                let t = self.draw();
-                self.and(a[0].xor(true), *bit, t);
-                Wire::qubit(t)
-            } else {
-                *bit
-            });
-        }
-        row
+        let sum = extended(&sum, Wire::ZERO, needed);
+        let mut number = extended(a, a[a.len() - 1], needed);
+        invert(&mut number, true);
+        let t = self.lands(landing, 0, needed);
+        self.add(&sum, &number, Wire::ONE, &t);
     }
 
     fn square_rows_into(&mut self, a: &[Wire], needed: usize, landing: &Landing) {
-        let n = a.len();
-        // Bit 0 is a's, and bit 1 is zero.
-        let square = self.lands(landing, 2, needed - 2);
-        for (bit, t) in a[1..].iter().zip(&square) {
-            self.and(a[0].xor(true), *bit, *t);
-        }
-        let signed = a[n - 1] != Wire::ZERO;
-        self.negate_in_place(&square, n - 1, signed);
-        for place in 1..n - 1 {
-            let from = 2 * place - 1;
-            let Some(bits) = square.len().checked_sub(from).filter(|bits| *bits > 0) else {
-                break;
-            };
-            let bits = bits.min(n - place + 1);
-            let window = &square[from..from + bits];
-            if bits == n - place + 1 {
-                self.cx(window[bits - 2], window[bits - 1]);
+        let square = self.lands(landing, 0, needed);
+        for place in 1..a.len().min(needed + 1) {
+            let window = &square[place - 1..place - 1 + row_bits(place, needed)];
+            let (known, turn) = row(a, place);
+            if let Some(t) = window.get(place - 1) {
+                self.x(*t);
             }
-            // a_i says where the row is not complemented.
-            let rest = &a[place + 1..];
-            let own: Vec<Qubit> = rest.iter().filter_map(|wire| wire.source()).collect();
-            let sign = a[place].xor(true);
-            self.flips(sign, &own);
-            let row: Vec<Wire> = rest
-                .iter()
-                .map(|wire| if wire.source().is_some() { *wire } else { sign })
-                .collect();
-            let row = extended(&row, row[row.len() - 1], bits);
-            self.add_into(&row, true, Wire::ONE, window);
-            self.flips(sign, &own);
+            self.flips(turn, window);
+            self.add_into(&known[..window.len()], false, Wire::ONE, window);
+            self.flips(turn, window);
         }
+        let number = extended(a, a[a.len() - 1], needed);
+        self.flips(Wire::ONE, &square);
+        self.add_into(&number, false, Wire::ONE, &square);
+        self.flips(Wire::ONE, &square);
     }
+}
+
+/// The digits below `place` as a number in two's complement, and where it is subtracted.
+fn row(a: &[Wire], place: usize) -> (Vec<Wire>, Wire) {
+    let mut known = vec![Wire::ONE];
+    known.extend_from_slice(&a[..place - 1]);
+    known.push(a[place - 1].xor(true));
+    (known, a[place].xor(place + 1 != a.len()))
 }

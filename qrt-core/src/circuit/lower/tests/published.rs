@@ -116,10 +116,15 @@ fn products(bars: &mut Vec<Bar>, n: u32, place: usize, style: Style) {
         bars.push((format!("{name} {style:?}"), op, vec![n, 2 * n], most));
     }
     let factors = [0xd3, 0xb529, 0x9e_3779, 0xb529_7a4d];
-    for (name, sign) in [("scale", 1), ("scale negative", -1)] {
+    let most_digits = 0x5555_5555 & ((1 << n) - 1);
+    for (name, factor) in [
+        ("scale", factors[place]),
+        ("scale negative", -factors[place]),
+        ("scale, most digits", most_digits),
+    ] {
         let op = Op::Scale {
             a: word(0, n, false),
-            factor: sign * factors[place],
+            factor,
             drop: 0,
             style,
             target,
@@ -196,6 +201,7 @@ fn tables_are_read_by_few_toffolis() {
                 inverted: false,
             });
             let op = Op::Table {
+                style: Style::Wide,
                 address: address.collect(),
                 columns: columns.clone(),
                 low,

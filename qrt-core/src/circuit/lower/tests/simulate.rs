@@ -21,6 +21,7 @@ pub(super) fn program(op: &Op, widths: &[u32], undone: bool) -> Program {
         role: Role::Work,
         width: *width,
         block: BlockId::ROOT,
+        range: None,
     };
     let fresh = op.fresh();
     let ids = (0..widths.len() as u32).map(RegisterId);

@@ -398,7 +398,8 @@ fn tables() {
             let line: Box<[i64]> = (0..length as i64).map(|place| 3 * place - 7).collect();
             let few: Box<[i64]> = (0..length).map(|place| i64::from(place % 3 == 0)).collect();
             let columns: Arc<[Box<[i64]>]> = Arc::new([noise, line, few]);
-            for low in 0..=address_bits {
+            let wide = (0..=address_bits).map(|low| (low, Style::Wide));
+            for (low, style) in wide.chain([(0, Style::Lean)]) {
                 let address: Box<[Bit]> = (0..address_bits)
                     .map(|index| bit(0, index, index % 3 == 1))
                     .collect();
@@ -407,6 +408,7 @@ fn tables() {
                     address,
                     columns: columns.clone(),
                     low,
+                    style,
                     targets: Box::new([R[1], R[2], R[3]]),
                     scratch: R[4],
                 };

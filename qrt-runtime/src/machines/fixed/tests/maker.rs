@@ -75,6 +75,7 @@ impl Maker {
             role: Role::Work,
             width,
             block: BlockId::ROOT,
+            range: None,
         });
         id
     }
@@ -277,6 +278,7 @@ impl Maker {
                 let columns: Vec<_> = columns.collect();
                 let targets = [self.any_register(), self.any_register()];
                 Op::Table {
+                    style: Style::Wide,
                     address: address.into(),
                     columns: columns.into(),
                     low: 0,

@@ -1,0 +1,84 @@
+//! How large and how deep circuits are.
+
+use super::super::{Circuit, Gate, Program, Qubit};
+use super::place::walk;
+
+/// The size of a program's circuit.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Size {
+    /// [`Circuit::qubits`]
+    pub qubits: u32,
+    /// [`Circuit::in_use`]
+    pub in_use: Vec<u32>,
+    /// [`depth`]
+    pub depth: u64,
+}
+
+/// The size of the circuit that [`super::circuit`] would return, whose gates may be more than fit
+/// into memory.
+pub fn size(program: &Program) -> Size {
+    let mut clock = Clock::default();
+    let mut in_use = Vec::with_capacity(program.instructions.len());
+    let qubits = walk(program, |gates, meanwhile| {
+        clock.run(gates);
+        in_use.push(meanwhile);
+    });
+    Size {
+        qubits,
+        in_use,
+        depth: clock.latest(),
+    }
+}
+
+/// Toffoli depth: each gate as early as its qubits allow, and only Toffolis take time.
+pub fn depth(circuit: &Circuit) -> u64 {
+    let mut clock = Clock::default();
+    clock.run(&circuit.gates);
+    clock.latest()
+}
+
+/// By qubit: Toffolis that its content has to wait for.
+#[derive(Default)]
+struct Clock {
+    times: Vec<u64>,
+}
+
+impl Clock {
+    fn run(&mut self, gates: &[Gate]) {
+        for &gate in gates {
+            self.gate(gate);
+        }
+    }
+
+    fn gate(&mut self, gate: Gate) {
+        match gate {
+            Gate::X(_) | Gate::Load { .. } | Gate::Z(_) => {}
+            Gate::Cx(a, b) => {
+                let time = self.time(a).max(self.time(b));
+                self.set(&[a, b], time);
+            }
+            Gate::Ccx(a, b, c) => {
+                let time = 1 + self.time(a).max(self.time(b)).max(self.time(c));
+                self.set(&[a, b, c], time);
+            }
+        }
+    }
+
+    fn time(&self, qubit: Qubit) -> u64 {
+        self.times.get(qubit as usize).copied().unwrap_or(0)
+    }
+
+    fn set(&mut self, qubits: &[Qubit], time: u64) {
+        for &qubit in qubits {
+            let place = qubit as usize;
+            if place >= self.times.len() {
+                self.times.resize(place + 1, 0);
+            }
+            self.times[place] = time;
+        }
+    }
+
+    fn latest(&self) -> u64 {
+        self.times.iter().copied().max().unwrap_or(0)
+    }
+}

@@ -1,0 +1,152 @@
+//! Tables without scratch: unary iteration.
+//!
+//! A walk over the tree of addresses (Babbush et al. 2018) holds the conjunction of the bits on the
+//! way in one ancilla a level. From a node to its two children it takes an AND; from one child to
+//! the other a CNOT; and back another AND: `2 (2^k - 2)` Toffolis, and no wider words cost more.
+//! Subtrees of equal entries are not walked.
+
+use super::{Gates, Lowering, Qubit, Wire};
+
+/// Where the entries of a subtree begin and end.
+type Range = std::ops::Range<usize>;
+
+fn entry(column: &[i64], place: usize) -> i64 {
+    column.get(place).or(column.last()).copied().unwrap_or(0)
+}
+
+/// The two halves of a subtree; none where they are equal.
+fn halves(columns: &[Box<[i64]>], masks: &[i64], range: &Range) -> Option<[Range; 2]> {
+    let middle = range.start.midpoint(range.end);
+    let half = middle - range.start;
+    let differ = |place: usize| {
+        let pairs = columns.iter().zip(masks);
+        pairs
+            .into_iter()
+            .any(|(column, mask)| (entry(column, place) ^ entry(column, place + half)) & mask != 0)
+    };
+    let split = (range.start..middle).any(differ);
+    split.then_some([range.start..middle, middle..range.end])
+}
+
+/// The bits of entries that matter, by column.
+fn masks(columns: usize, width: impl Fn(usize) -> usize) -> Vec<i64> {
+    let mask = |column| match width(column) {
+        width @ 0..64 => (1_i64 << width) - 1,
+        _ => -1,
+    };
+    (0..columns).map(mask).collect()
+}
+
+fn all_zero(columns: &[Box<[i64]>], masks: &[i64], range: &Range) -> bool {
+    let zero = |place: usize| {
+        let pairs = columns.iter().zip(masks);
+        pairs
+            .into_iter()
+            .all(|(column, mask)| entry(column, place) & mask == 0)
+    };
+    range.clone().all(zero)
+}
+
+/// ANDs of the walk, each of which is computed and returned.
+pub(super) fn ands(address: usize, columns: &[Box<[i64]>], width: impl Fn(usize) -> usize) -> u64 {
+    let masks = masks(columns.len(), width);
+    below(columns, &masks, &(0..1 << address), true)
+}
+
+fn below(columns: &[Box<[i64]>], masks: &[i64], range: &Range, free: bool) -> u64 {
+    if range.len() == 1 || all_zero(columns, masks, range) {
+        return 0;
+    }
+    let one = range.start..range.start.midpoint(range.end);
+    match halves(columns, masks, range) {
+        None => below(columns, masks, &one, free),
+        Some([low, high]) => {
+            // The first split needs no AND: its condition is a bit.
+            u64::from(!free)
+                + below(columns, masks, &low, false)
+                + below(columns, masks, &high, false)
+        }
+    }
+}
+
+impl Lowering {
+    pub(super) fn walk(
+        &mut self,
+        mut address: Vec<Wire>,
+        columns: &[Box<[i64]>],
+        targets: &[Vec<Qubit>],
+    ) {
+        let copies = self.detach(&mut address, &[]);
+        let masks = masks(columns.len(), |column| targets[column].len());
+        let range = 0..1 << address.len();
+        self.visit(&address, columns, &masks, targets, range, None);
+        self.attach(copies);
+    }
+
+    /// Adds the entries of `range` where `held`, and on all paths if there is no such qubit.
+    fn visit(
+        &mut self,
+        address: &[Wire],
+        columns: &[Box<[i64]>],
+        masks: &[i64],
+        targets: &[Vec<Qubit>],
+        range: Range,
+        held: Option<Qubit>,
+    ) {
+        if all_zero(columns, masks, &range) {
+            return;
+        }
+        if range.len() == 1 {
+            for (column, target) in columns.iter().zip(targets) {
+                let entry = entry(column, range.start);
+                for (place, qubit) in target.iter().enumerate() {
+                    if entry >> place.min(63) & 1 == 1 {
+                        match held {
+                            Some(held) => self.cx(held, *qubit),
+                            None => self.x(*qubit),
+                        }
+                    }
+                }
+            }
+            return;
+        }
+        let Some([low, high]) = halves(columns, masks, &range) else {
+            let one = range.start..range.start.midpoint(range.end);
+            self.visit(address, columns, masks, targets, one, held);
+            return;
+        };
+        let level = range.len().ilog2() as usize - 1;
+        let bit = address[level];
+        let Some(source) = bit.source() else {
+            // An address bit that is the same on all paths.
+            let taken = if bit == Wire::ONE { high } else { low };
+            self.visit(address, columns, masks, targets, taken, held);
+            return;
+        };
+        let at = match held {
+            None => source,
+            Some(_) => self.pool.take(),
+        };
+        // In `at`: the path is in the upper half.
+        self.flip(bit, source);
+        if let Some(held) = held {
+            self.ccx(held, source, at);
+        }
+        self.visit(address, columns, masks, targets, high, Some(at));
+        // Now: in the lower half.
+        match held {
+            Some(held) => self.cx(held, at),
+            None => self.x(at),
+        }
+        self.visit(address, columns, masks, targets, low, Some(at));
+        match held {
+            Some(held) => {
+                self.cx(held, at);
+                self.ccx(held, source, at);
+                self.pool.give(at);
+            }
+            None => self.x(at),
+        }
+        self.flip(bit, source);
+    }
+}

@@ -1,0 +1,130 @@
+//! Costs by block.
+
+use super::{Inspection, Part};
+use crate::circuit::lower::Cost;
+use crate::circuit::{Block, BlockId, RegisterId};
+use std::collections::HashMap;
+
+/// A block of the program, and what it costs.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct BlockFigures {
+    /// Its place in the program's list; the first of several of one path.
+    pub block: BlockId,
+    /// The names of the blocks around it and its own, from below the root, each with its depth
+    /// where it brings one: `find_intersection 1/plane 3`. The root's is `oracle`.
+    pub path: String,
+    /// What it is called.
+    pub name: String,
+    /// The depth it belongs to.
+    pub depth: Option<u32>,
+    /// Blocks around it.
+    pub level: u32,
+    /// Of the whole call, without the blocks within it.
+    pub own: Cost,
+    /// Of the whole call, the blocks within it included.
+    pub total: Cost,
+    /// [`BlockFigures::total`] in the compute part alone.
+    pub compute: Cost,
+    /// Qubits of the registers that it computes, the blocks within it included.
+    pub width: u64,
+}
+
+impl Inspection {
+    /// The blocks, each before those within it. Blocks of one name within one block are one: a
+    /// search may pass a plane twice. The `own` costs of all blocks add up to the total of the
+    /// root, which is that of the whole call.
+    pub fn blocks(&self) -> Vec<BlockFigures> {
+        let blocks = &self.whole.blocks;
+        let (one, within) = merged(blocks);
+        let mut own = vec![[Cost::default(); 2]; blocks.len()];
+        let compute = self.instructions(Part::Compute);
+        for (at, instruction) in self.whole.instructions.iter().enumerate() {
+            let [whole, computed] = &mut own[one[instruction.block.index()]];
+            *whole = *whole + self.costs[at];
+            if compute.contains(&at) {
+                *computed = *computed + self.costs[at];
+            }
+        }
+        let mut width = vec![0_u64; blocks.len()];
+        for (place, register) in self.whole.registers.iter().enumerate() {
+            if self.layout.offset(RegisterId(place as u32)).is_some() {
+                width[one[register.block.index()]] += u64::from(register.width);
+            }
+        }
+        let mut total = own.clone();
+        // A block stands behind the one around it in the list.
+        for place in (1..blocks.len()).rev() {
+            if let Some(parent) = blocks[place].parent
+                && one[place] == place
+            {
+                let parent = one[parent.index()];
+                let inner = total[place];
+                for (outer, inner) in total[parent].iter_mut().zip(inner) {
+                    *outer = *outer + inner;
+                }
+                width[parent] += width[place];
+            }
+        }
+        let mut order = Vec::with_capacity(blocks.len());
+        let mut open = vec![(BlockId::ROOT.index(), 0)];
+        while let Some((place, level)) = open.pop() {
+            order.push((place, level));
+            let inner = within[place].iter().rev();
+            open.extend(inner.map(|&inner| (inner, level + 1)));
+        }
+        let figures = order.into_iter().map(|(place, level)| BlockFigures {
+            block: BlockId(place as u32),
+            path: path(blocks, place),
+            name: blocks[place].name.clone(),
+            depth: blocks[place].depth,
+            level,
+            own: own[place][0],
+            total: total[place][0],
+            compute: total[place][1],
+            width: width[place],
+        });
+        figures.collect()
+    }
+}
+
+/// By block: the first of its name within the same block; and the blocks within each.
+fn merged(blocks: &[Block]) -> (Vec<usize>, Vec<Vec<usize>>) {
+    let mut one: Vec<usize> = Vec::with_capacity(blocks.len());
+    let mut within = vec![Vec::new(); blocks.len()];
+    let mut known: HashMap<(usize, &str, Option<u32>), usize> = HashMap::new();
+    for (place, block) in blocks.iter().enumerate() {
+        let Some(parent) = block.parent else {
+            one.push(place);
+            continue;
+        };
+        let parent = one[parent.index()];
+        let first = *known
+            .entry((parent, &block.name, block.depth))
+            .or_insert(place);
+        if first == place {
+            within[parent].push(place);
+        }
+        one.push(first);
+    }
+    (one, within)
+}
+
+fn path(blocks: &[Block], place: usize) -> String {
+    let mut names = Vec::new();
+    let mut at = Some(place);
+    while let Some(here) = at {
+        let block = &blocks[here];
+        let parent = block.parent.map(BlockId::index);
+        let around = parent.and_then(|parent| blocks[parent].depth);
+        match block.depth {
+            Some(depth) if around != Some(depth) => names.push(format!("{} {depth}", block.name)),
+            _ => names.push(block.name.clone()),
+        }
+        at = parent;
+    }
+    if names.len() > 1 {
+        names.pop();
+    }
+    names.reverse();
+    names.join("/")
+}

@@ -1,0 +1,193 @@
+//! The frame as SVG: wires to the right, boxes on them.
+
+use super::super::number::{grouped, short};
+use super::super::svg::{Canvas, SMALL, width_of};
+use super::super::{CHANNELS, Inspection};
+use super::{Frame, FrameBox};
+
+/// Between wires.
+const ROW: f64 = 34.0;
+/// Between boxes.
+const COLUMN: f64 = 50.0;
+/// Of a box.
+const BOX: f64 = 36.0;
+/// Of a box beyond its outermost wires.
+const RIM: f64 = 13.0;
+/// Where the wires begin: their names are to the left.
+const LEFT: f64 = 170.0;
+const TOP: f64 = 112.0;
+
+/// The frame of an inspected call of the scene called `scene`.
+///
+/// A dot is a wire that a box reads, a square one that it computes or, on a darker box, returns
+/// to zero; wires that a box has nothing to do with are thin within it. Below stand Toffolis.
+pub fn svg(inspection: &Inspection, scene: &str) -> String {
+    let frame = Frame::of(inspection);
+    let total = inspection.total();
+    let right = LEFT + COLUMN * frame.boxes.len() as f64 + 30.0;
+    let bottom = TOP + ROW * frame.wires.len() as f64;
+    let title = format!(
+        "{scene}: one oracle call, channel {}",
+        CHANNELS[inspection.channel]
+    );
+    let figures = format!(
+        "{} qubits, {} Toffoli, {} AND measured, depth {}",
+        grouped(u64::from(inspection.qubits)),
+        grouped(total.toffoli),
+        grouped(total.and_measured),
+        grouped(inspection.toffoli_depth),
+    );
+    let width = right
+        .max(width_of(&figures) + 40.0)
+        .max(40.0 + 1.6 * width_of(&title));
+    let mut canvas = Canvas::new(width, bottom + 58.0, &title, &figures);
+    legend(&mut canvas);
+    for wire in 0..frame.wires.len() {
+        draw_wire(&mut canvas, &frame, wire, right);
+    }
+    for (place, item) in frame.boxes.iter().enumerate() {
+        draw_box(&mut canvas, &frame, place, item);
+        let x = column(place);
+        canvas.text("small mid", [x, bottom + 12.0], &short(item.cost.toffoli));
+    }
+    canvas.text("small end faint", [LEFT - 12.0, bottom + 12.0], "Toffoli");
+    parts(&mut canvas, &frame, bottom + 26.0);
+    canvas.finish()
+}
+
+fn column(place: usize) -> f64 {
+    LEFT + COLUMN * (place as f64 + 0.5)
+}
+
+fn row(wire: usize) -> f64 {
+    TOP + ROW * (wire as f64 + 0.5) - 10.0
+}
+
+fn legend(canvas: &mut Canvas) {
+    let y = 76.0;
+    canvas.dot("dot", [28.0, y], 3.5);
+    canvas.text("small", [38.0, y + 4.0], "read");
+    canvas.rectangle("dot", [76.0, y - 4.0, 8.0, 8.0], "");
+    canvas.text(
+        "small",
+        [90.0, y + 4.0],
+        "computed, or returned to zero by an inverse (\u{2020})",
+    );
+}
+
+fn draw_wire(canvas: &mut Canvas, frame: &Frame, wire: usize, right: f64) {
+    let y = row(wire);
+    let Some(item) = frame.wires.get(wire) else {
+        return;
+    };
+    canvas.text("end", [LEFT - 64.0, y + 4.0], &item.name);
+    canvas.text("small end", [LEFT - 16.0, y + 4.0], &grouped(item.qubits));
+    let start = LEFT - 10.0;
+    canvas.line("thin", [start, y, right - 10.0, y]);
+    let held = frame.held(wire);
+    let from = if item.input {
+        start
+    } else {
+        column(held.start.saturating_sub(1))
+    };
+    let to = if item.input {
+        right - 10.0
+    } else {
+        column(held.end.saturating_sub(1))
+    };
+    canvas.line("line", [from, y, to, y]);
+    // The stroke that marks a bundle.
+    let slash = LEFT - 4.0;
+    canvas.line("line", [slash - 3.0, y + 5.0, slash + 3.0, y - 5.0]);
+}
+
+fn draw_box(canvas: &mut Canvas, frame: &Frame, place: usize, item: &FrameBox) {
+    let x = column(place);
+    let touched = |wire: usize| item.reads.contains(&wire) || item.writes.contains(&wire);
+    let work = frame.wires.len() - 1;
+    let first = (0..work).find(|&wire| touched(wire));
+    let last = (0..work).rfind(|&wire| touched(wire));
+    if let (Some(first), Some(last)) = (first, last) {
+        let (top, bottom) = (row(first) - RIM, row(last) + RIM);
+        let class = if item.name == "Z" {
+            "box mark"
+        } else if item.inverse {
+            "box undo"
+        } else {
+            "box"
+        };
+        let mark = if item.inverse { "\u{2020}" } else { "" };
+        let name = format!("{}{mark}", item.name);
+        let hint = format!(
+            "{name}: {} Toffoli, {} AND measured, {} CNOT, {} X",
+            grouped(item.cost.toffoli),
+            grouped(item.cost.and_measured),
+            grouped(item.cost.cnot),
+            grouped(item.cost.x)
+        );
+        let left = x - BOX / 2.0;
+        canvas.rectangle(class, [left, top, BOX, bottom - top], &hint);
+        for wire in first..=last {
+            if !touched(wire) {
+                canvas.line("thin", [left + 1.0, row(wire), left + BOX - 1.0, row(wire)]);
+            }
+        }
+        let middle = f64::midpoint(top, bottom);
+        if width_of(&name) < BOX - 4.0 {
+            canvas.text("mid", [x, middle + 4.0], &name);
+        } else {
+            let height = bottom - top - 4.0;
+            let brief = brief(&name);
+            let (size, label) = match width_of(&name) {
+                width if width <= height => ("", &name),
+                width if width * SMALL <= height => ("small", &name),
+                _ => ("small", &brief),
+            };
+            canvas.upright(size, [x + 4.0, middle], label);
+        }
+    }
+    for &wire in &item.reads {
+        canvas.dot("dot", [x - BOX / 2.0, row(wire)], 3.5);
+    }
+    for &wire in &item.writes {
+        // Where the wire begins to hold something, or ends to.
+        let edge = match (wire == work, item.inverse) {
+            (true, _) => x,
+            (_, false) => x + BOX / 2.0,
+            (_, true) => x - BOX / 2.0,
+        };
+        canvas.rectangle("dot", [edge - 4.0, row(wire) - 4.0, 8.0, 8.0], "");
+    }
+}
+
+/// `Find Intersection 0` as `Find 0`.
+fn brief(name: &str) -> String {
+    let mut words = name.split(' ');
+    let first = words.next().unwrap_or_default();
+    match words.next_back() {
+        Some(last) => format!("{first} {last}"),
+        None => first.to_owned(),
+    }
+}
+
+/// Bars with the names of the parts.
+fn parts(canvas: &mut Canvas, frame: &Frame, y: f64) {
+    for part in super::Part::ALL {
+        let first = frame.boxes.iter().position(|b| b.part == part);
+        let last = frame.boxes.iter().rposition(|b| b.part == part);
+        if let (Some(first), Some(last)) = (first, last) {
+            let (left, right) = (column(first) - BOX / 2.0, column(last) + BOX / 2.0);
+            canvas.rectangle("stage", [left, y, right - left, 18.0], "");
+            let cost: u64 = frame.boxes[first..=last]
+                .iter()
+                .map(|b| b.cost.toffoli)
+                .sum();
+            let long = format!("{}: {} Toffoli", part.name(), grouped(cost));
+            let texts = [long, part.name().to_owned()];
+            let fits = texts.iter().find(|text| width_of(text) <= right - left);
+            if let Some(text) = fits {
+                canvas.text("small mid", [f64::midpoint(left, right), y + 13.0], text);
+            }
+        }
+    }
+}

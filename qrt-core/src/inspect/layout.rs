@@ -1,0 +1,254 @@
+//! Where each register is, and when: the register map.
+//!
+//! Registers are laid out contiguously in the order in which they are computed: each on the lowest
+//! qubits that are free side by side. Under `keep`, where nothing is returned before everything
+//! is, that places one above the other; under `scoped` the qubits of finished scopes are taken
+//! again. A lowering to gates may scatter a register over single free qubits, and then needs no
+//! more of them than are in use; the map, whose registers stay whole, can be a little higher.
+
+use crate::circuit::{Program, RegisterId};
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+/// A register from its computation to its uncomputation. Under `scoped` it may have several: what
+/// a scope computes is computed again when the scope is undone.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Lifetime {
+    /// The register.
+    pub register: RegisterId,
+    /// Its first qubit in the layout.
+    pub offset: u32,
+    /// From the instruction that computes it to the one that uncomputes it.
+    pub instructions: Range<usize>,
+}
+
+/// The lifetimes of a program's registers, laid out contiguously in the order in which they are
+/// computed, each on the lowest qubits that are free side by side.
+///
+/// Under `keep` that places one above the other. Under `scoped` the qubits of finished scopes are
+/// used again, so that registers of different times can have one offset; and as registers stay
+/// whole here, the layout can be a little higher than the qubits in use, which single qubits'
+/// placement reaches.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Layout {
+    /// In the order in which they begin.
+    pub lifetimes: Vec<Lifetime>,
+    /// Qubits of the layout.
+    pub height: u32,
+    /// By register: its first qubit when it is first computed; none for what the program lacks.
+    offsets: Vec<Option<u32>>,
+}
+
+impl Layout {
+    /// The layout of a program. Inputs come first and stay.
+    pub fn of(program: &Program) -> Self {
+        let end = program.instructions.len();
+        let mut layout = Self {
+            offsets: vec![None; program.registers.len()],
+            ..Self::default()
+        };
+        let mut free = Free::default();
+        // By register: its lifetime while it is alive.
+        let mut alive: Vec<Option<usize>> = vec![None; program.registers.len()];
+        for &input in &program.inputs {
+            layout.begin(program, &mut free, &mut alive, input, 0..end);
+        }
+        for (at, instruction) in program.instructions.iter().enumerate() {
+            let mut fresh = program.ops[instruction.op as usize].fresh();
+            if instruction.inverse {
+                // As they came, from the top.
+                fresh.reverse();
+            }
+            for register in fresh {
+                if !instruction.inverse {
+                    layout.begin(program, &mut free, &mut alive, register, at..end);
+                } else if let Some(lifetime) = alive[register.index()].take() {
+                    let lifetime = &mut layout.lifetimes[lifetime];
+                    lifetime.instructions.end = at + 1;
+                    free.give(lifetime.offset, program.width(register));
+                }
+            }
+        }
+        layout.height = free.top;
+        layout
+    }
+
+    /// The register's first qubit when it is first computed; none if the program doesn't compute
+    /// it.
+    pub fn offset(&self, register: RegisterId) -> Option<u32> {
+        self.offsets.get(register.index()).copied().flatten()
+    }
+
+    /// Registers that the program has.
+    pub fn registers(&self) -> u64 {
+        self.offsets.iter().flatten().count() as u64
+    }
+
+    fn begin(
+        &mut self,
+        program: &Program,
+        free: &mut Free,
+        alive: &mut [Option<usize>],
+        register: RegisterId,
+        instructions: Range<usize>,
+    ) {
+        let offset = free.take(program.width(register));
+        self.offsets[register.index()].get_or_insert(offset);
+        alive[register.index()] = Some(self.lifetimes.len());
+        self.lifetimes.push(Lifetime {
+            register,
+            offset,
+            instructions,
+        });
+    }
+}
+
+/// Free qubits: runs below `top`, and all from `top` on.
+#[derive(Debug, Default)]
+struct Free {
+    runs: BTreeMap<u32, u32>,
+    top: u32,
+}
+
+impl Free {
+    /// The lowest run of `width` qubits.
+    fn take(&mut self, width: u32) -> u32 {
+        let found = self.runs.iter().find(|&(_, &length)| length >= width);
+        if let Some((&start, &length)) = found {
+            self.runs.remove(&start);
+            if length > width {
+                self.runs.insert(start + width, length - width);
+            }
+            return start;
+        }
+        // The last run may reach up to the top.
+        let start = match self.runs.last_key_value() {
+            Some((&start, &length)) if start + length == self.top => {
+                self.runs.remove(&start);
+                start
+            }
+            _ => self.top,
+        };
+        self.top = start + width;
+        start
+    }
+
+    fn give(&mut self, mut start: u32, mut width: u32) {
+        if width == 0 {
+            return;
+        }
+        if let Some((&before, &length)) = self.runs.range(..start).next_back()
+            && before + length == start
+        {
+            self.runs.remove(&before);
+            start = before;
+            width += length;
+        }
+        if let Some(length) = self.runs.remove(&(start + width)) {
+            width += length;
+        }
+        self.runs.insert(start, width);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::circuit::{Block, BlockId, Instruction, Op, Operand, Register, Role, Type, Word};
+    use proptest::prelude::*;
+
+    #[test]
+    fn what_was_given_back_is_taken_again_from_below() {
+        let mut free = Free::default();
+        assert_eq!([4, 3, 2].map(|width| free.take(width)), [0, 4, 7]);
+        free.give(4, 3);
+        assert_eq!(free.take(4), 9);
+        assert_eq!(free.take(2), 4);
+        free.give(0, 4);
+        free.give(4, 2);
+        assert_eq!(free.take(7), 0);
+        assert_eq!(free.top, 13);
+        free.give(9, 4);
+        assert_eq!(
+            free.take(6),
+            9,
+            "what is free at the top is a part of what comes above"
+        );
+    }
+
+    /// Registers of these widths, computed one after another and undone in the order of `undo`.
+    fn program(widths: &[u32], undo: &[usize]) -> Program {
+        let step = |op: usize, inverse| Instruction {
+            op: op as u32,
+            inverse,
+            block: BlockId::ROOT,
+        };
+        let load = |n: usize| Op::Add {
+            a: Operand::Constant(1),
+            b: Operand::Word(Word {
+                register: RegisterId(0),
+                offset: 0,
+                width: 1,
+                signed: false,
+                shift: 0,
+            }),
+            subtract: false,
+            target: RegisterId(n as u32),
+        };
+        let computed = (1..widths.len()).map(|n| step(n - 1, false));
+        let undone = undo.iter().map(|&n| step(n, true));
+        Program {
+            registers: widths
+                .iter()
+                .map(|&width| Register {
+                    name: String::new(),
+                    ty: Type::UInt,
+                    role: Role::Work,
+                    width,
+                    block: BlockId::ROOT,
+                    range: None,
+                })
+                .collect(),
+            blocks: vec![Block {
+                parent: None,
+                name: "oracle".to_owned(),
+                depth: None,
+                scope: false,
+            }],
+            ops: (1..widths.len()).map(load).collect(),
+            instructions: computed.chain(undone).collect(),
+            inputs: vec![RegisterId(0)],
+            ..Program::default()
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn no_two_registers_have_a_qubit_at_one_time(
+            widths in proptest::collection::vec(0_u32..9, 2..24),
+            seed in any::<u64>(),
+        ) {
+            let mut undo: Vec<usize> = (0..widths.len() - 1).collect();
+            let length = undo.len();
+            for n in 0..length {
+                undo.swap(n, (seed.rotate_left(n as u32) % length as u64) as usize);
+            }
+            undo.truncate((seed % (length as u64 + 1)) as usize);
+            let program = program(&widths, &undo);
+            let layout = Layout::of(&program);
+            prop_assert_eq!(layout.lifetimes.len(), widths.len());
+            for (n, a) in layout.lifetimes.iter().enumerate() {
+                let top = a.offset + program.width(a.register);
+                prop_assert!(top <= layout.height);
+                for b in &layout.lifetimes[..n] {
+                    let together = a.instructions.start < b.instructions.end
+                        && b.instructions.start < a.instructions.end;
+                    let apart = top <= b.offset || b.offset + program.width(b.register) <= a.offset;
+                    prop_assert!(!together || apart, "{:?} {:?}", a, b);
+                }
+            }
+            // All were computed before the first was undone.
+            prop_assert_eq!(layout.height, widths.iter().sum::<u32>());
+        }
+    }
+}

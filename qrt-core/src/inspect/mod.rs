@@ -1,0 +1,194 @@
+//! What a scene's oracle costs, and where: the figures and drawings of `qrt inspect`.
+//!
+//! All of it is read off one whole call of the oracle, `O_f` = compute, compare and flip, uncompute
+//! ([`Oracle::whole`]): its instructions, their costs, the blocks that they are charged to and the
+//! registers that they compute. Nothing here knows what a scene's circuit should look like.
+
+mod blocks;
+mod frame;
+mod layout;
+mod number;
+mod passes;
+mod stages;
+pub mod svg;
+#[cfg(test)]
+mod tests;
+
+pub use blocks::BlockFigures;
+pub use frame::{Frame, FrameBox, Wire, text as frame_text};
+pub use layout::{Layout, Lifetime};
+pub use number::grouped;
+pub use passes::{PassFigures, pass_figures};
+pub use stages::{Part, Stage};
+
+use crate::circuit::lower::{self, Cost};
+use crate::circuit::{Program, Role};
+use crate::oracle::{Options, Oracle, OracleError};
+use crate::valid::ValidScene;
+use std::ops::Range;
+
+/// The roles of registers, in the order in which they are shown.
+pub const ROLES: [Role; 6] = [
+    Role::Id,
+    Role::Comparator,
+    Role::Work,
+    Role::Scratch,
+    Role::Colour,
+    Role::Flag,
+];
+
+/// Names of the channels.
+pub const CHANNELS: [&str; 3] = ["r", "g", "b"];
+
+/// One call of a channel's oracle, with what it costs.
+#[derive(Clone, Debug)]
+pub struct Inspection {
+    /// The channel: 0 red, 1 green, 2 blue.
+    pub channel: usize,
+    /// The oracle.
+    pub oracle: Oracle,
+    /// `O_f`: all its instructions.
+    pub whole: Program,
+    /// By instruction: its cost.
+    pub costs: Vec<Cost>,
+    /// By instruction: qubits in use while it runs, its own ancillas included.
+    pub in_use: Vec<u32>,
+    /// Qubits: the most that are in use at any time.
+    pub qubits: u32,
+    /// Toffolis on the longest chain of gates of which each waits for the one before.
+    pub toffoli_depth: u64,
+    /// Where each register is, and when.
+    pub layout: Layout,
+}
+
+impl Inspection {
+    /// Inspects the oracle of `channel`; without one, of the channel whose oracle has the most
+    /// Toffolis, the first such.
+    ///
+    /// # Errors
+    /// As [`Oracle::new`].
+    pub fn new(
+        scene: &ValidScene,
+        channel: Option<usize>,
+        options: Options,
+    ) -> Result<Self, OracleError> {
+        let first = channel.unwrap_or(0);
+        let mut dearest = Candidate::new(scene, first, options)?;
+        if channel.is_none() {
+            for channel in first + 1..CHANNELS.len() {
+                let other = Candidate::new(scene, channel, options)?;
+                if other.toffoli > dearest.toffoli {
+                    dearest = other;
+                }
+            }
+        }
+        let Candidate {
+            channel,
+            oracle,
+            whole,
+            costs,
+            ..
+        } = dearest;
+        let size = lower::size(&whole);
+        Ok(Self {
+            toffoli_depth: size.depth,
+            qubits: size.qubits,
+            in_use: size.in_use,
+            layout: Layout::of(&whole),
+            channel,
+            oracle,
+            whole,
+            costs,
+        })
+    }
+
+    /// The cost of all of it.
+    pub fn total(&self) -> Cost {
+        self.costs.iter().copied().sum()
+    }
+
+    /// The cost of a part; the three add up to [`Inspection::total`].
+    pub fn part(&self, part: Part) -> Cost {
+        self.cost(self.instructions(part))
+    }
+
+    /// The cost of some of the instructions.
+    pub fn cost(&self, instructions: Range<usize>) -> Cost {
+        self.costs[instructions].iter().copied().sum()
+    }
+
+    /// Toffolis times qubits: the size of the computation in space and time.
+    pub fn toffoli_x_qubits(&self) -> u64 {
+        let product = u128::from(self.total().toffoli) * u128::from(self.qubits);
+        u64::try_from(product).unwrap_or(u64::MAX)
+    }
+
+    /// Where in [`Program::instructions`] a part stands.
+    pub fn instructions(&self, part: Part) -> Range<usize> {
+        let compute = self.oracle.program.instructions.len();
+        let whole = self.whole.instructions.len();
+        match part {
+            Part::Compute => 0..compute,
+            Part::Flip => compute..whole - compute,
+            Part::Uncompute => whole - compute..whole,
+        }
+    }
+
+    /// The most qubits in use during some of the instructions; those of the inputs if there are
+    /// none.
+    pub fn peak(&self, instructions: Range<usize>) -> u32 {
+        let inputs = self.whole.inputs.iter();
+        let inputs = inputs.map(|&input| self.whole.width(input)).sum();
+        let most = self.in_use[instructions].iter().copied().max();
+        most.unwrap_or(inputs)
+    }
+
+    /// Of the qubits in use when they are most: those of each of [`ROLES`], and the ancillas that
+    /// the operation borrows. They add up to [`Inspection::qubits`].
+    pub fn peak_by_role(&self) -> ([u32; ROLES.len()], u32) {
+        let most = self.in_use.iter().copied().max().unwrap_or(0);
+        let at = self.in_use.iter().position(|&n| n == most).unwrap_or(0);
+        let mut roles = [0; ROLES.len()];
+        for lifetime in &self.layout.lifetimes {
+            if lifetime.instructions.contains(&at) {
+                let register = &self.whole.registers[lifetime.register.index()];
+                let place = ROLES.iter().position(|&role| role == register.role);
+                roles[place.unwrap_or_default()] += register.width;
+            }
+        }
+        let ancillas = self.qubits.saturating_sub(roles.iter().sum());
+        (roles, ancillas)
+    }
+
+    /// What each pass takes away, one added after the other.
+    ///
+    /// # Errors
+    /// As [`Oracle::new`]; a pass can be what makes a scene's numbers fit.
+    pub fn passes(&self, scene: &ValidScene) -> Result<Vec<PassFigures>, OracleError> {
+        pass_figures(scene, self)
+    }
+}
+
+/// A channel that may be the dearest.
+struct Candidate {
+    channel: usize,
+    oracle: Oracle,
+    whole: Program,
+    costs: Vec<Cost>,
+    toffoli: u64,
+}
+
+impl Candidate {
+    fn new(scene: &ValidScene, channel: usize, options: Options) -> Result<Self, OracleError> {
+        let oracle = Oracle::new(scene, channel, options)?;
+        let whole = oracle.whole(0);
+        let costs = lower::tally(&whole);
+        Ok(Self {
+            channel,
+            toffoli: costs.iter().copied().sum::<Cost>().toffoli,
+            oracle,
+            whole,
+            costs,
+        })
+    }
+}

@@ -1,0 +1,177 @@
+//! The boxes of the paper's Path Tracing frame, found in the order of a program's instructions.
+
+use super::Inspection;
+use crate::circuit::lower::Cost;
+use crate::circuit::{BlockId, Op};
+use std::fmt;
+use std::ops::Range;
+
+/// A part of one call of the oracle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Part {
+    /// From the id to the colour.
+    Compute,
+    /// Compares the colour, flips the phase, undoes the comparison.
+    Flip,
+    /// Compute, backwards.
+    Uncompute,
+}
+
+impl Part {
+    /// All of them, in order.
+    pub const ALL: [Self; 3] = [Self::Compute, Self::Flip, Self::Uncompute];
+
+    /// What it is called.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Compute => "compute",
+            Self::Flip => "compare and flip",
+            Self::Uncompute => "uncompute",
+        }
+    }
+}
+
+/// A run of instructions that belong together: a box of the frame.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Stage {
+    /// The part of the call.
+    pub part: Part,
+    /// What it is called: `generate_ray`, `find_intersection`, `shade`, `count`, as its block is;
+    /// `surface` for what the frame does at a hit between the blocks; `compare` and `flip`.
+    pub name: String,
+    /// The depth it belongs to.
+    pub depth: Option<u32>,
+    /// Its block; none for what stands between blocks. What the frame does after other blocks, such
+    /// as ending a path, is little and counted with them.
+    pub block: Option<BlockId>,
+    /// Is it the inverse of another?
+    pub inverse: bool,
+    /// Its instructions.
+    pub instructions: Range<usize>,
+    /// What they cost.
+    pub cost: Cost,
+    /// The most qubits in use while it runs.
+    pub qubits: u32,
+}
+
+impl fmt::Display for Stage {
+    /// `find_intersection 1`
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.name)?;
+        match self.depth {
+            Some(depth) => write!(f, " {depth}"),
+            None => Ok(()),
+        }
+    }
+}
+
+impl Inspection {
+    /// The boxes, in the order in which they run. Their instructions are all instructions of the
+    /// call, each once.
+    pub fn stages(&self) -> Vec<Stage> {
+        let mut stages: Vec<Stage> = Vec::new();
+        for (block, instructions) in self.runs() {
+            let (name, depth) = match (block, stages.last_mut()) {
+                (Some(block), _) => {
+                    let block = &self.whole.blocks[block.index()];
+                    (block.name.clone(), block.depth)
+                }
+                (None, Some(before)) if before.name == "find_intersection" => {
+                    ("surface".to_owned(), before.depth)
+                }
+                (None, Some(before)) => {
+                    let (name, depth) = (before.name.clone(), before.depth);
+                    let both = before.instructions.start..instructions.end;
+                    *before = Stage {
+                        depth,
+                        block: before.block,
+                        ..self.stage(Part::Compute, name, both)
+                    };
+                    continue;
+                }
+                (None, None) => ("frame".to_owned(), None),
+            };
+            stages.push(Stage {
+                depth,
+                block,
+                ..self.stage(Part::Compute, name, instructions)
+            });
+        }
+        let computed = stages.len();
+        for at in self.instructions(Part::Flip) {
+            let instruction = self.whole.instructions[at];
+            let name = match self.whole.ops[instruction.op as usize] {
+                Op::Phase { .. } => "flip",
+                _ => "compare",
+            };
+            let mut stage = self.stage(Part::Flip, name.to_owned(), at..at + 1);
+            stage.block = Some(instruction.block);
+            stage.inverse = instruction.inverse;
+            stages.push(stage);
+        }
+        let end = self.whole.instructions.len();
+        for place in (0..computed).rev() {
+            let Range { start, end: after } = stages[place].instructions;
+            let name = stages[place].name.clone();
+            let stage = self.stage(Part::Uncompute, name, end - after..end - start);
+            stages.push(Stage {
+                depth: stages[place].depth,
+                block: stages[place].block,
+                inverse: true,
+                ..stage
+            });
+        }
+        stages
+    }
+
+    fn stage(&self, part: Part, name: String, instructions: Range<usize>) -> Stage {
+        Stage {
+            part,
+            name,
+            depth: None,
+            block: None,
+            inverse: false,
+            cost: self.cost(instructions.clone()),
+            qubits: self.peak(instructions.clone()),
+            instructions,
+        }
+    }
+
+    /// Runs of instructions of one block below the root in the compute part. What a scope copies
+    /// out of itself is charged to the block around it, but belongs to the run.
+    fn runs(&self) -> Vec<(Option<BlockId>, Range<usize>)> {
+        let mut runs: Vec<(Option<BlockId>, Range<usize>)> = Vec::new();
+        for at in self.instructions(Part::Compute) {
+            let block = self.below_root(self.whole.instructions[at].block);
+            match runs.as_mut_slice() {
+                [.., (last, range)] if *last == block => range.end = at + 1,
+                [.., (before, range), (None, between)]
+                    if *before == block && self.copies(between.clone()) =>
+                {
+                    range.end = at + 1;
+                    runs.pop();
+                }
+                _ => runs.push((block, at..at + 1)),
+            }
+        }
+        runs
+    }
+
+    fn copies(&self, instructions: Range<usize>) -> bool {
+        self.whole.instructions[instructions]
+            .iter()
+            .all(|instruction| matches!(self.whole.ops[instruction.op as usize], Op::Copy { .. }))
+    }
+
+    /// The block below the root that `block` is, or is in.
+    fn below_root(&self, block: BlockId) -> Option<BlockId> {
+        let mut at = block;
+        loop {
+            match self.whole.blocks[at.index()].parent {
+                None => return None,
+                Some(BlockId::ROOT) => return Some(at),
+                Some(parent) => at = parent,
+            }
+        }
+    }
+}

@@ -1,0 +1,207 @@
+//! Drawings and figures of a small scene's oracle.
+
+use super::*;
+use crate::circuit::lower::depth;
+use crate::front::parse;
+
+/// A lamp over a floor: two rays a path.
+const SCENE: &str = "
+name: lit-floor
+camera: { perspective: { eye: [0, 1, 2], target: [0, 0, 0], vfov: 45 } }
+film: { width: 4, height: 4 }
+materials:
+  floor: { lambertian: { albedo: [0.8, 0.5, 0.2] } }
+  sky: { emitter: { radiance: [1, 1, 1] } }
+geometry:
+  - quad: { vertices: [[-9, 0, 9], [9, 0, 9], [9, 0, -9], [-9, 0, -9]], material: floor }
+  - quad: { vertices: [[-9, 5, -9], [9, 5, -9], [9, 5, 9], [-9, 5, 9]], material: sky }
+sampling: { path_bits: 6, depths: [{ bits: [3, 3] }, { bits: [3, 3] }] }
+precision: { fraction: 10 }
+comparator: { bits: 5 }
+";
+
+fn inspection(sets: &[&str]) -> Inspection {
+    let sets: Vec<String> = sets.iter().map(|&set| set.to_owned()).collect();
+    let scene = parse(SCENE, "lit-floor.yaml", &sets, "".as_ref()).unwrap();
+    Inspection::new(&scene.valid, None, Options::default()).unwrap()
+}
+
+fn both() -> [Inspection; 2] {
+    ["keep", "scoped"].map(|how| inspection(&[&format!("circuit.uncompute={how}")]))
+}
+
+#[test]
+fn parts_stages_and_blocks_each_add_up_to_the_call() {
+    for inspection in both() {
+        let total = inspection.total();
+        let parts = Part::ALL.map(|part| inspection.part(part));
+        assert_eq!(parts.into_iter().sum::<Cost>(), total);
+        let stages = inspection.stages();
+        assert_eq!(stages.iter().map(|stage| stage.cost).sum::<Cost>(), total);
+        let mut at = 0;
+        for stage in &stages {
+            assert_eq!(stage.instructions.start, at);
+            at = stage.instructions.end;
+        }
+        assert_eq!(at, inspection.whole.instructions.len());
+        let blocks = inspection.blocks();
+        assert_eq!(blocks.iter().map(|block| block.own).sum::<Cost>(), total);
+        assert_eq!(blocks[0].total, total);
+        assert_eq!(blocks[0].compute, inspection.part(Part::Compute));
+        let (roles, ancillas) = inspection.peak_by_role();
+        assert_eq!(roles.iter().sum::<u32>() + ancillas, inspection.qubits);
+    }
+}
+
+#[test]
+fn sizes_are_those_of_the_circuit() {
+    for inspection in both() {
+        let circuit = lower::circuit(&inspection.whole);
+        assert_eq!(inspection.qubits, circuit.qubits);
+        assert_eq!(inspection.in_use, circuit.in_use);
+        assert_eq!(inspection.toffoli_depth, depth(&circuit));
+    }
+}
+
+#[test]
+fn the_boxes_are_those_of_the_paper_and_their_inverses() {
+    for inspection in both() {
+        let stages = inspection.stages();
+        let names: Vec<String> = stages.iter().map(ToString::to_string).collect();
+        let compute = stages.iter().filter(|s| s.part == Part::Compute).count();
+        for name in [
+            "generate_ray 0",
+            "find_intersection 0",
+            "generate_ray 1",
+            "shade 1",
+            "count",
+        ] {
+            let found = names[..compute].iter().filter(|known| *known == name);
+            assert_eq!(found.count(), 1, "{name} in {names:?}");
+        }
+        assert_eq!(names[compute..compute + 3], ["compare", "flip", "compare"]);
+        let mut mirrored = names[compute + 3..].to_vec();
+        mirrored.reverse();
+        assert_eq!(mirrored, names[..compute]);
+    }
+}
+
+#[test]
+fn wires_are_computed_once_and_returned() {
+    for inspection in both() {
+        let frame = Frame::of(&inspection);
+        let names: Vec<&str> = frame.wires.iter().map(|wire| wire.name.as_str()).collect();
+        assert_eq!(names[..3], ["id", "comparator", "ray_0"]);
+        assert_eq!(names[names.len() - 2..], ["flag", "work"]);
+        assert_eq!([frame.wires[0].qubits, frame.wires[1].qubits], [6, 5]);
+        for (n, wire) in frame.wires[..names.len() - 1].iter().enumerate() {
+            let writers = frame.boxes.iter().filter(|b| b.writes.contains(&n));
+            let writers: Vec<bool> = writers.map(|b| b.inverse).collect();
+            let expected: &[bool] = if wire.input { &[] } else { &[false, true] };
+            assert_eq!(writers, expected, "{}", wire.name);
+            // Nobody reads what is not there.
+            let held = frame.held(n);
+            for (place, item) in frame.boxes.iter().enumerate() {
+                let reads = item.reads.contains(&n);
+                assert!(
+                    !reads || held.contains(&place),
+                    "{} reads {}",
+                    item.name,
+                    wire.name
+                );
+            }
+        }
+        // What the boxes need of each other is what the paper draws.
+        let read = |name: &str| {
+            let item = frame.boxes.iter().find(|b| b.name == name).unwrap();
+            item.reads
+                .iter()
+                .map(|&wire| names[wire])
+                .collect::<Vec<_>>()
+        };
+        assert_eq!(read("Generate Ray 0"), ["id"]);
+        assert_eq!(read("Find Intersection 0"), ["ray_0"]);
+        assert!(read("Compare").contains(&"comparator"));
+        assert_eq!(read("Z"), ["flag"]);
+    }
+}
+
+#[test]
+fn the_drawing_for_terminals_has_a_line_for_each_box_and_fits() {
+    for inspection in both() {
+        let frame = Frame::of(&inspection);
+        let text = frame_text(&frame);
+        assert!(
+            text.lines().all(|line| line.chars().count() <= 100),
+            "{text}"
+        );
+        let boxes: Vec<&str> = text.lines().skip(frame.wires.len() + 1).collect();
+        assert_eq!(boxes.len(), frame.boxes.len());
+        for (line, item) in boxes.iter().zip(&frame.boxes) {
+            let mark = if item.inverse { "\u{2020}" } else { "" };
+            assert!(line.starts_with(&format!("{}{mark} ", item.name)), "{line}");
+            assert!(line.ends_with(&grouped(item.cost.toffoli)), "{line}");
+            let signs = |sign| line.matches(sign).count();
+            assert_eq!(signs('\u{2588}'), item.writes.len(), "{line}");
+            assert_eq!(signs('\u{25cf}'), item.reads.len(), "{line}");
+        }
+    }
+}
+
+#[test]
+fn wires_of_a_depth_are_drawn_as_one_where_they_are_too_many() {
+    let depths = ["{ bits: [1, 1] }"; 8].join(", ");
+    let inspection = inspection(&[&format!("sampling.depths=[{depths}]")]);
+    let text = frame_text(&Frame::of(&inspection));
+    assert!(text.contains(" depth 7: "), "{text}");
+    assert!(
+        text.lines().all(|line| line.chars().count() <= 100),
+        "{text}"
+    );
+}
+
+#[test]
+fn each_register_is_in_the_map_where_its_layout_has_it() {
+    for inspection in both() {
+        let map = svg::registers(&inspection, "lit-floor");
+        for lifetime in &inspection.layout.lifetimes {
+            let register = &inspection.whole.registers[lifetime.register.index()];
+            let name = format!(
+                "<title>{}: {}, ",
+                register.name,
+                register.ty.name(register.width)
+            );
+            let name = name.replace('<', "&lt;").replace('>', "&gt;").replacen(
+                "&lt;title&gt;",
+                "<title>",
+                1,
+            );
+            assert!(map.contains(&name), "{name}");
+        }
+        let rectangles = map.matches("</title></rect>").count();
+        let bars = inspection.stages().len() + Part::ALL.len();
+        assert_eq!(rectangles, inspection.layout.lifetimes.len() + bars);
+    }
+}
+
+#[test]
+fn drawings_are_self_contained_and_know_the_dark() {
+    let inspection = inspection(&[]);
+    for drawing in [
+        svg::registers(&inspection, "a <&\"> b\u{7}"),
+        svg::frame(&inspection, "a <&\"> b\u{7}"),
+    ] {
+        assert!(drawing.contains("a &lt;&amp;&quot;&gt; b\u{fffd}"));
+        assert!(drawing.contains("prefers-color-scheme:dark"));
+        for foreign in ["<script", "href", "url(", "@import", "NaN", "inf"] {
+            assert!(!drawing.contains(foreign), "{foreign}");
+        }
+    }
+}
+
+#[test]
+fn a_call_without_a_search_has_a_drawing_too() {
+    let inspection = inspection(&["geometry=[]"]);
+    assert!(svg::registers(&inspection, "empty").contains(">comparator<"));
+    assert!(svg::frame(&inspection, "empty").contains(">Z<"));
+}

@@ -1,0 +1,191 @@
+//! What a scene allows its circuit, and what is wrong when there is no circuit.
+
+use super::OracleError;
+use crate::circuit::builder::BuildError;
+use crate::codes;
+use crate::inspect::grouped;
+use crate::report::{Path, Problem};
+use crate::scene::{Nearest, Uncompute};
+use crate::valid::ValidScene;
+
+/// What one call of an oracle takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Spent {
+    /// Qubits: the most in use at any time.
+    pub qubits: u64,
+    /// Toffoli gates.
+    pub toffoli: u64,
+}
+
+/// The limits of the scene's `budget` that a call goes beyond, each with what could be done about
+/// it. [`crate::front::Loaded::report`] shows them in the scene.
+///
+/// # Errors
+/// At least one limit is exceeded.
+pub fn check_budget(scene: &ValidScene, spent: Spent) -> Result<(), Vec<Problem>> {
+    let written = scene.scene();
+    let Some(budget) = written.budget else {
+        return Ok(());
+    };
+    let fraction = "fewer bits of `precision.fraction`";
+    let mut problems = Vec::new();
+    let mut exceeded =
+        |code, key: &str, what: &str, limit: Option<u64>, actual: u64, help: String| {
+            if let Some(limit) = limit.filter(|&limit| limit < actual) {
+                let message = format!(
+                    "the circuit has {} {what}, {} more than the budget allows",
+                    grouped(actual),
+                    grouped(actual - limit)
+                );
+                let path = Path::root().key("budget").key(key);
+                let label = format!("at most {}", grouped(limit));
+                problems.push(Problem::new(code, path, message).label(label).help(help));
+            }
+        };
+    let scoped = written.circuit.uncompute == Uncompute::Scoped;
+    let help = if scoped {
+        format!("use {fraction}, or a shorter list of `sampling.depths`; or raise `budget.qubits`")
+    } else {
+        format!(
+            "`circuit.uncompute: scoped` needs fewer qubits, for more gates; or use {fraction}, or \
+             raise `budget.qubits`"
+        )
+    };
+    exceeded(
+        codes::BUDGET_QUBITS,
+        "qubits",
+        "qubits",
+        budget.qubits,
+        spent.qubits,
+        help,
+    );
+    let cheaper = match (scoped, written.circuit.nearest) {
+        (true, _) => "`circuit.uncompute: keep` needs fewer gates, for more qubits",
+        (_, Nearest::Paper) => "`circuit.nearest: running` needs fewer gates",
+        _ => "each entry of `sampling.depths` traces the scene once more",
+    };
+    let help = format!("{cheaper}; or use {fraction}, or raise `budget.toffoli`");
+    exceeded(
+        codes::BUDGET_TOFFOLI,
+        "toffoli",
+        "Toffoli gates",
+        budget.toffoli,
+        spent.toffoli,
+        help,
+    );
+    if problems.is_empty() {
+        Ok(())
+    } else {
+        Err(problems)
+    }
+}
+
+impl OracleError {
+    /// What is wrong with the scene. [`crate::front::Loaded::report`] shows it there.
+    pub fn problem(&self) -> Problem {
+        let (code, path) = match self {
+            Self::Build(BuildError::UnboundedQuotient) => {
+                (codes::QUOTIENT_UNBOUNDED, Path::root().key("materials"))
+            }
+            Self::Build(BuildError::TooWide { .. }) => (
+                codes::NUMBER_TOO_WIDE,
+                Path::root().key("precision").key("fraction"),
+            ),
+            Self::Sampling(_) => (codes::TOO_MANY_IDS, Path::root().key("sampling")),
+        };
+        // What is wrong; what to do.
+        let text = self.to_string();
+        match text.split_once("; ") {
+            Some((wrong, help)) => Problem::new(code, path, wrong).help(help),
+            None => Problem::new(code, path, text),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::front::{Loaded, parse};
+
+    fn loaded(more: &str) -> Loaded {
+        let text = format!(
+            "\
+name: furnace
+camera: {{ perspective: {{ eye: [0, 0, 1], target: [0, 0, 0], vfov: 45 }} }}
+film: {{ width: 1, height: 1 }}
+materials: {{ sky: {{ emitter: {{ radiance: [1, 1, 1] }} }} }}
+geometry: [quad: {{ vertices: [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], material: sky }}]
+{more}"
+        );
+        parse(&text, "furnace.yaml", &[], "".as_ref()).unwrap()
+    }
+
+    const SPENT: Spent = Spent {
+        qubits: 1000,
+        toffoli: 12_345,
+    };
+
+    #[test]
+    fn a_scene_without_a_budget_may_spend_anything() {
+        for more in ["", "budget: {}", "budget: { qubits: 1000, toffoli: 12345 }"] {
+            assert_eq!(check_budget(&loaded(more).valid, SPENT), Ok(()), "{more}");
+        }
+    }
+
+    #[test]
+    fn advice_names_a_knob_that_is_not_yet_turned() {
+        for (more, advice) in [
+            ("", ["circuit.uncompute: scoped", "sampling.depths"]),
+            (
+                "circuit: { uncompute: scoped }",
+                ["sampling.depths", "circuit.uncompute: keep"],
+            ),
+            (
+                "circuit: { nearest: paper }",
+                ["circuit.uncompute: scoped", "circuit.nearest: running"],
+            ),
+        ] {
+            let loaded = loaded(&format!(
+                "{more}\nbudget: {{ qubits: 999, toffoli: 10000 }}"
+            ));
+            let problems = check_budget(&loaded.valid, SPENT).unwrap_err();
+            let codes: Vec<_> = problems.iter().map(|problem| problem.code).collect();
+            assert_eq!(codes, [codes::BUDGET_QUBITS, codes::BUDGET_TOFFOLI]);
+            for (problem, advice) in problems.iter().zip(advice) {
+                assert!(
+                    problem.help.as_ref().unwrap().contains(advice),
+                    "{problem:?}"
+                );
+            }
+            let text = loaded.report(problems).to_string();
+            assert!(
+                text.contains("the circuit has 12,345 Toffoli gates, 2,345 more"),
+                "{text}"
+            );
+            assert!(text.contains("--> furnace.yaml:7:19"), "{text}");
+        }
+    }
+
+    #[test]
+    fn what_fits_no_register_is_an_error_at_its_knob() {
+        let wide = OracleError::Build(BuildError::TooWide {
+            what: "a constant of the scene",
+            bits: 70,
+        });
+        let text = loaded("precision: { fraction: 30 }").report(vec![wide.problem()]);
+        let text = text.to_string();
+        for expected in [
+            "error[QRT0611]: a constant of the scene needs 70 bits",
+            "--> furnace.yaml:6:24",
+            "help: choose a smaller `precision.fraction`",
+        ] {
+            assert!(text.contains(expected), "{text}");
+        }
+        let quotient = OracleError::Build(BuildError::UnboundedQuotient);
+        let text = loaded("").report(vec![quotient.problem()]).to_string();
+        assert!(
+            text.contains("error[QRT0610]: ") && text.contains("help: keep the divisor away"),
+            "{text}"
+        );
+    }
+}

@@ -1,0 +1,127 @@
+//! The figures for programs.
+
+use super::Shown;
+use qrt_core::circuit::lower::Cost;
+use qrt_core::inspect::{CHANNELS, Part, ROLES};
+use serde_json::{Map, Value, json};
+
+/// All figures. Costs are those of one whole call of the oracle unless said otherwise.
+pub(super) fn json(shown: &Shown<'_>) -> Value {
+    let Shown {
+        scene,
+        inspection,
+        passes,
+    } = *shown;
+    let written = scene.scene();
+    let oracle = &inspection.oracle;
+    let (roles, ancillas) = inspection.peak_by_role();
+    let mut by_role: Map<String, Value> = ROLES
+        .iter()
+        .zip(roles)
+        .map(|(role, qubits)| (role.to_string(), json!(qubits)))
+        .collect();
+    by_role.insert("ancilla".to_owned(), json!(ancillas));
+    let mut gates = cost(inspection.total());
+    gates["toffoli_depth"] = json!(inspection.toffoli_depth);
+    let parts: Map<String, Value> = ["compute", "flip", "uncompute"]
+        .into_iter()
+        .zip(Part::ALL)
+        .map(|(name, part)| (name.to_owned(), cost(inspection.part(part))))
+        .collect();
+    let stages: Vec<Value> = inspection
+        .stages()
+        .iter()
+        .filter(|stage| stage.part == Part::Compute)
+        .map(|stage| {
+            json!({
+                "name": stage.name,
+                "depth": stage.depth,
+                "compute": cost(stage.cost),
+                "qubits": stage.qubits,
+            })
+        })
+        .collect();
+    let blocks: Vec<Value> = inspection
+        .blocks()
+        .iter()
+        .map(|block| {
+            json!({
+                "path": block.path,
+                "name": block.name,
+                "depth": block.depth,
+                "own": cost(block.own),
+                "total": cost(block.total),
+                "compute": cost(block.compute),
+                "width": block.width,
+            })
+        })
+        .collect();
+    let steps: Vec<Value> = passes
+        .windows(2)
+        .map(|pair| {
+            let [before, after] = [pair[0], pair[1]];
+            json!({
+                "name": after.name,
+                "toffoli": { "before": before.toffoli, "after": after.toffoli },
+                "ops": { "before": before.ops, "after": after.ops },
+                "qubits": { "before": before.qubits, "after": after.qubits },
+            })
+        })
+        .collect();
+    json!({
+        "version": 1,
+        "qrt": env!("CARGO_PKG_VERSION"),
+        "scene": written.name,
+        "scene_hash": scene.fingerprint().to_string(),
+        "channel": CHANNELS[inspection.channel],
+        "fraction_bits": oracle.fraction,
+        "comparator_bits": oracle.comparator_bits(),
+        "path_bits": oracle.points.path_bits(),
+        "depths": written.sampling.depths.len(),
+        "strategy": written.circuit.uncompute.name(),
+        "nearest": written.circuit.nearest.name(),
+        "qubits": { "peak": inspection.qubits, "by_role": by_role, "layout": inspection.layout.height },
+        "gates": gates,
+        "toffoli_x_qubits": inspection.toffoli_x_qubits(),
+        "parts": parts,
+        "stages": stages,
+        "blocks": blocks,
+        "passes": steps,
+        "operations": { "asked": oracle.sharing[0], "shared": oracle.sharing[1] },
+        "registers": registers(shown),
+    })
+}
+
+/// In the order of their offsets' first use.
+fn registers(shown: &Shown<'_>) -> Vec<Value> {
+    let inspection = shown.inspection;
+    let program = &inspection.whole;
+    let mut seen = vec![false; program.registers.len()];
+    let lifetimes = inspection.layout.lifetimes.iter();
+    let firsts =
+        lifetimes.filter(|lifetime| !std::mem::replace(&mut seen[lifetime.register.index()], true));
+    firsts
+        .map(|lifetime| {
+            let register = &program.registers[lifetime.register.index()];
+            let block = &program.blocks[register.block.index()];
+            json!({
+                "name": register.name,
+                "type": register.ty.name(register.width),
+                "offset": lifetime.offset,
+                "width": register.width,
+                "depth": block.depth,
+                "role": register.role.to_string(),
+                "block": block.name,
+            })
+        })
+        .collect()
+}
+
+fn cost(cost: Cost) -> Value {
+    json!({
+        "toffoli": cost.toffoli,
+        "and_measured": cost.and_measured,
+        "cnot": cost.cnot,
+        "x": cost.x,
+    })
+}

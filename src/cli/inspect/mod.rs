@@ -1,0 +1,125 @@
+//! `qrt inspect`: what a scene's oracle costs, and where.
+
+mod json;
+mod text;
+
+use super::failure::Failure;
+use super::files::{can_be_written, keep_apart};
+use super::terminal;
+use clap::{Args, ValueEnum};
+use qrt_core::front;
+use qrt_core::inspect::{Frame, Inspection, PassFigures, frame_text, svg};
+use qrt_core::oracle::{Options, Spent, check_budget};
+use qrt_core::valid::ValidScene;
+use qrt_runtime::replace_file::replace_file;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// Show what a scene's quantum circuit costs, and where
+///
+/// Compiles the scene's oracle for one channel and counts one whole call of it: compute the
+/// colours of all paths in superposition, compare and flip the phase, uncompute. Nothing is
+/// rendered.
+///
+/// A scene's `budget` is checked; beyond it the figures are still shown and the exit code is 2.
+#[derive(Clone, Debug, Args)]
+#[command(after_help = "\
+Examples:
+  qrt inspect box.yaml                                  the figures
+  qrt inspect box.yaml --planes                         with each plane of each search
+  qrt inspect box.yaml --json --set precision.fraction=12
+  qrt inspect box.yaml --registers map.svg --circuit frame.svg
+  qrt inspect box.yaml --circuit -                      the circuit, drawn in the terminal")]
+pub(crate) struct InspectArgs {
+    /// The scene, a YAML file
+    #[arg(value_name = "SCENE")]
+    scene: PathBuf,
+    /// The channel [default: the one whose oracle has the most Toffolis]
+    #[arg(long, value_enum, value_name = "CHANNEL")]
+    channel: Option<Channel>,
+    /// List each plane or primitive of a search, not only their sum
+    #[arg(short = 'v', long, conflicts_with = "json")]
+    planes: bool,
+    /// JSON instead of tables
+    #[arg(long)]
+    json: bool,
+    /// Draw which qubits each register has, and when
+    #[arg(long, value_name = "FILE.svg")]
+    registers: Option<PathBuf>,
+    /// Draw the circuit as boxes on wires; `-` draws it in the terminal
+    #[arg(long, value_name = "FILE.svg")]
+    circuit: Option<PathBuf>,
+    /// Override a key of the scene; may be repeated
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    sets: Vec<String>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Channel {
+    /// Red
+    R,
+    /// Green
+    G,
+    /// Blue
+    B,
+}
+
+/// What is shown.
+struct Shown<'a> {
+    scene: &'a ValidScene,
+    inspection: &'a Inspection,
+    passes: &'a [PassFigures],
+}
+
+pub(crate) fn run(args: &InspectArgs) -> Result<(), Failure> {
+    let in_terminal = args.circuit.as_deref() == Some(Path::new("-"));
+    if in_terminal && args.json {
+        let message = "`--circuit -` draws where `--json` writes; name a file for one of them";
+        return Err(Failure::Usage(message.to_owned()));
+    }
+    let circuit = args.circuit.as_deref().filter(|_| !in_terminal);
+    let files = [circuit, args.registers.as_deref()].into_iter().flatten();
+    keep_apart(std::iter::once(&*args.scene).chain(files.clone()))?;
+    for file in files {
+        can_be_written(file)?;
+    }
+    let loaded = front::load(&args.scene, &args.sets)?;
+    let scene = &loaded.valid;
+    let channel = args.channel.map(|channel| channel as usize);
+    let refused = |error: qrt_core::oracle::OracleError| loaded.report(vec![error.problem()]);
+    let inspection = Inspection::new(scene, channel, Options::default()).map_err(refused)?;
+    let passes = inspection.passes(scene).map_err(refused)?;
+
+    let name = &scene.scene().name;
+    if let Some(file) = &args.registers {
+        write(file, &svg::registers(&inspection, name))?;
+    }
+    if let Some(file) = circuit {
+        write(file, &svg::frame(&inspection, name))?;
+    }
+    let shown = Shown {
+        scene,
+        inspection: &inspection,
+        passes: &passes,
+    };
+    let mut out = if args.json {
+        format!("{:#}\n", json::json(&shown))
+    } else {
+        text::text(&shown, args.planes)
+    };
+    if in_terminal {
+        out.push('\n');
+        out.push_str(&frame_text(&Frame::of(&inspection)));
+    }
+    terminal::print(&out)?;
+    let spent = Spent {
+        qubits: u64::from(inspection.qubits),
+        toffoli: inspection.total().toffoli,
+    };
+    check_budget(scene, spent).map_err(|problems| loaded.report(problems).into())
+}
+
+fn write(file: &Path, text: &str) -> Result<(), Failure> {
+    replace_file(file, |out| out.write_all(text.as_bytes()))
+        .map_err(|error| Failure::file(file, &error))
+}

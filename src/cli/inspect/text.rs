@@ -1,0 +1,284 @@
+//! The figures for people, within 100 columns.
+
+use super::Shown;
+use qrt_core::circuit::lower::Cost;
+use qrt_core::inspect::{BlockFigures, CHANNELS, Inspection, Part, ROLES, Stage, grouped};
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+
+/// Of a row's name, with its branches.
+const NAME: usize = 28;
+
+/// The figures; with `planes`, each plane of each search.
+pub(super) fn text(shown: &Shown<'_>, planes: bool) -> String {
+    let mut out = String::new();
+    headline(&mut out, shown);
+    out.push('\n');
+    costs(&mut out, shown.inspection, planes);
+    out.push('\n');
+    passes(&mut out, shown);
+    out.push('\n');
+    registers(&mut out, shown.inspection);
+    out.lines()
+        .flat_map(|line| [line.trim_end(), "\n"])
+        .collect()
+}
+
+fn headline(out: &mut String, shown: &Shown<'_>) {
+    let Shown {
+        scene, inspection, ..
+    } = shown;
+    let written = scene.scene();
+    let oracle = &inspection.oracle;
+    let total = inspection.total();
+    let _ = writeln!(
+        out,
+        "{}, channel {}: one oracle call, O_f = compute, compare and flip, uncompute",
+        name(&written.name),
+        CHANNELS[inspection.channel],
+    );
+    let _ = writeln!(
+        out,
+        "{} path bits, {}, {} comparator bits, {} fraction bits, uncompute {}, nearest {}\n",
+        oracle.points.path_bits(),
+        match written.sampling.depths.len() {
+            1 => "1 depth".to_owned(),
+            depths => format!("{depths} depths"),
+        },
+        oracle.comparator_bits(),
+        oracle.fraction,
+        written.circuit.uncompute,
+        written.circuit.nearest,
+    );
+    let figures = [
+        (u64::from(inspection.qubits), "qubits"),
+        (total.toffoli, "Toffoli"),
+        (total.and_measured, "AND, if they are undone by measurement"),
+        (inspection.toffoli_depth, "Toffoli depth"),
+        (inspection.toffoli_x_qubits(), "Toffoli x qubits"),
+    ];
+    let figures = figures.map(|(number, what)| (grouped(number), what));
+    let width = figures.iter().map(|(number, _)| number.len()).max();
+    let width = width.unwrap_or(0) + 2;
+    for (number, what) in figures {
+        let _ = writeln!(out, "{number:>width$} {what}");
+    }
+}
+
+/// A scene's name on one line, cut where it is long.
+fn name(name: &str) -> String {
+    let plain = name.chars().map(|c| if c.is_control() { ' ' } else { c });
+    let text: String = plain.clone().take(24).collect();
+    if plain.count() > 24 {
+        format!("{}...", text.trim_end())
+    } else {
+        text
+    }
+}
+
+/// A row of the table of costs.
+fn row(out: &mut String, branch: &str, name: &str, cost: Cost, all: u64, qubits: Option<u32>) {
+    let share = match all {
+        0 => String::new(),
+        _ => format!("{:.1}", 100.0 * cost.toffoli as f64 / all as f64),
+    };
+    let _ = writeln!(
+        out,
+        "{:<NAME$}{:>14}{share:>6}{:>14}{:>15}{:>12}{:>11}",
+        format!("{branch}{name}"),
+        grouped(cost.toffoli),
+        grouped(cost.and_measured),
+        grouped(cost.cnot),
+        grouped(cost.x),
+        qubits.map_or_else(String::new, |qubits| grouped(u64::from(qubits))),
+    );
+}
+
+fn costs(out: &mut String, inspection: &Inspection, planes: bool) {
+    let all = inspection.total().toffoli;
+    let _ = writeln!(
+        out,
+        "{:<NAME$}{:>14}{:>6}{:>14}{:>15}{:>12}{:>11}",
+        "", "Toffoli", "%", "measured AND", "CNOT", "X", "qubits"
+    );
+    let part = |out: &mut String, part: Part| {
+        let qubits = inspection.peak(inspection.instructions(part));
+        let cost = inspection.part(part);
+        row(out, "", part.name(), cost, all, Some(qubits));
+    };
+    part(out, Part::Compute);
+    let blocks = inspection.blocks();
+    let stages = inspection.stages();
+    let stages = stages.iter().filter(|stage| stage.part == Part::Compute);
+    let mut depths: Vec<(Option<u32>, Vec<&Stage>)> = Vec::new();
+    for stage in stages {
+        match depths.last_mut() {
+            Some((depth, stages)) if *depth == stage.depth => stages.push(stage),
+            _ => depths.push((stage.depth, vec![stage])),
+        }
+    }
+    for (place, (depth, stages)) in depths.iter().enumerate() {
+        let last = place + 1 == depths.len();
+        let (branch, below) = branches(last);
+        match depth {
+            Some(depth) => {
+                let cost = stages.iter().map(|stage| stage.cost).sum();
+                let qubits = stages.iter().map(|stage| stage.qubits).max();
+                row(out, branch, &format!("depth {depth}"), cost, all, qubits);
+                for (place, stage) in stages.iter().enumerate() {
+                    let (branch, further) = branches(place + 1 == stages.len());
+                    let branch = format!("{below}{branch}");
+                    row(
+                        out,
+                        &branch,
+                        &stage.name,
+                        stage.cost,
+                        all,
+                        Some(stage.qubits),
+                    );
+                    let below = format!("{below}{further}");
+                    within(out, &below, stage, &blocks, all, planes);
+                }
+            }
+            None => {
+                for (n, stage) in stages.iter().enumerate() {
+                    let (branch, below) = branches(last && n + 1 == stages.len());
+                    row(
+                        out,
+                        branch,
+                        &stage.name,
+                        stage.cost,
+                        all,
+                        Some(stage.qubits),
+                    );
+                    within(out, below, stage, &blocks, all, planes);
+                }
+            }
+        }
+    }
+    part(out, Part::Flip);
+    part(out, Part::Uncompute);
+    let total = inspection.total();
+    row(out, "", "O_f", total, all, Some(inspection.qubits));
+}
+
+/// The line to a row and the one past the rows below it.
+fn branches(last: bool) -> (&'static str, &'static str) {
+    if last {
+        ("\u{2514} ", "  ")
+    } else {
+        ("\u{251c} ", "\u{2502} ")
+    }
+}
+
+/// The blocks within a stage: those of one kind (`plane 0`, `plane 1`) added up, unless each is
+/// asked for.
+fn within(
+    out: &mut String,
+    below: &str,
+    stage: &Stage,
+    blocks: &[BlockFigures],
+    all: u64,
+    each: bool,
+) {
+    let Some(start) = blocks
+        .iter()
+        .position(|block| Some(block.block) == stage.block)
+    else {
+        return;
+    };
+    let level = blocks[start].level;
+    let inner = blocks[start + 1..]
+        .iter()
+        .take_while(|block| block.level > level);
+    let inner = inner.filter(|block| block.level == level + 1);
+    let mut kinds: BTreeMap<&str, Vec<&BlockFigures>> = BTreeMap::new();
+    for block in inner {
+        let kind = block.name.split(' ').next().unwrap_or_default();
+        kinds.entry(kind).or_default().push(block);
+    }
+    let rows: Vec<(String, Cost)> = kinds
+        .iter()
+        .flat_map(|(kind, blocks)| {
+            let total = blocks.iter().map(|block| block.compute).sum();
+            let count = grouped(blocks.len() as u64);
+            let plural = if blocks.len() == 1 { "" } else { "s" };
+            let mut rows = vec![(format!("{count} {kind}{plural}"), total)];
+            if each {
+                let single = blocks.iter();
+                rows.extend(single.map(|block| (format!("  {}", block.name), block.compute)));
+            }
+            rows
+        })
+        .collect();
+    for (place, (name, cost)) in rows.iter().enumerate() {
+        let branch = format!("{below}{}", branches(place + 1 == rows.len()).0);
+        row(out, &branch, name, *cost, all, None);
+    }
+}
+
+fn passes(out: &mut String, shown: &Shown<'_>) {
+    let _ = writeln!(
+        out,
+        "{:<NAME$}{:>14}{:>6}{:>14}{:>15}{:>20}",
+        "passes, one after another", "Toffoli", "%", "operations", "qubits", "Toffoli removed"
+    );
+    let all = shown.passes.first().map_or(0, |first| first.toffoli);
+    let mut before = all;
+    for pass in shown.passes {
+        let share = match all {
+            0 => String::new(),
+            _ => format!("{:.1}", 100.0 * pass.toffoli as f64 / all as f64),
+        };
+        let change = match (pass.name, pass.toffoli <= before) {
+            ("none", _) => String::new(),
+            (_, true) => grouped(before - pass.toffoli),
+            (_, false) => format!("-{}", grouped(pass.toffoli - before)),
+        };
+        let _ = writeln!(
+            out,
+            "{:<NAME$}{:>14}{share:>6}{:>14}{:>15}{change:>20}",
+            format!("  {}", pass.name),
+            grouped(pass.toffoli),
+            grouped(pass.ops),
+            grouped(u64::from(pass.qubits)),
+        );
+        before = pass.toffoli;
+    }
+}
+
+fn registers(out: &mut String, inspection: &Inspection) {
+    let mut count = [(0_u64, 0_u64); ROLES.len()];
+    for (place, register) in inspection.whole.registers.iter().enumerate() {
+        let used = inspection
+            .layout
+            .offset(qrt_core::circuit::RegisterId(place as u32));
+        if let (Some(_), Some(role)) = (used, ROLES.iter().position(|&r| r == register.role)) {
+            count[role].0 += 1;
+            count[role].1 += u64::from(register.width);
+        }
+    }
+    let (peak, ancillas) = inspection.peak_by_role();
+    let _ = writeln!(
+        out,
+        "{:<NAME$}{:>14}{:>6}{:>14}{:>15}",
+        "registers by role", "registers", "", "qubits", "at the peak"
+    );
+    for ((role, (registers, qubits)), peak) in ROLES.iter().zip(count).zip(peak) {
+        let _ = writeln!(
+            out,
+            "{:<NAME$}{:>14}{:>6}{:>14}{:>15}",
+            format!("  {role}"),
+            grouped(registers),
+            "",
+            grouped(qubits),
+            grouped(u64::from(peak)),
+        );
+    }
+    let ancillas = grouped(u64::from(ancillas));
+    let _ = writeln!(
+        out,
+        "{:<NAME$}{:>49}",
+        "  ancillas of an operation", ancillas
+    );
+}
