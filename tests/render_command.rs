@@ -278,7 +278,20 @@ fn wrong_requests_exit_with_2_and_leave_nothing() {
         (&["box.yaml", "--threads", "0"], "--threads"),
         (&["box.yaml", "--threads", "99999"], "--threads"),
         (&["box.yaml", "--seed=-1"], "--seed"),
-        (&["box.yaml", "--model", "gates"], "[possible values: real]"),
+        (
+            &["box.yaml", "--model", "abacus"],
+            "[possible values: real, fixed, gates]",
+        ),
+        (
+            &[
+                "box.yaml",
+                "--model",
+                "gates",
+                "--set",
+                "budget={toffoli: 1000}",
+            ],
+            "QRT0602",
+        ),
         (
             &["box.yaml", "--estimator", "mlae"],
             "exact, monte-carlo, paper, sine",

@@ -159,7 +159,7 @@ impl Oracle {
             style,
             points: &points,
             film,
-            faces: scene.polygons().len() as u32,
+            faces: faces(&stage),
             passes: options.passes,
         });
         let bits = written.comparator.bits;
@@ -283,6 +283,12 @@ impl Oracle {
         whole.inputs.clone_from(&self.program.inputs);
         whole
     }
+}
+
+/// One more than the greatest label of a face that a ray can meet.
+fn faces<const C: usize>(stage: &Stage<C>) -> u32 {
+    let labels = stage.geometry().faces.iter().map(|face| face.label);
+    labels.max().map_or(0, |label| label + 1)
 }
 
 fn register_of(operand: Operand) -> Option<RegisterId> {

@@ -2,6 +2,7 @@
 
 use super::failure::Failure;
 use super::files::{can_be_written, is_device, keep_apart};
+use super::inspect::check_circuit;
 use super::progress::Bar;
 use super::{stats, terminal};
 use clap::builder::PossibleValuesParser;
@@ -129,7 +130,11 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     for file in files {
         can_be_written(file)?;
     }
-    let scene = front::load(&args.scene, &args.sets)?.valid;
+    let loaded = front::load(&args.scene, &args.sets)?;
+    if args.model != Model::Real {
+        check_circuit(&loaded)?;
+    }
+    let scene = &loaded.valid;
     // Known before the work, not after it.
     Metadata::new().set("scene", scene.scene().name.as_str())?;
     let checkpoint = checkpoint(&output);
@@ -157,9 +162,10 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
         progress: Some(&show),
         ..Options::default()
     };
-    let rendered = render(&scene, &options);
+    let rendered = render(scene, &options);
     bar.clear();
     let rendered = rendered.map_err(|error| match &error {
+        RenderError::Oracle(error) => loaded.report(vec![error.problem()]).into(),
         RenderError::Interrupted {
             checkpoint: Some(_),
             ..
@@ -169,7 +175,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
         _ => error.into(),
     })?;
 
-    let mut metadata = rendered.metadata(&scene)?;
+    let mut metadata = rendered.metadata(scene)?;
     if let Encoding::Png { exposure } = encoding {
         metadata.set("exposure", exposure.to_string())?;
     }
@@ -178,7 +184,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
         image::write_counts(path, rendered.counts())?;
     }
     if let Some(path) = &args.stats {
-        stats::write(path, &scene, &rendered, clipped)?;
+        stats::write(path, scene, &rendered, clipped)?;
     }
     // Only now is everything safe.
     if let Some(path) = &checkpoint {

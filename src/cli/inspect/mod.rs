@@ -7,7 +7,7 @@ use super::failure::Failure;
 use super::files::{can_be_written, keep_apart};
 use super::terminal;
 use clap::{Args, ValueEnum};
-use qrt_core::front;
+use qrt_core::front::{self, Loaded};
 use qrt_core::inspect::{Frame, Inspection, PassFigures, frame_text, svg};
 use qrt_core::oracle::{Options, Spent, check_budget};
 use qrt_core::valid::ValidScene;
@@ -112,11 +112,28 @@ pub(crate) fn run(args: &InspectArgs) -> Result<(), Failure> {
         out.push_str(&frame_text(&Frame::of(&inspection)));
     }
     terminal::print(&out)?;
+    keep_budget(&loaded, &inspection)
+}
+
+/// That a scene has a circuit, and one within its budget.
+///
+/// # Errors
+/// What stands in the way, at its place in the scene.
+pub(super) fn check_circuit(loaded: &Loaded) -> Result<(), Failure> {
+    if loaded.valid.scene().budget.is_none() {
+        return Ok(());
+    }
+    let inspection = Inspection::new(&loaded.valid, None, Options::default())
+        .map_err(|error| loaded.report(vec![error.problem()]))?;
+    keep_budget(loaded, &inspection)
+}
+
+fn keep_budget(loaded: &Loaded, inspection: &Inspection) -> Result<(), Failure> {
     let spent = Spent {
         qubits: u64::from(inspection.qubits),
         toffoli: inspection.total().toffoli,
     };
-    check_budget(scene, spent).map_err(|problems| loaded.report(problems).into())
+    check_budget(&loaded.valid, spent).map_err(|problems| loaded.report(problems).into())
 }
 
 fn write(file: &Path, text: &str) -> Result<(), Failure> {
