@@ -1,11 +1,13 @@
 //! How fast the machines of the circuit are: gates on basis states, and operations on integers.
 //!
 //! `cargo bench --bench gates` prints lane-gates a second and core: gates times the states that
-//! each is executed on. The lists are what multipliers and comparators of 16 bits are made of,
-//! computed and uncomputed: one of a few thousand gates, whose rows the nearest caches hold, and
-//! one of half a million over 20,000 qubits, the size of a scene. Beside them stands what the
-//! processor's loads and stores allow a machine that executes one Toffoli after the other from the
-//! nearest cache. Then come nanoseconds an operation takes a lane on the fixed machine.
+//! each is executed on. The lists are what the compiler makes: a product of 16 bits and a
+//! comparison, wide and lean, whose rows the nearest caches hold; and the Cornell box for all three
+//! channels, of more than half a million gates, under either strategy. Each is computed and
+//! uncomputed. Beside them stands what the processor's loads and stores allow a machine that
+//! executes one Toffoli after the other from the nearest cache, measured in the same run: sequences
+//! of gates that go through registers together exceed it. Then come nanoseconds an operation takes
+//! a lane on the fixed machine.
 //!
 //! It fails where a promise is broken: 3e11 lane-gates a second and core with vectors of 256 bits
 //! or more, and simple operations on numbers of up to 32 bits in an eighth of a nanosecond.
@@ -13,26 +15,37 @@
 // A bench that cannot run has nothing to report.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
+#[path = "common/knot.rs"]
+mod knot;
+#[allow(dead_code)] // No meshes here.
+#[path = "common/mesh.rs"]
+mod mesh;
 #[path = "common/programs.rs"]
 mod programs;
 
 use pulp::{Simd, WithSimd, bytemuck};
-use qrt::core::circuit::{Circuit, Gate, Qubit};
-use qrt::runtime::machines::{Fixed, Gates, InstructionSet, Span};
+use qrt::core::circuit::{
+    BlockId, Circuit, Instruction, Op, Operand, Program, Qubit, Register, RegisterId, Role, Style,
+    Type, Word, lower,
+};
+use qrt::core::oracle::{Options, Oracle};
+use qrt::runtime::machines::{Fixed, Gates, InstructionSet, Parts, Span};
+use std::path::Path;
 use std::process::ExitCode;
 use std::time::Instant;
 
 /// Best of so many runs: the machine's noise only ever slows.
 const RUNS: usize = 9;
 
-/// Lane-gates a second and core.
+/// Lane-gates a second and core, and those aimed at.
 const BAR: f64 = 3e11;
+const AIM: f64 = 6e11;
 
 /// Nanoseconds of a simple operation on a lane.
 const SIMPLE: f64 = 0.125;
 
 /// Bits of the factors.
-const BITS: usize = 16;
+const BITS: u32 = 16;
 
 fn main() -> ExitCode {
     let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
@@ -42,33 +55,35 @@ fn main() -> ExitCode {
         "  loads and stores allow, one core     {:6.2}",
         limit / 1e11
     );
-    println!("\n                  gates  qubits   one core  of the limit  {cores} threads");
+    println!("\n                         gates  qubits   one core  of the limit  {cores} threads");
     let wide = InstructionSet::widest() != InstructionSet::Portable;
     let mut slowest = f64::INFINITY;
-    for (style, in_place) in [("out of place", false), ("in place", true)] {
-        for (size, least) in [("one", 1), ("many", 500_000)] {
-            let circuit = multipliers(least, in_place);
-            let machine = Gates::new(&[&circuit]).expect("gates of its own qubits");
-            let one = gate_speed(&machine, 1);
-            let all = gate_speed(&machine, cores);
-            slowest = slowest.min(one);
-            println!(
-                "{style:12} {size:4} {:6}  {:6}     {:6.2}        {:6.2}      {:6.2}",
-                machine.len(0),
-                circuit.qubits,
-                one / 1e11,
-                one / limit,
-                all / 1e11,
-            );
-        }
-    }
-    let circuit = multipliers(1, false);
-    for set in InstructionSet::available() {
-        let machine = Gates::new(&[&circuit]).expect("gates of its own qubits");
-        let speed = gate_speed(&machine.with_instructions(set), 1);
+    let lists = [
+        ("product, wide", product(Style::Wide)),
+        ("product, lean", product(Style::Lean)),
+        ("box, keep", cornell_box("keep")),
+        ("box, scoped", cornell_box("scoped")),
+    ];
+    for (name, circuits) in &lists {
+        let machine = machine(circuits);
+        let one = gate_speed(&machine, 1);
+        let all = gate_speed(&machine, cores);
+        slowest = slowest.min(one);
         println!(
-            "{:17} one core              {:6.2}",
-            format!("{set:?}"),
+            "  {name:18} {:9}  {:6}     {:6.2}        {:6.2}     {:6.2}",
+            gates(&machine),
+            circuits[0].qubits,
+            one / 1e11,
+            one / limit,
+            all / 1e11,
+        );
+    }
+    let [_, _, (_, of_box), _] = &lists;
+    for set in InstructionSet::available() {
+        let speed = gate_speed(&machine(of_box).with_instructions(set), 1);
+        println!(
+            "  {:36}     {:6.2}",
+            format!("box, keep, {set:?}"),
             speed / 1e11
         );
     }
@@ -94,7 +109,10 @@ fn main() -> ExitCode {
         kept &= kept_now;
     };
     println!();
-    promise("3e11 lane-gates a second and core", !wide || slowest >= BAR);
+    promise(
+        &format!("lane-gates a second and core: {slowest:.1e}, at least {BAR:.0e} (aim {AIM:.0e})"),
+        !wide || slowest >= BAR,
+    );
     promise(
         "simple operations in an eighth of a nanosecond",
         !wide || simple <= SIMPLE,
@@ -116,23 +134,37 @@ fn best(mut run: impl FnMut()) -> f64 {
     seconds.fold(f64::INFINITY, f64::min)
 }
 
+fn machine([compute, uncompute]: &[Circuit; 2]) -> Gates {
+    Gates::new(&[compute, uncompute]).expect("gates of its own qubits")
+}
+
+fn gates(machine: &Gates) -> usize {
+    machine.len(0) + machine.len(1)
+}
+
 /// Lane-gates a second of `threads` threads, each with rows of its own.
 fn gate_speed(machine: &Gates, threads: usize) -> f64 {
-    let times = 2_000_000 / machine.len(0) + 1;
+    let times = 2_000_000 / gates(machine) + 1;
     let mut all: Vec<_> = (0..threads).map(|_| machine.rows()).collect();
     let words: Vec<u64> = (0..Gates::LANES as u64).map(|lane| lane * lane).collect();
-    let qubits: Vec<Qubit> = (0..2 * BITS as u32).collect();
+    // Of both kinds of list the inputs come first.
+    let qubits: Vec<Qubit> = (0..14).collect();
     for rows in &mut all {
         rows.set(&qubits, &words);
     }
     let seconds = best(|| {
         std::thread::scope(|scope| {
             for rows in &mut all {
-                scope.spawn(move || (0..times).for_each(|_| machine.run(0, rows)));
+                scope.spawn(move || {
+                    for _ in 0..times {
+                        machine.run(0, rows);
+                        machine.run(1, rows);
+                    }
+                });
             }
         });
     });
-    (threads * times * machine.len(0) * Gates::LANES) as f64 / seconds
+    (threads * times * gates(machine) * Gates::LANES) as f64 / seconds
 }
 
 /// Lane-gates a second of nothing but `t ^= a & b` in the nearest cache.
@@ -164,98 +196,70 @@ fn limit() -> f64 {
     (TIMES * WORDS * 64) as f64 / seconds
 }
 
-/// Qubits handed out in order.
-struct Taken(u32);
-
-impl Taken {
-    fn take(&mut self, count: usize) -> Vec<Qubit> {
-        let first = self.0;
-        self.0 += count as u32;
-        (first..self.0).collect()
-    }
+/// The Cornell box, compute and uncompute.
+fn cornell_box(uncompute: &str) -> [Circuit; 2] {
+    let sets = [format!("circuit.uncompute={uncompute}")];
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let scene = mesh::load(root, "scenes-yaml/cornell-box.yaml", &sets);
+    let oracle = Oracle::rgb(&scene, Options::default());
+    let parts = Parts::new(&oracle.unwrap_or_else(|error| panic!("{error}")));
+    [parts.compute, parts.uncompute]
 }
 
-/// At least `least` gates: products of the same two numbers and comparisons with what they are
-/// compared with, each undone by its own gates in reverse.
-fn multipliers(least: usize, in_place: bool) -> Circuit {
-    let mut taken = Taken(0);
-    let mut gates = Vec::new();
-    let (a, b) = (taken.take(BITS), taken.take(BITS));
-    let kept = taken.0;
-    let mut qubits = kept;
-    while gates.len() < least {
-        if taken.0 > 20_000 {
-            taken.0 = kept;
-        }
-        let start = gates.len();
-        let product = taken.take(2 * BITS + 1);
-        let (bits, carries) = (taken.take(BITS), taken.take(BITS + 1));
-        for (row, factor) in a.iter().enumerate() {
-            let sum = &product[row..];
-            if in_place {
-                let partial: Vec<_> = bits.iter().zip(&b).collect();
-                gates.extend(partial.iter().map(|(p, b)| Gate::Ccx(*factor, **b, **p)));
-                add_in_place(&mut gates, &bits, sum, carries[0]);
-                gates.extend(partial.iter().map(|(p, b)| Gate::Ccx(*factor, **b, **p)));
-            } else {
-                let (bits, carries) = (taken.take(BITS), taken.take(BITS + 1));
-                gates.extend(bits.iter().zip(&b).map(|(p, b)| Gate::Ccx(*factor, *b, *p)));
-                add(&mut gates, &bits, sum, &carries);
-            }
-        }
-        let less = taken.take(1)[0];
-        compare(&mut gates, &product[..BITS], &b, carries[0], less);
-        let back: Vec<Gate> = gates[start..].iter().rev().copied().collect();
-        gates.extend(back);
-        qubits = qubits.max(taken.0);
-    }
-    Circuit {
-        gates,
-        qubits,
-        ..Circuit::default()
-    }
-}
-
-/// Adds `a` to `sum`, whose next bit is zero, and leaves the carries.
-fn add(gates: &mut Vec<Gate>, a: &[Qubit], sum: &[Qubit], carries: &[Qubit]) {
-    for (place, &a) in a.iter().enumerate() {
-        let [s, c, next] = [sum[place], carries[place], carries[place + 1]];
-        gates.extend([Gate::Cx(c, a), Gate::Cx(c, s), Gate::Ccx(a, s, next)]);
-        gates.extend([Gate::Cx(c, next), Gate::Cx(c, a), Gate::Cx(a, s)]);
-    }
-    gates.push(Gate::Cx(carries[a.len()], sum[a.len()]));
-}
-
-/// Cuccaro, Draper, Kutin and Moulton's majorities up: the carry ends in the last of `a`.
-fn majorities(gates: &mut Vec<Gate>, a: &[Qubit], b: &[Qubit], mut carry: Qubit) {
-    for (&a, &b) in a.iter().zip(b) {
-        gates.extend([Gate::Cx(a, b), Gate::Cx(a, carry), Gate::Ccx(carry, b, a)]);
-        carry = a;
-    }
-}
-
-/// Adds `a` to `sum`, whose next bit is zero, and leaves nothing.
-fn add_in_place(gates: &mut Vec<Gate>, a: &[Qubit], sum: &[Qubit], carry: Qubit) {
-    majorities(gates, a, sum, carry);
-    gates.push(Gate::Cx(a[a.len() - 1], sum[a.len()]));
-    for place in (0..a.len()).rev() {
-        let carry = if place == 0 { carry } else { a[place - 1] };
-        let [a, s] = [a[place], sum[place]];
-        gates.extend([
-            Gate::Ccx(carry, s, a),
-            Gate::Cx(a, carry),
-            Gate::Cx(carry, s),
-        ]);
-    }
-}
-
-/// Flips `less` where a + b overflows, and leaves nothing.
-fn compare(gates: &mut Vec<Gate>, a: &[Qubit], b: &[Qubit], carry: Qubit, less: Qubit) {
-    let start = gates.len();
-    majorities(gates, a, b, carry);
-    let back: Vec<Gate> = gates[start..].iter().rev().copied().collect();
-    gates.push(Gate::Cx(a[a.len() - 1], less));
-    gates.extend(back);
+/// The product of two numbers, and whether it is less than a third, computed and uncomputed.
+fn product(style: Style) -> [Circuit; 2] {
+    let mut program = Program::default();
+    let mut register = |width: u32, ty: Type| {
+        program.registers.push(Register {
+            name: String::new(),
+            ty,
+            role: Role::Work,
+            width,
+            block: BlockId::ROOT,
+            range: None,
+        });
+        RegisterId(program.registers.len() as u32 - 1)
+    };
+    let number = Type::Fixed { fraction: BITS };
+    let [a, b, c] = [BITS, BITS, 2 * BITS].map(|width| register(width, number));
+    let target = register(2 * BITS, number);
+    let scratch = register(0, Type::UInt);
+    let less = register(1, Type::Bool);
+    let word = |register: RegisterId, width: u32| Word {
+        register,
+        offset: 0,
+        width,
+        signed: true,
+        shift: 0,
+    };
+    let multiply = Op::Multiply {
+        a: word(a, BITS),
+        b: word(b, BITS),
+        drop: 0,
+        style,
+        target,
+        scratch,
+    };
+    let width = lower::scratch_width(&multiply, |register| program.width(register));
+    program.registers[scratch.index()].width = width;
+    let compare = Op::Less {
+        a: Operand::Word(word(target, 2 * BITS)),
+        b: Operand::Word(word(c, 2 * BITS)),
+        target: less,
+    };
+    program.ops = vec![multiply, compare];
+    program.inputs = vec![a, b, c];
+    let steps = [(0, false), (1, false), (1, true), (0, true)];
+    program.instructions = steps
+        .map(|(op, inverse)| Instruction {
+            op,
+            inverse,
+            block: BlockId::ROOT,
+        })
+        .into();
+    lower::parts(&program, &[2])
+        .try_into()
+        .expect("one cut makes two parts")
 }
 
 /// Nanoseconds an operation of such a program takes a lane.

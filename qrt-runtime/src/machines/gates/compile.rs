@@ -7,7 +7,7 @@ use qrt_core::circuit::{Circuit, Gate};
 const LONGEST: usize = 1 << 20;
 
 /// Most rows of a pattern.
-const ROWS: usize = 9;
+const ROWS: usize = 10;
 
 /// Where the rows are: first the qubits', then the signs', then the parameters' bits.
 #[derive(Clone, Debug)]

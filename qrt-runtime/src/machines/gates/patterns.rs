@@ -102,6 +102,27 @@ macro_rules! store {
         $places.2.set($c);
         $places.3.set($d);
     };
+    ($places:ident, $a:ident $b:ident $c:ident $d:ident $e:ident $f:ident $g:ident $h:ident) => {
+        $places.0.set($a);
+        $places.1.set($b);
+        $places.2.set($c);
+        $places.3.set($d);
+        $places.4.set($e);
+        $places.5.set($f);
+        $places.6.set($g);
+        $places.7.set($h);
+    };
+    ($places:ident, $a:ident $b:ident $c:ident $d:ident $e:ident $f:ident $g:ident $h:ident $i:ident) => {
+        $places.0.set($a);
+        $places.1.set($b);
+        $places.2.set($c);
+        $places.3.set($d);
+        $places.4.set($e);
+        $places.5.set($f);
+        $places.6.set($g);
+        $places.7.set($h);
+        $places.8.set($i);
+    };
 }
 
 patterns! {
@@ -158,4 +179,48 @@ patterns! {
     }
     // One into many.
     29: (a) (s t u v) { cx a s; cx a t; cx a u; cx a v; }
+    // Four majorities up a ladder, or down: what carries from one to the next stays in a register.
+    30: () (a b c d e f g h i) {
+        cx a b; cx a c; ccx b c a; cx d e; cx d a; ccx e a d;
+        cx f g; cx f d; ccx g d f; cx h i; cx h f; ccx i f h;
+    }
+    31: () (a b c d e f g h i) {
+        ccx i f h; cx h f; cx h i; ccx g d f; cx f d; cx f g;
+        ccx e a d; cx d a; cx d e; ccx b c a; cx a c; cx a b;
+    }
+    32: () (a b c d e f g h i) {
+        ccx i f h; cx h f; cx f i; ccx g d f; cx f d; cx d g;
+        ccx e a d; cx d a; cx a e; ccx b c a; cx a c; cx c b;
+    }
+    33: () (a b c d e f g h i) {
+        cx c b; cx a c; ccx b c a; cx a e; cx d a; ccx e a d;
+        cx d g; cx f d; ccx g d f; cx f i; cx h f; ccx i f h;
+    }
+    // Three full adders out of place, in a row: of a + b and of a - b.
+    34: (a b d e g h) (c t u v) {
+        cx a c; cx a b; ccx c b t; cx a t; cx a b; cx b c;
+        cx d t; cx d e; ccx t e u; cx d u; cx d e; cx e t;
+        cx g u; cx g h; ccx u h v; cx g v; cx g h; cx h u;
+    }
+    35: (a b d e g h) (c t u v) {
+        cx h u; cx g h; cx g v; ccx u h v; cx g h; cx g u;
+        cx e t; cx d e; cx d u; ccx t e u; cx d e; cx d t;
+        cx b c; cx a b; cx a t; ccx c b t; cx a b; cx a c;
+    }
+    36: (a b d e g h) (c t u v) {
+        cx a c; cx a b; x b; ccx c b t; x b; cx a t; cx a b; cx b c; x c;
+        cx d t; cx d e; x e; ccx t e u; x e; cx d u; cx d e; cx e t; x t;
+        cx g u; cx g h; x h; ccx u h v; x h; cx g v; cx g h; cx h u; x u;
+    }
+    37: (a b d e g h) (c t u v) {
+        x u; cx h u; cx g h; cx g v; x h; ccx u h v; x h; cx g h; cx g u;
+        x t; cx e t; cx d e; cx d u; x e; ccx t e u; x e; cx d e; cx d t;
+        x c; cx b c; cx a b; cx a t; x b; ccx c b t; x b; cx a b; cx a c;
+    }
+    // One into many, negated or not.
+    38: (a) (s t u v) { cx a s; x s; cx a t; x t; cx a u; x u; cx a v; x v; }
+    39: (a) (s t u v) { x s; cx a s; x t; cx a t; x u; cx a u; x v; cx a v; }
+    40: (a) (s t u v w x y z) {
+        cx a s; cx a t; cx a u; cx a v; cx a w; cx a x; cx a y; cx a z;
+    }
 }

@@ -45,7 +45,7 @@ fn circuit(gates: Vec<Gate>, qubits: u32) -> Circuit {
     }
 }
 
-const QUBITS: u32 = 9;
+const QUBITS: u32 = 10;
 
 fn gate() -> impl Strategy<Value = Gate> {
     let distinct = Just((0..QUBITS).collect::<Vec<Qubit>>()).prop_shuffle();

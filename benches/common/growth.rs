@@ -1,0 +1,77 @@
+//! How a cost grows: scenes of any number of quads, and the exponents of what is measured.
+
+use std::fmt::Write;
+
+/// A scene of `quads` parallelograms, one of them a lamp and one the floor, seen along paths of
+/// three rays. The first few of a larger scene are those of a smaller one.
+pub(crate) fn quads(quads: u32) -> String {
+    let mut text = String::from(
+        "name: quads\n\
+         camera: { perspective: { eye: [0, 1, -4], target: [0, 1, 0], vfov: 40 } }\n\
+         film: { width: 16, height: 16 }\n\
+         materials:\n  \
+           grey: { lambertian: { albedo: [0.7, 0.6, 0.5] } }\n  \
+           lamp: { emitter: { radiance: [4, 4, 4] } }\n\
+         geometry:\n",
+    );
+    let mut state = 1_u64;
+    let mut draw = || {
+        let next = state.wrapping_mul(6_364_136_223_846_793_005);
+        state = next.wrapping_add(1_442_695_040_888_963_407);
+        (state >> 43) as f64 / f64::from(1 << 20) - 1.0
+    };
+    for quad in 0..quads {
+        let (corner, along, up, material) = match quad {
+            0 => ([-1.0, 2.5, -1.0], [2.0, 0.0, 0.0], [0.0, 0.0, 2.0], "lamp"),
+            1 => ([-2.0, 0.0, -2.0], [0.0, 0.0, 4.0], [4.0, 0.0, 0.0], "grey"),
+            _ => {
+                let corner = [1.5 * draw(), 1.0 + 0.7 * draw(), 1.5 * draw()];
+                let along = [0.3 + 0.1 * draw(), 0.2 * draw(), 0.2 * draw()];
+                let up = [0.2 * draw(), 0.3 + 0.1 * draw(), 0.2 * draw()];
+                (corner, along, up, "grey")
+            }
+        };
+        let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|[s, t]| {
+            let [x, y, z] = [0, 1, 2].map(|i| corner[i] + s * along[i] + t * up[i]);
+            format!("[{x:.5}, {y:.5}, {z:.5}]")
+        });
+        let corners = corners.join(", ");
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            text,
+            "  - quad: {{ vertices: [{corners}], material: {material} }}"
+        );
+    }
+    let depths = ["{ bits: [8, 8] }"; 3].join(", ");
+    let _ = writeln!(
+        text,
+        "sampling: {{ path_bits: 14, depths: [{depths}] }}\ncomparator: {{ bits: 12 }}"
+    );
+    text
+}
+
+/// What is fitted to points (x, y): `y = a x^exponent`.
+pub(crate) struct Fit {
+    /// The slope of log y over log x, by least squares.
+    pub(crate) exponent: f64,
+    /// Root mean square of what the fit leaves of log y: a share of y.
+    pub(crate) residual: f64,
+}
+
+pub(crate) fn fit(points: impl Iterator<Item = [f64; 2]>) -> Fit {
+    let logs: Vec<[f64; 2]> = points.map(|point| point.map(f64::ln)).collect();
+    let count = logs.len() as f64;
+    let mean = [0, 1].map(|i| logs.iter().map(|log| log[i]).sum::<f64>() / count);
+    let moment = |i: usize, j: usize| -> f64 {
+        let products = logs
+            .iter()
+            .map(|log| (log[i] - mean[i]) * (log[j] - mean[j]));
+        products.sum::<f64>() / count
+    };
+    let exponent = moment(0, 1) / moment(0, 0);
+    let left = moment(1, 1) - exponent * moment(0, 1);
+    Fit {
+        exponent,
+        residual: left.max(0.0).sqrt(),
+    }
+}

@@ -1,0 +1,171 @@
+//! How many paths a second the fixed machine traces, and the gates machine on the same scenes.
+//!
+//! `cargo bench --bench fixed` prints, scene by scene, the operations of a path of all three
+//! channels and the gates of its circuit; paths a second of the fixed machine on one core and on
+//! all, and the nanoseconds that an operation takes a path; paths a second of the gates machine
+//! (compute, read, uncompute, look at every qubit; the flips are tried once a scene, not path by
+//! path, and are left out); and how many times as fast the fixed machine is on one core. Meshes
+//! have few triangles.
+//!
+//! It fails where a promise is broken: on the Cornell box the fixed machine is at least 20 times as
+//! fast as the gates machine.
+
+// A bench that cannot run has nothing to report.
+#![allow(clippy::unwrap_used, clippy::expect_used)]
+
+#[path = "common/knot.rs"]
+mod knot;
+#[allow(dead_code)] // Of meshes only the small ones.
+#[path = "common/mesh.rs"]
+mod mesh;
+
+use qrt::core::oracle::{Options, Oracle};
+use qrt::core::valid::ValidScene;
+use qrt::runtime::machines::{Gates, OracleMachine, Parts, Span};
+use std::path::Path;
+use std::process::ExitCode;
+use std::sync::Arc;
+use std::time::Instant;
+
+/// Best of so many runs, each of a few milliseconds: noise only ever slows, and what waits for its
+/// turn shall not be counted.
+const RUNS: usize = 40;
+
+/// How many times as fast as the gates machine.
+const BAR: f64 = 20.0;
+
+const SCENES: [&str; 7] = [
+    "furnace",
+    "floor-and-light",
+    "cornell-box",
+    "cornell-mirror",
+    "cornell-glass",
+    "cornell-ggx",
+    "velvet",
+];
+
+/// Where the pixels stand, in a film of 32 columns.
+const PIXELS: [[u32; 2]; 4] = [[9, 17], [16, 8], [12, 25], [22, 22]];
+
+const SETS: [&str; 3] = ["film.width=32", "film.height=32", "sampling.path_bits=12"];
+
+fn main() -> ExitCode {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    println!("million paths a second, all three channels; best of {RUNS} runs");
+    println!(
+        "                      ops   gates   fixed: one  {cores:2} threads  ns an op | gates: one   ratio"
+    );
+    let sets = SETS.map(String::from);
+    let scenes = SCENES.iter().map(|name| {
+        let scene = mesh::load(root, &format!("scenes-yaml/{name}.yaml"), &sets);
+        (*name, scene)
+    });
+    let knot = mesh::mesh(root, mesh::CLOSE, [3, 6], 12);
+    let mut of_box = 0.0;
+    for (name, scene) in scenes.chain([("knot of 36", knot)]) {
+        let ratio = compared(name, &scene, cores);
+        if name == "cornell-box" {
+            of_box = ratio;
+        }
+    }
+    let kept = of_box >= BAR;
+    println!(
+        "\n{} box: fixed {of_box:.1} times as fast as gates, at least {BAR}",
+        if kept { "kept  " } else { "BROKEN" }
+    );
+    if kept {
+        ExitCode::SUCCESS
+    } else {
+        ExitCode::FAILURE
+    }
+}
+
+/// Prints what both machines do with a scene; how many times as fast the fixed one is.
+fn compared(name: &str, scene: &ValidScene, cores: usize) -> f64 {
+    let oracle = Oracle::rgb(scene, Options::default()).unwrap_or_else(|error| panic!("{error}"));
+    let oracle = Arc::new(oracle);
+    let fixed = OracleMachine::fixed(oracle.clone(), 1, false);
+    let parts = Parts::new(&oracle);
+    let machine = Gates::new(&[&parts.compute, &parts.uncompute]).expect("gates of its own qubits");
+    let ops = oracle.program.ops.len();
+    let (mut one, mut all, mut gates) = (0.0_f64, 0.0_f64, 0.0_f64);
+    // In turn, so that what slows the machine slows all of them.
+    for _ in 0..RUNS {
+        one = one.max(fixed_speed(&fixed, 1));
+        gates = gates.max(gates_speed(&oracle, &parts, &machine));
+        all = all.max(fixed_speed(&fixed, cores));
+    }
+    println!(
+        "  {name:16} {ops:7} {:8}    {:8.3}    {:8.3}  {:8.4} |   {:8.4}  {:6.1}",
+        machine.len(0) + machine.len(1),
+        one / 1e6,
+        all / 1e6,
+        1e9 / (one * ops as f64),
+        gates / 1e6,
+        one / gates,
+    );
+    one / gates
+}
+
+/// Paths a second of `threads` threads.
+fn fixed_speed(machine: &OracleMachine, threads: usize) -> f64 {
+    let started = Instant::now();
+    std::thread::scope(|scope| {
+        for _ in 0..threads {
+            scope.spawn(|| {
+                let finished = |found: qrt::runtime::machines::Finished<'_>| {
+                    std::hint::black_box(found.good);
+                };
+                let traced = machine.trace(&PIXELS, 0..machine.paths(), finished);
+                traced.expect("the fixed machine finds nothing");
+            });
+        }
+    });
+    let paths = threads as u64 * PIXELS.len() as u64 * machine.paths();
+    paths as f64 / started.elapsed().as_secs_f64()
+}
+
+/// Paths a second of one thread.
+fn gates_speed(oracle: &Oracle, parts: &Parts, machine: &Gates) -> f64 {
+    let outputs = &parts.compute.outputs;
+    let (_, id) = outputs
+        .iter()
+        .find(|(register, _)| *register == oracle.id)
+        .expect("the id stays");
+    let counts: Vec<_> = oracle
+        .channels
+        .iter()
+        .filter_map(|channel| match channel.count {
+            qrt::core::circuit::Operand::Word(word) => outputs
+                .iter()
+                .find(|(register, _)| *register == word.register),
+            qrt::core::circuit::Operand::Constant(_) => None,
+        })
+        .collect();
+    let parameters = oracle.program.parameters.iter();
+    let words: Vec<u64> = parameters
+        .map(|parameter| parameter.value(&oracle.points, 1, PIXELS[0]))
+        .collect();
+    let spans = [Span {
+        lanes: Gates::LANES,
+        parameters: &words,
+    }];
+    let ids: Vec<u64> = (0..Gates::LANES as u64).collect();
+    let mut values = vec![0; Gates::LANES];
+    let mut rows = machine.rows();
+    let blocks = 2_000_000 / (machine.len(0) + machine.len(1)) + 1;
+    let started = Instant::now();
+    for _ in 0..blocks {
+        rows.set(id, &ids);
+        rows.set_parameters(&spans);
+        machine.run(0, &mut rows);
+        for (_, qubits) in &counts {
+            rows.get(qubits, &mut values);
+            std::hint::black_box(&mut values);
+        }
+        machine.run(1, &mut rows);
+        assert_eq!(rows.dirty(id, Gates::LANES), None, "all is undone");
+    }
+    (blocks * Gates::LANES) as f64 / started.elapsed().as_secs_f64()
+}

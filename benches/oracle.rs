@@ -1,0 +1,299 @@
+//! What a path tracer costs as a circuit, how the cost grows, and how long the compiler takes.
+//!
+//! `cargo bench --bench oracle` prints, for the oracle of a channel O_f (compute, compare, flip,
+//! uncompute) of the worst channel, each at the scene's own widths:
+//!
+//! * seconds from scene to program and from program to gates, for every example scene, the knot
+//!   with fewer triangles;
+//! * gates, qubits and Toffoli depth of the Cornell box, by strategy;
+//! * what each of the compiler's passes is worth;
+//! * Toffolis and qubits over the number of quads P, rays D, path bits log2 R, comparator bits
+//!   log2 C and fraction bits w, each with the exponent of a power of it that fits best, and the
+//!   share of the cost by which that misses (root mean square).
+//!
+//! It fails where a promise is broken: what the box may cost, and how the cost may grow.
+
+// A bench that cannot run has nothing to report.
+#![allow(clippy::unwrap_used, clippy::expect_used)]
+
+#[path = "common/growth.rs"]
+mod growth;
+#[path = "common/knot.rs"]
+mod knot;
+#[allow(dead_code)] // Of meshes only the small ones.
+#[path = "common/mesh.rs"]
+mod mesh;
+
+use growth::{fit, quads};
+use qrt::core::circuit::builder::Passes;
+use qrt::core::circuit::lower::{self, Cost};
+use qrt::core::front;
+use qrt::core::oracle::{Options, Oracle};
+use qrt::core::valid::ValidScene;
+use std::ops::RangeInclusive;
+use std::path::Path;
+use std::process::ExitCode;
+use std::time::Instant;
+
+/// Toffolis that the box's oracle may take under `uncompute: keep`, and those aimed at.
+const TOFFOLIS: [u64; 2] = [500_000, 150_000];
+
+/// Qubits that it may take under `uncompute: scoped`, and those aimed at.
+const QUBITS: [u64; 2] = [1_500, 500];
+
+/// Where an exponent that should be 1 may lie.
+const LINEAR: RangeInclusive<f64> = 0.9..=1.1;
+
+/// The scenes; a mesh has few triangles here.
+const SCENES: [&str; 7] = [
+    "furnace",
+    "floor-and-light",
+    "cornell-box",
+    "cornell-mirror",
+    "cornell-glass",
+    "cornell-ggx",
+    "velvet",
+];
+
+fn main() -> ExitCode {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    seconds(root);
+    let [keep, scoped] = strategies(root);
+    passes(root);
+    let rules = growth(root);
+
+    let mut kept = true;
+    let mut promise = |what: &str, kept_now: bool| {
+        println!("{} {what}", if kept_now { "kept  " } else { "BROKEN" });
+        kept &= kept_now;
+    };
+    println!();
+    for (what, is, [bar, aim]) in [
+        ("Toffolis of the box, keep", keep, TOFFOLIS),
+        ("qubits of the box, scoped", scoped, QUBITS),
+    ] {
+        promise(
+            &format!("{what}: {is}, at most {bar} (aim {aim})"),
+            is <= bar,
+        );
+    }
+    for (what, rule) in rules {
+        promise(what, rule);
+    }
+    if kept {
+        ExitCode::SUCCESS
+    } else {
+        ExitCode::FAILURE
+    }
+}
+
+/// An oracle, measured.
+struct Measured {
+    cost: Cost,
+    qubits: u64,
+    depth: u64,
+}
+
+fn load(root: &Path, name: &str, sets: &[&str]) -> ValidScene {
+    let sets: Vec<String> = sets.iter().map(ToString::to_string).collect();
+    mesh::load(root, &format!("scenes-yaml/{name}.yaml"), &sets)
+}
+
+fn oracle(scene: &ValidScene, channel: usize, passes: Passes) -> Oracle {
+    let options = Options {
+        passes,
+        ..Options::default()
+    };
+    Oracle::new(scene, channel, options).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn cost(oracle: &Oracle) -> Cost {
+    lower::tally(&oracle.whole(0)).into_iter().sum()
+}
+
+/// The oracle of the channel that takes most Toffolis.
+fn worst(scene: &ValidScene, passes: Passes) -> (Oracle, Cost) {
+    let all = (0..3).map(|channel| {
+        let oracle = oracle(scene, channel, passes);
+        let cost = cost(&oracle);
+        (oracle, cost)
+    });
+    all.max_by_key(|(_, cost)| cost.toffoli)
+        .expect("there are three channels")
+}
+
+fn measured((oracle, cost): &(Oracle, Cost)) -> Measured {
+    let circuit = lower::circuit(&oracle.whole(0));
+    Measured {
+        cost: *cost,
+        qubits: u64::from(circuit.qubits),
+        depth: lower::depth(&circuit),
+    }
+}
+
+/// Prints how long the compiler takes.
+fn seconds(root: &Path) {
+    println!("seconds: scene to program | program to gates; what comes of it; the first channel");
+    let knot = mesh::mesh(root, mesh::CLOSE, [3, 6], 12);
+    let scenes = SCENES.iter().map(|name| (*name, load(root, name, &[])));
+    for (name, scene) in scenes.chain([("knot of 36", knot)]) {
+        let started = Instant::now();
+        let oracle = oracle(&scene, 0, Passes::ALL);
+        let built = started.elapsed().as_secs_f64();
+        let circuit = lower::circuit(&oracle.whole(0));
+        let lowered = started.elapsed().as_secs_f64() - built;
+        println!(
+            "  {name:16} {built:7.3} | {lowered:7.3}   {:6} operations {:9} gates",
+            oracle.program.ops.len(),
+            circuit.gates.len(),
+        );
+    }
+}
+
+/// Prints what the box costs; Toffolis that it takes under `keep`, qubits under `scoped`.
+fn strategies(root: &Path) -> [u64; 2] {
+    println!("\nCornell box, D = 3, 16 quads, w = 14, R = 2^14, C = 2^12: one O_f, worst channel");
+    println!(
+        "                   Toffoli  measured ANDs     CNOT        X  qubits    depth  Toffoli x qubits"
+    );
+    let mut bars = [0; 2];
+    for uncompute in ["keep", "scoped"] {
+        for nearest in ["running", "paper"] {
+            let sets = [
+                format!("circuit.uncompute={uncompute}"),
+                format!("circuit.nearest={nearest}"),
+            ];
+            let scene = load(root, "cornell-box", &[&sets[0], &sets[1]]);
+            let Measured {
+                cost,
+                qubits,
+                depth,
+            } = measured(&worst(&scene, Passes::ALL));
+            println!(
+                "  {uncompute:6} {nearest:7} {:9}      {:9} {:8} {:8}  {qubits:6} {depth:8}          {:8.2e}",
+                cost.toffoli,
+                cost.and_measured,
+                cost.cnot,
+                cost.x,
+                (cost.toffoli * qubits) as f64,
+            );
+            match (uncompute, nearest) {
+                ("keep", "running") => bars[0] = cost.toffoli,
+                ("scoped", "running") => bars[1] = qubits,
+                _ => {}
+            }
+        }
+    }
+    bars
+}
+
+/// Prints what the box costs with more and more passes.
+fn passes(root: &Path) {
+    println!("\nCornell box, pass by pass: Toffolis, and of those before");
+    let scene = load(root, "cornell-box", &[]);
+    let mut passes = Passes::NONE;
+    let mut before = None;
+    for name in ["none", "share", "tabulate", "needed", "merge"] {
+        match name {
+            "share" => passes.share = true,
+            "tabulate" => passes.tabulate = true,
+            "needed" => passes.needed = true,
+            "merge" => passes.merge = true,
+            _ => {}
+        }
+        let (_, Cost { toffoli, .. }) = worst(&scene, passes);
+        let share = before.map_or(100.0, |before| 100.0 * toffoli as f64 / before as f64);
+        println!("  + {name:9} {toffoli:9}  {share:6.1} %");
+        before = Some(toffoli);
+    }
+}
+
+/// Prints how the cost grows, and says which promises about that hold.
+fn growth(root: &Path) -> [(&'static str, bool); 4] {
+    let generated = |count: u32| {
+        let parsed = front::parse(&quads(count), "quads.yaml", &[], root);
+        parsed.unwrap_or_else(|report| panic!("{report}")).valid
+    };
+    let set = |key: &str, value: u32| load(root, "cornell-box", &[&format!("{key}={value}")]);
+    let rays = |depth: u32| {
+        let depths = vec!["{ bits: [10, 10] }"; depth as usize].join(", ");
+        let depths = format!("sampling.depths=[{depths}]");
+        load(root, "cornell-box", &[&depths])
+    };
+    println!("\nhow one O_f grows (first channel, keep)");
+    let sizes = [4, 8, 16, 32, 64, 128];
+    let faces = grown("quads P, D = 3", &sizes, generated).fitted(4..=128);
+    let sizes = [1, 2, 3, 4, 5, 6, 7, 8, 12, 16, 20, 24];
+    let depths = grown("rays D, of the box", &sizes, rays);
+    // The first ray is the cheapest: a straight line, but not through zero. Far on, what a ray can
+    // still add rounds to nothing, and it vanishes.
+    depths.fitted(2..=8);
+    let depths = depths.fitted(8..=24);
+    let sizes = [4, 8, 12, 16, 20, 24];
+    let paths = grown("path bits log2 R, of the box", &sizes, |bits| {
+        set("sampling.path_bits", bits)
+    });
+    let paths = paths.fitted(4..=24);
+    let sizes = [2, 4, 8, 12, 16, 20, 24];
+    let thresholds = grown("comparator bits log2 C, of the box", &sizes, |bits| {
+        set("comparator.bits", bits)
+    });
+    let thresholds = thresholds.fitted(2..=24);
+    let sizes = [6, 10, 14, 18, 22, 26, 30];
+    let fractions = grown("fraction bits w, of the box", &sizes, |bits| {
+        set("precision.fraction", bits)
+    });
+    fractions.fitted(6..=30);
+    [
+        (
+            "Toffolis over quads: exponent in 0.9..1.1",
+            LINEAR.contains(&faces),
+        ),
+        (
+            "Toffolis over rays, from 8 on: exponent in 0.9..1.1",
+            LINEAR.contains(&depths),
+        ),
+        ("Toffolis over path bits: exponent at most 1", paths <= 1.0),
+        (
+            "Toffolis over comparator bits: exponent at most 1",
+            thresholds <= 1.0,
+        ),
+    ]
+}
+
+/// The costs of a family of scenes: size, Toffolis and qubits.
+struct Grown(Vec<[f64; 3]>);
+
+/// Prints the costs of a family of scenes.
+fn grown(what: &str, sizes: &[u32], scene: impl Fn(u32) -> ValidScene) -> Grown {
+    println!("  {what}");
+    let costs = sizes.iter().map(|&size| {
+        let oracle = oracle(&scene(size), 0, Passes::ALL);
+        let toffoli = cost(&oracle).toffoli;
+        let qubits = lower::circuit(&oracle.whole(0)).qubits;
+        println!("    {size:4}  {toffoli:9} Toffoli  {qubits:7} qubits");
+        [f64::from(size), toffoli as f64, f64::from(qubits)]
+    });
+    Grown(costs.collect())
+}
+
+impl Grown {
+    /// Fits powers to the costs of these sizes and prints them; the Toffolis' exponent.
+    fn fitted(&self, sizes: RangeInclusive<u32>) -> f64 {
+        let within = |cost: &&[f64; 3]| sizes.contains(&(cost[0] as u32));
+        let [toffolis, qubits] = [1, 2].map(|i| {
+            let costs = self.0.iter().filter(within);
+            fit(costs.map(|cost| [cost[0], cost[i]]))
+        });
+        println!(
+            "    {:2}..{:<3} exponents {:.3} (residual {:.1} %) and {:.3} ({:.1} %)",
+            sizes.start(),
+            sizes.end(),
+            toffolis.exponent,
+            100.0 * toffolis.residual,
+            qubits.exponent,
+            100.0 * qubits.residual,
+        );
+        toffolis.exponent
+    }
+}
