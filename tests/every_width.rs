@@ -10,6 +10,7 @@ use qrt::core::circuit::{Register, Type};
 use qrt::core::oracle::Oracle;
 use qrt::core::valid::ValidScene;
 use qrt::runtime::machines::{Extremes, OracleMachine, Real, contents};
+use std::fmt::Write;
 
 const SEED: u64 = 2;
 
@@ -52,7 +53,7 @@ fn fits(oracle: &std::sync::Arc<Oracle>, every: usize) -> Result<(), String> {
     let mut proven = 0;
     for (place, pixel) in pixels.iter().enumerate() {
         let words = parameters(oracle, SEED, *pixel);
-        for id in (0..machine.paths()).filter(|id| (*id as usize + place) % every == 0) {
+        for id in (0..machine.paths()).filter(|id| (*id as usize + place).is_multiple_of(every)) {
             let found = extremes.record(program, &inputs(oracle, id), &words);
             if !undone {
                 proven = 0;
@@ -236,9 +237,11 @@ fn any_scene() -> impl Strategy<Value = String> {
             let mut materials = "  lamp: { emitter: { radiance: [5, 4, 3] } }\n".to_owned();
             let mut geometry = format!("  - quad: {{ vertices: {lamp:?}, material: lamp }}\n");
             for (number, (vertices, material)) in quads.iter().enumerate() {
-                materials += &format!("  m{number}: {{ {material} }}\n");
-                geometry +=
-                    &format!("  - quad: {{ vertices: {vertices:?}, material: m{number} }}\n");
+                let _ = writeln!(materials, "  m{number}: {{ {material} }}");
+                let _ = writeln!(
+                    geometry,
+                    "  - quad: {{ vertices: {vertices:?}, material: m{number} }}"
+                );
             }
             let depths = vec!["{ bits: [5, 5] }"; depths].join(", ");
             format!(

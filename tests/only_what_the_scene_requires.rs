@@ -1,4 +1,5 @@
 //! A circuit holds what its scene requires, and nothing else.
+#![allow(clippy::unwrap_used)]
 
 use qrt::core::circuit::builder::Passes;
 use qrt::core::circuit::{Circuit, Op, Program, lower};

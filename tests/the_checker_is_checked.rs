@@ -98,7 +98,7 @@ impl Checked {
             seed: SEED,
             ..Options::default()
         };
-        verify_parts(&self.scene, self.oracle.clone(), parts, &options).unwrap()
+        verify_parts(&self.scene, &self.oracle, parts, &options).unwrap()
     }
 
     /// Verification says what simulation says; that is returned.

@@ -27,6 +27,7 @@ fn whole(scene: &ValidScene, oracle: &Oracle, pixels: &[[u32; 2]]) -> Vec<[u64; 
     assert!(states.len() <= Gates::LANES);
     let at = scene.scene().comparator.at;
     let mut good = vec![[0; 3]; pixels.len()];
+    #[allow(clippy::needless_range_loop)] // A channel's number, not a place alone.
     for c in 0..3 {
         let circuit = lower::circuit(&oracle.whole(c));
         let machine = Gates::new(&[&circuit]).unwrap();

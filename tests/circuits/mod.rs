@@ -75,9 +75,10 @@ pub(crate) fn paths(machine: &OracleMachine, pixels: &[[u32; 2]]) -> Result<Path
     machine.trace(pixels, 0..machine.paths(), |finished| {
         assert_eq!((finished.pixel, finished.first_id), expected);
         let end = finished.first_id + finished.good[0].len() as u64;
-        expected = match end == machine.paths() {
-            true => (finished.pixel + 1, 0),
-            false => (finished.pixel, end),
+        expected = if end == machine.paths() {
+            (finished.pixel + 1, 0)
+        } else {
+            (finished.pixel, end)
         };
         for c in 0..3 {
             paths.colours[c].extend_from_slice(finished.colours[c]);

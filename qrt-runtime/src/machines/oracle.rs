@@ -336,7 +336,7 @@ impl OracleMachine {
                 let last = pixel + 1 == pixels.len() && first == ids.end;
                 if block.ids.len() == most || last {
                     self.run(&mut block, &parameters)?;
-                    self.hand_over(&block, &mut finished);
+                    Self::hand_over(&block, &mut finished);
                     block.ids.clear();
                     block.runs.clear();
                 }
@@ -353,7 +353,7 @@ impl OracleMachine {
             .collect()
     }
 
-    fn hand_over(&self, block: &Block, finished: &mut impl FnMut(Finished<'_>)) {
+    fn hand_over(block: &Block, finished: &mut impl FnMut(Finished<'_>)) {
         let mut start = 0;
         for run in &block.runs {
             let range = start..start + run.count;

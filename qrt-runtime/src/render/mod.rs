@@ -226,7 +226,10 @@ pub fn render(scene: &ValidScene, options: &Options<'_>) -> Result<Rendered, Ren
         });
     };
     let source = match options.model {
-        Model::Real => Source::Real(Real::new(scene, options.seed)?.with_simd(options.simd)),
+        Model::Real => {
+            let real = Real::new(scene, options.seed)?.with_simd(options.simd);
+            Source::Real(Box::new(real))
+        }
         Model::Fixed | Model::Gates => {
             let oracle = Oracle::rgb(scene, qrt_core::oracle::Options::default())?;
             Source::Oracle(if options.model == Model::Fixed {

@@ -40,7 +40,7 @@ pub(super) struct Pixel {
 /// What traces the paths.
 pub(super) enum Source {
     /// Colours, in radiance.
-    Real(Real),
+    Real(Box<Real>),
     /// Counts of thresholds that colours exceed.
     Oracle(OracleMachine),
 }
@@ -295,7 +295,7 @@ sampling: { path_bits: 5 }
 
     fn wall(estimator: Estimator) -> Pixels {
         let scene = parse(WALL, "wall.yaml", &[], "".as_ref()).unwrap().valid;
-        let real = Source::Real(Real::new(&scene, 0).unwrap());
+        let real = Source::Real(Box::new(Real::new(&scene, 0).unwrap()));
         Pixels::new(real, scene.scene(), estimator, 0).unwrap()
     }
 

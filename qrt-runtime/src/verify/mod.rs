@@ -129,7 +129,7 @@ pub fn verify(scene: &ValidScene, options: &Options<'_>) -> Result<Report, Rende
     }
     let oracle = Arc::new(Oracle::rgb(scene, oracle::Options::default())?);
     let parts = Parts::new(&oracle);
-    verify_parts(scene, oracle, parts, options)
+    verify_parts(scene, &oracle, parts, options)
 }
 
 /// As [`verify`], on circuits that are given, such as ones that were tampered with.
@@ -138,7 +138,7 @@ pub fn verify(scene: &ValidScene, options: &Options<'_>) -> Result<Report, Rende
 /// As [`verify`].
 pub fn verify_parts(
     scene: &ValidScene,
-    oracle: Arc<Oracle>,
+    oracle: &Arc<Oracle>,
     parts: Parts,
     options: &Options<'_>,
 ) -> Result<Report, RenderError> {
@@ -179,7 +179,7 @@ pub fn verify_parts(
         }
     };
     let trio = Trio {
-        oracle: &oracle,
+        oracle,
         real: &real,
         fixed: &fixed,
         gates: &gates,

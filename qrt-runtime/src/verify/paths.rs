@@ -64,9 +64,9 @@ impl Trio<'_> {
     ) -> Found {
         let mut found = Found::default();
         let ulp = 1.0 / (1_u64 << self.oracle.fraction) as f64;
-        for c in 0..3 {
+        for (c, real) in real.iter().enumerate() {
             let scale = self.oracle.channels[c].scale;
-            for (lane, &colour) in real[c].iter().enumerate() {
+            for (lane, &colour) in real.iter().enumerate() {
                 let width = [fixed.colours[c][lane], fixed.good[c][lane]];
                 let gate = [gates.colours[c][lane], gates.good[c][lane]];
                 let value = width[0] as f64 * ulp * scale;
