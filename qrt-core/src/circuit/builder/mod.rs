@@ -17,7 +17,7 @@
 //! * **functions of few bits** (a material's weight, a sampled coordinate's sine, the product of two
 //!   weights) stay tables until something needs their bits, and become arithmetic only where that
 //!   is cheaper;
-//! * what nothing needs in the end was never there: see [`super::passes`].
+//! * what nothing needs in the end was never there.
 //!
 //! Rounding: constants and tables are rounded to nearest, products, quotients and roots down.
 
