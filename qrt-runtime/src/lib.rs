@@ -9,3 +9,4 @@ pub mod render;
 pub mod replace_file;
 #[cfg(test)]
 mod scratch;
+pub mod verify;

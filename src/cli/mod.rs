@@ -8,12 +8,14 @@ mod count;
 mod failure;
 mod files;
 mod inspect;
+mod interrupt;
 mod new;
 mod progress;
 mod render;
 mod schema;
 mod stats;
 mod terminal;
+mod verify;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
@@ -46,6 +48,7 @@ enum Command {
     Render(render::RenderArgs),
     Inspect(inspect::InspectArgs),
     Count(count::CountArgs),
+    Verify(verify::VerifyArgs),
     New(new::NewArgs),
     Schema(schema::SchemaArgs),
     Completions(completions::CompletionsArgs),
@@ -56,6 +59,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Render(args) => render::run(&args),
         Command::Inspect(args) => inspect::run(&args),
         Command::Count(args) => count::run(&args),
+        Command::Verify(args) => verify::run(&args),
         Command::New(args) => new::run(&args),
         Command::Schema(_) => schema::run(),
         Command::Completions(args) => completions::run(args),

@@ -4,7 +4,7 @@ use super::failure::Failure;
 use super::files::{can_be_written, is_device, keep_apart};
 use super::inspect::check_circuit;
 use super::progress::Bar;
-use super::{stats, terminal};
+use super::{interrupt, stats, terminal};
 use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueEnum};
 use qrt_core::front;
@@ -15,11 +15,9 @@ use qrt_runtime::render::{self, Options, Progress, RenderError, Rendered, render
 use std::fs;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 /// More threads than any machine profits from.
-const MAX_THREADS: u64 = 4096;
+pub(crate) const MAX_THREADS: u64 = 4096;
 
 /// Render a scene to a PNG or EXR picture
 ///
@@ -147,7 +145,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
             path.display()
         ));
     }
-    let cancel = cancel_on_interrupt()?;
+    let cancel = interrupt::cancel_on_interrupt()?;
     let bar = Bar::new(!args.quiet);
     let show = |progress: Progress| bar.show(progress);
     let options = Options {
@@ -211,22 +209,6 @@ fn checkpoint(output: &Path) -> Option<PathBuf> {
     let mut name = output.as_os_str().to_owned();
     name.push(".qrt-partial");
     Some(name.into())
-}
-
-/// A flag that the first Ctrl-C sets. The second ends the process at once; the finished tiles are
-/// safe then, too.
-fn cancel_on_interrupt() -> Result<Arc<AtomicBool>, Failure> {
-    let cancel = Arc::new(AtomicBool::new(false));
-    let flag = Arc::clone(&cancel);
-    let handler = move || {
-        if flag.swap(true, Ordering::Relaxed) {
-            std::process::exit(1);
-        }
-    };
-    match ctrlc::set_handler(handler) {
-        Ok(()) => Ok(cancel),
-        Err(error) => Err(Failure::Job(format!("Ctrl-C cannot be handled: {error}"))),
-    }
 }
 
 fn summary(output: &Path, rendered: &Rendered, clipped: u64) -> String {

@@ -8,6 +8,8 @@
 //! else but the colour. So this block is run apart, for *every* pair of a colour and a comparator:
 //! which ids have their sign turned follows exactly, `2^c` times cheaper than path by path.
 
+mod flips;
+
 use super::fixed::{self, Fixed};
 use super::gates::{Dirty, Gates, InvalidGate, Rows};
 use super::span::Span;
@@ -16,10 +18,6 @@ use qrt_core::oracle::Oracle;
 use std::fmt;
 use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};
-
-/// Most bits of a colour and a comparator together that are tried in all pairs. With more, every
-/// colour is tried with the comparators at, next to, and far from the threshold.
-const EXHAUSTIVE: u32 = 30;
 
 /// A circuit that does not do what an oracle must: a defect of qrt, found while it ran.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -54,6 +52,24 @@ pub enum Defect {
         /// The comparator.
         comparator: u64,
     },
+    /// A comparison that changes what it compares.
+    Compared {
+        /// 0 red, 1 green, 2 blue.
+        channel: usize,
+        /// The thresholds that the colour exceeds.
+        count: i64,
+        /// The comparator.
+        comparator: u64,
+    },
+    /// A comparison that touches a qubit which holds something else.
+    Foreign {
+        /// 0 red, 1 green, 2 blue.
+        channel: usize,
+        /// The qubit.
+        qubit: Qubit,
+        /// What it holds.
+        register: String,
+    },
 }
 
 impl fmt::Display for Defect {
@@ -81,6 +97,23 @@ impl fmt::Display for Defect {
                 f,
                 "channel {channel}: the phase of comparator {comparator} is wrong for a colour \
                  above {count} thresholds"
+            ),
+            Self::Compared {
+                channel,
+                count,
+                comparator,
+            } => write!(
+                f,
+                "channel {channel}: comparing comparator {comparator} with a colour above {count} \
+                 thresholds changes one of them"
+            ),
+            Self::Foreign {
+                channel,
+                qubit,
+                register,
+            } => write!(
+                f,
+                "channel {channel}: the comparison touches qubit {qubit}, which holds `{register}`"
             ),
         }
     }
@@ -235,8 +268,9 @@ impl OracleMachine {
         circuits.extend(&parts.flips);
         circuits.push(&parts.uncompute);
         let gates = Box::new(Gates::new(&circuits)?);
+        flips::try_all(&oracle, &parts)?;
         let outputs = outputs(&oracle, colours);
-        let machine = Self {
+        Ok(Self {
             machine: Machine::Gates {
                 gates,
                 rows: Mutex::new(Vec::new()),
@@ -245,9 +279,7 @@ impl OracleMachine {
             oracle,
             seed,
             outputs,
-        };
-        machine.try_flips()?;
-        Ok(machine)
+        })
     }
 
     /// The oracle.
@@ -431,54 +463,6 @@ impl OracleMachine {
             None => Ok(()),
         }
     }
-
-    /// Runs every channel's flip for every colour and comparator.
-    fn try_flips(&self) -> Result<(), Defect> {
-        let Machine::Gates { gates, parts, .. } = &self.machine else {
-            return Ok(());
-        };
-        let bits = self.oracle.comparator_bits();
-        let comparator = parts.register(self.oracle.comparator);
-        for (number, channel) in self.oracle.channels.iter().enumerate() {
-            let qubits = parts.qubits(channel.count);
-            let pairs = Pairs::new(channel.count, qubits.len() as u32, bits);
-            let blocks = pairs.count.div_ceil(Gates::LANES as u64) as usize;
-            let faults = gates.blocks(blocks, |rows, block| {
-                let first = block as u64 * Gates::LANES as u64;
-                let end = (first + Gates::LANES as u64).min(pairs.count);
-                let (colours, comparators): (Vec<u64>, Vec<u64>) =
-                    (first..end).map(|pair| pairs.pair(pair)).unzip();
-                rows.clear();
-                rows.set(&qubits, &colours);
-                rows.set(comparator, &comparators);
-                gates.run(1 + number, rows);
-                let turned = |lane: usize| rows.signs()[lane / 64] >> (lane % 64) & 1 == 1;
-                let mut held = qubits.clone();
-                held.extend(comparator);
-                if let Some(dirty) = rows.dirty(&held, colours.len()) {
-                    return Some(Defect::Dirty {
-                        dirty,
-                        pixel: [0, 0],
-                        id: 0,
-                        register: parts.name(&self.oracle, dirty.qubit),
-                    });
-                }
-                (0..colours.len()).find_map(|lane| {
-                    let count = pairs.count_of(colours[lane]);
-                    let exceeds = i128::from(comparators[lane]) < i128::from(count);
-                    (turned(lane) != exceeds).then_some(Defect::Flip {
-                        channel: channel.number,
-                        count,
-                        comparator: comparators[lane],
-                    })
-                })
-            });
-            if let Some(defect) = faults.into_iter().flatten().next() {
-                return Err(defect);
-            }
-        }
-        Ok(())
-    }
 }
 
 impl Parts {
@@ -490,61 +474,6 @@ impl Parts {
                 || "an ancilla".to_owned(),
                 |(register, _)| oracle.program.registers[register.index()].name.clone(),
             )
-    }
-}
-
-/// Pairs of a count register's bits and a comparator: all of them, or where these are too many, for
-/// each of many colours the comparators about its threshold.
-struct Pairs {
-    operand: Operand,
-    count_bits: u32,
-    bits: u32,
-    all: bool,
-    count: u64,
-}
-
-impl Pairs {
-    fn new(operand: Operand, count_bits: u32, bits: u32) -> Self {
-        let all = count_bits + bits <= EXHAUSTIVE;
-        let count = if all {
-            1 << (count_bits + bits)
-        } else {
-            1 << EXHAUSTIVE.min(26)
-        };
-        Self {
-            operand,
-            count_bits,
-            bits,
-            all,
-            count,
-        }
-    }
-
-    fn pair(&self, number: u64) -> (u64, u64) {
-        let colours = u64::MAX.checked_shr(64 - self.count_bits).unwrap_or(0);
-        let comparators = (1_u64 << self.bits) - 1;
-        if self.all {
-            return (number & colours, number >> self.count_bits & comparators);
-        }
-        // Colours far apart, by a multiplier that is prime to any power of two; comparators next
-        // to each one's threshold, and one far away.
-        let colour = (number >> 2).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 7 & colours;
-        let near = self.count_of(colour).clamp(0, i64::MAX).cast_unsigned();
-        let comparator = match number & 3 {
-            0 => near.wrapping_sub(1),
-            1 => near,
-            2 => near.wrapping_add(1),
-            _ => number.wrapping_mul(0xd134_2543_de82_ef95) >> 11,
-        };
-        (colour, comparator & comparators)
-    }
-
-    /// The number that a count register's bits stand for.
-    fn count_of(&self, bits: u64) -> i64 {
-        match self.operand {
-            Operand::Constant(value) => value,
-            Operand::Word(word) => Word { offset: 0, ..word }.read(bits),
-        }
     }
 }
 

@@ -1,0 +1,279 @@
+//! The models against each other, path by path.
+//!
+//! * `fixed` and `gates` must agree bit for bit: in every path's colour, and in how many
+//!   thresholds it exceeds.
+//! * The gates machine must return every qubit but the id to zero, and turn the signs of exactly
+//!   the good ids.
+//! * A count must be the number of thresholds below the colour, counted from their definition.
+//! * `fixed` and `real` differ by E_W, the error of a finite width: measured, pixel by pixel.
+
+mod paths;
+#[cfg(test)]
+mod tests;
+
+use crate::machines::{Defect, OracleMachine, Parts, Real};
+use crate::render::{Progress, RenderError};
+use paths::{Found, Trio};
+use qrt_core::oracle::{self, Oracle};
+use qrt_core::valid::ValidScene;
+use rayon::prelude::*;
+use std::num::NonZeroUsize;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Paths of a pixel that are compared at a time.
+const RUN: u64 = 1 << 14;
+
+/// Runs of paths whose findings are held at a time.
+const HELD: u64 = 256;
+
+/// Mismatches that are reported one by one.
+const SHOWN: usize = 8;
+
+/// What to verify, and how.
+#[derive(Clone, Copy)]
+pub struct Options<'a> {
+    /// How many pixels, spread over the film; all of them if it has no more.
+    pub pixels: u64,
+    /// Keys the shifts of the digital net.
+    pub seed: u64,
+    /// Threads; as many as the machine has cores unless set.
+    pub threads: Option<NonZeroUsize>,
+    /// Set it, from any thread, to stop.
+    pub cancel: Option<&'a AtomicBool>,
+    /// Told how far the work is, from any thread.
+    pub progress: Option<&'a (dyn Fn(Progress) + Sync)>,
+}
+
+impl Default for Options<'_> {
+    fn default() -> Self {
+        Self {
+            pixels: 16,
+            seed: 0,
+            threads: None,
+            cancel: None,
+            progress: None,
+        }
+    }
+}
+
+/// A path on which two models disagree.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Mismatch {
+    /// Column and row of the pixel.
+    pub pixel: [u32; 2],
+    /// The path.
+    pub id: u64,
+    /// 0 red, 1 green, 2 blue.
+    pub channel: usize,
+    /// Colour and count of the fixed machine, in units of their last places.
+    pub fixed: [i64; 2],
+    /// Colour and count of the gates machine.
+    pub gates: [i64; 2],
+    /// The thresholds that the fixed machine's colour exceeds, by their definition.
+    pub thresholds: i64,
+}
+
+/// What was found.
+#[derive(Clone, Debug)]
+pub struct Report {
+    /// Pixels, as columns and rows.
+    pub pixels: Vec<[u32; 2]>,
+    /// Paths compared; with a defect, paths that would have been.
+    pub paths: u64,
+    /// Qubits and gates of one run of the circuit, all channels' flips included.
+    pub qubits: u32,
+    /// See `qubits`.
+    pub gates: usize,
+    /// Fraction bits.
+    pub fraction: u32,
+    /// How many (path, channel) pairs disagree.
+    pub mismatched: u64,
+    /// The first few of them.
+    pub mismatches: Vec<Mismatch>,
+    /// What the circuit did wrong, if it did.
+    pub defect: Option<Defect>,
+    /// Per channel: the mean of the pixels, by the real machine. This and what follows is 0 if there
+    /// is a defect.
+    pub mean: [f64; 3],
+    /// Per channel: E_W, the root mean square over pixels of fixed less real.
+    pub width_error: [f64; 3],
+    /// Per channel: the greatest difference of a pixel.
+    pub greatest: [f64; 3],
+    /// Share of (path, channel) pairs whose colours differ by more than a hundredth of the scale:
+    /// paths that met something else.
+    pub parted: f64,
+}
+
+impl Report {
+    /// Is all as it must be?
+    pub fn holds(&self) -> bool {
+        self.mismatched == 0 && self.defect.is_none()
+    }
+
+    /// E_W of all channels in units of the mean of all; none if nothing is bright.
+    pub fn relative_error(&self) -> Option<f64> {
+        let square: f64 = self.width_error.iter().map(|e| e * e).sum();
+        let mean: f64 = self.mean.iter().sum();
+        (mean > 0.0).then(|| (square / 3.0).sqrt() / (mean / 3.0))
+    }
+}
+
+/// Runs a scene on all three machines.
+///
+/// # Errors
+/// A scene without a circuit, and an interruption. What the machines find is in the report.
+pub fn verify(scene: &ValidScene, options: &Options<'_>) -> Result<Report, RenderError> {
+    if scene.scene().accuracy.is_some() {
+        return Err(RenderError::Accuracy);
+    }
+    let oracle = Arc::new(Oracle::rgb(scene, oracle::Options::default())?);
+    let parts = Parts::new(&oracle);
+    verify_parts(scene, oracle, parts, options)
+}
+
+/// As [`verify`], on circuits that are given, such as ones that were tampered with.
+///
+/// # Errors
+/// As [`verify`].
+pub fn verify_parts(
+    scene: &ValidScene,
+    oracle: Arc<Oracle>,
+    parts: Parts,
+    options: &Options<'_>,
+) -> Result<Report, RenderError> {
+    let area = u64::from(oracle.film[0]) * u64::from(oracle.film[1]);
+    let count = options.pixels.clamp(1, area);
+    let path_bits = oracle.points.path_bits();
+    let Some(paths) = count.checked_mul(1 << path_bits) else {
+        return Err(RenderError::TooManyPaths {
+            pixels: count,
+            path_bits,
+        });
+    };
+    let mut report = Report {
+        paths,
+        pixels: spread(oracle.film, count),
+        qubits: parts.compute.qubits,
+        gates: parts.gates(),
+        fraction: oracle.fraction,
+        mismatched: 0,
+        mismatches: Vec::new(),
+        defect: None,
+        mean: [0.0; 3],
+        width_error: [0.0; 3],
+        greatest: [0.0; 3],
+        parted: 0.0,
+    };
+    let real = Real::new(scene, options.seed)?;
+    let fixed = OracleMachine::fixed(oracle.clone(), options.seed, true);
+    let threads = options.threads.map_or(0, NonZeroUsize::get);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+    let pool = pool.map_err(|error| RenderError::Threads(error.to_string()))?;
+    let gates = pool.install(|| OracleMachine::of_parts(oracle.clone(), parts, options.seed, true));
+    let gates = match gates {
+        Ok(gates) => gates,
+        Err(defect) => {
+            report.defect = Some(defect);
+            return Ok(report);
+        }
+    };
+    let trio = Trio {
+        oracle: &oracle,
+        real: &real,
+        fixed: &fixed,
+        gates: &gates,
+        at: scene.scene().comparator.at,
+    };
+    pool.install(|| report.compare(&trio, options))?;
+    Ok(report)
+}
+
+/// Pixels of a film: one in the middle of each of `count` equal parts of its row-by-row order.
+fn spread(film: [u32; 2], count: u64) -> Vec<[u32; 2]> {
+    let [width, height] = film.map(u128::from);
+    (0..u128::from(count))
+        .map(|k| (2 * k + 1) * width * height / (2 * u128::from(count)))
+        .map(|place| [(place % width) as u32, (place / width) as u32])
+        .collect()
+}
+
+impl Report {
+    /// Compares all paths of all pixels, in runs.
+    fn compare(&mut self, trio: &Trio<'_>, options: &Options<'_>) -> Result<(), RenderError> {
+        let say = |progress| {
+            if let Some(tell) = options.progress {
+                tell(progress);
+            }
+        };
+        say(Progress::Started {
+            paths: self.paths,
+            resumed: 0,
+        });
+        let of_pixel = self.paths / self.pixels.len() as u64;
+        let runs = of_pixel.div_ceil(RUN);
+        let all = runs * self.pixels.len() as u64;
+        let mut pixel = Found::default();
+        let mut parted = 0;
+        for first in (0..all).step_by(HELD as usize) {
+            let numbers = first..(first + HELD).min(all);
+            let found: Vec<Result<Found, Defect>> = numbers
+                .clone()
+                .into_par_iter()
+                .map(|number| {
+                    if options.cancel.is_some_and(|c| c.load(Ordering::Relaxed)) {
+                        return Ok(Found::default());
+                    }
+                    let start = number % runs * RUN;
+                    let ids = start..(start + RUN).min(of_pixel);
+                    let length = ids.end - ids.start;
+                    let found = trio.run(self.pixels[(number / runs) as usize], ids);
+                    say(Progress::Traced(length));
+                    found
+                })
+                .collect();
+            if options.cancel.is_some_and(|c| c.load(Ordering::Relaxed)) {
+                return Err(RenderError::Interrupted {
+                    finished: first / runs,
+                    pixels: self.pixels.len() as u64,
+                    checkpoint: None,
+                });
+            }
+            for (number, found) in numbers.zip(found) {
+                match found {
+                    Ok(found) => pixel.add(found),
+                    Err(defect) => {
+                        self.defect = Some(defect);
+                        // Of some of the pixels, they would be of none.
+                        [self.mean, self.width_error, self.greatest] = [[0.0; 3]; 3];
+                        return Ok(());
+                    }
+                }
+                if number % runs + 1 == runs {
+                    parted += pixel.parted;
+                    self.take(std::mem::take(&mut pixel), of_pixel);
+                }
+            }
+        }
+        let pixels = self.pixels.len() as f64;
+        self.mean = self.mean.map(|sum| sum / pixels);
+        self.width_error = self.width_error.map(|sum| (sum / pixels).sqrt());
+        self.parted = parted as f64 / (3.0 * self.paths as f64);
+        Ok(())
+    }
+
+    /// Takes in a finished pixel of so many paths.
+    fn take(&mut self, found: Found, paths: u64) {
+        for c in 0..3 {
+            let real = found.real[c] / paths as f64;
+            let difference = found.fixed[c] / paths as f64 - real;
+            self.mean[c] += real;
+            self.width_error[c] += difference * difference;
+            self.greatest[c] = self.greatest[c].max(difference.abs());
+        }
+        self.mismatched += found.mismatched;
+        let room = SHOWN - self.mismatches.len().min(SHOWN);
+        self.mismatches
+            .extend(found.mismatches.into_iter().take(room));
+    }
+}

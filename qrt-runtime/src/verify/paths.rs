@@ -1,0 +1,132 @@
+//! A run of paths on all three machines.
+
+use super::{Mismatch, SHOWN};
+use crate::machines::{Defect, OracleMachine, Real};
+use qrt_core::oracle::Oracle;
+use qrt_core::scene::ComparatorAt;
+use std::ops::Range;
+
+/// Sums over paths of a pixel.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Found {
+    pub(super) real: [f64; 3],
+    pub(super) fixed: [f64; 3],
+    pub(super) parted: u64,
+    pub(super) mismatched: u64,
+    pub(super) mismatches: Vec<Mismatch>,
+}
+
+impl Found {
+    /// Takes in the next run.
+    pub(super) fn add(&mut self, next: Self) {
+        for c in 0..3 {
+            self.real[c] += next.real[c];
+            self.fixed[c] += next.fixed[c];
+        }
+        self.parted += next.parted;
+        self.mismatched += next.mismatched;
+        let room = SHOWN - self.mismatches.len().min(SHOWN);
+        self.mismatches
+            .extend(next.mismatches.into_iter().take(room));
+    }
+}
+
+/// The three machines.
+pub(super) struct Trio<'a> {
+    pub(super) oracle: &'a Oracle,
+    pub(super) real: &'a Real,
+    pub(super) fixed: &'a OracleMachine,
+    pub(super) gates: &'a OracleMachine,
+    pub(super) at: ComparatorAt,
+}
+
+impl Trio<'_> {
+    /// Compares paths of a pixel.
+    pub(super) fn run(&self, pixel: [u32; 2], ids: Range<u64>) -> Result<Found, Defect> {
+        let mut real: [Vec<f64>; 3] = Default::default();
+        self.real.trace_range(&[pixel], ids.clone(), |block| {
+            for (all, colours) in real.iter_mut().zip(block.colours) {
+                all.extend_from_slice(colours);
+            }
+        });
+        let fixed = columns(self.fixed, pixel, ids.clone())?;
+        let gates = columns(self.gates, pixel, ids.clone())?;
+        Ok(self.compare(pixel, ids.start, &real, &fixed, &gates))
+    }
+
+    fn compare(
+        &self,
+        pixel: [u32; 2],
+        first: u64,
+        real: &[Vec<f64>; 3],
+        fixed: &Columns,
+        gates: &Columns,
+    ) -> Found {
+        let mut found = Found::default();
+        let ulp = 1.0 / (1_u64 << self.oracle.fraction) as f64;
+        for c in 0..3 {
+            let scale = self.oracle.channels[c].scale;
+            for (lane, &colour) in real[c].iter().enumerate() {
+                let width = [fixed.colours[c][lane], fixed.good[c][lane]];
+                let gate = [gates.colours[c][lane], gates.good[c][lane]];
+                let value = width[0] as f64 * ulp * scale;
+                found.real[c] += colour;
+                found.fixed[c] += value;
+                found.parted += u64::from((value - colour).abs() > 0.01 * scale);
+                let thresholds = self.thresholds(width[0]);
+                if width != gate || thresholds != width[1] {
+                    found.mismatched += 1;
+                    if found.mismatches.len() < SHOWN {
+                        found.mismatches.push(Mismatch {
+                            pixel,
+                            id: first + lane as u64,
+                            channel: c,
+                            fixed: width,
+                            gates: gate,
+                            thresholds,
+                        });
+                    }
+                }
+            }
+        }
+        found
+    }
+
+    /// `#{y < 2^c : x > (y + s) / 2^c}` for the colour `x 2^-fraction`, s being 1/2 or 0: in exact
+    /// integers, by bisection.
+    fn thresholds(&self, x: i64) -> i64 {
+        let bits = self.oracle.comparator_bits();
+        let half = i128::from(self.at == ComparatorAt::Midpoints);
+        // x 2^(c + 1) > (2 y + 2 s) 2^fraction
+        let left = i128::from(x) << (bits + 1);
+        let exceeds = |y: i64| left > (2 * i128::from(y) + half) << self.oracle.fraction;
+        let (mut low, mut high) = (0, 1_i64 << bits);
+        while low < high {
+            let middle = low.midpoint(high);
+            if exceeds(middle) {
+                low = middle + 1;
+            } else {
+                high = middle;
+            }
+        }
+        low
+    }
+}
+
+/// Every path's counts and colours.
+#[derive(Default)]
+struct Columns {
+    good: [Vec<i64>; 3],
+    colours: [Vec<i64>; 3],
+}
+
+fn columns(machine: &OracleMachine, pixel: [u32; 2], ids: Range<u64>) -> Result<Columns, Defect> {
+    let mut columns = Columns::default();
+    machine.trace(&[pixel], ids, |finished| {
+        for c in 0..3 {
+            columns.good[c].extend_from_slice(finished.good[c]);
+            columns.colours[c].extend_from_slice(finished.colours[c]);
+        }
+    })?;
+    Ok(columns)
+}

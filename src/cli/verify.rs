@@ -1,0 +1,267 @@
+//! `qrt verify`: the three models of a scene against each other.
+
+use super::failure::Failure;
+use super::progress::Bar;
+use super::render::MAX_THREADS;
+use super::{interrupt, terminal};
+use clap::Args;
+use qrt_core::front;
+use qrt_core::valid::ValidScene;
+use qrt_runtime::machines::Defect;
+use qrt_runtime::render::Progress;
+use qrt_runtime::verify::{Mismatch, Options, Report, verify};
+use serde_json::{Value, json};
+use std::fmt::Write;
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+use std::time::Instant;
+
+const CHANNELS: [&str; 3] = ["red", "green", "blue"];
+
+/// Check a scene's circuit, path by path
+///
+/// Runs the same paths on all three models. The oracle's integers (fixed) and its circuit (gates)
+/// must agree bit for bit, in every path's colour and in how many comparators it exceeds; every
+/// qubit that the circuit borrows must be zero again; the phase must be turned for exactly the
+/// comparators below the colour. How far floating point (real) is from the integers is measured:
+/// E_W, the error that the registers' width leaves in a pixel.
+///
+/// Exits with 0 if all of it holds, and with 1 if not, naming the path, its pixel and the register.
+#[derive(Clone, Debug, Args)]
+#[command(after_help = "\
+Examples:
+  qrt verify box.yaml                                   16 pixels, all their paths
+  qrt verify box.yaml --pixels 1000000                  all pixels
+  qrt verify box.yaml --set precision.fraction=20 --json")]
+pub(crate) struct VerifyArgs {
+    /// The scene, a YAML file
+    #[arg(value_name = "SCENE")]
+    scene: PathBuf,
+    /// Pixels to check, spread over the film; all of them if it has fewer
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 16,
+        value_parser = clap::value_parser!(u64).range(1..)
+    )]
+    pixels: u64,
+    /// Another seed gives other paths
+    #[arg(long, value_name = "S", default_value_t = 0)]
+    seed: u64,
+    /// Threads [default: one for each core]
+    #[arg(
+        long,
+        value_name = "N",
+        value_parser = clap::value_parser!(u64).range(1..=MAX_THREADS)
+    )]
+    threads: Option<u64>,
+    /// JSON instead of text
+    #[arg(long)]
+    json: bool,
+    /// Override a key of the scene; may be repeated
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    sets: Vec<String>,
+}
+
+/// Answers on standard output.
+///
+/// # Errors
+/// A wrong scene, an interruption, and whatever does not hold.
+pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
+    let scene = front::load(&args.scene, &args.sets)?.valid;
+    let cancel = interrupt::cancel_on_interrupt()?;
+    let bar = Bar::new(!args.json);
+    let show = |progress: Progress| bar.show(progress);
+    let options = Options {
+        pixels: args.pixels,
+        seed: args.seed,
+        threads: args.threads.and_then(|n| NonZeroUsize::new(n as usize)),
+        cancel: Some(&cancel),
+        progress: Some(&show),
+    };
+    let start = Instant::now();
+    let verified = verify(&scene, &options);
+    bar.clear();
+    let report = verified?;
+    let seconds = start.elapsed().as_secs_f64();
+    let answer = if args.json {
+        format!("{:#}\n", to_json(args, &scene, &report, seconds))
+    } else {
+        text(args, &scene, &report, seconds)
+    };
+    terminal::print(&answer)?;
+    match fault(&report) {
+        None => Ok(()),
+        Some(fault) => Err(Failure::Job(format!(
+            "{fault}; this is a defect of qrt, please report it with the scene"
+        ))),
+    }
+}
+
+/// What does not hold.
+fn fault(report: &Report) -> Option<String> {
+    if let Some(defect) = &report.defect {
+        return Some(defect.to_string());
+    }
+    let first = report.mismatches.first().map(shown)?;
+    let pairs = match report.mismatched {
+        1 => "a path".to_owned(),
+        n => format!("{n} of {} path colours", 3 * report.paths),
+    };
+    Some(format!("the models disagree on {pairs}: {first}"))
+}
+
+fn shown(mismatch: &Mismatch) -> String {
+    let Mismatch {
+        pixel: [x, y],
+        id,
+        channel,
+        fixed,
+        gates,
+        thresholds,
+    } = mismatch;
+    format!(
+        "path {id} of pixel ({x}, {y}), {}: `colour.{}` is {} by fixed and {} by gates, `count` \
+         {} and {}, and the colour exceeds {thresholds} thresholds",
+        CHANNELS[*channel],
+        &CHANNELS[*channel][..1],
+        fixed[0],
+        gates[0],
+        fixed[1],
+        gates[1],
+    )
+}
+
+fn text(args: &VerifyArgs, scene: &ValidScene, report: &Report, seconds: f64) -> String {
+    let film = &scene.scene().film;
+    let pixels = report.pixels.len();
+    let mut out = format!(
+        "{}: {pixels} of {} pixels, {} paths, on {} qubits and {} gates, in {seconds:.2} s\n\n",
+        args.scene.display(),
+        u64::from(film.width) * u64::from(film.height),
+        report.paths,
+        report.qubits,
+        report.gates,
+    );
+    let mut line = |name: &str, found: &str| {
+        let _ = writeln!(out, "  {name:<34}{found}");
+    };
+    if let Some(defect) = &report.defect {
+        line("circuit", &format!("wrong: {defect}"));
+    } else {
+        line("every borrowed qubit zero again", "yes, on every path");
+        line(
+            "phases turned as compared",
+            "yes, for every colour and comparator tried",
+        );
+        let agree = match report.mismatched {
+            0 => "yes, bit for bit".to_owned(),
+            n => format!("NO: {n} of {} path colours differ", 3 * report.paths),
+        };
+        line("fixed and gates agree", &agree);
+        for mismatch in &report.mismatches {
+            line("", &shown(mismatch));
+        }
+        let [red, green, blue] = report.width_error;
+        line(
+            "fixed against real: E_W",
+            &format!("{red:.3e} {green:.3e} {blue:.3e} (red, green, blue: RMSE over pixels)"),
+        );
+        let relative = report.relative_error().map_or_else(
+            || "nothing is bright".to_owned(),
+            |error| {
+                format!(
+                    "{:.4} % of the mean, with {} fraction bits",
+                    100.0 * error,
+                    report.fraction
+                )
+            },
+        );
+        line("", &relative);
+        line(
+            "paths that met something else",
+            &format!("{:.4} %", 100.0 * report.parted),
+        );
+    }
+    let verdict = if report.holds() {
+        "all of it holds"
+    } else {
+        "it does NOT hold"
+    };
+    let _ = writeln!(out, "\n{verdict}");
+    out
+}
+
+fn to_json(args: &VerifyArgs, scene: &ValidScene, report: &Report, seconds: f64) -> Value {
+    let mismatches = report.mismatches.iter().map(|mismatch| {
+        json!({
+            "pixel": mismatch.pixel,
+            "id": mismatch.id,
+            "channel": mismatch.channel,
+            "colour": { "fixed": mismatch.fixed[0], "gates": mismatch.gates[0] },
+            "count": {
+                "fixed": mismatch.fixed[1],
+                "gates": mismatch.gates[1],
+                "thresholds": mismatch.thresholds,
+            },
+        })
+    });
+    let measured = report.defect.is_none();
+    json!({
+        "version": 1,
+        "qrt": env!("CARGO_PKG_VERSION"),
+        "scene": scene.scene().name,
+        "scene_hash": scene.fingerprint().to_string(),
+        "seed": args.seed,
+        "holds": report.holds(),
+        "pixels": report.pixels,
+        "paths": report.paths,
+        "qubits": report.qubits,
+        "gates": report.gates,
+        "fraction_bits": report.fraction,
+        "mismatched": report.mismatched,
+        "mismatches": mismatches.collect::<Vec<_>>(),
+        "defect": report.defect.as_ref().map(defect),
+        "mean_rgb": measured.then_some(report.mean),
+        "width_error": measured.then(|| json!({
+            "rmse_rgb": report.width_error,
+            "relative": report.relative_error(),
+            "greatest_rgb": report.greatest,
+        })),
+        "parted": measured.then_some(report.parted),
+        "seconds": seconds,
+    })
+}
+
+fn defect(defect: &Defect) -> Value {
+    let mut value = json!({ "message": defect.to_string() });
+    match defect {
+        Defect::Dirty {
+            dirty,
+            pixel,
+            id,
+            register,
+        } => {
+            value["qubit"] = json!(dirty.qubit);
+            value["pixel"] = json!(pixel);
+            value["id"] = json!(id);
+            value["register"] = json!(register);
+        }
+        Defect::Id { pixel, id } => {
+            value["pixel"] = json!(pixel);
+            value["id"] = json!(id);
+            value["register"] = json!("id");
+        }
+        Defect::Flip {
+            channel,
+            count,
+            comparator,
+        } => {
+            value["channel"] = json!(channel);
+            value["count"] = json!(count);
+            value["comparator"] = json!(comparator);
+        }
+        _ => {}
+    }
+    value
+}
