@@ -152,7 +152,10 @@ fn seconds(root: &Path) {
 
 /// Prints what the box costs; Toffolis that it takes under `keep`, qubits under `scoped`.
 fn strategies(root: &Path) -> [u64; 2] {
-    println!("\nCornell box, D = 3, 16 quads, w = 14, R = 2^14, C = 2^12: one O_f, worst channel");
+    let width = oracle(&load(root, "cornell-box", &[]), 0, Passes::ALL).fraction;
+    println!(
+        "\nCornell box, D = 3, 16 quads, w = {width}, R = 2^14, C = 2^12: one O_f, worst channel"
+    );
     println!(
         "                   Toffoli  measured ANDs     CNOT        X  qubits    depth  Toffoli x qubits"
     );
@@ -239,7 +242,7 @@ fn growth(root: &Path) -> [(&'static str, bool); 4] {
         set("comparator.bits", bits)
     });
     let thresholds = thresholds.fitted(2..=24);
-    let sizes = [6, 10, 14, 18, 22, 26, 30];
+    let sizes = [6, 10, 14, 16, 18, 22, 26, 30];
     let fractions = grown("fraction bits w, of the box", &sizes, |bits| {
         set("precision.fraction", bits)
     });
