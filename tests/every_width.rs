@@ -21,7 +21,13 @@ fn scene(name: &str, fraction: u32, path_bits: u32) -> ValidScene {
     let path_bits = format!("sampling.path_bits={path_bits}");
     let mut sets = SMALL.to_vec();
     sets.extend([&*fraction, &path_bits]);
-    // Of one face a side, not of 42.
+    // Through one side of the block and out of another, and to the lamp.
+    if name == "cornell-glass" {
+        let rays = "sampling.depths=[{ bits: [10, 10] }, { bits: [10, 10] }, { bits: [10, 10] }, \
+                    { bits: [10, 10] }]";
+        sets.push(rays);
+    }
+    // Stools of four faces, not of 42.
     if name == "velvet" {
         sets.extend([
             "geometry[3].mesh.obj=../tests/good_scenes/tetrahedron.obj",
