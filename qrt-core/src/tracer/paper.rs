@@ -20,9 +20,8 @@ impl<A: Arith, const C: usize> Nearest<A> for Records<'_, C> {
         let mut nearest: Record<A> = [zero; 8];
         nearest[0] = cx.nowhere(ray.reach);
         let mut face = cx.index(NO_FACE);
-        let mut faces: Vec<usize> = (0..stage.geometry.faces.len()).collect();
-        faces.sort_by_key(|&face| stage.geometry.faces[face].label);
-        for number in faces {
+        // In the order of the running nearest: of faces equally far, the first is kept.
+        for number in 0..stage.geometry.faces.len() {
             let label = stage.geometry.faces[number].label;
             cx.enter(Part::Primitive(label as usize));
             let (meets, distance) = stage.geometry.meet(cx, number, ray);

@@ -64,7 +64,11 @@ impl Extremes {
         follow(program, inputs, parameters, |contents| {
             let held = self.registers.iter_mut().zip(&program.registers);
             for ((extremes, register), bits) in held.zip(&contents.registers) {
-                let unused = 64 - register.width;
+                // Scratch, which stays 0 here and may be wider than a number.
+                if register.width > 64 {
+                    continue;
+                }
+                let unused = (64 - register.width).min(63);
                 let number = if super::compile::negative(register.ty) {
                     (bits << unused).cast_signed() >> unused
                 } else {
