@@ -99,14 +99,19 @@ fn a_file_that_cannot_be_read_is_an_error_like_others() {
     std::fs::remove_file(large).unwrap();
 }
 
-/// Codes that no scene file gets: the first two only scenes that are built in Rust, the third only a
-/// file of 256 MiB, the last only where the OBJ library disagrees with the checks before it. The
-/// unit tests of `valid` and of the OBJ reader show them.
-const ELSEWHERE: [&str; 4] = [
+/// Codes that no scene file gets from its checks: the first two only scenes that are built in Rust,
+/// the third only a file of 256 MiB, the fourth only where the OBJ library disagrees with the checks
+/// before it, the last ones only when the scene's circuit is compiled. The unit tests of `valid`, of
+/// the OBJ reader and of `oracle`, and `inspect_command`, show them.
+const ELSEWHERE: [&str; 8] = [
     codes::DUPLICATE_NAME,
     codes::BSDF_CHANNELS,
     codes::OBJ_TOO_LARGE,
     codes::OBJ_REFUSED,
+    codes::BUDGET_QUBITS,
+    codes::BUDGET_TOFFOLI,
+    codes::QUOTIENT_UNBOUNDED,
+    codes::NUMBER_TOO_WIDE,
 ];
 
 #[test]
