@@ -30,18 +30,13 @@ impl Quotient {
     fn divide<T: Lane>(&self, slots: &Slots, quotient: &mut Row<T>, fits: &mut Row<u8>) {
         let [up_a, up_b] = self.up.map(power);
         let full = power(self.width);
-        let part = full.recip();
         let operands = [self.a, self.b].map(|place| &slots.ints[place as usize].0);
         let operands = operands[0].iter().zip(operands[1]);
         let results = quotient.0.iter_mut().zip(&mut fits.0);
         for ((quotient, fits), (a, b)) in results.zip(operands) {
             let (a, b) = (f64::from(*a) * up_a, f64::from(*b) * up_b);
             let holds = a < b * full;
-            let rest = if holds {
-                a
-            } else {
-                a - (a * part).floor() * full
-            };
+            let rest = if holds { a } else { 0.0 };
             let none = b == 0.0;
             let value = rest / if none { 1.0 } else { b };
             *quotient = T::cut(floor_double(if none { full - 1.0 } else { value }));
