@@ -18,3 +18,8 @@ for scene in scenes-yaml/*.yaml; do
   "$qrt" render "$scene" -o "docs/gallery/$name.png" --exposure "$exposure" \
     --set film.width=160 --set film.height=160 --set "sampling.path_bits=$paths" --quiet
 done
+
+# By gates alone: two minutes.
+echo cornell-box-gates
+"$qrt" render scenes-yaml/cornell-box.yaml -o docs/gallery/cornell-box-gates.png --model gates \
+  --estimator exact --quiet

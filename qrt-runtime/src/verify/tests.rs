@@ -11,11 +11,17 @@ fn pixels_are_spread_over_the_film_and_differ() {
                 assert!(*x < film[0] && *y < film[1]);
                 u64::from(*y) * u64::from(film[0]) + u64::from(*x)
             });
-            let part = area as f64 / count as f64;
-            for (k, place) in places.enumerate() {
-                assert!((place as f64 - (k as f64 + 0.5) * part).abs() <= 1.0);
-            }
+            let places: Vec<u64> = places.collect();
+            assert!(places.windows(2).all(|pair| pair[0] < pair[1]));
         }
+    }
+    // Neither in one column nor in one row.
+    let pixels = spread([64, 64], 16);
+    for axis in [0, 1] {
+        let mut met: Vec<u32> = pixels.iter().map(|pixel| pixel[axis] / 8).collect();
+        met.sort_unstable();
+        met.dedup();
+        assert!(met.len() >= 6, "{pixels:?}");
     }
     assert_eq!(
         spread([2, 2], 4),
