@@ -306,7 +306,7 @@ record! {
     /// Width of the circuit's fixed-point numbers.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub struct Precision = "precision";
-    /// Fraction bits, or auto.
+    /// Fraction bits, or auto: 16.
     pub fraction: Option<u32> = AutoOr(whole::<u32>(4, 30)), or None;
 }
 
