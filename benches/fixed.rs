@@ -18,10 +18,13 @@ mod knot;
 #[allow(dead_code)] // Of meshes only the small ones.
 #[path = "common/mesh.rs"]
 mod mesh;
+#[path = "common/scenes.rs"]
+mod scenes;
 
 use qrt::core::oracle::{Options, Oracle};
 use qrt::core::valid::ValidScene;
 use qrt::runtime::machines::{Gates, OracleMachine, Parts, Span};
+use scenes::CIRCUITS;
 use std::path::Path;
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -33,16 +36,6 @@ const RUNS: usize = 40;
 
 /// How many times as fast as the gates machine.
 const BAR: f64 = 20.0;
-
-const SCENES: [&str; 7] = [
-    "furnace",
-    "floor-and-light",
-    "cornell-box",
-    "cornell-mirror",
-    "cornell-glass",
-    "cornell-ggx",
-    "velvet",
-];
 
 /// Where the pixels stand, in a film of 32 columns.
 const PIXELS: [[u32; 2]; 4] = [[9, 17], [16, 8], [12, 25], [22, 22]];
@@ -57,7 +50,7 @@ fn main() -> ExitCode {
         "                      ops   gates   fixed: one  {cores:2} threads  ns an op | gates: one   ratio"
     );
     let sets = SETS.map(String::from);
-    let scenes = SCENES.iter().map(|name| {
+    let scenes = CIRCUITS.iter().map(|name| {
         let scene = mesh::load(root, &format!("scenes-yaml/{name}.yaml"), &sets);
         (*name, scene)
     });

@@ -23,6 +23,8 @@ mod knot;
 #[allow(dead_code)] // Of meshes only the small ones.
 #[path = "common/mesh.rs"]
 mod mesh;
+#[path = "common/scenes.rs"]
+mod scenes;
 
 use growth::{fit, quads};
 use qrt::core::circuit::builder::Passes;
@@ -30,6 +32,7 @@ use qrt::core::circuit::lower::{self, Cost};
 use qrt::core::front;
 use qrt::core::oracle::{Options, Oracle};
 use qrt::core::valid::ValidScene;
+use scenes::CIRCUITS;
 use std::ops::RangeInclusive;
 use std::path::Path;
 use std::process::ExitCode;
@@ -43,17 +46,6 @@ const QUBITS: [u64; 2] = [1_500, 500];
 
 /// Where an exponent that should be 1 may lie.
 const LINEAR: RangeInclusive<f64> = 0.9..=1.1;
-
-/// The scenes; a mesh has few triangles here.
-const SCENES: [&str; 7] = [
-    "furnace",
-    "floor-and-light",
-    "cornell-box",
-    "cornell-mirror",
-    "cornell-glass",
-    "cornell-ggx",
-    "velvet",
-];
 
 fn main() -> ExitCode {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -135,7 +127,7 @@ fn measured((oracle, cost): &(Oracle, Cost)) -> Measured {
 fn seconds(root: &Path) {
     println!("seconds: scene to program | program to gates; what comes of it; the first channel");
     let knot = mesh::mesh(root, mesh::CLOSE, [3, 6], 12);
-    let scenes = SCENES.iter().map(|name| (*name, load(root, name, &[])));
+    let scenes = CIRCUITS.iter().map(|name| (*name, load(root, name, &[])));
     for (name, scene) in scenes.chain([("knot of 36", knot)]) {
         let started = Instant::now();
         let oracle = oracle(&scene, 0, Passes::ALL);

@@ -70,6 +70,7 @@ macro_rules! patterns {
                         $(let $write = rows[$write as usize].as_array_of_cells();)*
                         for vector in 0..N {
                             let places = ($(&$write[vector],)*);
+                            // Only some of a pattern's gates write to what it reads, on the way.
                             $(#[allow(unused_mut)] let mut $read = $read[vector].get();)*
                             $(let mut $write = $write[vector].get();)*
                             $(apply!(simd, $gate $($q)+);)+
