@@ -36,14 +36,18 @@ pub mod builder;
 mod evaluate;
 mod gate;
 pub mod lower;
+mod machine;
 mod op;
 mod passes;
 mod program;
+mod record;
 mod register;
 
 pub use evaluate::Contents;
 pub use gate::{Circuit, Gate, Gates, Qubit};
+pub use machine::{Declaration, Machine};
 pub use op::{Op, Style, When};
 pub(crate) use passes::assemble;
 pub use program::{Instruction, Parameter, Program};
+pub use record::{Recorded, Recorder};
 pub use register::{Bit, Block, BlockId, Operand, Register, RegisterId, Role, Type, Word};

@@ -229,13 +229,13 @@ pub enum Op {
 
 /// When an addition in place happens.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum When {
+pub enum When<R = RegisterId> {
     /// On every path.
     Always,
     /// Where the bit holds; nothing happens elsewhere.
-    If(Bit),
+    If(Bit<R>),
     /// Everywhere, but where the bit holds the sign is turned: an addition subtracts.
-    Reversed(Bit),
+    Reversed(Bit<R>),
 }
 
 /// How the operations that leave something behind are lowered.

@@ -139,10 +139,12 @@ pub struct Block {
 /// zeros (or, if `signed`, by copies of the top one), times `2^shift`.
 ///
 /// Shifts, truncation by floor, and sign extension are wiring, and cost nothing.
+///
+/// A program names its registers by `RegisterId`; what runs on a [`super::Machine`] borrows them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Word {
+pub struct Word<R = RegisterId> {
     /// The register.
-    pub register: RegisterId,
+    pub register: R,
     /// The first bit read.
     pub offset: u32,
     /// Bits read; above 0.
@@ -153,15 +155,27 @@ pub struct Word {
     pub shift: u32,
 }
 
-impl Word {
+impl<R> Word<R> {
+    /// The same bits of a register that is named otherwise.
+    #[inline(always)]
+    pub fn of<S>(self, rename: impl FnOnce(R) -> S) -> Word<S> {
+        Word {
+            register: rename(self.register),
+            offset: self.offset,
+            width: self.width,
+            signed: self.signed,
+            shift: self.shift,
+        }
+    }
+
     /// Bits of the number it stands for, its sign and the zeros below included.
-    pub fn bits(self) -> u32 {
+    pub fn bits(&self) -> u32 {
         self.width + self.shift
     }
 
     /// The number it stands for, if `register` is the register's content.
     #[inline]
-    pub fn read(self, register: u64) -> i64 {
+    pub fn read(&self, register: u64) -> i64 {
         let unused = 64 - self.width;
         let bits = (register >> self.offset) << unused;
         let value = if self.signed {
@@ -173,7 +187,7 @@ impl Word {
     }
 
     /// The least and the greatest number it can stand for.
-    pub fn range(self) -> [i64; 2] {
+    pub fn range(&self) -> [i64; 2] {
         let (low, high) = if self.signed {
             let half = 1_i64 << (self.width - 1);
             (-half, half - 1)
@@ -186,28 +200,49 @@ impl Word {
 
 /// One bit of a register, or its negation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Bit {
+pub struct Bit<R = RegisterId> {
     /// The register.
-    pub register: RegisterId,
+    pub register: R,
     /// The bit; 0 is the least significant.
     pub index: u32,
     /// Is it negated?
     pub inverted: bool,
 }
 
-impl Bit {
+impl<R> Bit<R> {
+    /// The same bit of a register that is named otherwise.
+    #[inline(always)]
+    pub fn of<S>(self, rename: impl FnOnce(R) -> S) -> Bit<S> {
+        Bit {
+            register: rename(self.register),
+            index: self.index,
+            inverted: self.inverted,
+        }
+    }
+
     /// The truth it stands for, if `register` is the register's content.
     #[inline]
-    pub fn read(self, register: u64) -> bool {
+    pub fn read(&self, register: u64) -> bool {
         (register >> self.index & 1 == 1) != self.inverted
     }
 }
 
 /// A number that an operation reads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Operand {
+pub enum Operand<R = RegisterId> {
     /// From a register.
-    Word(Word),
+    Word(Word<R>),
     /// The same on every path.
     Constant(i64),
+}
+
+impl<R> Operand<R> {
+    /// The same number of a register that is named otherwise.
+    #[inline(always)]
+    pub fn of<S>(self, rename: impl FnOnce(R) -> S) -> Operand<S> {
+        match self {
+            Self::Word(word) => Operand::Word(word.of(rename)),
+            Self::Constant(value) => Operand::Constant(value),
+        }
+    }
 }
