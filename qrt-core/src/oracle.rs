@@ -19,17 +19,19 @@
 //! ([`crate::circuit::Parameter`]), loaded by Xs.
 
 mod budget;
+mod recording;
 
-pub use budget::{Spent, check_budget};
+pub use budget::{Spent, check_budget, spent};
 
-use crate::circuit::builder::{BuildError, Builder, Passes, Real, Target};
+use crate::circuit::builder::{BuildError, Builder, Passes, Real};
 use crate::circuit::{
-    self, Bit, BlockId, Instruction, Op, Operand, Program, RegisterId, Role, Style, Type, Word,
+    self, Bit, BlockId, Instruction, Op, Operand, Program, RegisterId, Style, Word,
 };
 use crate::sampling::{PathPoints, SamplingError};
-use crate::scene::{ComparatorAt, Nearest, Uncompute};
-use crate::tracer::{Arith, Records, Stage, trace};
+use crate::scene::ComparatorAt;
+use crate::tracer::{Arith, Stage};
 use crate::valid::ValidScene;
+use recording::Recording;
 use std::fmt;
 
 /// Fraction bits under `precision: { fraction: auto }`.
@@ -140,83 +142,24 @@ impl Oracle {
         Self::compile(scene, [0, 1, 2], options)
     }
 
+    /// The oracles of all channels, each as [`Oracle::new`] makes it but for the numbers of its
+    /// registers, and the one of all three together: traced once.
+    ///
+    /// # Errors
+    /// As [`Oracle::new`].
+    pub fn all(scene: &ValidScene) -> Result<([Self; 3], Self), OracleError> {
+        let mut recording = Recording::new(scene, [0, 1, 2], Options::default())?;
+        let channels = [0, 1, 2].map(|channel| recording.oracle(&[channel]));
+        Ok((channels, recording.oracle(&[0, 1, 2])))
+    }
+
     fn compile<const C: usize>(
         scene: &ValidScene,
         channels: [usize; C],
         options: Options,
     ) -> Result<Self, OracleError> {
-        let written = scene.scene();
-        let stage = Stage::new(scene, channels).relative();
-        let points = PathPoints::new(&written.sampling)?;
-        let film = [written.film.width, written.film.height];
-        let fraction = written.precision.fraction.unwrap_or(DEFAULT_FRACTION);
-        let scoped = written.circuit.uncompute == Uncompute::Scoped;
-        let style = options
-            .style
-            .unwrap_or(if scoped { Style::Lean } else { Style::Wide });
-        let mut builder = Builder::new(Target {
-            fraction,
-            style,
-            points: &points,
-            film,
-            faces: faces(&stage),
-            passes: options.passes,
-        });
-        let bits = written.comparator.bits;
-        let comparator = builder.outside("comparator", Type::UInt, Role::Comparator, bits);
-        let flag = builder.outside("flag", Type::Bool, Role::Flag, 1);
-        let colours = match written.circuit.nearest {
-            Nearest::Running => trace(&mut builder, &stage, stage.geometry()),
-            Nearest::Paper => trace(&mut builder, &stage, &Records(&stage)),
-        };
-        let mut outputs = Vec::new();
-        for (k, &colour) in colours.iter().enumerate() {
-            let (colour, count) = builder.counted(colour, bits, written.comparator.at);
-            outputs.push(Channel {
-                number: channels[k],
-                colour,
-                count,
-                scale: stage.bound()[k],
-            });
-        }
-        let id = builder.id();
-        let sharing = builder.sharing();
-        let recorded = builder.finish()?;
-        let roots = outputs.iter().flat_map(|o| [o.colour, o.count]);
-        let roots: Vec<RegisterId> = roots.filter_map(register_of).collect();
-        let (program, renamed) =
-            circuit::assemble(recorded, &roots, options.passes, scoped, &[id, comparator]);
-        let rename = |operand: Operand| match operand {
-            Operand::Word(word) => Operand::Word(Word {
-                register: renamed
-                    .get(&word.register)
-                    .copied()
-                    .unwrap_or(word.register),
-                ..word
-            }),
-            constant @ Operand::Constant(_) => constant,
-        };
-        let mut program = program;
-        for output in &mut outputs {
-            output.colour = rename(output.colour);
-            output.count = rename(output.count);
-            if let Operand::Word(word) = output.colour {
-                let register = &mut program.registers[word.register.index()];
-                register.role = Role::Colour;
-                register.name = format!("colour.{}", ["r", "g", "b"][output.number]);
-            }
-        }
-        Ok(Self {
-            program,
-            channels: outputs,
-            id,
-            comparator,
-            flag,
-            fraction,
-            points,
-            film,
-            sharing,
-        })
+        let mut recording = Recording::new(scene, channels, options)?;
+        Ok(recording.oracle(&std::array::from_fn::<_, C, _>(|place| place)))
     }
 
     /// Bits of the comparator.

@@ -47,7 +47,7 @@ pub use evaluate::Contents;
 pub use gate::{Circuit, Gate, Gates, Qubit};
 pub use machine::{Declaration, Machine};
 pub use op::{Op, Style, When};
-pub(crate) use passes::assemble;
+pub(crate) use passes::{Known, assemble};
 pub use program::{Instruction, Parameter, Program};
 pub use record::{Recorded, Recorder};
 pub use register::{Bit, Block, BlockId, Operand, Register, RegisterId, Role, Type, Word};

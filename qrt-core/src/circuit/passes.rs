@@ -21,6 +21,16 @@ pub(super) struct Draft {
     pub(super) ops: Vec<(Op, BlockId)>,
 }
 
+/// What was found out about operations, by their targets: of use to programs that are assembled
+/// from parts of one recording.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Known {
+    /// [`lower::best_low`]
+    lows: HashMap<Box<[RegisterId]>, u32>,
+    /// [`lower::scratch_width`]
+    widths: HashMap<Box<[RegisterId]>, u32>,
+}
+
 impl Draft {
     /// Blocks from `block` to the root.
     fn ancestors(&self, block: BlockId) -> Vec<BlockId> {
@@ -41,11 +51,14 @@ impl Draft {
     }
 
     /// Gives every scratch register the width that its operation needs.
-    pub(super) fn size_scratch(&mut self) {
+    pub(super) fn size_scratch(&mut self, known: &mut Known) {
         for (op, _) in &self.ops {
             let registers = &self.registers;
-            let width = lower::scratch_width(op, |id: RegisterId| registers[id.index()].width);
             if let Some(scratch) = op.scratch() {
+                let width = known.widths.entry(op.targets().into());
+                let width = *width.or_insert_with(|| {
+                    lower::scratch_width(op, |id: RegisterId| registers[id.index()].width)
+                });
                 self.registers[scratch.index()].width = width;
             }
         }
@@ -72,7 +85,7 @@ pub(super) fn needed(draft: &mut Draft, roots: &[RegisterId]) {
 }
 
 /// Makes one table of all that have the same address and can run where the first one does.
-pub(super) fn merge_tables(draft: &mut Draft) {
+pub(super) fn merge_tables(draft: &mut Draft, known_of: &mut Known) {
     let mut defined: HashMap<RegisterId, usize> = HashMap::new();
     let mut groups: HashMap<(Vec<super::Bit>, Option<BlockId>), Vec<usize>> = HashMap::new();
     for (place, (op, block)) in draft.ops.iter().enumerate() {
@@ -140,15 +153,19 @@ pub(super) fn merge_tables(draft: &mut Draft) {
         for &register in targets.iter().chain([&scratch]) {
             draft.registers[register.index()].block = block;
         }
+        let targets: Box<[RegisterId]> = targets.into();
         let op = Op::Table {
             low: match how {
-                super::Style::Wide => lower::best_low(address.len() as u32, &columns),
+                super::Style::Wide => *known_of
+                    .lows
+                    .entry(targets.clone())
+                    .or_insert_with(|| lower::best_low(address.len() as u32, &columns)),
                 super::Style::Lean => 0,
             },
             style: how,
             address: address.into(),
             columns: Arc::from(columns),
-            targets: targets.into(),
+            targets,
             scratch,
         };
         inserted.push((start, op, block));
@@ -363,6 +380,7 @@ pub(crate) fn assemble(
     passes: Passes,
     scoped: bool,
     inputs: &[RegisterId],
+    known: &mut Known,
 ) -> (Program, HashMap<RegisterId, RegisterId>) {
     let mut draft = recorded.draft;
     if passes.needed {
@@ -371,9 +389,9 @@ pub(crate) fn assemble(
         needed(&mut draft, &kept);
     }
     if passes.merge {
-        merge_tables(&mut draft);
+        merge_tables(&mut draft, known);
     }
-    draft.size_scratch();
+    draft.size_scratch(known);
     let (instructions, renamed) = schedule(&mut draft, scoped, roots);
     let program = Program {
         registers: draft.registers,

@@ -1,12 +1,14 @@
 //! What a scene allows its circuit, and what is wrong when there is no circuit.
 
-use super::OracleError;
+use super::{Oracle, OracleError};
 use crate::circuit::builder::BuildError;
+use crate::circuit::{Op, RegisterId, lower};
 use crate::codes;
 use crate::inspect::grouped;
 use crate::report::{Path, Problem};
 use crate::scene::{Nearest, Uncompute};
 use crate::valid::ValidScene;
+use std::collections::HashMap;
 
 /// What one call of an oracle takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -15,6 +17,44 @@ pub struct Spent {
     pub qubits: u64,
     /// Toffoli gates.
     pub toffoli: u64,
+}
+
+/// What a call of the dearest of these oracles takes, all of them of one channel.
+pub fn spent(channels: &[Oracle]) -> Spent {
+    // Oracles of one scene share most of their operations.
+    let mut known: HashMap<RegisterId, (Op, u64)> = HashMap::new();
+    let mut dearest = None;
+    for oracle in channels {
+        let mut toffoli = lower::toffoli(&oracle.flip(0));
+        let program = &oracle.program;
+        for instruction in &program.instructions {
+            let op = &program.ops[instruction.op as usize];
+            let cost = || lower::op_toffoli(op, |register| program.width(register));
+            let Some(target) = op.targets().first().copied() else {
+                toffoli += 2 * cost();
+                continue;
+            };
+            let found = known.get(&target).filter(|(other, _)| other == op);
+            let cost = found.map_or_else(cost, |(_, cost)| *cost);
+            known.entry(target).or_insert_with(|| (op.clone(), cost));
+            toffoli += 2 * cost;
+        }
+        if dearest.is_none_or(|(most, _)| most < toffoli) {
+            dearest = Some((toffoli, oracle));
+        }
+    }
+    let qubits = |oracle: &Oracle| {
+        // Uncompute holds at each instruction what compute does.
+        let mut upto = oracle.flip(0);
+        let compute = oracle.program.instructions.iter().copied();
+        upto.instructions.splice(0..0, compute);
+        upto.inputs.clone_from(&oracle.program.inputs);
+        lower::most_qubits(&upto)
+    };
+    Spent {
+        qubits: dearest.map_or(0, |(_, oracle)| u64::from(qubits(oracle))),
+        toffoli: dearest.map_or(0, |(toffoli, _)| toffoli),
+    }
 }
 
 /// The limits of the scene's `budget` that a call goes beyond, each with what could be done about

@@ -158,6 +158,7 @@ pub struct Builder<'a> {
 }
 
 /// What a builder recorded.
+#[derive(Clone)]
 pub(crate) struct Recorded {
     pub(super) draft: Draft,
     pub(super) parameters: Vec<Parameter>,

@@ -121,6 +121,20 @@ pub fn cost(op: &Op, inverse: bool, width: impl Fn(RegisterId) -> u32) -> Cost {
     cost
 }
 
+/// Toffolis of an operation, and of its inverse, given the widths of its registers.
+pub fn op_toffoli(op: &Op, width: impl Fn(RegisterId) -> u32) -> u64 {
+    let (op, lowering) = alone(op, width);
+    lowering.ands(&op).toffoli
+}
+
+/// Toffolis of a program: those of [`tally`], without the gates.
+pub fn toffoli(program: &Program) -> u64 {
+    let instructions = program.instructions.iter();
+    let ops = instructions.map(|i| &program.ops[i.op as usize]);
+    ops.map(|op| op_toffoli(op, |register| program.width(register)))
+        .sum()
+}
+
 /// What each instruction of a program costs.
 pub fn tally(program: &Program) -> Vec<Cost> {
     let mut known: HashMap<(u32, bool), Cost> = HashMap::new();

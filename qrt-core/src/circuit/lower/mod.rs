@@ -37,9 +37,9 @@ mod tests;
 mod walk;
 mod wire;
 
-pub use cost::{Cost, cost, tally};
+pub use cost::{Cost, cost, op_toffoli, tally, toffoli};
 pub use place::{circuit, parts, scratch_width};
-pub use size::{Size, depth, size};
+pub use size::{Size, depth, most_qubits, size};
 pub use table::best_low;
 
 use super::{Bit, Gate, Gates, Op, Operand, Qubit, RegisterId, Style, When, Word};

@@ -30,6 +30,11 @@ pub fn size(program: &Program) -> Size {
     }
 }
 
+/// The qubits of [`size`] alone.
+pub fn most_qubits(program: &Program) -> u32 {
+    walk(program, |_, _| {})
+}
+
 /// Toffoli depth: each gate as early as its qubits allow, and only Toffolis take time.
 pub fn depth(circuit: &Circuit) -> u64 {
     let mut clock = Clock::default();

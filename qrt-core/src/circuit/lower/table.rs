@@ -41,6 +41,7 @@ enum Node {
 }
 
 /// What is computed for a table.
+#[derive(Default)]
 pub(super) struct Plan {
     /// Entries of the one-hot register; 1: there is none.
     groups: usize,
@@ -51,52 +52,158 @@ pub(super) struct Plan {
     outputs: Vec<Vec<Function>>,
 }
 
-/// Bits of a vector.
+/// A bit of a vector.
 fn get(bits: &[u64], place: usize) -> bool {
     bits[place / 64] >> (place % 64) & 1 == 1
 }
 
-fn vector(bits: usize, of: impl Fn(usize) -> bool) -> Vec<u64> {
-    let mut vector = vec![0; bits.div_ceil(64)];
-    for place in (0..bits).filter(|place| of(*place)) {
-        vector[place / 64] |= 1 << (place % 64);
+/// The lowest `bits` bits.
+fn truncated(vector: &[u64], bits: usize) -> Vec<u64> {
+    let mut vector = vector[..bits.div_ceil(64)].to_vec();
+    if let (Some(last), rest @ 1..) = (vector.last_mut(), bits % 64) {
+        *last &= (1 << rest) - 1;
     }
     vector
+}
+
+/// By level: the lower half of each `2^(level + 1)` bits of a word.
+const LOWER: [u64; 6] = [
+    0x5555_5555_5555_5555,
+    0x3333_3333_3333_3333,
+    0x0f0f_0f0f_0f0f_0f0f,
+    0x00ff_00ff_00ff_00ff,
+    0x0000_ffff_0000_ffff,
+    0x0000_0000_ffff_ffff,
+];
+
+/// Of each `2^(below + 1)` bits, the lower half and the upper half.
+fn halves(vector: &[u64], below: usize) -> [Vec<u64>; 2] {
+    if let Some(words) = below.checked_sub(6).map(|above| 1 << above) {
+        let half = |which: usize| {
+            let chunks = vector.chunks(words).skip(which).step_by(2);
+            chunks.flatten().copied().collect()
+        };
+        return [half(0), half(1)];
+    }
+    let close_up = |word: u64| {
+        let mut word = word & LOWER[below];
+        for (level, lower) in LOWER.iter().enumerate().skip(below + 1) {
+            word = (word | word >> (1 << (level - 1))) & lower;
+        }
+        word
+    };
+    let half = |shift: usize| {
+        let pairs = vector.chunks(2);
+        let word = |pair: &[u64]| {
+            let high = pair.get(1).map_or(0, |word| close_up(word >> shift));
+            close_up(pair[0] >> shift) | high << 32
+        };
+        pairs.map(word).collect()
+    };
+    [half(0), half(1 << below)]
+}
+
+/// The bits of a table's entries, by column and by bit: entry 0 first.
+struct Truths {
+    columns: Vec<Vec<Vec<u64>>>,
+    /// Entries of the longest column.
+    length: usize,
+}
+
+impl Truths {
+    /// The `width(column)` lowest bits of each column, for up to `low` low bits of the address.
+    /// Entries beyond the last are as it is.
+    fn new(
+        address_bits: usize,
+        columns: &[Box<[i64]>],
+        low: usize,
+        width: impl Fn(usize) -> usize,
+    ) -> Self {
+        let all = 1_usize
+            .checked_shl(address_bits as u32)
+            .unwrap_or(usize::MAX);
+        let length = columns.iter().map(|column| column.len()).max().unwrap_or(0);
+        let length = length.clamp(1, all);
+        let padded = length.next_multiple_of(1 << low);
+        let bits = |(index, column): (usize, &Box<[i64]>)| {
+            let width = width(index);
+            let mut bits = vec![vec![0_u64; padded.div_ceil(64)]; width];
+            let last = column.last().copied().unwrap_or(0);
+            for place in 0..padded {
+                let entry = column.get(place).copied().unwrap_or(last);
+                let (word, at) = (place / 64, place % 64);
+                for (bit, vector) in bits.iter_mut().enumerate() {
+                    vector[word] |= (entry >> bit.min(63) & 1).cast_unsigned() << at;
+                }
+            }
+            bits
+        };
+        Self {
+            columns: columns.iter().enumerate().map(bits).collect(),
+            length,
+        }
+    }
+
+    /// The plan, unless it needs more than `most` Toffolis.
+    fn plan(&self, low: usize, most: u64) -> Option<Plan> {
+        let groups = self.length.div_ceil(1 << low);
+        let mut planner = Planner {
+            groups,
+            nodes: Vec::new(),
+            known: HashMap::new(),
+            left: most.checked_sub(doubling(groups))?,
+        };
+        let mut outputs = Vec::with_capacity(self.columns.len());
+        for column in &self.columns {
+            let functions = column.iter().map(|bits| truncated(bits, groups << low));
+            let planned = functions.map(|function| planner.plan(low, function));
+            outputs.push(planned.collect::<Option<_>>()?);
+        }
+        Some(Plan {
+            groups,
+            low,
+            nodes: planner.nodes,
+            outputs,
+        })
+    }
 }
 
 struct Planner {
     groups: usize,
     nodes: Vec<Node>,
     known: HashMap<(usize, Vec<u64>), Function>,
+    /// Toffolis that may still be spent.
+    left: u64,
 }
 
 impl Planner {
-    /// Plans a function of the group and the lowest `level` bits, the latter counting first.
-    fn plan(&mut self, level: usize, function: Vec<u64>) -> Function {
+    /// Plans a function of the group and the lowest `level` bits, the latter counting first; none
+    /// if that takes too many Toffolis.
+    fn plan(&mut self, level: usize, function: Vec<u64>) -> Option<Function> {
         let bits = self.groups << level;
         if get(&function, 0) {
-            let mut plan = self.plan(level, vector(bits, |place| !get(&function, place)));
-            plan.inverted = !plan.inverted;
-            return plan;
+            let inverted: Vec<u64> = function.iter().map(|word| !word).collect();
+            let plan = self.plan(level, truncated(&inverted, bits))?;
+            return Some(Function {
+                inverted: !plan.inverted,
+                ..plan
+            });
         }
         if function.iter().all(|word| *word == 0) {
-            return Function {
+            return Some(Function {
                 source: Source::Zero,
                 inverted: false,
-            };
+            });
         }
         let key = (level, function);
         if let Some(known) = self.known.get(&key) {
-            return *known;
+            return Some(*known);
         }
         let plan = match level.checked_sub(1) {
             None => self.node(Node::Leaf(key.1.clone())),
             Some(below) => {
-                let half = 1 << below;
-                let part = |place: usize| (place >> below << level) | (place & (half - 1));
-                let low = vector(bits / 2, |place| get(&key.1, part(place)));
-                let high = vector(bits / 2, |place| get(&key.1, part(place) | half));
-                let (low, high) = (self.plan(below, low), self.plan(below, high));
+                let [low, high] = halves(&key.1, below);
+                let (low, high) = (self.plan(below, low)?, self.plan(below, high)?);
                 if low == high {
                     low
                 } else if low.source == Source::Zero && high.source == Source::Zero {
@@ -106,12 +213,14 @@ impl Planner {
                     }
                 } else {
                     let bit = below;
+                    let toffoli = u64::from(low.source != high.source);
+                    self.left = self.left.checked_sub(toffoli)?;
                     self.node(Node::Select { bit, low, high })
                 }
             }
         };
         self.known.insert(key, plan);
-        plan
+        Some(plan)
     }
 
     fn node(&mut self, node: Node) -> Function {
@@ -132,52 +241,31 @@ impl Plan {
         width: impl Fn(usize) -> usize,
     ) -> Self {
         let low = (low as usize).min(address_bits);
-        let all = 1_usize
-            .checked_shl(address_bits as u32)
-            .unwrap_or(usize::MAX);
-        let length = columns.iter().map(|column| column.len()).max().unwrap_or(0);
-        let length = length.clamp(1, all);
-        let groups = length.div_ceil(1 << low);
-        let mut planner = Planner {
-            groups,
-            nodes: Vec::new(),
-            known: HashMap::new(),
-        };
-        let mut outputs = Vec::with_capacity(columns.len());
-        for (index, column) in columns.iter().enumerate() {
-            // Entries beyond the last are as it is.
-            let entry = |place: usize| column.get(place).or(column.last()).copied().unwrap_or(0);
-            let output = |bit: usize| {
-                let holds = |place| entry(place) >> bit.min(63) & 1 == 1;
-                planner.plan(low, vector(groups << low, holds))
-            };
-            outputs.push((0..width(index)).map(output).collect());
-        }
-        Self {
-            groups,
-            low,
-            nodes: planner.nodes,
-            outputs,
-        }
-    }
-
-    /// By high bit of the address: the new bits of the one-hot register.
-    fn news(&self) -> impl Iterator<Item = usize> {
-        let groups = self.groups;
-        let olds = (0..).map(|bit| 1_usize << bit);
-        olds.take_while(move |old| *old < groups)
-            .map(move |old| old.min(groups - old))
+        let plan = Truths::new(address_bits, columns, low, width).plan(low, u64::MAX);
+        // There are not that many.
+        plan.unwrap_or_default()
     }
 
     /// Toffolis, all of which compute into clean bits.
     pub(super) fn toffoli(&self) -> u64 {
-        let doubling: usize = self.news().map(|new| new - 1).sum();
         let selected = self.nodes.iter().filter(|node| match node {
             Node::Leaf(_) => false,
             Node::Select { low, high, .. } => low.source != high.source,
         });
-        doubling as u64 + selected.count() as u64
+        doubling(self.groups) + selected.count() as u64
     }
+}
+
+/// By high bit of the address: the new bits of a one-hot register of so many entries.
+fn news(groups: usize) -> impl Iterator<Item = usize> {
+    let olds = (0..).map(|bit| 1_usize << bit);
+    olds.take_while(move |old| *old < groups)
+        .map(move |old| old.min(groups - old))
+}
+
+/// Toffolis of the one-hot register.
+fn doubling(groups: usize) -> u64 {
+    news(groups).map(|new| new as u64 - 1).sum()
 }
 
 /// How many low bits of an address of `address_bits` best select among words read together: the
@@ -188,11 +276,20 @@ pub fn best_low(address_bits: u32, columns: &[Box<[i64]>]) -> u32 {
         column.iter().map(bits).max().unwrap_or(0) as usize
     };
     let widths: Vec<usize> = columns.iter().map(|column| bits(column)).collect();
-    let toffoli = |low: u32| {
-        Plan::new(address_bits as usize, columns, low, |column| widths[column]).toffoli()
-    };
-    let lows = 0..=address_bits.min(10);
-    lows.min_by_key(|low| (toffoli(*low), *low)).unwrap_or(0)
+    let most = address_bits.min(10);
+    let truths = Truths::new(address_bits as usize, columns, most as usize, |column| {
+        widths[column]
+    });
+    // From the middle, which is seldom far off, so that most others end early.
+    let mut lows: Vec<u32> = (0..=most).collect();
+    lows.sort_by_key(|low| low.abs_diff(most / 2));
+    let mut best = (u64::MAX, 0);
+    for low in lows {
+        if let Some(plan) = truths.plan(low as usize, best.0) {
+            best = best.min((plan.toffoli(), low));
+        }
+    }
+    best.1
 }
 
 impl Lowering {
@@ -256,7 +353,7 @@ impl Lowering {
         }
         let hot = self.draws(plan.groups);
         self.x(hot[0]);
-        for (place, new) in plan.news().enumerate() {
+        for (place, new) in news(plan.groups).enumerate() {
             let bit = address[place];
             let Some(b) = bit.source() else {
                 continue;

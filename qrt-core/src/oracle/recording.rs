@@ -1,0 +1,125 @@
+//! A scene's program as the builder recorded it, from which the oracles of channels are assembled.
+
+use super::{Channel, DEFAULT_FRACTION, Options, Oracle, OracleError, faces, register_of};
+use crate::circuit::builder::{Builder, Recorded, Target};
+use crate::circuit::{self, Operand, RegisterId, Role, Style, Type, Word};
+use crate::sampling::PathPoints;
+use crate::scene::{Nearest, Uncompute};
+use crate::tracer::{Records, Stage, trace};
+use crate::valid::ValidScene;
+
+/// What was recorded, and what is known of it: `known` is an oracle without a program.
+pub(super) struct Recording {
+    recorded: Recorded,
+    scoped: bool,
+    options: Options,
+    known: Oracle,
+    ops: circuit::Known,
+}
+
+impl Recording {
+    pub(super) fn new<const C: usize>(
+        scene: &ValidScene,
+        channels: [usize; C],
+        options: Options,
+    ) -> Result<Self, OracleError> {
+        let written = scene.scene();
+        let stage = Stage::new(scene, channels).relative();
+        let points = PathPoints::new(&written.sampling)?;
+        let film = [written.film.width, written.film.height];
+        let fraction = written.precision.fraction.unwrap_or(DEFAULT_FRACTION);
+        let scoped = written.circuit.uncompute == Uncompute::Scoped;
+        let style = options
+            .style
+            .unwrap_or(if scoped { Style::Lean } else { Style::Wide });
+        let mut builder = Builder::new(Target {
+            fraction,
+            style,
+            points: &points,
+            film,
+            faces: faces(&stage),
+            passes: options.passes,
+        });
+        let bits = written.comparator.bits;
+        let comparator = builder.outside("comparator", Type::UInt, Role::Comparator, bits);
+        let flag = builder.outside("flag", Type::Bool, Role::Flag, 1);
+        let colours = match written.circuit.nearest {
+            Nearest::Running => trace(&mut builder, &stage, stage.geometry()),
+            Nearest::Paper => trace(&mut builder, &stage, &Records(&stage)),
+        };
+        let mut outputs = Vec::new();
+        for (k, &colour) in colours.iter().enumerate() {
+            let (colour, count) = builder.counted(colour, bits, written.comparator.at);
+            outputs.push(Channel {
+                number: channels[k],
+                colour,
+                count,
+                scale: stage.bound()[k],
+            });
+        }
+        let id = builder.id();
+        let sharing = builder.sharing();
+        let recorded = builder.finish()?;
+        let known = Oracle {
+            program: circuit::Program::default(),
+            channels: outputs,
+            id,
+            comparator,
+            flag,
+            fraction,
+            points,
+            film,
+            sharing,
+        };
+        Ok(Self {
+            recorded,
+            scoped,
+            options,
+            known,
+            ops: circuit::Known::default(),
+        })
+    }
+
+    /// The oracle of the channels at these places among those recorded.
+    pub(super) fn oracle(&mut self, places: &[usize]) -> Oracle {
+        let mut outputs: Vec<Channel> = places
+            .iter()
+            .map(|&place| self.known.channels[place].clone())
+            .collect();
+        let roots = outputs.iter().flat_map(|o| [o.colour, o.count]);
+        let roots: Vec<RegisterId> = roots.filter_map(register_of).collect();
+        let inputs = [self.known.id, self.known.comparator];
+        let (mut program, renamed) = circuit::assemble(
+            self.recorded.clone(),
+            &roots,
+            self.options.passes,
+            self.scoped,
+            &inputs,
+            &mut self.ops,
+        );
+        let rename = |operand: Operand| match operand {
+            Operand::Word(word) => Operand::Word(Word {
+                register: renamed
+                    .get(&word.register)
+                    .copied()
+                    .unwrap_or(word.register),
+                ..word
+            }),
+            constant @ Operand::Constant(_) => constant,
+        };
+        for output in &mut outputs {
+            output.colour = rename(output.colour);
+            output.count = rename(output.count);
+            if let Operand::Word(word) = output.colour {
+                let register = &mut program.registers[word.register.index()];
+                register.role = Role::Colour;
+                register.name = format!("colour.{}", ["r", "g", "b"][output.number]);
+            }
+        }
+        Oracle {
+            program,
+            channels: outputs,
+            ..self.known.clone()
+        }
+    }
+}
