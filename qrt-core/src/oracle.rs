@@ -19,11 +19,12 @@
 //! ([`crate::circuit::Parameter`]), loaded by Xs.
 
 mod budget;
+pub mod compiled;
 mod recording;
 
 pub use budget::{Spent, check_budget, spent};
 
-use crate::circuit::builder::{BuildError, Builder, Passes, Real};
+use crate::circuit::builder::{BuildError, Builder, NamedPlace, Passes, Real};
 use crate::circuit::{
     self, Bit, BlockId, Instruction, Op, Operand, Program, RegisterId, Style, Word,
 };
@@ -120,6 +121,8 @@ pub struct Oracle {
     pub points: PathPoints,
     /// Columns and rows of the film.
     pub film: [u32; 2],
+    /// What of its rays is in registers once all is computed: by name and ray.
+    pub places: Vec<NamedPlace>,
     /// Operations that the tracer asked for, and of these, those that were there already.
     pub sharing: [u64; 2],
 }

@@ -1,1 +1,4 @@
 //! The macro front end of qrt.
+
+#[allow(dead_code)]
+mod generate;

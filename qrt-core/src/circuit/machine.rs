@@ -44,6 +44,39 @@ impl Declaration {
         }
     }
 
+    /// A register that has a place in the program's list.
+    pub const fn at(id: u32, name: &'static str, ty: Type, role: Role, width: u32) -> Self {
+        Self {
+            id: Some(RegisterId(id)),
+            role,
+            ..Self::work(name, ty, width)
+        }
+    }
+
+    /// In this block.
+    pub const fn block(self, block: u32) -> Self {
+        Self {
+            block: BlockId(block),
+            ..self
+        }
+    }
+
+    /// Holding numbers from `low` to `high`.
+    pub const fn range(self, low: i64, high: i64) -> Self {
+        Self {
+            range: Some([low, high]),
+            ..self
+        }
+    }
+
+    /// The first target of an operation that leaves something behind in this register.
+    pub const fn scratch(self, scratch: u32) -> Self {
+        Self {
+            scratch: Some(RegisterId(scratch)),
+            ..self
+        }
+    }
+
     /// Is its top bit a sign?
     #[inline(always)]
     pub const fn signed(&self) -> bool {
@@ -249,6 +282,20 @@ impl<R> Bit<R> {
             inverted: !self.inverted,
             ..self
         }
+    }
+}
+
+impl<R> Operand<R> {
+    /// [`Word::unsigned`]
+    #[inline(always)]
+    pub const fn unsigned(register: R, offset: u32, width: u32) -> Self {
+        Self::Word(Word::unsigned(register, offset, width))
+    }
+
+    /// [`Word::signed`]
+    #[inline(always)]
+    pub const fn signed(register: R, offset: u32, width: u32) -> Self {
+        Self::Word(Word::signed(register, offset, width))
     }
 }
 

@@ -34,6 +34,7 @@
 
 pub mod builder;
 mod evaluate;
+pub mod format;
 mod gate;
 pub mod lower;
 mod machine;

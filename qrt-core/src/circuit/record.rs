@@ -85,6 +85,11 @@ impl Recorder {
         Recorded(id)
     }
 
+    /// What has been recorded until now.
+    pub fn program(&self) -> &Program {
+        &self.program
+    }
+
     /// What was recorded.
     pub fn finish(self) -> Program {
         self.program

@@ -1,7 +1,7 @@
 //! A scene's program as the builder recorded it, from which the oracles of channels are assembled.
 
 use super::{Channel, DEFAULT_FRACTION, Options, Oracle, OracleError, faces, register_of};
-use crate::circuit::builder::{Builder, Recorded, Target};
+use crate::circuit::builder::{Builder, NamedPlace, Recorded, Target};
 use crate::circuit::{self, Operand, RegisterId, Role, Style, Type, Word};
 use crate::sampling::PathPoints;
 use crate::scene::{Nearest, Uncompute};
@@ -59,7 +59,12 @@ impl Recording {
         }
         let id = builder.id();
         let sharing = builder.sharing();
-        let recorded = builder.finish()?;
+        let mut recorded = builder.finish()?;
+        for named in &mut recorded.names {
+            if named.name.name == "throughput" {
+                named.component = channels[named.component];
+            }
+        }
         let known = Oracle {
             program: circuit::Program::default(),
             channels: outputs,
@@ -69,6 +74,7 @@ impl Recording {
             fraction,
             points,
             film,
+            places: Vec::new(),
             sharing,
         };
         Ok(Self {
@@ -116,7 +122,21 @@ impl Recording {
                 register.name = format!("colour.{}", ["r", "g", "b"][output.number]);
             }
         }
+        let held = program.outputs();
+        let places = self.recorded.names.iter().map(|named| NamedPlace {
+            place: named.place.renamed(|id| *renamed.get(&id).unwrap_or(&id)),
+            ..*named
+        });
+        let places = places.filter(|named| held.contains(&named.place.register()));
+        let places: Vec<NamedPlace> = places.collect();
+        for named in &places {
+            let register = &mut program.registers[named.place.register().index()];
+            if register.role == Role::Work && !register.name.starts_with("ray") {
+                register.name = named.to_string();
+            }
+        }
         Oracle {
+            places,
             program,
             channels: outputs,
             ..self.known.clone()

@@ -49,6 +49,15 @@ pub enum Part {
     Component(usize),
 }
 
+/// What a number or a vector of a ray is called.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Named {
+    /// The ray: 0 is the primary one.
+    pub depth: usize,
+    /// `direction`
+    pub name: &'static str,
+}
+
 /// The arithmetic of a machine.
 ///
 /// A value stands for one number *per path*: a lane of `f64`, or a register in superposition.
@@ -131,6 +140,15 @@ pub trait Arith: Sized {
     /// Keeps `a`, though nothing may need it: the paper's records of every primitive.
     #[inline(always)]
     fn record(&mut self, _a: Self::Real) {}
+    /// What `a` is, in the layout of registers.
+    #[inline(always)]
+    fn named<const K: usize>(&mut self, _name: Named, _a: &[Self::Real; K]) {}
+    /// What `a` is, in the layout of registers.
+    #[inline(always)]
+    fn named_truth(&mut self, _name: Named, _a: Self::Bool) {}
+    /// What `a` is, in the layout of registers.
+    #[inline(always)]
+    fn named_index(&mut self, _name: Named, _a: Self::Index) {}
     /// What follows belongs to `part`, until [`Arith::leave`].
     #[inline(always)]
     fn enter(&mut self, _part: Part) {}

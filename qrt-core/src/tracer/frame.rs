@@ -3,7 +3,7 @@
 use super::intersect::{Nearest, Ray};
 use super::scatter::{Vertex, members};
 use super::vector::{self, Vector};
-use super::{Arith, Part, Stage};
+use super::{Arith, Named, Part, Stage};
 
 /// The colour of each path, per channel, in radiance.
 ///
@@ -27,6 +27,12 @@ pub fn trace<A: Arith, N: Nearest<A>, const C: usize>(
     let mut alive = cx.truth(true);
     let mut throughput: Option<[A::Real; C]> = None;
     for depth in 0..stage.depths() {
+        let named = |name| Named { depth, name };
+        cx.named(named("origin"), &ray.origin);
+        cx.named(named("direction"), &ray.direction);
+        if let Some(throughput) = throughput {
+            cx.named(named("throughput"), &throughput);
+        }
         let scatter = stage.scatters.get(depth);
         cx.enter(Part::FindIntersection(depth));
         let hit = match scatter {
@@ -35,6 +41,9 @@ pub fn trace<A: Arith, N: Nearest<A>, const C: usize>(
         };
         cx.leave();
         alive = cx.and(alive, hit.found);
+        cx.named_truth(named("found"), alive);
+        cx.named(named("distance"), &[hit.distance]);
+        cx.named_index(named("face"), hit.face);
         if !cx.possible(alive) {
             break;
         }

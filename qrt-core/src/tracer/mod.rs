@@ -34,7 +34,7 @@ mod stage;
 mod tests;
 pub(crate) mod vector;
 
-pub use arith::{Arith, Axis, Coordinate, Part};
+pub use arith::{Arith, Axis, Coordinate, Named, Part};
 pub use camera::CameraStage;
 pub use frame::trace;
 pub use geometry::{Face, Frame, Geometry, INWARD, NO_FACE, NO_PLANE, Plane, Slab, TOLERANCE};

@@ -1,10 +1,11 @@
 //! [`Arith`], by recording.
 
+use super::names::Nameable;
 use super::value::{Affine, Bool, Index, Real, Value, bits_of};
 use super::{Builder, MAX_ADDRESS, negative_range};
 use crate::circuit::{Op, Operand, Word};
 use crate::expr::Function;
-use crate::tracer::{Arith, Coordinate, Part, Sampled};
+use crate::tracer::{Arith, Coordinate, Named, Part, Sampled};
 
 impl Arith for Builder<'_> {
     type Real = Real;
@@ -81,6 +82,16 @@ impl Arith for Builder<'_> {
     }
     fn atan2(&mut self, y: Real, x: Real) -> Real {
         self.angle(y, x)
+    }
+
+    fn named<const K: usize>(&mut self, name: Named, a: &[Real; K]) {
+        self.name(name, a.iter().copied().map(Nameable::Real));
+    }
+    fn named_truth(&mut self, name: Named, a: Bool) {
+        self.name(name, [Nameable::Bool(a)]);
+    }
+    fn named_index(&mut self, name: Named, a: Index) {
+        self.name(name, [Nameable::Index(a)]);
     }
 
     fn truth(&mut self, value: bool) -> Bool {

@@ -25,6 +25,7 @@ mod arith;
 mod choice;
 mod divide;
 mod function;
+mod names;
 mod number;
 mod order;
 mod product;
@@ -33,6 +34,7 @@ mod table;
 mod truth;
 pub(super) mod value;
 
+pub use names::{NamedPlace, Place};
 pub use value::{Bool, Index, Real};
 
 use super::passes::Draft;
@@ -40,9 +42,10 @@ use super::{
     Bit, Block, BlockId, Op, Operand, Parameter, Register, RegisterId, Role, Style, Type, Word,
 };
 use crate::sampling::PathPoints;
-use crate::tracer::{Axis, Coordinate};
+use crate::tracer::{Axis, Coordinate, Named};
+use names::Nameable;
 use std::collections::HashMap;
-use value::{Choice, Truth, Value};
+use value::{Affine, Choice, Truth, Value};
 
 use number::negative as negative_range;
 
@@ -153,6 +156,7 @@ pub struct Builder<'a> {
     choices: Vec<Choice>,
     known: HashMap<Op, usize>,
     coordinates: HashMap<(usize, bool), Index>,
+    names: Vec<(Named, usize, Nameable)>,
     asked: u64,
     shared: u64,
 }
@@ -164,6 +168,8 @@ pub(crate) struct Recorded {
     pub(super) parameters: Vec<Parameter>,
     /// Registers that stay although nothing may need them.
     pub(super) records: Vec<RegisterId>,
+    /// What the tracer has names for.
+    pub(crate) names: Vec<NamedPlace>,
 }
 
 impl<'a> Builder<'a> {
@@ -189,6 +195,7 @@ impl<'a> Builder<'a> {
             choices: Vec::new(),
             known: HashMap::new(),
             coordinates: HashMap::new(),
+            names: Vec::new(),
             asked: 0,
             shared: 0,
         };
@@ -225,6 +232,7 @@ impl<'a> Builder<'a> {
         match self.error {
             Some(error) => Err(error),
             None => Ok(Recorded {
+                names: self.named_places(),
                 draft: Draft {
                     registers: self.registers,
                     blocks: self.blocks,

@@ -1,0 +1,271 @@
+//! Oracles as straight-line code: what `qrt!` generates, and how it is used.
+
+use super::{Channel, Oracle};
+use crate::circuit::builder::NamedPlace;
+use crate::circuit::format::Format;
+use crate::circuit::{
+    Block, BlockId, Declaration, Machine, Operand, Parameter, Program, Recorded, Recorder,
+    RegisterId, Style, Type, Word,
+};
+use crate::sampling::{PathPoints, SamplingError};
+use crate::valid::ValidScene;
+use std::fmt;
+use std::marker::PhantomData;
+
+/// An oracle that was compiled together with the program that uses it.
+///
+/// The code is there once, generic over the [`Machine`] that runs it: a [`Recorder`] makes the
+/// program of it again, and a machine of lanes computes with it.
+pub trait CompiledOracle: Sized + 'static {
+    /// What the code leaves open.
+    const OUTLINE: &'static Outline;
+
+    /// The scene.
+    fn scene() -> &'static ValidScene;
+
+    /// Computes a path's registers from its id, lets `apply` read them, and uncomputes them.
+    ///
+    /// Computed registers exist in `apply` alone: they can neither be kept nor be forgotten.
+    fn within<M: Machine, T>(
+        machine: &mut M,
+        id: &M::Register,
+        apply: impl FnOnce(&mut M, Computed<'_, Self, M::Register>) -> T,
+    ) -> T;
+
+    /// The program that the code stands for: from a path's id to its colours.
+    fn program() -> Program {
+        let outline = Self::OUTLINE;
+        let mut recorder = outline.recorder();
+        let id = outline.inputs(&mut recorder);
+        Self::within(&mut recorder, &id, |recorder, _| recorder.program().clone())
+    }
+
+    /// The oracle of all three channels, without compiling the scene again.
+    ///
+    /// # Errors
+    /// A sequence that cannot be made; a checked scene's can.
+    fn oracle() -> Result<Oracle, SamplingError> {
+        let outline = Self::OUTLINE;
+        let scene = Self::scene().scene();
+        Ok(Oracle {
+            program: Self::program(),
+            channels: outline.channels.to_vec(),
+            id: outline.id,
+            comparator: outline.comparator,
+            flag: outline.flag,
+            fraction: outline.fraction,
+            points: PathPoints::new(&scene.sampling)?,
+            film: [scene.film.width, scene.film.height],
+            places: outline.places.to_vec(),
+            sharing: outline.sharing,
+        })
+    }
+}
+
+/// A block as it is declared in code: see [`Block`].
+#[derive(Clone, Copy, Debug)]
+pub struct BlockDeclaration {
+    /// The block around it.
+    pub parent: Option<BlockId>,
+    /// What it is called.
+    pub name: &'static str,
+    /// The depth it belongs to.
+    pub depth: Option<u32>,
+    /// Is its work uncomputed at its end, under `uncompute: scoped`?
+    pub scope: bool,
+}
+
+/// What is known of a compiled oracle beside its code.
+#[derive(Debug)]
+pub struct Outline {
+    /// All registers.
+    pub registers: &'static [Declaration],
+    /// All blocks.
+    pub blocks: &'static [BlockDeclaration],
+    /// All classical words.
+    pub parameters: &'static [Parameter],
+    /// How operations that leave something behind are lowered.
+    pub style: Style,
+    /// The channels.
+    pub channels: &'static [Channel],
+    /// The path's id.
+    pub id: RegisterId,
+    /// The comparator.
+    pub comparator: RegisterId,
+    /// The outcome of the comparison.
+    pub flag: RegisterId,
+    /// Fraction bits of every number.
+    pub fraction: u32,
+    /// [`Oracle::sharing`]
+    pub sharing: [u64; 2],
+    /// [`Oracle::places`]
+    pub places: &'static [NamedPlace],
+}
+
+impl Outline {
+    /// A recorder that knows the registers.
+    fn recorder(&self) -> Recorder {
+        let block = |block: &BlockDeclaration| Block {
+            parent: block.parent,
+            name: block.name.to_owned(),
+            depth: block.depth,
+            scope: block.scope,
+        };
+        let blocks = self.blocks.iter().map(block).collect();
+        let parameters = self.parameters.to_vec();
+        Recorder::of(self.registers, blocks, parameters, self.style)
+    }
+
+    /// Declares the inputs, and returns the id.
+    fn inputs(&self, recorder: &mut Recorder) -> Recorded {
+        let id = recorder.input(&self.registers[self.id.index()]);
+        recorder.input(&self.registers[self.comparator.index()]);
+        id
+    }
+}
+
+/// Where a number of a path is among the registers of `S`. Its format is in its type.
+pub struct Field<S, T> {
+    /// Its place in [`Outline::places`].
+    place: usize,
+    word: Word,
+    negated: bool,
+    offset: [f64; 3],
+    of: PhantomData<fn() -> (S, T)>,
+}
+
+impl<S, T> fmt::Debug for Field<S, T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_tuple("Field").field(&self.word).finish()
+    }
+}
+
+impl<S, T> Clone for Field<S, T> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+impl<S, T> Copy for Field<S, T> {}
+
+impl<S: CompiledOracle, T: Format> Field<S, T> {
+    /// What `word` reads. `place` is its place in [`Outline::places`].
+    pub const fn new(place: usize, word: Word) -> Self {
+        Self {
+            place,
+            word,
+            negated: false,
+            offset: [0.0; 3],
+            of: PhantomData,
+        }
+    }
+
+    /// Its negative (of a truth: its negation).
+    pub const fn negated(self) -> Self {
+        Self {
+            negated: true,
+            ..self
+        }
+    }
+
+    /// With what is not in the register: `offset[0] + offset[1] column + offset[2] row`.
+    pub const fn plus(self, offset: [f64; 3]) -> Self {
+        Self { offset, ..self }
+    }
+
+    /// Its bits. A sign and what is the same on all paths of a pixel are not among them:
+    /// [`Field::value`] knows them.
+    pub fn word(&self) -> Word {
+        self.word
+    }
+
+    /// The number, in pixel (column, row), if `register` is the register's content.
+    pub fn value(&self, register: u64, pixel: [u32; 2]) -> f64 {
+        let fraction = match T::TYPE {
+            Type::Fixed { fraction } | Type::UFixed { fraction } => fraction,
+            Type::Bool | Type::UInt | Type::Int | Type::Scratch => 0,
+        };
+        let number = self.word.read(register) as f64 * 2_f64.powi(-fraction.cast_signed());
+        let [constant, column, row] = self.offset;
+        let fixed = constant + column * f64::from(pixel[0]) + row * f64::from(pixel[1]);
+        match (self.negated, T::TYPE) {
+            (true, Type::Bool) => 1.0 - number,
+            (true, _) => fixed - number,
+            (false, _) => fixed + number,
+        }
+    }
+}
+
+/// A point or a direction among the registers of `S`.
+pub struct Vector<S, X, Y, Z> {
+    /// Its first component.
+    pub x: Field<S, X>,
+    /// Its second component.
+    pub y: Field<S, Y>,
+    /// Its third component.
+    pub z: Field<S, Z>,
+}
+
+impl<S, X, Y, Z> Clone for Vector<S, X, Y, Z> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+impl<S, X, Y, Z> Copy for Vector<S, X, Y, Z> {}
+
+impl<S, X, Y, Z> fmt::Debug for Vector<S, X, Y, Z> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_list()
+            .entries([self.x.word, self.y.word, self.z.word])
+            .finish()
+    }
+}
+
+/// The registers of a path, while they are computed.
+pub struct Computed<'a, S, R> {
+    fields: &'a [&'a R],
+    channels: [[Operand<&'a R>; 2]; 3],
+    of: PhantomData<fn() -> S>,
+}
+
+impl<'a, S: CompiledOracle, R> Computed<'a, S, R> {
+    /// Of the registers of [`Outline::places`], and by channel the count and the colour.
+    #[inline(always)]
+    pub fn new(fields: &'a [&'a R], channels: [[Operand<&'a R>; 2]; 3]) -> Self {
+        Self {
+            fields,
+            channels,
+            of: PhantomData,
+        }
+    }
+
+    /// A field's bits.
+    #[inline(always)]
+    pub fn word<T: Format>(&self, field: &Field<S, T>) -> Word<&'a R> {
+        field.word.of(|_| self.fields[field.place])
+    }
+
+    /// By channel: how many of the comparator's thresholds the colour exceeds, before it is cut to
+    /// their number.
+    #[inline(always)]
+    pub fn counts(&self) -> [Operand<&'a R>; 3] {
+        [0, 1, 2].map(|channel| copied(&self.channels[channel][0]))
+    }
+
+    /// By channel: the colour, in units of `2^-fraction` of its bound.
+    #[inline(always)]
+    pub fn colours(&self) -> [Operand<&'a R>; 3] {
+        [0, 1, 2].map(|channel| copied(&self.channels[channel][1]))
+    }
+}
+
+/// `derive(Copy)` would ask for `R: Copy`; references are without that.
+#[inline(always)]
+fn copied<'a, R>(operand: &Operand<&'a R>) -> Operand<&'a R> {
+    match operand {
+        Operand::Constant(value) => Operand::Constant(*value),
+        Operand::Word(word) => Operand::Word(Word {
+            register: word.register,
+            ..*word
+        }),
+    }
+}

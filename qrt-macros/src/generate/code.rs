@@ -1,0 +1,285 @@
+//! Compute and uncompute as straight-line code.
+
+use super::names::Names;
+use qrt_core::circuit::{Bit, BlockId, Instruction, Op, Operand, Program, RegisterId, When, Word};
+use qrt_core::oracle::{Channel, Oracle};
+use std::fmt::Write as _;
+
+struct Coder<'a> {
+    out: &'a mut String,
+    program: &'a Program,
+    names: &'a Names,
+    id: RegisterId,
+    /// What the last instruction was charged to.
+    block: Option<BlockId>,
+}
+
+/// Writes the trait's implementation.
+pub(super) fn write(out: &mut String, scene: &str, oracle: &Oracle, names: &Names) {
+    let _ = writeln!(
+        out,
+        "impl CompiledOracle for {scene} {{
+            const OUTLINE: &'static Outline = &OUTLINE;
+
+            fn scene() -> &'static ::qrt::core::valid::ValidScene {{
+                {scene}::scene()
+            }}
+
+            #[inline(always)]
+            fn within<M: Machine, T>(
+                m: &mut M,
+                id: &M::Register,
+                apply: impl FnOnce(&mut M, Computed<'_, Self, M::Register>) -> T,
+            ) -> T {{"
+    );
+    let mut coder = Coder {
+        out,
+        program: &oracle.program,
+        names,
+        id: oracle.id,
+        block: None,
+    };
+    for instruction in &oracle.program.instructions {
+        coder.instruction(*instruction);
+    }
+    coder.out.push_str("let fields = &[");
+    for named in &oracle.places {
+        let register = coder.borrowed(named.place.register());
+        let _ = write!(coder.out, "{register}, ");
+    }
+    coder.out.push_str("];\nlet channels = [");
+    for number in 0..3 {
+        let channel = oracle.channels.iter().find(|c| c.number == number);
+        let zero = Operand::Constant(0);
+        let pair = channel.map_or([zero; 2], |&Channel { count, colour, .. }| [count, colour]);
+        let [count, colour] = pair.map(|operand| coder.operand(operand));
+        let _ = write!(coder.out, "[{count}, {colour}], ");
+    }
+    coder.out.push_str(
+        "];
+        let applied = apply(m, Computed::new(fields, channels));\n",
+    );
+    for instruction in &oracle.program.inverse().instructions {
+        coder.instruction(*instruction);
+    }
+    out.push_str("applied\n}\n}\n");
+}
+
+impl Coder<'_> {
+    fn borrowed(&self, register: RegisterId) -> String {
+        if register == self.id {
+            return "id".to_owned();
+        }
+        format!("&{}", self.names.of(register))
+    }
+
+    fn word(&self, word: Word) -> String {
+        self.bits("Word", word, "")
+    }
+
+    fn bits(&self, of: &str, word: Word, end: &str) -> String {
+        let sign = if word.signed { "signed" } else { "unsigned" };
+        let register = self.borrowed(word.register);
+        let (offset, width) = (word.offset, word.width);
+        match word.shift {
+            0 => format!("{of}::{sign}({register}, {offset}, {width})"),
+            shift => format!("Word::{sign}({register}, {offset}, {width}).shifted({shift}){end}"),
+        }
+    }
+
+    fn operand(&self, operand: Operand) -> String {
+        match operand {
+            Operand::Constant(value) => format!("Operand::Constant({value})"),
+            Operand::Word(word) => self.bits("Operand", word, ".into()"),
+        }
+    }
+
+    fn bit(&self, bit: Bit) -> String {
+        let negated = if bit.inverted { ".inverted()" } else { "" };
+        let register = self.borrowed(bit.register);
+        format!("Bit::at({register}, {}){negated}", bit.index)
+    }
+
+    fn when(&self, when: When) -> String {
+        match when {
+            When::Always => "When::Always".to_owned(),
+            When::If(bit) => format!("When::If({})", self.bit(bit)),
+            When::Reversed(bit) => format!("When::Reversed({})", self.bit(bit)),
+        }
+    }
+
+    fn maybe(&self, when: Option<Bit>) -> String {
+        when.map_or("None".to_owned(), |bit| format!("Some({})", self.bit(bit)))
+    }
+
+    fn targets(&self, op: &Op) -> Vec<&str> {
+        let targets = op.targets().into_iter();
+        targets.map(|target| self.names.of(target)).collect()
+    }
+
+    fn instruction(&mut self, instruction: Instruction) {
+        if self.block.replace(instruction.block) != Some(instruction.block) {
+            let _ = writeln!(self.out, "m.block(BlockId({}));", instruction.block.0);
+        }
+        let op = &self.program.ops[instruction.op as usize];
+        let targets = self.targets(op);
+        let line = if targets.is_empty() {
+            format!("m.{};", self.in_place(op, instruction.inverse))
+        } else if instruction.inverse {
+            format!("m.undo([{}]);", targets.join(", "))
+        } else {
+            let targets = match (op, targets.as_slice()) {
+                (Op::Table { .. } | Op::Divide { .. }, all) => format!("[{}]", all.join(", ")),
+                (_, all) => all.concat(),
+            };
+            format!("let {targets} = m.{};", self.call(op))
+        };
+        self.out.push_str(&line);
+        self.out.push('\n');
+    }
+
+    /// An operation out of place.
+    fn call(&self, op: &Op) -> String {
+        let declared = |target: &RegisterId| format!("&R[{}]", target.0);
+        match op {
+            Op::Copy { a, target } => format!("copy({}, {})", declared(target), self.word(*a)),
+            Op::Load { parameter, target } => format!("load({}, {parameter})", declared(target)),
+            Op::Parity {
+                source,
+                columns,
+                parameter,
+                target,
+            } => format!(
+                "parity({}, {}, &{columns:?}, {parameter:?})",
+                declared(target),
+                self.borrowed(*source)
+            ),
+            Op::And { a, b, target } | Op::Xor { a, b, target } => format!(
+                "{}({}, {}, {})",
+                op.name(),
+                declared(target),
+                self.bit(*a),
+                self.bit(*b)
+            ),
+            Op::Add {
+                a,
+                b,
+                subtract,
+                target,
+            } => format!(
+                "{}({}, {}, {})",
+                if *subtract { "subtract" } else { "add" },
+                declared(target),
+                self.operand(*a),
+                self.operand(*b)
+            ),
+            Op::Negate { a, when, target } => format!(
+                "negate({}, {}, {})",
+                declared(target),
+                self.word(*a),
+                self.bit(*when)
+            ),
+            Op::Select { when, a, b, target } => format!(
+                "select({}, {}, {}, {})",
+                declared(target),
+                self.bit(*when),
+                self.operand(*a),
+                self.operand(*b)
+            ),
+            Op::Less { a, b, target } => format!(
+                "less({}, {}, {})",
+                declared(target),
+                self.operand(*a),
+                self.operand(*b)
+            ),
+            Op::Multiply {
+                a, b, drop, target, ..
+            } => format!(
+                "multiply({}, {}, {}, {drop})",
+                declared(target),
+                self.word(*a),
+                self.word(*b)
+            ),
+            Op::Square {
+                a, drop, target, ..
+            } => format!("square({}, {}, {drop})", declared(target), self.word(*a)),
+            Op::Scale {
+                a,
+                factor,
+                drop,
+                target,
+                ..
+            } => format!(
+                "scale({}, {}, {factor}, {drop})",
+                declared(target),
+                self.word(*a)
+            ),
+            Op::Divide {
+                a,
+                b,
+                quotient,
+                fits,
+                ..
+            } => format!(
+                "divide({}, {}, {}, {})",
+                declared(quotient),
+                declared(fits),
+                self.word(*a),
+                self.word(*b)
+            ),
+            Op::SquareRoot { a, target, .. } => {
+                format!("square_root({}, {})", declared(target), self.word(*a))
+            }
+            Op::Table {
+                address,
+                low,
+                targets,
+                ..
+            } => {
+                let list = |items: Vec<String>| items.join(", ");
+                let address = list(address.iter().map(|bit| self.bit(*bit)).collect());
+                let column = |target: &RegisterId| format!("T{}", target.0);
+                format!(
+                    "table([{}], &[{address}], [{}], {low})",
+                    list(targets.iter().map(declared).collect()),
+                    list(targets.iter().map(column).collect()),
+                )
+            }
+            Op::XorInto { .. } | Op::AddInto { .. } | Op::Swap { .. } | Op::Phase { .. } => {
+                self.in_place(op, false)
+            }
+        }
+    }
+
+    /// An operation in place. Phases have no place in compute.
+    fn in_place(&self, op: &Op, inverse: bool) -> String {
+        let changed = |register: &RegisterId| format!("&mut {}", self.names.of(*register));
+        match op {
+            Op::XorInto { a, when, target } => format!(
+                "xor_into({}, {}, {})",
+                changed(target),
+                self.operand(*a),
+                self.maybe(*when)
+            ),
+            Op::AddInto {
+                a,
+                subtract,
+                when,
+                target,
+            } => format!(
+                "add_into({}, {}, {}, {})",
+                changed(target),
+                self.operand(*a),
+                *subtract != inverse,
+                self.when(*when)
+            ),
+            Op::Swap { a, b, when } => format!(
+                "swap({}, {}, {})",
+                changed(a),
+                changed(b),
+                self.maybe(*when)
+            ),
+            _ => String::new(),
+        }
+    }
+}

@@ -1,0 +1,196 @@
+//! Registers, blocks, tables and classical words as constants.
+
+use super::names::Names;
+use qrt_core::circuit::builder::Place;
+use qrt_core::circuit::{Bit, Op, Operand, Parameter, Style, Type, Word};
+use qrt_core::oracle::Oracle;
+use std::collections::HashMap;
+use std::fmt::Write as _;
+
+/// Writes all of them.
+pub(super) fn write(out: &mut String, oracle: &Oracle, names: &Names) {
+    registers(out, oracle);
+    blocks(out, oracle);
+    tables(out, oracle);
+    outline(out, oracle, names);
+}
+
+fn ty(ty: Type) -> String {
+    match ty {
+        Type::Bool => "Type::Bool".to_owned(),
+        Type::UInt => "Type::UInt".to_owned(),
+        Type::Int => "Type::Int".to_owned(),
+        Type::UFixed { fraction } => format!("Type::UFixed {{ fraction: {fraction} }}"),
+        Type::Fixed { fraction } => format!("Type::Fixed {{ fraction: {fraction} }}"),
+        Type::Scratch => "Type::Scratch".to_owned(),
+    }
+}
+
+/// Registers by number, with what their operations leave behind.
+fn registers(out: &mut String, oracle: &Oracle) {
+    let program = &oracle.program;
+    let mut scratch: HashMap<u32, u32> = HashMap::new();
+    for op in &program.ops {
+        if let (Some(target), Some(left)) = (op.targets().first(), op.scratch()) {
+            scratch.insert(target.0, left.0);
+        }
+    }
+    let _ = writeln!(
+        out,
+        "/// Registers by number.\npub static R: [Declaration; {}] = [",
+        program.registers.len()
+    );
+    for (id, register) in program.registers.iter().enumerate() {
+        let _ = write!(
+            out,
+            "Declaration::at({id}, {:?}, {}, Role::{:?}, {})",
+            register.name,
+            ty(register.ty),
+            register.role,
+            register.width
+        );
+        if register.block.0 != 0 {
+            let _ = write!(out, ".block({})", register.block.0);
+        }
+        if let Some([low, high]) = register.range {
+            let _ = write!(out, ".range({low}, {high})");
+        }
+        if let Some(left) = scratch.get(&(id as u32)) {
+            let _ = write!(out, ".scratch({left})");
+        }
+        out.push_str(",\n");
+    }
+    out.push_str("];\n");
+}
+
+fn blocks(out: &mut String, oracle: &Oracle) {
+    out.push_str("const BLOCKS: &[BlockDeclaration] = &[\n");
+    for block in &oracle.program.blocks {
+        let _ = writeln!(
+            out,
+            "BlockDeclaration {{ parent: {:?}, name: {:?}, depth: {:?}, scope: {} }},",
+            block.parent, block.name, block.depth, block.scope
+        );
+    }
+    out.push_str("];\n");
+}
+
+/// The columns of tables, each called by its target's number.
+fn tables(out: &mut String, oracle: &Oracle) {
+    for op in &oracle.program.ops {
+        if let Op::Table {
+            columns, targets, ..
+        } = op
+        {
+            for (column, target) in columns.iter().zip(targets) {
+                let _ = writeln!(out, "static T{}: &[i64] = &{column:?};", target.0);
+            }
+        }
+    }
+}
+
+fn word(word: Word) -> String {
+    let sign = if word.signed { "signed" } else { "unsigned" };
+    let text = format!(
+        "Word::{sign}(RegisterId({}), {}, {})",
+        word.register.0, word.offset, word.width
+    );
+    match word.shift {
+        0 => text,
+        shift => format!("Word {{ shift: {shift}, ..{text} }}"),
+    }
+}
+
+fn operand(operand: Operand) -> String {
+    match operand {
+        Operand::Constant(value) => format!("Operand::Constant({value})"),
+        Operand::Word(bits) => format!("Operand::Word({})", word(bits)),
+    }
+}
+
+fn place(place: Place) -> String {
+    match place {
+        Place::Number {
+            word: bits,
+            negated,
+            offset,
+        } => format!(
+            "Place::Number {{ word: {}, negated: {negated}, offset: {offset:?} }}",
+            word(bits)
+        ),
+        Place::Truth(Bit {
+            register,
+            index,
+            inverted,
+        }) => format!(
+            "Place::Truth(Bit {{ register: {register:?}, index: {index}, inverted: {inverted} }})"
+        ),
+        Place::Index(bits) => format!("Place::Index({})", word(bits)),
+    }
+}
+
+fn outline(out: &mut String, oracle: &Oracle, _names: &Names) {
+    let style = oracle.program.ops.iter().find_map(|op| match op {
+        Op::Multiply { style, .. }
+        | Op::Square { style, .. }
+        | Op::Scale { style, .. }
+        | Op::Divide { style, .. }
+        | Op::SquareRoot { style, .. }
+        | Op::Table { style, .. } => Some(*style),
+        _ => None,
+    });
+    out.push_str("const PARAMETERS: &[Parameter] = &[\n");
+    for parameter in &oracle.program.parameters {
+        // Their debug form is Rust.
+        let _ = match parameter {
+            Parameter::Shift { .. } | Parameter::Affine { .. } => {
+                writeln!(out, "Parameter::{parameter:?},")
+            }
+        };
+    }
+    out.push_str("];\nconst CHANNELS: &[Channel] = &[\n");
+    for channel in &oracle.channels {
+        let _ = writeln!(
+            out,
+            "Channel {{ number: {}, colour: {}, count: {}, scale: {:?} }},",
+            channel.number,
+            operand(channel.colour),
+            operand(channel.count),
+            channel.scale
+        );
+    }
+    out.push_str("];\nconst PLACES: &[NamedPlace] = &[\n");
+    for named in &oracle.places {
+        let _ = writeln!(
+            out,
+            "NamedPlace {{ name: {:?}, component: {}, place: {} }},",
+            named.name,
+            named.component,
+            place(named.place)
+        );
+    }
+    let _ = writeln!(
+        out,
+        "];
+        /// What is known of the oracle beside its code.
+        pub static OUTLINE: Outline = Outline {{
+            registers: &R,
+            blocks: BLOCKS,
+            parameters: PARAMETERS,
+            style: Style::{:?},
+            channels: CHANNELS,
+            id: {:?},
+            comparator: {:?},
+            flag: {:?},
+            fraction: {},
+            sharing: {:?},
+            places: PLACES,
+        }};",
+        style.unwrap_or(Style::Wide),
+        oracle.id,
+        oracle.comparator,
+        oracle.flag,
+        oracle.fraction,
+        oracle.sharing,
+    );
+}

@@ -1,0 +1,166 @@
+//! The layout: where the numbers of a path are, ray by ray, with their formats as types.
+
+use qrt_core::circuit::builder::{NamedPlace, Place};
+use qrt_core::circuit::{Bit, Word};
+use qrt_core::oracle::Oracle;
+use std::fmt::Write as _;
+
+struct Component {
+    name: Option<&'static str>,
+    ty: String,
+    value: String,
+}
+
+/// A quantity of a ray, as fields of its struct.
+struct Quantity {
+    name: &'static str,
+    components: Vec<Component>,
+}
+
+/// Writes a struct for each ray, and one of all.
+pub(super) fn write(out: &mut String, scene: &str, oracle: &Oracle) {
+    let depths = oracle.points.depths();
+    let mut fields = String::new();
+    let mut values = String::new();
+    for depth in 0..depths {
+        let quantities = quantities(scene, oracle, depth);
+        let what = match depth {
+            0 => "the primary ray".to_owned(),
+            depth => format!("ray {depth}"),
+        };
+        let _ = writeln!(
+            out,
+            "/// Numbers of {what} that are in registers.
+            #[derive(Clone, Copy, Debug)]
+            pub struct Ray{depth} {{"
+        );
+        let mut value = String::new();
+        for quantity in &quantities {
+            field(out, &mut value, scene, quantity);
+        }
+        out.push_str("}\n");
+        let _ = writeln!(fields, "/// Of {what}.\npub ray{depth}: Ray{depth},");
+        let _ = writeln!(values, "ray{depth}: Ray{depth} {{ {value} }},");
+    }
+    let _ = writeln!(
+        out,
+        "/// Where the numbers of a path are among its registers.
+        #[derive(Clone, Copy, Debug)]
+        pub struct Layout {{ {fields} }}
+        /// Where they are.
+        pub const LAYOUT: Layout = Layout {{ {values} }};"
+    );
+}
+
+fn quantities(scene: &str, oracle: &Oracle, depth: usize) -> Vec<Quantity> {
+    let mut quantities: Vec<Quantity> = Vec::new();
+    for (place, named) in oracle.places.iter().enumerate() {
+        if named.name.depth != depth {
+            continue;
+        }
+        let name = named.name.name;
+        if quantities.last().is_none_or(|last| last.name != name) {
+            quantities.push(Quantity {
+                name,
+                components: Vec::new(),
+            });
+        }
+        if let Some(last) = quantities.last_mut() {
+            last.components.push(component(scene, oracle, place, named));
+        }
+    }
+    quantities
+}
+
+/// A number's format and its field.
+fn component(scene: &str, oracle: &Oracle, place: usize, named: &NamedPlace) -> Component {
+    let (word, negated, offset) = match named.place {
+        Place::Number {
+            word,
+            negated,
+            offset,
+        } => (word, negated, offset),
+        Place::Truth(Bit {
+            register,
+            index,
+            inverted,
+        }) => (Word::unsigned(register, index, 1), inverted, [0.0; 3]),
+        Place::Index(word) => (word, false, [0.0; 3]),
+    };
+    let fraction = oracle.fraction;
+    let above = i64::from(word.bits()) - i64::from(fraction);
+    let ty = match (named.place, word.signed) {
+        (Place::Truth(_), _) => "Bool".to_owned(),
+        (Place::Index(_), _) => format!("UInt<{}>", word.bits()),
+        (Place::Number { .. }, true) => format!("Fixed<{above}, {fraction}>"),
+        (Place::Number { .. }, false) => format!("UFixed<{above}, {fraction}>"),
+    };
+    let sign = if word.signed { "signed" } else { "unsigned" };
+    let bits = format!(
+        "Word::{sign}({:?}, {}, {})",
+        word.register, word.offset, word.width
+    );
+    let mut value = match word.shift {
+        0 => format!("Field::<{scene}, {ty}>::new({place}, {bits})"),
+        shift => {
+            format!("Field::<{scene}, {ty}>::new({place}, Word {{ shift: {shift}, ..{bits} }})")
+        }
+    };
+    if negated {
+        value.push_str(".negated()");
+    }
+    if offset != [0.0; 3] {
+        let _ = write!(value, ".plus({offset:?})");
+    }
+    Component {
+        name: named.component_name(),
+        ty,
+        value,
+    }
+}
+
+/// What a quantity is, for its documentation.
+fn meaning(quantity: &str) -> &'static str {
+    match quantity {
+        "origin" => "Where it starts, in the scene's frame as the circuit scales it.",
+        "direction" => "Where it goes; the camera's are of no particular length.",
+        "throughput" => "The share of what it finds that reaches the camera.",
+        "found" => "Does it meet a surface, on a path that has not ended?",
+        "distance" => "How far away that is, in lengths of its direction.",
+        "face" => "The face it meets, by number.",
+        "sample" => "The cell of the unit square that it samples.",
+        _ => "A number of the ray.",
+    }
+}
+
+fn field(out: &mut String, values: &mut String, scene: &str, quantity: &Quantity) {
+    let name = quantity.name;
+    let meaning = meaning(name);
+    if let [x, y, z] = quantity.components.as_slice()
+        && x.name == Some("x")
+    {
+        let _ = writeln!(
+            out,
+            "/// {meaning}\npub {name}: Vector<{scene}, {}, {}, {}>,",
+            x.ty, y.ty, z.ty
+        );
+        let _ = write!(
+            values,
+            "{name}: Vector {{ x: {}, y: {}, z: {} }}, ",
+            x.value, y.value, z.value
+        );
+        return;
+    }
+    for component in &quantity.components {
+        let name = match component.name {
+            Some(component) => format!("{name}_{component}"),
+            None => name.to_owned(),
+        };
+        let _ = writeln!(
+            out,
+            "/// {meaning}\npub {name}: Field<{scene}, {}>,",
+            component.ty
+        );
+        let _ = write!(values, "{name}: {}, ", component.value);
+    }
+}

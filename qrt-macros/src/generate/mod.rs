@@ -1,0 +1,118 @@
+//! From a checked scene to Rust: its circuit's figures, its layout of registers, and its compute and
+//! uncompute as straight-line code.
+//!
+//! The code is written as text and read back as tokens: it is long, and making it token by token
+//! takes a macro that nobody has optimised many times as long.
+
+mod code;
+mod data;
+mod fields;
+mod names;
+#[cfg(test)]
+mod tests;
+
+use names::Names;
+use proc_macro2::{Ident, TokenStream};
+use qrt_core::oracle::{Oracle, Spent, check_budget, spent};
+use qrt_core::report::Problem;
+use qrt_core::valid::ValidScene;
+use std::fmt::Write as _;
+
+/// Operations up to which a circuit becomes code. Beyond, the code would take minutes to compile.
+const MOST: usize = 20_000;
+
+/// What stands beside the struct `scene` and its function `scene()`.
+///
+/// # Errors
+/// A scene without a circuit, or with one that goes beyond its budget.
+pub(crate) fn scene(
+    scene: &Ident,
+    public: &str,
+    valid: &ValidScene,
+) -> Result<TokenStream, Vec<Problem>> {
+    let text = text(&scene.to_string(), public, valid)?;
+    // Text that this module wrote, and that its tests read.
+    Ok(text.parse().unwrap_or_default())
+}
+
+/// The same as text.
+fn text(scene: &str, public: &str, valid: &ValidScene) -> Result<String, Vec<Problem>> {
+    let (channels, oracle) = Oracle::all(valid).map_err(|error| vec![error.problem()])?;
+    let spent = spent(&channels);
+    check_budget(valid, spent)?;
+    let mut out = figures(scene, valid, &oracle, spent);
+    if oracle.program.ops.len() <= MOST {
+        let module = names::snake(scene);
+        let names = Names::new(&oracle);
+        let _ = writeln!(
+            out,
+            "
+            /// The registers of [`{scene}`]: where they are, and the code that computes them.
+            #[allow(warnings, clippy::all, clippy::pedantic)]
+            {public} mod {module} {{
+            use super::{scene};
+            use ::qrt::core::circuit::builder::{{NamedPlace, Place}};
+            use ::qrt::core::circuit::format::{{Bool, Fixed, Int, UFixed, UInt}};
+            use ::qrt::core::circuit::{{
+                Bit, BlockId, Declaration, Machine, Operand, Parameter, RegisterId, Role, Style,
+                Type, Word,
+            }};
+            use ::qrt::core::oracle::Channel;
+            use ::qrt::core::oracle::compiled::{{
+                BlockDeclaration, CompiledOracle, Computed, Field, Outline, Vector,
+            }};
+            use ::qrt::core::tracer::Named;"
+        );
+        fields::write(&mut out, scene, &oracle);
+        data::write(&mut out, &oracle, &names);
+        code::write(&mut out, scene, &oracle, &names);
+        out.push_str("}\n");
+        let _ = writeln!(
+            out,
+            "impl {scene} {{
+                /// Where the numbers of a path are among its registers, ray by ray.
+                {public} const LAYOUT: {module}::Layout = {module}::LAYOUT;
+            }}"
+        );
+    }
+    Ok(out)
+}
+
+/// What the circuit is and costs.
+fn figures(scene: &str, valid: &ValidScene, oracle: &Oracle, spent: Spent) -> String {
+    let Spent { qubits, toffoli } = spent;
+    let film = oracle.film;
+    let path_bits = oracle.points.path_bits();
+    let comparator_bits = oracle.comparator_bits();
+    let depth = valid.scene().sampling.depths.len();
+    let operations = oracle.program.ops.len();
+    let fraction = oracle.fraction;
+    let mut scale = [0.0; 3];
+    for channel in &oracle.channels {
+        scale[channel.number] = channel.scale;
+    }
+    format!(
+        "impl {scene} {{
+            /// The most qubits in use at any time during a call of the oracle of the channel that
+            /// has the most Toffolis.
+            pub const QUBITS: u64 = {qubits};
+            /// Toffoli gates of a call of the oracle of the channel that has the most.
+            pub const TOFFOLI: u64 = {toffoli};
+            /// A pixel has `2^PATH_BITS` paths.
+            pub const PATH_BITS: u32 = {path_bits};
+            /// Qubits of the comparator.
+            pub const COMPARATOR_BITS: u32 = {comparator_bits};
+            /// Bits after the point of every number.
+            pub const FRACTION_BITS: u32 = {fraction};
+            /// Rays on a path.
+            pub const DEPTH: usize = {depth};
+            /// Columns and rows of the film.
+            pub const FILM: [u32; 2] = {film:?};
+            /// By channel (red, green, blue): the proven bound on a path's colour, in radiance.
+            pub const SCALE: [f64; 3] = {scale:?};
+            /// Operations from a path's id to its three colours.
+            pub const OPERATIONS: usize = {operations};
+        }}
+"
+    )
+}

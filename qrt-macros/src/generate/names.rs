@@ -1,0 +1,47 @@
+//! Names of modules and of variables.
+
+use qrt_core::circuit::RegisterId;
+use qrt_core::oracle::Oracle;
+use std::collections::HashSet;
+
+/// `CornellBox`: `cornell_box`.
+pub(super) fn snake(name: &str) -> String {
+    let mut snake = String::with_capacity(name.len() + 4);
+    let mut after_lower = false;
+    for c in name.chars() {
+        if c.is_uppercase() && after_lower {
+            snake.push('_');
+        }
+        after_lower = c.is_lowercase() || c.is_ascii_digit();
+        snake.extend(c.to_lowercase());
+    }
+    snake
+}
+
+/// The variables that registers are in.
+pub(super) struct Names(Vec<String>);
+
+impl Names {
+    pub(super) fn new(oracle: &Oracle) -> Self {
+        let registers = oracle.program.registers.iter().enumerate();
+        let mut taken: HashSet<String> = HashSet::new();
+        let name = |(id, register): (usize, &qrt_core::circuit::Register)| {
+            let plain = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };
+            let mut name: String = register.name.chars().map(plain).collect();
+            // Generated registers are called by what computes them and their numbers.
+            if !name.ends_with(&id.to_string()) && id != oracle.id.index() {
+                name = format!("{name}_{id}");
+            }
+            if !taken.insert(name.clone()) {
+                name = format!("r{id}_{name}");
+            }
+            name
+        };
+        Self(registers.map(name).collect())
+    }
+
+    /// The variable.
+    pub(super) fn of(&self, register: RegisterId) -> &str {
+        &self.0[register.index()]
+    }
+}
