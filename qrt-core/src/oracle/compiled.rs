@@ -32,6 +32,14 @@ pub trait CompiledOracle: Sized + 'static {
         apply: impl FnOnce(&mut M, Computed<'_, Self, M::Register>) -> T,
     ) -> T;
 
+    /// The paths of a pixel.
+    ///
+    /// # Errors
+    /// A sequence that cannot be made; a checked scene's can.
+    fn points() -> Result<PathPoints, SamplingError> {
+        PathPoints::new(&Self::scene().scene().sampling)
+    }
+
     /// The program that the code stands for: from a path's id to its colours.
     fn program() -> Program {
         let outline = Self::OUTLINE;
@@ -54,7 +62,7 @@ pub trait CompiledOracle: Sized + 'static {
             comparator: outline.comparator,
             flag: outline.flag,
             fraction: outline.fraction,
-            points: PathPoints::new(&scene.sampling)?,
+            points: Self::points()?,
             film: [scene.film.width, scene.film.height],
             places: outline.places.to_vec(),
             sharing: outline.sharing,
@@ -104,7 +112,7 @@ pub struct Outline {
 
 impl Outline {
     /// A recorder that knows the registers.
-    fn recorder(&self) -> Recorder {
+    pub fn recorder(&self) -> Recorder {
         let block = |block: &BlockDeclaration| Block {
             parent: block.parent,
             name: block.name.to_owned(),
@@ -117,7 +125,7 @@ impl Outline {
     }
 
     /// Declares the inputs, and returns the id.
-    fn inputs(&self, recorder: &mut Recorder) -> Recorded {
+    pub fn inputs(&self, recorder: &mut Recorder) -> Recorded {
         let id = recorder.input(&self.registers[self.id.index()]);
         recorder.input(&self.registers[self.comparator.index()]);
         id

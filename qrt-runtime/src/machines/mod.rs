@@ -13,6 +13,7 @@ mod oracle;
 mod rays;
 mod real;
 mod span;
+mod state;
 
 pub use fixed::{Extremes, Fixed, Lanes, contents};
 pub use gates::{Dirty, Gates, InvalidGate, Rows};
@@ -21,3 +22,4 @@ pub use oracle::{Defect, Finished, OracleMachine, Parts};
 pub use rays::{Met, SingleRay};
 pub use real::{Block, PixelSum, Points, Real, Simd};
 pub use span::Span;
+pub use state::{State, Unclean};

@@ -1,0 +1,329 @@
+//! One basis state: reversible code, run on integers by the definition of its operations.
+
+use qrt_core::circuit::{
+    Bit, BlockId, Contents, Declaration, Machine, Operand, Recorded, Recorder, Style, When, Word,
+};
+use qrt_core::oracle::compiled::CompiledOracle;
+use qrt_core::sampling::SamplingError;
+use std::fmt;
+
+/// A register that was not what it must be when it was undone or given back.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Unclean {
+    /// What it is called.
+    pub register: String,
+    /// What it held.
+    pub held: u64,
+    /// What it had to hold, so that the inverse leaves 0.
+    pub expected: u64,
+}
+
+impl fmt::Display for Unclean {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "`{}` held {} when it was undone, and not {}: something it was computed from, or itself, \
+             was changed",
+            self.register, self.held, self.expected
+        )
+    }
+}
+
+impl std::error::Error for Unclean {}
+
+/// A machine of one basis state, which shows what registers hold and checks what is undone.
+///
+/// ```
+/// use qrt_core::circuit::{Declaration, Machine, Type, When, Word};
+/// use qrt_runtime::machines::State;
+///
+/// let mut state = State::new();
+/// let a = state.input(&Declaration::work("a", Type::UInt, 4), 9);
+/// let mut b = state.input(&Declaration::work("b", Type::UInt, 4), 12);
+/// state.add_into(&mut b, Word::unsigned(&a, 0, 4).into(), false, When::Always);
+/// assert_eq!(state.bits(&b), 5);
+/// ```
+#[derive(Clone, Debug)]
+pub struct State {
+    recorder: Recorder,
+    contents: Contents,
+    unclean: Option<Unclean>,
+}
+
+impl State {
+    /// Without registers.
+    pub fn new() -> Self {
+        Self::of(Recorder::new(Style::Lean), Vec::new())
+    }
+
+    fn of(recorder: Recorder, parameters: Vec<u64>) -> Self {
+        let mut state = Self {
+            recorder,
+            contents: Contents {
+                registers: Vec::new(),
+                parameters,
+                widths: Vec::new(),
+                negative: false,
+            },
+            unclean: None,
+        };
+        state.declared();
+        state
+    }
+
+    /// For the path `path` of pixel (column, row) of a compiled oracle, and the register of its id.
+    ///
+    /// # Errors
+    /// A sequence that cannot be made; a checked scene's can.
+    pub fn path<C: CompiledOracle>(
+        seed: u64,
+        pixel: [u32; 2],
+        path: u64,
+    ) -> Result<(Self, Recorded), SamplingError> {
+        let outline = C::OUTLINE;
+        let points = C::points()?;
+        let parameters = outline.parameters.iter();
+        let words = parameters.map(|parameter| parameter.value(&points, seed, pixel));
+        let mut recorder = outline.recorder();
+        let id = outline.inputs(&mut recorder);
+        let mut state = Self::of(recorder, words.collect());
+        state.contents.registers[id.id().index()] = path;
+        Ok((state, id))
+    }
+
+    /// A register that holds `bits` from the start.
+    pub fn input(&mut self, t: &Declaration, bits: u64) -> Recorded {
+        let register = self.recorder.input(t);
+        self.declared();
+        self.contents.registers[register.id().index()] = bits & (u64::MAX >> (64 - t.width));
+        register
+    }
+
+    /// What a register holds.
+    pub fn bits(&self, register: &Recorded) -> u64 {
+        self.contents.registers[register.id().index()]
+    }
+
+    /// What a word reads.
+    pub fn read(&self, word: Word<&Recorded>) -> i64 {
+        word.read(self.bits(word.register))
+    }
+
+    /// What an operand reads.
+    pub fn operand(&self, operand: Operand<&Recorded>) -> i64 {
+        match operand {
+            Operand::Word(word) => self.read(word),
+            Operand::Constant(value) => value,
+        }
+    }
+
+    /// Has everything been undone as it must be?
+    ///
+    /// # Errors
+    /// The first register that was not.
+    pub fn clean(&self) -> Result<(), Unclean> {
+        self.unclean.clone().map_or(Ok(()), Err)
+    }
+
+    /// Makes room for new registers, which hold 0.
+    fn declared(&mut self) {
+        let registers = &self.recorder.program().registers;
+        let known = self.contents.widths.len();
+        let widths = registers[known..].iter().map(|register| register.width);
+        self.contents.widths.extend(widths);
+        self.contents.registers.resize(registers.len(), 0);
+    }
+
+    /// Runs what was recorded last.
+    fn run(&mut self) {
+        self.declared();
+        let program = self.recorder.program();
+        let Some(instruction) = program.instructions.last() else {
+            return;
+        };
+        let op = &program.ops[instruction.op as usize];
+        if !instruction.inverse {
+            self.contents.compute(op);
+            return;
+        }
+        let targets = op.targets();
+        let held = |contents: &Contents| -> Vec<u64> {
+            let targets = targets.iter();
+            targets.map(|t| contents.registers[t.index()]).collect()
+        };
+        let before = held(&self.contents);
+        // The inverse undoes what the operation makes of its operands as they are now.
+        self.contents.uncompute(op);
+        self.contents.compute(op);
+        let again = held(&self.contents);
+        self.contents.uncompute(op);
+        for ((target, held), expected) in targets.iter().zip(before).zip(again) {
+            if held != expected {
+                self.unclean.get_or_insert_with(|| Unclean {
+                    register: program.registers[target.index()].name.clone(),
+                    held,
+                    expected,
+                });
+            }
+        }
+    }
+}
+
+impl Default for State {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Machine for State {
+    type Register = Recorded;
+    fn zero(&mut self, t: &Declaration) -> Recorded {
+        let computed = self.recorder.zero(t);
+        self.run();
+        computed
+    }
+    fn free(&mut self, register: Recorded) {
+        self.recorder.free(register);
+        self.run();
+    }
+    fn block(&mut self, block: BlockId) {
+        self.recorder.block(block);
+    }
+    fn copy(&mut self, t: &Declaration, a: Word<&Recorded>) -> Recorded {
+        let computed = self.recorder.copy(t, a);
+        self.run();
+        computed
+    }
+    fn load(&mut self, t: &Declaration, parameter: u32) -> Recorded {
+        let computed = self.recorder.load(t, parameter);
+        self.run();
+        computed
+    }
+    fn parity(
+        &mut self,
+        t: &Declaration,
+        source: &Recorded,
+        columns: &[u64],
+        parameter: Option<u32>,
+    ) -> Recorded {
+        let computed = self.recorder.parity(t, source, columns, parameter);
+        self.run();
+        computed
+    }
+    fn and(&mut self, t: &Declaration, a: Bit<&Recorded>, b: Bit<&Recorded>) -> Recorded {
+        let computed = self.recorder.and(t, a, b);
+        self.run();
+        computed
+    }
+    fn xor(&mut self, t: &Declaration, a: Bit<&Recorded>, b: Bit<&Recorded>) -> Recorded {
+        let computed = self.recorder.xor(t, a, b);
+        self.run();
+        computed
+    }
+    fn add(&mut self, t: &Declaration, a: Operand<&Recorded>, b: Operand<&Recorded>) -> Recorded {
+        let computed = self.recorder.add(t, a, b);
+        self.run();
+        computed
+    }
+    fn subtract(
+        &mut self,
+        t: &Declaration,
+        a: Operand<&Recorded>,
+        b: Operand<&Recorded>,
+    ) -> Recorded {
+        let computed = self.recorder.subtract(t, a, b);
+        self.run();
+        computed
+    }
+    fn negate(&mut self, t: &Declaration, a: Word<&Recorded>, when: Bit<&Recorded>) -> Recorded {
+        let computed = self.recorder.negate(t, a, when);
+        self.run();
+        computed
+    }
+    fn select(
+        &mut self,
+        t: &Declaration,
+        when: Bit<&Recorded>,
+        a: Operand<&Recorded>,
+        b: Operand<&Recorded>,
+    ) -> Recorded {
+        let computed = self.recorder.select(t, when, a, b);
+        self.run();
+        computed
+    }
+    fn less(&mut self, t: &Declaration, a: Operand<&Recorded>, b: Operand<&Recorded>) -> Recorded {
+        let computed = self.recorder.less(t, a, b);
+        self.run();
+        computed
+    }
+    fn multiply(
+        &mut self,
+        t: &Declaration,
+        a: Word<&Recorded>,
+        b: Word<&Recorded>,
+        drop: u32,
+    ) -> Recorded {
+        let computed = self.recorder.multiply(t, a, b, drop);
+        self.run();
+        computed
+    }
+    fn square(&mut self, t: &Declaration, a: Word<&Recorded>, drop: u32) -> Recorded {
+        let computed = self.recorder.square(t, a, drop);
+        self.run();
+        computed
+    }
+    fn scale(&mut self, t: &Declaration, a: Word<&Recorded>, factor: i64, drop: u32) -> Recorded {
+        let computed = self.recorder.scale(t, a, factor, drop);
+        self.run();
+        computed
+    }
+    fn divide(
+        &mut self,
+        quotient: &Declaration,
+        fits: &Declaration,
+        a: Word<&Recorded>,
+        b: Word<&Recorded>,
+    ) -> [Recorded; 2] {
+        let computed = self.recorder.divide(quotient, fits, a, b);
+        self.run();
+        computed
+    }
+    fn square_root(&mut self, t: &Declaration, a: Word<&Recorded>) -> Recorded {
+        let computed = self.recorder.square_root(t, a);
+        self.run();
+        computed
+    }
+    fn table<const N: usize>(
+        &mut self,
+        targets: [&Declaration; N],
+        address: &[Bit<&Recorded>],
+        columns: [&[i64]; N],
+        low: u32,
+    ) -> [Recorded; N] {
+        let computed = self.recorder.table(targets, address, columns, low);
+        self.run();
+        computed
+    }
+    fn undo<const N: usize>(&mut self, computed: [Recorded; N]) {
+        self.recorder.undo(computed);
+        self.run();
+    }
+    fn xor_into(&mut self, t: &mut Recorded, a: Operand<&Recorded>, when: Option<Bit<&Recorded>>) {
+        self.recorder.xor_into(t, a, when);
+        self.run();
+    }
+    fn add_into(
+        &mut self,
+        t: &mut Recorded,
+        a: Operand<&Recorded>,
+        subtract: bool,
+        when: When<&Recorded>,
+    ) {
+        self.recorder.add_into(t, a, subtract, when);
+        self.run();
+    }
+    fn swap(&mut self, a: &mut Recorded, b: &mut Recorded, when: Option<Bit<&Recorded>>) {
+        self.recorder.swap(a, b, when);
+        self.run();
+    }
+}
