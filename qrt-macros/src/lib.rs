@@ -3,6 +3,8 @@
 mod expand;
 mod generate;
 mod scene;
+#[cfg(test)]
+mod tests;
 
 /// A scene.
 #[proc_macro]

@@ -93,19 +93,16 @@ impl Expression {
 
     /// Adds a problem of this expression.
     pub(crate) fn report(&self, problem: Problem, names: &Names, faults: &mut Faults) {
-        let bytes = problem.within.unwrap_or(0..self.text.len());
+        let bytes = problem.within.clone().unwrap_or(0..self.text.len());
         let Some(place) = self.place(&bytes) else {
             return;
         };
         let near = self.text.get(bytes).and_then(|text| names.nearest(text));
-        let fault = faults.add(problem.code, place, problem.message);
-        match near.filter(|_| problem.code == codes::EXPR_NAME) {
-            Some(near) => fault.help(format!("did you mean `{near}`?")),
-            None => match problem.help {
-                Some(help) => fault.help(help),
-                None => fault,
-            },
+        let help = match near.filter(|_| problem.code == codes::EXPR_NAME) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => super::advice::help(&problem),
         };
+        faults.add(problem.code, place, problem.message).help(help);
     }
 }
 

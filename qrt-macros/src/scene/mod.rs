@@ -17,8 +17,15 @@ mod values;
 
 pub(crate) use body::Origin;
 pub(crate) use header::expand;
+#[cfg(test)]
+pub(crate) use {
+    fault::Faults,
+    header::{Read, read},
+    tokens::Table,
+};
 
 use body::Body;
+#[cfg(not(test))]
 use fault::Faults;
 use header::Header;
 use qrt_core::front::tree::{Node, Span, Value};
