@@ -127,6 +127,8 @@ fn every_code_is_shown_by_some_scene() {
         .iter()
         .filter(|row| !all.contains(&format!("error[{}]", row.code)))
         .filter(|row| !ELSEWHERE.contains(&row.code))
+        // The macro's own: `tests/compile_fail.rs` shows them.
+        .filter(|row| !row.code.starts_with("QRT07"))
         .collect();
     assert!(unseen.is_empty(), "{unseen:#?}");
 }

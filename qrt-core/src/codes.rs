@@ -3,7 +3,7 @@
 //! Codes are stable: a number, once given, keeps its meaning. `QRT01..` is about the text and its
 //! structure, `QRT02..` about values and names, `QRT03..` about geometry and meshes, `QRT04..`
 //! about expressions and BSDFs, `QRT05..` about sampling and limits, `QRT06..` about the circuit,
-//! `QRT09..` about the use of the command line.
+//! `QRT07..` about the form of the macro `qrt!`, `QRT09..` about the use of the command line.
 
 /// A row of the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -205,6 +205,54 @@ codes! {
         "Keep the divisor away from 0";
     NUMBER_TOO_WIDE = "QRT0611", "a number that no register can hold",
         "Use fewer fraction bits, or a smaller scene";
+    MACRO_SCENE = "QRT0701", "what stands in `qrt!` is not a scene",
+        "Write `pub scene Name { ... }` or `pub scene Name from \"scene.yaml\"`";
+    MACRO_FORMAT = "QRT0702", "a number format that is not `<Fixed<2, F>>`",
+        "Write `<Fixed<2, 14>>` for 14 fraction bits, or leave it out";
+    MACRO_FILE = "QRT0703", "a scene from something that is not a path in quotes",
+        "Write `from \"scene.yaml\"`, relative to the folder of Cargo.toml";
+    MACRO_ENTRY = "QRT0704", "an unknown entry of a scene",
+        "Compare with the nearest name";
+    MACRO_FORM = "QRT0705", "an entry that is not in its form",
+        "Write it as the example shows";
+    MACRO_COMMA = "QRT0706", "a missing comma",
+        "Put a comma between entries, keys and elements";
+    MACRO_KEY = "QRT0707", "something that is not `key: value`",
+        "Write `key: value`, with `_` within keys";
+    MACRO_VALUE = "QRT0708", "a value that is missing or cannot be one",
+        "Write a number, a point, a colour, a word or a text";
+    MACRO_SUFFIX = "QRT0709", "a number with a suffix",
+        "Write the number alone: all numbers of a scene are 64-bit floats";
+    MACRO_TEXT = "QRT0710", "a text without quotes",
+        "Put it in quotes";
+    MACRO_WORD = "QRT0711", "a word with a hyphen",
+        "Write `_` for `-`";
+    MACRO_NUMBER_NAME = "QRT0712", "an unknown name in a number",
+        "Define it: `const NAME: f64 = 1.0;`";
+    MACRO_CONSTANT = "QRT0713", "a constant that is not in its form",
+        "Write `const NAME: f64 = 1.0;`";
+    MACRO_NAME_TAKEN = "QRT0714", "a constant or loop variable whose name is taken",
+        "Choose another name";
+    MACRO_LABEL = "QRT0715", "two labels of one name",
+        "Rename one of them, or leave it out";
+    MACRO_LOOP = "QRT0716", "a loop that is not in its form",
+        "Write `for i in 0..4 { ... }` or `for x in [1, 2, 5] { ... }`";
+    MACRO_LOOP_ENDS = "QRT0717", "a loop that does not run from one whole number to another",
+        "Write whole numbers on both sides of `..`";
+    MACRO_LOOP_SIZE = "QRT0718", "loops that take too many passes",
+        "Put large geometry into OBJ meshes";
+    MACRO_LOOP_ENTRY = "QRT0719", "an entry that cannot be repeated",
+        "Put it outside the loop";
+    MACRO_MAP = "QRT0720", "a map that is not `|u, v| (x, y, z)`",
+        "Write `|u, v| (x, y, z)`, with three expressions in u and v";
+    MACRO_MATERIAL = "QRT0721", "a material within the braces of what is made of it",
+        "Write it before the braces: `mesh: white { ... }`";
+    MACRO_DEPTHS = "QRT0722", "depths both within and beside `sampling`",
+        "Keep one of the two";
+    MACRO_PRECISION = "QRT0723", "a precision beside the number format",
+        "Keep one of the two";
+    MACRO_ATTRIBUTE = "QRT0724", "an attribute within a scene",
+        "Put attributes before the scene; within it there are doc comments only";
     SET_SYNTAX = "QRT0901", "an override that is not key=value",
         "Write `--set sampling.path_bits=14` or `--set 'film={ width: 8, height: 8 }'`";
     SET_PLACE = "QRT0902", "an override of something that is not there",

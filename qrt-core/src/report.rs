@@ -4,6 +4,7 @@
 //! A problem names its place by [`Path`], never by line: the front end that read the scene turns
 //! the path into file, line and column (or a token's span).
 
+pub use crate::scene::decode::{listed, nearest};
 use std::collections::HashSet;
 use std::fmt;
 use std::ops::Range;

@@ -42,7 +42,7 @@ mod tests;
 
 use arena::Arena;
 pub use interval::{Domain, Interval};
-pub use parse::{MAX_DEPTH, MAX_LENGTH};
+pub use parse::{MAX_DEPTH, MAX_LENGTH, function_names};
 use std::ops;
 
 /// The place of a [`Node`] in [`Expr::nodes`].

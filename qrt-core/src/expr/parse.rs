@@ -420,7 +420,8 @@ const OTHERS: [(&str, usize); 7] = [
     ("if_less", 4),
 ];
 
-fn function_names() -> impl Iterator<Item = &'static str> {
+/// The names of all functions of expressions.
+pub fn function_names() -> impl Iterator<Item = &'static str> {
     OTHERS
         .iter()
         .map(|(name, _)| *name)

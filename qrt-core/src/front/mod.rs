@@ -1,5 +1,6 @@
 //! From text to a scene: YAML, overrides of the command line, meshes.
 
+mod files;
 pub mod obj;
 pub mod overrides;
 pub mod tree;
@@ -11,8 +12,9 @@ use crate::report::{Faulty, Path, Problem};
 use crate::scene::Scene;
 use crate::scene::decode::{Decoder, Place};
 use crate::scene::shape::Part;
-use crate::valid::{ValidScene, validate};
-use std::io::Read as _;
+use crate::valid::{ValidScene, validate_with};
+pub use files::Files;
+pub(crate) use files::Unread;
 use tree::Node;
 use yaml::Reading;
 
@@ -45,9 +47,22 @@ impl Loaded {
 /// # Errors
 /// Everything that is wrong with it, with places.
 pub fn load(path: &std::path::Path, sets: &[String]) -> Result<Loaded, Report> {
-    let source = read_file(path)?;
+    load_below("".as_ref(), path, sets)
+}
+
+/// As [`load`], of a path relative to `root`; errors name files as seen from there.
+///
+/// # Errors
+/// Everything that is wrong with it, with places.
+pub fn load_below(
+    root: &std::path::Path,
+    path: &std::path::Path,
+    sets: &[String],
+) -> Result<Loaded, Report> {
     let folder = path.parent().unwrap_or(std::path::Path::new(""));
-    from_source(source, sets, folder)
+    let files = Files::below(root, folder);
+    let source = read_file(files, path)?;
+    from_source(source, sets, files)
 }
 
 /// The scene of a YAML text; `folder` is where its meshes are.
@@ -65,14 +80,23 @@ pub fn parse(
     sets: &[String],
     folder: &std::path::Path,
 ) -> Result<Loaded, Report> {
-    from_source(Source::new(name, text), sets, folder)
+    parse_with(text, name, sets, Files::of_folder(folder))
 }
 
-fn from_source(
-    source: Source,
+/// As [`parse`], with meshes from wherever `files` says.
+///
+/// # Errors
+/// Everything that is wrong with it, with places.
+pub fn parse_with(
+    text: &str,
+    name: &str,
     sets: &[String],
-    folder: &std::path::Path,
+    files: Files<'_>,
 ) -> Result<Loaded, Report> {
+    from_source(Source::new(name, text), sets, files)
+}
+
+fn from_source(source: Source, sets: &[String], files: Files<'_>) -> Result<Loaded, Report> {
     let mut sources = vec![source];
     let Reading {
         mut tree,
@@ -93,7 +117,7 @@ fn from_source(
     let Some(tree) = tree else {
         return Err(Report::of_placed(sources, problems));
     };
-    match of_tree(&tree, folder) {
+    match of_tree(&tree, files) {
         Ok(valid) if problems.is_empty() => Ok(Loaded {
             valid,
             source: sources.remove(0),
@@ -109,10 +133,10 @@ fn from_source(
 ///
 /// # Errors
 /// Everything that is wrong with it.
-pub fn of_tree(tree: &Node, folder: &std::path::Path) -> Result<ValidScene, Vec<Problem>> {
+pub fn of_tree(tree: &Node, files: Files<'_>) -> Result<ValidScene, Vec<Problem>> {
     let mut decoder = Decoder::default();
     let scene = Scene::decode(tree, &Place::ROOT, &mut decoder);
-    let checked = validate(scene, folder);
+    let checked = validate_with(scene, files);
     let Decoder {
         mut problems,
         replaced,
@@ -133,49 +157,35 @@ pub fn of_tree(tree: &Node, folder: &std::path::Path) -> Result<ValidScene, Vec<
     Err(problems)
 }
 
-fn read_file(path: &std::path::Path) -> Result<Source, Report> {
+fn read_file(files: Files<'_>, path: &std::path::Path) -> Result<Source, Report> {
     let name = path.display().to_string();
     let fail = |code, message: String, help: Option<&str>| {
         let mut problem = Problem::new(code, Path::root(), message);
         problem.help = help.map(str::to_owned);
         Report::of_file(&name, problem)
     };
-    let unreadable = |error: &std::io::Error| {
+    let unreadable = |why: Unread| {
         use std::io::ErrorKind;
-        match error.kind() {
-            ErrorKind::NotFound => fail(
-                codes::UNREADABLE,
-                "there is no such file".into(),
-                Some("check the path, or start a scene with `qrt new NAME`"),
-            ),
-            ErrorKind::PermissionDenied => {
-                fail(codes::UNREADABLE, "you may not read this file".into(), None)
+        let (message, help) = match why {
+            Unread::Irregular { is_folder: true } => {
+                ("this is a folder".to_owned(), Some("name a scene file"))
             }
-            _ => fail(
-                codes::UNREADABLE,
-                format!("the file cannot be read: {error}"),
-                None,
-            ),
-        }
-    };
-    let kind = std::fs::metadata(path).map_err(|error| unreadable(&error))?;
-    if !kind.is_file() {
-        let what = if kind.is_dir() {
-            "this is a folder"
-        } else {
-            "this is not a regular file"
+            Unread::Irregular { is_folder: false } => {
+                let message = "this is not a regular file".to_owned();
+                (message, Some("name a scene file"))
+            }
+            Unread::Failed(error) => match error.kind() {
+                ErrorKind::NotFound => (
+                    "there is no such file".to_owned(),
+                    Some("check the path, or start a scene with `qrt new NAME`"),
+                ),
+                ErrorKind::PermissionDenied => ("you may not read this file".to_owned(), None),
+                _ => (format!("the file cannot be read: {error}"), None),
+            },
         };
-        return Err(fail(
-            codes::UNREADABLE,
-            what.into(),
-            Some("name a scene file"),
-        ));
-    }
-    let mut bytes = Vec::new();
-    let file = std::fs::File::open(path).map_err(|error| unreadable(&error))?;
-    file.take(MAX_BYTES + 1)
-        .read_to_end(&mut bytes)
-        .map_err(|error| unreadable(&error))?;
+        fail(codes::UNREADABLE, message, help)
+    };
+    let bytes = files.read(path, MAX_BYTES + 1).map_err(unreadable)?;
     if bytes.len() as u64 > MAX_BYTES {
         let message = format!("the file is larger than {} MiB", MAX_BYTES >> 20);
         return Err(fail(

@@ -15,10 +15,11 @@ mod scan;
 #[cfg(test)]
 mod tests;
 
+use super::{Files, Unread};
 use crate::scene::Rgb;
 use glam::DVec3;
+use std::cell::RefCell;
 use std::fmt;
-use std::io::Read;
 use std::iter::Enumerate;
 use std::path::{Path, PathBuf};
 
@@ -32,6 +33,8 @@ pub struct ObjMesh {
     pub faces: Vec<ObjFace>,
     /// The materials of all its libraries; empty if they were not wanted.
     pub materials: Vec<ObjMaterial>,
+    /// What was read: the file itself, then its libraries.
+    pub files: Vec<PathBuf>,
 }
 
 /// A triangle.
@@ -120,15 +123,36 @@ impl std::error::Error for ObjError {}
 ///
 /// The first problem of the file: see [`ObjError`].
 pub fn load(path: &Path, wants_materials: bool) -> Result<ObjMesh, ObjError> {
-    let bytes = bytes_of(path, "QRT0320")?;
-    parse(path, &bytes, wants_materials, &|library| {
-        bytes_of(library, "QRT0334")
-    })
+    load_from(Files::of_folder("".as_ref()), path, wants_materials)
 }
 
-/// The whole of a regular file; anything else (a pipe, a device) might never end.
-fn bytes_of(path: &Path, code: &'static str) -> Result<Vec<u8>, ObjError> {
-    let unreadable = |error: &std::io::Error| {
+/// As [`load`], from wherever `files` says.
+pub(crate) fn load_from(
+    files: Files<'_>,
+    path: &Path,
+    wants_materials: bool,
+) -> Result<ObjMesh, ObjError> {
+    let bytes = bytes_of(files, path, "QRT0320")?;
+    let read = RefCell::new(vec![path.to_owned()]);
+    let mesh = parse(path, &bytes, wants_materials, &|library| {
+        let bytes = bytes_of(files, library, "QRT0334")?;
+        read.borrow_mut().push(library.to_owned());
+        Ok(bytes)
+    })?;
+    let files = read.into_inner();
+    Ok(ObjMesh { files, ..mesh })
+}
+
+/// The whole of a file.
+fn bytes_of(files: Files<'_>, path: &Path, code: &'static str) -> Result<Vec<u8>, ObjError> {
+    let unreadable = |why: Unread| {
+        let error = match why {
+            Unread::Irregular { .. } => {
+                let message = format!("`{}` is not a regular file", path.display());
+                return ObjError::new(code, path, message);
+            }
+            Unread::Failed(error) => error,
+        };
         let why = match error.kind() {
             std::io::ErrorKind::NotFound => "there is no such file".to_owned(),
             _ => error.to_string(),
@@ -140,16 +164,7 @@ fn bytes_of(path: &Path, code: &'static str) -> Result<Vec<u8>, ObjError> {
         )
         .help("relative names are looked up beside the file that names them")
     };
-    let meta = std::fs::metadata(path).map_err(|e| unreadable(&e))?;
-    if !meta.is_file() {
-        let message = format!("`{}` is not a regular file", path.display());
-        return Err(ObjError::new(code, path, message));
-    }
-    let file = std::fs::File::open(path).map_err(|e| unreadable(&e))?;
-    let mut bytes = Vec::new();
-    file.take(MAX_BYTES + 1)
-        .read_to_end(&mut bytes)
-        .map_err(|e| unreadable(&e))?;
+    let bytes = files.read(path, MAX_BYTES + 1).map_err(unreadable)?;
     if bytes.len() as u64 > MAX_BYTES {
         let message = format!("the file is larger than {} MiB", MAX_BYTES >> 20);
         return Err(ObjError::new("QRT0321", path, message).help("use a coarser mesh"));
@@ -222,7 +237,12 @@ fn parse(
             albedo: material.diffuse.unwrap_or_default(),
         })
         .collect();
-    Ok(ObjMesh { faces, materials })
+    let files = Vec::new();
+    Ok(ObjMesh {
+        faces,
+        materials,
+        files,
+    })
 }
 
 /// Lines as statements: comments and blank lines left out, continued lines joined.

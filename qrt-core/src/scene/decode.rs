@@ -274,7 +274,7 @@ fn noun_alone(noun: &str) -> &str {
 }
 
 /// `a`, `b` and `c`
-pub(crate) fn listed(names: &[&str], last: &str) -> String {
+pub fn listed(names: &[&str], last: &str) -> String {
     let quoted: Vec<_> = names.iter().map(|name| format!("`{name}`")).collect();
     match quoted.split_last() {
         None => String::new(),
@@ -284,7 +284,7 @@ pub(crate) fn listed(names: &[&str], last: &str) -> String {
 }
 
 /// The name that `text` was probably meant to be: at most a third of its letters away.
-pub(crate) fn nearest<'a>(text: &str, names: &[&'a str]) -> Option<&'a str> {
+pub fn nearest<'a>(text: &str, names: &[&'a str]) -> Option<&'a str> {
     let lower = text.to_lowercase();
     let candidates = names.iter().filter_map(|name| {
         let length = name.chars().count().max(lower.chars().count());

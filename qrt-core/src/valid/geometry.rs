@@ -4,7 +4,7 @@
 //! origin is judged as any other.
 
 use crate::codes;
-use crate::front::obj;
+use crate::front::{Files, obj};
 use crate::report::{Path, Problem};
 use crate::scene::decode::nearest;
 use crate::scene::shape::LARGEST;
@@ -13,6 +13,7 @@ use crate::scene::{Geometry, Mesh, Scene};
 use crate::valid::{Polygon, Surface, matte};
 use glam::DVec3;
 use std::collections::HashMap;
+use std::path::PathBuf;
 
 /// Twice the area over the square of the longest edge: below it, rounding decides where the normal
 /// points.
@@ -21,20 +22,28 @@ const LEAST_AREA: f64 = 1e-12;
 /// planar.
 const PLANAR: f64 = 1e-9;
 
+/// What a scene's primitives and meshes come to.
+pub(super) struct Shapes {
+    pub(super) polygons: Vec<Polygon>,
+    /// The files that were read for them, each once.
+    pub(super) files: Vec<PathBuf>,
+}
+
 pub(super) fn polygons(
     scene: &Scene,
-    folder: &std::path::Path,
+    files: Files<'_>,
     surfaces: &mut Vec<Surface>,
     problems: &mut Vec<Problem>,
-) -> Vec<Polygon> {
+) -> Shapes {
     let names = HashMap::new();
     let mut build = Build {
         scene,
-        folder,
+        files,
         surfaces,
         problems,
         names,
         out: vec![],
+        read: vec![],
         unknown: 0,
     };
     for (index, (name, _)) in scene.materials.iter().enumerate() {
@@ -55,16 +64,21 @@ pub(super) fn polygons(
             Geometry::Mesh(mesh) => build.mesh(mesh, &path),
         }
     }
-    build.out
+    Shapes {
+        polygons: build.out,
+        files: build.read,
+    }
 }
 
 struct Build<'a> {
     scene: &'a Scene,
-    folder: &'a std::path::Path,
+    files: Files<'a>,
     surfaces: &'a mut Vec<Surface>,
     problems: &'a mut Vec<Problem>,
     names: HashMap<&'a str, u32>,
     out: Vec<Polygon>,
+    /// Files that were read.
+    read: Vec<PathBuf>,
     /// Unknown materials so far.
     unknown: usize,
 }
@@ -165,8 +179,8 @@ impl Build<'_> {
 
     fn mesh(&mut self, mesh: &Mesh, path: &Path) {
         let named = mesh.material.as_ref().map(|name| self.surface(name, path));
-        let file = self.folder.join(&mesh.obj);
-        let read = match obj::load(&file, mesh.material.is_none()) {
+        let file = self.files.path(&mesh.obj);
+        let read = match obj::load_from(self.files, &file, mesh.material.is_none()) {
             Ok(read) => read,
             Err(error) => {
                 let mut problem = Problem::new(error.code, path.key("obj"), error.message);
@@ -178,6 +192,11 @@ impl Build<'_> {
                 return;
             }
         };
+        for file in read.files {
+            if !self.read.contains(&file) {
+                self.read.push(file);
+            }
+        }
         let transform = Transform::of(mesh);
         let first = self.surfaces.len() as u32;
         if named.is_none() {

@@ -12,12 +12,14 @@ mod sampling;
 pub use sampling::{MAX_ID_BITS, MAX_NET_DEPTHS};
 
 use crate::expr::Expr;
+use crate::front::Files;
 use crate::report::{Faulty, Path, Problem};
 use crate::scene::decode::Place;
 use crate::scene::shape::Part;
 use crate::scene::text::Fingerprint;
 use crate::scene::{Bsdf, Material, Rgb, Scene};
 use glam::DVec3;
+use std::path::PathBuf;
 
 /// A checked scene: the only way on. It can be made by [`validate`] alone.
 #[derive(Clone, Debug)]
@@ -25,6 +27,7 @@ pub struct ValidScene {
     pub(crate) scene: Scene,
     pub(crate) materials: Vec<Surface>,
     pub(crate) polygons: Vec<Polygon>,
+    pub(crate) files: Vec<PathBuf>,
 }
 
 /// What a polygon's surface does: the scene's materials first, in their order, then those of MTL files.
@@ -103,6 +106,10 @@ impl ValidScene {
     pub fn polygons(&self) -> &[Polygon] {
         &self.polygons
     }
+    /// The mesh files and material libraries that were read, each once, as errors call them.
+    pub fn files(&self) -> &[PathBuf] {
+        &self.files
+    }
 
     /// FNV-1a, 128 bits, of the scene's canonical text (see [`Scene::fingerprint`]), of the corners
     /// of all polygons, bit for bit, and of the surfaces that MTL files add: it changes with
@@ -160,6 +167,14 @@ impl ValidScene {
 /// assert_eq!(problems[0].path.to_string(), "film.height");
 /// ```
 pub fn validate(scene: Scene, folder: &std::path::Path) -> Result<ValidScene, Vec<Problem>> {
+    validate_with(scene, Files::of_folder(folder))
+}
+
+/// As [`validate`], with meshes from wherever `files` says.
+///
+/// # Errors
+/// Everything that is wrong with it.
+pub fn validate_with(scene: Scene, files: Files<'_>) -> Result<ValidScene, Vec<Problem>> {
     let mut problems = Vec::new();
     scene.check(&Place::ROOT, &mut problems);
     // What is out of range by itself is not measured against anything else.
@@ -168,7 +183,8 @@ pub fn validate(scene: Scene, folder: &std::path::Path) -> Result<ValidScene, Ve
     camera::check(&scene.camera, &mut more);
     sampling::check(&scene, &mut more);
     let mut materials = surfaces(&scene, &mut more);
-    let polygons = geometry::polygons(&scene, folder, &mut materials, &mut more);
+    let shapes = geometry::polygons(&scene, files, &mut materials, &mut more);
+    let geometry::Shapes { polygons, files } = shapes;
     more.retain(|problem| !faulty.touches(&problem.path));
     problems.extend(more);
     if problems.is_empty() {
@@ -176,6 +192,7 @@ pub fn validate(scene: Scene, folder: &std::path::Path) -> Result<ValidScene, Ve
             scene,
             materials,
             polygons,
+            files,
         })
     } else {
         Err(problems)

@@ -1,18 +1,17 @@
 //! Registers, blocks, tables and classical words as constants.
 
-use super::names::Names;
 use qrt_core::circuit::builder::Place;
-use qrt_core::circuit::{Bit, Op, Operand, Parameter, Style, Type, Word};
+use qrt_core::circuit::{Bit, Op, Operand, Style, Type, Word};
 use qrt_core::oracle::Oracle;
 use std::collections::HashMap;
 use std::fmt::Write as _;
 
 /// Writes all of them.
-pub(super) fn write(out: &mut String, oracle: &Oracle, names: &Names) {
+pub(super) fn write(out: &mut String, oracle: &Oracle) {
     registers(out, oracle);
     blocks(out, oracle);
     tables(out, oracle);
-    outline(out, oracle, names);
+    outline(out, oracle);
 }
 
 fn ty(ty: Type) -> String {
@@ -37,7 +36,7 @@ fn registers(out: &mut String, oracle: &Oracle) {
     }
     let _ = writeln!(
         out,
-        "/// Registers by number.\npub static R: [Declaration; {}] = [",
+        "/// Registers by number.\nstatic R: [Declaration; {}] = [",
         program.registers.len()
     );
     for (id, register) in program.registers.iter().enumerate() {
@@ -129,7 +128,7 @@ fn place(place: Place) -> String {
     }
 }
 
-fn outline(out: &mut String, oracle: &Oracle, _names: &Names) {
+fn outline(out: &mut String, oracle: &Oracle) {
     let style = oracle.program.ops.iter().find_map(|op| match op {
         Op::Multiply { style, .. }
         | Op::Square { style, .. }
@@ -141,12 +140,8 @@ fn outline(out: &mut String, oracle: &Oracle, _names: &Names) {
     });
     out.push_str("const PARAMETERS: &[Parameter] = &[\n");
     for parameter in &oracle.program.parameters {
-        // Their debug form is Rust.
-        let _ = match parameter {
-            Parameter::Shift { .. } | Parameter::Affine { .. } => {
-                writeln!(out, "Parameter::{parameter:?},")
-            }
-        };
+        // Its debug form is Rust.
+        let _ = writeln!(out, "Parameter::{parameter:?},");
     }
     out.push_str("];\nconst CHANNELS: &[Channel] = &[\n");
     for channel in &oracle.channels {
@@ -172,8 +167,7 @@ fn outline(out: &mut String, oracle: &Oracle, _names: &Names) {
     let _ = writeln!(
         out,
         "];
-        /// What is known of the oracle beside its code.
-        pub static OUTLINE: Outline = Outline {{
+        static OUTLINE: Outline = Outline {{
             registers: &R,
             blocks: BLOCKS,
             parameters: PARAMETERS,

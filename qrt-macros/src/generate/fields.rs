@@ -17,8 +17,8 @@ struct Quantity {
     components: Vec<Component>,
 }
 
-/// Writes a struct for each ray, and one of all.
-pub(super) fn write(out: &mut String, scene: &str, oracle: &Oracle) {
+/// Writes a struct for each ray, and one of all; returns the latter's value.
+pub(super) fn write(out: &mut String, scene: &str, public: &str, oracle: &Oracle) -> String {
     let depths = oracle.points.depths();
     let mut fields = String::new();
     let mut values = String::new();
@@ -30,26 +30,27 @@ pub(super) fn write(out: &mut String, scene: &str, oracle: &Oracle) {
         };
         let _ = writeln!(
             out,
-            "/// Numbers of {what} that are in registers.
+            "/// Numbers of {what} of [`{scene}`] that are in registers.
             #[derive(Clone, Copy, Debug)]
-            pub struct Ray{depth} {{"
+            #[allow(dead_code)]
+            {public} struct {scene}Ray{depth} {{"
         );
         let mut value = String::new();
         for quantity in &quantities {
             field(out, &mut value, scene, quantity);
         }
         out.push_str("}\n");
-        let _ = writeln!(fields, "/// Of {what}.\npub ray{depth}: Ray{depth},");
-        let _ = writeln!(values, "ray{depth}: Ray{depth} {{ {value} }},");
+        let _ = writeln!(fields, "/// Of {what}.\npub ray{depth}: {scene}Ray{depth},");
+        let _ = write!(values, "ray{depth}: {scene}Ray{depth} {{ {value} }}, ");
     }
     let _ = writeln!(
         out,
-        "/// Where the numbers of a path are among its registers.
+        "/// Where the numbers of a path of [`{scene}`] are among its registers.
         #[derive(Clone, Copy, Debug)]
-        pub struct Layout {{ {fields} }}
-        /// Where they are.
-        pub const LAYOUT: Layout = Layout {{ {values} }};"
+        #[allow(dead_code)]
+        {public} struct {scene}Layout {{ {fields} }}"
     );
+    format!("{scene}Layout {{ {values} }}")
 }
 
 fn quantities(scene: &str, oracle: &Oracle, depth: usize) -> Vec<Quantity> {
@@ -95,6 +96,7 @@ fn component(scene: &str, oracle: &Oracle, place: usize, named: &NamedPlace) -> 
         (Place::Number { .. }, true) => format!("Fixed<{above}, {fraction}>"),
         (Place::Number { .. }, false) => format!("UFixed<{above}, {fraction}>"),
     };
+    let ty = format!("::qrt::core::circuit::format::{ty}");
     let sign = if word.signed { "signed" } else { "unsigned" };
     let bits = format!(
         "Word::{sign}({:?}, {}, {})",
@@ -141,7 +143,7 @@ fn field(out: &mut String, values: &mut String, scene: &str, quantity: &Quantity
     {
         let _ = writeln!(
             out,
-            "/// {meaning}\npub {name}: Vector<{scene}, {}, {}, {}>,",
+            "/// {meaning}\npub {name}: ::qrt::core::oracle::compiled::Vector<{scene}, {}, {}, {}>,",
             x.ty, y.ty, z.ty
         );
         let _ = write!(
@@ -158,7 +160,7 @@ fn field(out: &mut String, values: &mut String, scene: &str, quantity: &Quantity
         };
         let _ = writeln!(
             out,
-            "/// {meaning}\npub {name}: Field<{scene}, {}>,",
+            "/// {meaning}\npub {name}: ::qrt::core::oracle::compiled::Field<{scene}, {}>,",
             component.ty
         );
         let _ = write!(values, "{name}: {}, ", component.value);

@@ -11,26 +11,26 @@ mod names;
 #[cfg(test)]
 mod tests;
 
+use crate::scene::Parsed;
 use names::Names;
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::TokenStream;
 use qrt_core::oracle::{Oracle, Spent, check_budget, spent};
 use qrt_core::report::Problem;
 use qrt_core::valid::ValidScene;
+use quote::ToTokens as _;
 use std::fmt::Write as _;
 
 /// Operations up to which a circuit becomes code. Beyond, the code would take minutes to compile.
 const MOST: usize = 20_000;
 
-/// What stands beside the struct `scene` and its function `scene()`.
+/// What stands beside the struct of a scene and its function `scene()`.
 ///
 /// # Errors
 /// A scene without a circuit, or with one that goes beyond its budget.
-pub(crate) fn scene(
-    scene: &Ident,
-    public: &str,
-    valid: &ValidScene,
-) -> Result<TokenStream, Vec<Problem>> {
-    let text = text(&scene.to_string(), public, valid)?;
+pub(crate) fn scene(parsed: &Parsed, valid: &ValidScene) -> Result<TokenStream, Vec<Problem>> {
+    let name = parsed.header.name.to_string();
+    let public = parsed.header.visibility.to_token_stream().to_string();
+    let text = text(&name, &public, valid)?;
     // Text that this module wrote, and that its tests read.
     Ok(text.parse().unwrap_or_default())
 }
@@ -42,17 +42,14 @@ fn text(scene: &str, public: &str, valid: &ValidScene) -> Result<String, Vec<Pro
     check_budget(valid, spent)?;
     let mut out = figures(scene, valid, &oracle, spent);
     if oracle.program.ops.len() <= MOST {
-        let module = names::snake(scene);
         let names = Names::new(&oracle);
+        let layout = fields::write(&mut out, scene, public, &oracle);
         let _ = writeln!(
             out,
             "
-            /// The registers of [`{scene}`]: where they are, and the code that computes them.
             #[allow(warnings, clippy::all, clippy::pedantic)]
-            {public} mod {module} {{
-            use super::{scene};
+            const _: () = {{
             use ::qrt::core::circuit::builder::{{NamedPlace, Place}};
-            use ::qrt::core::circuit::format::{{Bool, Fixed, Int, UFixed, UInt}};
             use ::qrt::core::circuit::{{
                 Bit, BlockId, Declaration, Machine, Operand, Parameter, RegisterId, Role, Style,
                 Type, Word,
@@ -63,17 +60,16 @@ fn text(scene: &str, public: &str, valid: &ValidScene) -> Result<String, Vec<Pro
             }};
             use ::qrt::core::tracer::Named;"
         );
-        fields::write(&mut out, scene, &oracle);
-        data::write(&mut out, &oracle, &names);
-        code::write(&mut out, scene, &oracle, &names);
-        out.push_str("}\n");
         let _ = writeln!(
             out,
             "impl {scene} {{
                 /// Where the numbers of a path are among its registers, ray by ray.
-                {public} const LAYOUT: {module}::Layout = {module}::LAYOUT;
+                {public} const LAYOUT: {scene}Layout = {layout};
             }}"
         );
+        data::write(&mut out, &oracle);
+        code::write(&mut out, scene, &oracle, &names);
+        out.push_str("};\n");
     }
     Ok(out)
 }

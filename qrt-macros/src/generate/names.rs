@@ -1,22 +1,8 @@
-//! Names of modules and of variables.
+//! Names of variables.
 
 use qrt_core::circuit::RegisterId;
 use qrt_core::oracle::Oracle;
 use std::collections::HashSet;
-
-/// `CornellBox`: `cornell_box`.
-pub(super) fn snake(name: &str) -> String {
-    let mut snake = String::with_capacity(name.len() + 4);
-    let mut after_lower = false;
-    for c in name.chars() {
-        if c.is_uppercase() && after_lower {
-            snake.push('_');
-        }
-        after_lower = c.is_lowercase() || c.is_ascii_digit();
-        snake.extend(c.to_lowercase());
-    }
-    snake
-}
 
 /// The variables that registers are in.
 pub(super) struct Names(Vec<String>);

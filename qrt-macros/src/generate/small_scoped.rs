@@ -19,13 +19,57 @@ impl LitFloor {
     /// Operations from a path's id to its three colours.
     pub const OPERATIONS: usize = 49;
 }
+/// Numbers of the primary ray of [`LitFloor`] that are in registers.
+#[derive(Clone, Copy, Debug)]
+#[allow(dead_code)]
+pub struct LitFloorRay0 {
+    /// Where it goes; the camera's are of no particular length.
+    pub direction_y:
+        ::qrt::core::oracle::compiled::Field<LitFloor, ::qrt::core::circuit::format::UFixed<-3, 8>>,
+    /// Where it goes; the camera's are of no particular length.
+    pub direction_z:
+        ::qrt::core::oracle::compiled::Field<LitFloor, ::qrt::core::circuit::format::UFixed<-4, 8>>,
+    /// How far away that is, in lengths of its direction.
+    pub distance:
+        ::qrt::core::oracle::compiled::Field<LitFloor, ::qrt::core::circuit::format::UFixed<0, 8>>,
+    /// The cell of the unit square that it samples.
+    pub sample_u:
+        ::qrt::core::oracle::compiled::Field<LitFloor, ::qrt::core::circuit::format::UInt<1>>,
+    /// The cell of the unit square that it samples.
+    pub sample_v:
+        ::qrt::core::oracle::compiled::Field<LitFloor, ::qrt::core::circuit::format::UInt<1>>,
+}
+/// Numbers of ray 1 of [`LitFloor`] that are in registers.
+#[derive(Clone, Copy, Debug)]
+#[allow(dead_code)]
+pub struct LitFloorRay1 {
+    /// Where it starts, in the scene's frame as the circuit scales it.
+    pub origin: ::qrt::core::oracle::compiled::Vector<
+        LitFloor,
+        ::qrt::core::circuit::format::Fixed<-1, 8>,
+        ::qrt::core::circuit::format::Fixed<0, 8>,
+        ::qrt::core::circuit::format::Fixed<1, 8>,
+    >,
+    /// The cell of the unit square that it samples.
+    pub sample_u:
+        ::qrt::core::oracle::compiled::Field<LitFloor, ::qrt::core::circuit::format::UInt<2>>,
+    /// The cell of the unit square that it samples.
+    pub sample_v:
+        ::qrt::core::oracle::compiled::Field<LitFloor, ::qrt::core::circuit::format::UInt<2>>,
+}
+/// Where the numbers of a path of [`LitFloor`] are among its registers.
+#[derive(Clone, Copy, Debug)]
+#[allow(dead_code)]
+pub struct LitFloorLayout {
+    /// Of the primary ray.
+    pub ray0: LitFloorRay0,
+    /// Of ray 1.
+    pub ray1: LitFloorRay1,
+}
 
-/// The registers of [`LitFloor`]: where they are, and the code that computes them.
 #[allow(warnings, clippy::all, clippy::pedantic)]
-pub mod lit_floor {
-    use super::LitFloor;
+const _: () = {
     use ::qrt::core::circuit::builder::{NamedPlace, Place};
-    use ::qrt::core::circuit::format::{Bool, Fixed, Int, UFixed, UInt};
     use ::qrt::core::circuit::{
         Bit, BlockId, Declaration, Machine, Operand, Parameter, RegisterId, Role, Style, Type, Word,
     };
@@ -34,76 +78,70 @@ pub mod lit_floor {
         BlockDeclaration, CompiledOracle, Computed, Field, Outline, Vector,
     };
     use ::qrt::core::tracer::Named;
-    /// Numbers of the primary ray that are in registers.
-    #[derive(Clone, Copy, Debug)]
-    pub struct Ray0 {
-        /// Where it goes; the camera's are of no particular length.
-        pub direction_y: Field<LitFloor, UFixed<-3, 8>>,
-        /// Where it goes; the camera's are of no particular length.
-        pub direction_z: Field<LitFloor, UFixed<-4, 8>>,
-        /// How far away that is, in lengths of its direction.
-        pub distance: Field<LitFloor, UFixed<0, 8>>,
-        /// The cell of the unit square that it samples.
-        pub sample_u: Field<LitFloor, UInt<1>>,
-        /// The cell of the unit square that it samples.
-        pub sample_v: Field<LitFloor, UInt<1>>,
-    }
-    /// Numbers of ray 1 that are in registers.
-    #[derive(Clone, Copy, Debug)]
-    pub struct Ray1 {
-        /// Where it starts, in the scene's frame as the circuit scales it.
-        pub origin: Vector<LitFloor, Fixed<-1, 8>, Fixed<0, 8>, Fixed<1, 8>>,
-        /// The cell of the unit square that it samples.
-        pub sample_u: Field<LitFloor, UInt<2>>,
-        /// The cell of the unit square that it samples.
-        pub sample_v: Field<LitFloor, UInt<2>>,
-    }
-    /// Where the numbers of a path are among its registers.
-    #[derive(Clone, Copy, Debug)]
-    pub struct Layout {
-        /// Of the primary ray.
-        pub ray0: Ray0,
-        /// Of ray 1.
-        pub ray1: Ray1,
-    }
-    /// Where they are.
-    pub const LAYOUT: Layout = Layout {
-        ray0: Ray0 {
-            direction_y: Field::<LitFloor, UFixed<-3, 8>>::new(
-                0,
-                Word {
-                    shift: 3,
-                    ..Word::unsigned(RegisterId(98), 0, 2)
-                },
-            )
-            .negated()
-            .plus([-0.12304020656595155, 0.0, -0.18524193653371793]),
-            direction_z: Field::<LitFloor, UFixed<-4, 8>>::new(
-                1,
-                Word {
-                    shift: 2,
-                    ..Word::unsigned(RegisterId(98), 0, 2)
-                },
-            )
-            .plus([-1.0565138854669192, 0.0, 0.09262096826685896]),
-            distance: Field::<LitFloor, UFixed<0, 8>>::new(2, Word::unsigned(RegisterId(99), 0, 8)),
-            sample_u: Field::<LitFloor, UInt<1>>::new(3, Word::unsigned(RegisterId(3), 0, 1)),
-            sample_v: Field::<LitFloor, UInt<1>>::new(4, Word::unsigned(RegisterId(4), 0, 1)),
-        },
-        ray1: Ray1 {
-            origin: Vector {
-                x: Field::<LitFloor, Fixed<-1, 8>>::new(5, Word::signed(RegisterId(102), 0, 7)),
-                y: Field::<LitFloor, Fixed<0, 8>>::new(6, Word::signed(RegisterId(103), 0, 8))
-                    .plus([-0.0947265625, 0.0, 0.0]),
-                z: Field::<LitFloor, Fixed<1, 8>>::new(7, Word::signed(RegisterId(104), 0, 9))
-                    .plus([0.123046875, 0.0, 0.0]),
+    impl LitFloor {
+        /// Where the numbers of a path are among its registers, ray by ray.
+        pub const LAYOUT: LitFloorLayout = LitFloorLayout {
+            ray0: LitFloorRay0 {
+                direction_y: Field::<LitFloor, ::qrt::core::circuit::format::UFixed<-3, 8>>::new(
+                    0,
+                    Word {
+                        shift: 3,
+                        ..Word::unsigned(RegisterId(98), 0, 2)
+                    },
+                )
+                .negated()
+                .plus([-0.12304020656595155, 0.0, -0.18524193653371793]),
+                direction_z: Field::<LitFloor, ::qrt::core::circuit::format::UFixed<-4, 8>>::new(
+                    1,
+                    Word {
+                        shift: 2,
+                        ..Word::unsigned(RegisterId(98), 0, 2)
+                    },
+                )
+                .plus([-1.0565138854669192, 0.0, 0.09262096826685896]),
+                distance: Field::<LitFloor, ::qrt::core::circuit::format::UFixed<0, 8>>::new(
+                    2,
+                    Word::unsigned(RegisterId(99), 0, 8),
+                ),
+                sample_u: Field::<LitFloor, ::qrt::core::circuit::format::UInt<1>>::new(
+                    3,
+                    Word::unsigned(RegisterId(3), 0, 1),
+                ),
+                sample_v: Field::<LitFloor, ::qrt::core::circuit::format::UInt<1>>::new(
+                    4,
+                    Word::unsigned(RegisterId(4), 0, 1),
+                ),
             },
-            sample_u: Field::<LitFloor, UInt<2>>::new(8, Word::unsigned(RegisterId(33), 0, 2)),
-            sample_v: Field::<LitFloor, UInt<2>>::new(9, Word::unsigned(RegisterId(34), 0, 2)),
-        },
-    };
+            ray1: LitFloorRay1 {
+                origin: Vector {
+                    x: Field::<LitFloor, ::qrt::core::circuit::format::Fixed<-1, 8>>::new(
+                        5,
+                        Word::signed(RegisterId(102), 0, 7),
+                    ),
+                    y: Field::<LitFloor, ::qrt::core::circuit::format::Fixed<0, 8>>::new(
+                        6,
+                        Word::signed(RegisterId(103), 0, 8),
+                    )
+                    .plus([-0.0947265625, 0.0, 0.0]),
+                    z: Field::<LitFloor, ::qrt::core::circuit::format::Fixed<1, 8>>::new(
+                        7,
+                        Word::signed(RegisterId(104), 0, 9),
+                    )
+                    .plus([0.123046875, 0.0, 0.0]),
+                },
+                sample_u: Field::<LitFloor, ::qrt::core::circuit::format::UInt<2>>::new(
+                    8,
+                    Word::unsigned(RegisterId(33), 0, 2),
+                ),
+                sample_v: Field::<LitFloor, ::qrt::core::circuit::format::UInt<2>>::new(
+                    9,
+                    Word::unsigned(RegisterId(34), 0, 2),
+                ),
+            },
+        };
+    }
     /// Registers by number.
-    pub static R: [Declaration; 106] = [
+    static R: [Declaration; 106] = [
         Declaration::at(0, "id", Type::UInt, Role::Id, 2),
         Declaration::at(1, "comparator", Type::UInt, Role::Comparator, 4),
         Declaration::at(2, "flag", Type::Bool, Role::Flag, 1),
@@ -720,8 +758,7 @@ pub mod lit_floor {
             place: Place::Index(Word::unsigned(RegisterId(34), 0, 2)),
         },
     ];
-    /// What is known of the oracle beside its code.
-    pub static OUTLINE: Outline = Outline {
+    static OUTLINE: Outline = Outline {
         registers: &R,
         blocks: BLOCKS,
         parameters: PARAMETERS,
@@ -1555,8 +1592,4 @@ pub mod lit_floor {
             applied
         }
     }
-}
-impl LitFloor {
-    /// Where the numbers of a path are among its registers, ray by ray.
-    pub const LAYOUT: lit_floor::Layout = lit_floor::LAYOUT;
-}
+};

@@ -76,11 +76,3 @@ fn a_budget_is_held_when_the_scene_is_compiled() {
     let codes: Vec<_> = problems.iter().map(|problem| problem.code).collect();
     assert_eq!(codes, ["QRT0601", "QRT0602"]);
 }
-
-#[test]
-fn names_are_those_of_modules() {
-    assert_eq!(names::snake("CornellBox"), "cornell_box");
-    assert_eq!(names::snake("Knot65k"), "knot65k");
-    assert_eq!(names::snake("A"), "a");
-    assert_eq!(names::snake("HDRBox"), "hdrbox");
-}

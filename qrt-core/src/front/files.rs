@@ -1,0 +1,101 @@
+//! Where the files come from that a scene names: a folder on disk, or bytes that a program holds.
+
+use std::fs::File;
+use std::io::{self, Read as _};
+use std::path::{Path, PathBuf};
+
+/// A scene's own files: its meshes and their material libraries.
+///
+/// ```
+/// use qrt_core::front::{Files, parse_with};
+/// let text = "
+/// name: lamp
+/// camera: { perspective: { eye: [0, 0, 5], target: [0, 0, 0], vfov: 40 } }
+/// film: { width: 8, height: 8 }
+/// materials: { lamp: { emitter: { radiance: [1, 1, 1] } } }
+/// geometry: [{ mesh: { obj: lamp.obj, material: lamp } }]
+/// ";
+/// let held: &[(&str, &[u8])] = &[("lamp.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")];
+/// let scene = parse_with(text, "lamp.yaml", &[], Files::held(held))?.valid;
+/// assert_eq!(scene.polygons().len(), 1);
+/// assert_eq!(scene.files(), ["lamp.obj"]);
+/// # Ok::<(), qrt_core::diagnostics::Report>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Files<'a> {
+    folder: &'a Path,
+    origin: Origin<'a>,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Origin<'a> {
+    /// Below a folder.
+    Disk(&'a Path),
+    /// Names and contents.
+    Held(&'a [(&'a str, &'a [u8])]),
+}
+
+impl<'a> Files<'a> {
+    /// Those of a folder on disk, which relative names start from.
+    pub fn of_folder(folder: &'a Path) -> Self {
+        Self::below(Path::new(""), folder)
+    }
+
+    /// Those of `folder`, itself relative to `root`; errors call them as seen from `root`.
+    pub fn below(root: &'a Path, folder: &'a Path) -> Self {
+        let origin = Origin::Disk(root);
+        Self { folder, origin }
+    }
+
+    /// These names and contents, and no others.
+    pub fn held(files: &'a [(&'a str, &'a [u8])]) -> Self {
+        Self {
+            folder: Path::new(""),
+            origin: Origin::Held(files),
+        }
+    }
+
+    /// What errors call the file that the scene calls `name`.
+    pub(crate) fn path(&self, name: &str) -> PathBuf {
+        self.folder.join(name)
+    }
+
+    /// The bytes at `path`, the first `most` of them. Only of a regular file: anything else (a
+    /// pipe, a device) might never end.
+    pub(crate) fn read(&self, path: &Path, most: u64) -> Result<Vec<u8>, Unread> {
+        match self.origin {
+            Origin::Disk(root) => read(&root.join(path), most),
+            Origin::Held(files) => {
+                let found = files.iter().find(|(name, _)| Path::new(name) == path);
+                let (_, bytes) = found.ok_or_else(|| io::Error::from(io::ErrorKind::NotFound))?;
+                let most = usize::try_from(most).unwrap_or(usize::MAX);
+                Ok(bytes[..bytes.len().min(most)].to_vec())
+            }
+        }
+    }
+}
+
+/// Why a file cannot be read.
+pub(crate) enum Unread {
+    /// It is not a regular file, but perhaps a folder.
+    Irregular { is_folder: bool },
+    /// What the system says.
+    Failed(io::Error),
+}
+
+impl From<io::Error> for Unread {
+    fn from(error: io::Error) -> Self {
+        Self::Failed(error)
+    }
+}
+
+fn read(path: &Path, most: u64) -> Result<Vec<u8>, Unread> {
+    let kind = std::fs::metadata(path)?;
+    if !kind.is_file() {
+        let is_folder = kind.is_dir();
+        return Err(Unread::Irregular { is_folder });
+    }
+    let mut bytes = Vec::new();
+    File::open(path)?.take(most).read_to_end(&mut bytes)?;
+    Ok(bytes)
+}

@@ -1,0 +1,184 @@
+//! Expressions: tokens to the text that the scene's expression language reads, with the author's
+//! constants put in, and a way back from the text's bytes to the tokens.
+
+use super::fault::Faults;
+use super::names::Names;
+use super::tokens::{Kind, Token, join, place_of};
+use proc_macro2::Delimiter;
+use qrt_core::codes;
+use qrt_core::expr::{Expr, Variables};
+use qrt_core::front::tree::Span;
+use qrt_core::report::Problem;
+use qrt_core::scene::text::number as number_text;
+use std::ops::Range;
+
+/// An expression's text, and where its parts stand.
+#[derive(Debug, Default)]
+pub(crate) struct Expression {
+    pub(crate) text: String,
+    pieces: Vec<(Range<usize>, Span)>,
+}
+
+impl Expression {
+    /// The text of `tokens`; a name of the author's own becomes its value.
+    pub(crate) fn of(tokens: &[Token], names: &Names, faults: &mut Faults) -> Option<Self> {
+        let mut expression = Self::default();
+        expression.add(tokens, names, faults).then_some(expression)
+    }
+
+    fn add(&mut self, tokens: &[Token], names: &Names, faults: &mut Faults) -> bool {
+        let mut sound = true;
+        for token in tokens {
+            match &token.kind {
+                Kind::Word(word) => match names.value(word) {
+                    None => self.piece(word, token.place()),
+                    Some(value) => {
+                        let value = value.unwrap_or(1.0);
+                        let text = number_text(value);
+                        if value < 0.0 {
+                            self.piece(&format!("({text})"), token.place());
+                        } else {
+                            self.piece(&text, token.place());
+                        }
+                    }
+                },
+                Kind::Number(digits, suffix) => {
+                    sound &= is_bare(token, digits, suffix, faults);
+                    self.piece(digits, token.place());
+                }
+                Kind::Sign(sign, _) => self.piece(&sign.to_string(), token.place()),
+                Kind::Group(Delimiter::Parenthesis, inner) => {
+                    let (first, last) = (token.first, token.last);
+                    self.piece("(", super::tokens::place(first, first));
+                    sound &= self.add(inner, names, faults);
+                    self.piece(")", super::tokens::place(last, last));
+                }
+                Kind::Text(_) | Kind::Other(_) | Kind::Group(..) => {
+                    sound = false;
+                    let message = format!("{} cannot be part of an expression", token.found());
+                    let fault = faults.add(codes::MACRO_VALUE, token.place(), message);
+                    if matches!(token.kind, Kind::Text(_)) {
+                        fault.help("write the expression without quotes");
+                    } else {
+                        fault.help(
+                            "write numbers, names, `+ - * / ^` and functions such as `sqrt(u)`",
+                        );
+                    }
+                }
+            }
+        }
+        sound
+    }
+
+    fn piece(&mut self, text: &str, place: Span) {
+        let is_name = |c: char| c.is_alphanumeric() || matches!(c, '_' | '.');
+        if self.text.ends_with(is_name) && text.starts_with(is_name) {
+            self.text.push(' ');
+        }
+        let start = self.text.len();
+        self.text.push_str(text);
+        self.pieces.push((start..self.text.len(), place));
+    }
+
+    /// The tokens of these bytes; behind the end, the last one.
+    pub(crate) fn place(&self, bytes: &Range<usize>) -> Option<Span> {
+        let touched = |range: &Range<usize>| range.start < bytes.end && bytes.start < range.end;
+        let mut touched = self.pieces.iter().filter(|(range, _)| touched(range));
+        match (touched.next(), touched.next_back()) {
+            (Some((_, first)), Some((_, last))) => Some(join(*first, *last)),
+            (Some((_, only)), None) => Some(*only),
+            _ => self.pieces.last().map(|(_, place)| *place),
+        }
+    }
+
+    /// Adds a problem of this expression.
+    pub(crate) fn report(&self, problem: Problem, names: &Names, faults: &mut Faults) {
+        let bytes = problem.within.clone().unwrap_or(0..self.text.len());
+        let Some(place) = self.place(&bytes) else {
+            return;
+        };
+        let near = self.text.get(bytes).and_then(|text| names.nearest(text));
+        let help = match near.filter(|_| problem.code == codes::EXPR_NAME) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => super::advice::help(&problem),
+        };
+        faults.add(problem.code, place, problem.message).help(help);
+    }
+}
+
+/// Whether a number is without a suffix; reports one.
+fn is_bare(token: &Token, digits: &str, suffix: &str, faults: &mut Faults) -> bool {
+    if suffix.is_empty() {
+        return true;
+    }
+    let message = format!("the number `{digits}{suffix}` has the suffix `{suffix}`");
+    faults
+        .add(codes::MACRO_SUFFIX, token.place(), message)
+        .help(format!("write `{}`", digits));
+    false
+}
+
+/// A number: its text as written if it is a literal, and its value.
+///
+/// A number whose names are faulty is faulty, but nothing more is said of it.
+pub(crate) fn number(
+    tokens: &[Token],
+    names: &Names,
+    later: &[String],
+    faults: &mut Faults,
+) -> Option<String> {
+    let literal = |token: &Token, sign: &str, faults: &mut Faults| match &token.kind {
+        Kind::Number(digits, suffix) => {
+            is_bare(token, digits, suffix, faults).then(|| format!("{sign}{digits}"))
+        }
+        _ => None,
+    };
+    match tokens {
+        [only] if matches!(only.kind, Kind::Number(..)) => return literal(only, "", faults),
+        [sign, only] if sign.is_sign('-') && matches!(only.kind, Kind::Number(..)) => {
+            return literal(only, "-", faults);
+        }
+        _ => {}
+    }
+    if !names.check(tokens, later, faults) {
+        return None;
+    }
+    let expression = Expression::of(tokens, names, faults)?;
+    if names.are_faulty(tokens) {
+        return None;
+    }
+    match Expr::parse(&expression.text, &[]) {
+        Ok(expr) => Some(number_text(expr.eval(&Variables::default()))),
+        Err(problems) => {
+            for problem in problems {
+                expression.report(problem, names, faults);
+            }
+            None
+        }
+    }
+}
+
+/// As [`number`], its value.
+pub(crate) fn value(
+    tokens: &[Token],
+    names: &Names,
+    later: &[String],
+    faults: &mut Faults,
+) -> Option<f64> {
+    let text = number(tokens, names, later, faults)?;
+    let value = match text.as_str() {
+        ".nan" => f64::NAN,
+        ".inf" => f64::INFINITY,
+        "-.inf" => f64::NEG_INFINITY,
+        text => text.parse().ok()?,
+    };
+    if value.is_finite() {
+        return Some(value);
+    }
+    let place = place_of(tokens).unwrap_or_default();
+    let message = format!("this is {value}, which is not a finite number");
+    faults
+        .add(codes::NOT_FINITE, place, message)
+        .help("write a finite number");
+    None
+}

@@ -1,0 +1,146 @@
+//! What is wrong with a macro's input, and how the compiler is told.
+
+use super::tokens::Table;
+use proc_macro2::{Delimiter, Group, Literal, Punct, Spacing, Span, TokenStream, TokenTree};
+use qrt_core::front::tree;
+use quote::quote_spanned;
+
+/// One thing that is wrong, at a place.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Fault {
+    /// Stable code.
+    pub(crate) code: &'static str,
+    place: tree::Span,
+    message: String,
+    notes: Vec<String>,
+    /// Another place, and the words before it: "the first is".
+    also: Option<(tree::Span, String)>,
+    help: Option<String>,
+    /// What another report says, codes and all.
+    body: Option<String>,
+    /// Whether it was found in a loop, whose every pass may find it again.
+    repeats: bool,
+}
+
+impl Fault {
+    /// As found in a loop.
+    pub(crate) fn in_pass(&mut self, pass: &str) -> &mut Self {
+        self.repeats = true;
+        self.note(format!("where {pass}"))
+    }
+
+    /// With a line of its own behind the message.
+    pub(crate) fn note(&mut self, note: impl Into<String>) -> &mut Self {
+        self.notes.push(note.into());
+        self
+    }
+
+    /// With another place that matters.
+    pub(crate) fn also(&mut self, place: tree::Span, why: impl Into<String>) -> &mut Self {
+        self.also = Some((place, why.into()));
+        self
+    }
+
+    /// With the right thing to write.
+    pub(crate) fn help(&mut self, help: impl Into<String>) -> &mut Self {
+        self.help = Some(help.into());
+        self
+    }
+
+    /// With the text of another report, which has its own codes.
+    pub(crate) fn body(&mut self, body: String) -> &mut Self {
+        self.body = Some(body);
+        self
+    }
+
+    /// The compiler's names of its place's two ends.
+    pub(crate) fn ends(&self, table: &Table) -> (Span, Span) {
+        table.ends(self.place)
+    }
+
+    /// What the compiler shows.
+    pub(crate) fn text(&self, table: &Table) -> String {
+        if let Some(body) = &self.body {
+            return format!("{}\n\n{}", self.message, body.trim_end());
+        }
+        let mut text = format!("{} [{}]", self.message, self.code);
+        for note in &self.notes {
+            text += "\nnote: ";
+            text += note;
+        }
+        if let Some((place, why)) = &self.also {
+            let (here, _) = table.ends(self.place);
+            let there = table.ends(*place).0.start();
+            text += &format!("\nnote: {why} on line {}", there.line);
+            if there.line == here.start().line {
+                text += &format!(", column {}", there.column + 1);
+            }
+        }
+        if let Some(help) = &self.help {
+            text += "\nhelp: ";
+            text += help;
+        }
+        text
+    }
+}
+
+/// All that is wrong.
+#[derive(Debug, Default)]
+pub(crate) struct Faults(Vec<Fault>);
+
+impl Faults {
+    /// Adds one, to be described further.
+    pub(crate) fn add(
+        &mut self,
+        code: &'static str,
+        place: tree::Span,
+        message: impl Into<String>,
+    ) -> &mut Fault {
+        let index = self.0.len();
+        self.0.push(Fault {
+            code,
+            place,
+            message: message.into(),
+            notes: Vec::new(),
+            also: None,
+            help: None,
+            body: None,
+            repeats: false,
+        });
+        &mut self.0[index]
+    }
+
+    /// How many there are.
+    pub(crate) fn count(&self) -> usize {
+        self.0.len()
+    }
+
+    /// In the order of their places; of what loops repeat, the first.
+    pub(crate) fn settle(mut self) -> Vec<Fault> {
+        self.0
+            .sort_by_key(|fault| (fault.place.start, fault.place.end, fault.code));
+        self.0.dedup_by(|next, kept| {
+            let same = kept.repeats || kept.message == next.message;
+            same && (next.code, next.place) == (kept.code, kept.place)
+        });
+        self.0
+    }
+
+    /// Those of another scene of the same input as well.
+    pub(crate) fn append(&mut self, mut other: Self) {
+        self.0.append(&mut other.0);
+    }
+}
+
+/// The compiler's error `text` from one span to another.
+pub(crate) fn compile_error(text: &str, (first, last): (Span, Span)) -> TokenStream {
+    let mut words: TokenStream = quote_spanned!(first=> ::core::compile_error);
+    let mut bang = Punct::new('!', Spacing::Alone);
+    bang.set_span(first);
+    let mut literal = Literal::string(text);
+    literal.set_span(last);
+    let mut braces = Group::new(Delimiter::Brace, TokenTree::from(literal).into());
+    braces.set_span(last);
+    words.extend([TokenTree::from(bang), TokenTree::from(braces)]);
+    words
+}

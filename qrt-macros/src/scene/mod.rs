@@ -1,0 +1,180 @@
+//! `qrt!`: tokens to a checked scene, and back to what says it in Rust.
+//!
+//! The tokens become the same tree that YAML text becomes, with the tokens' numbers for places, and
+//! the one checker does the rest: what it says of a path in the tree is shown at that path's tokens.
+
+mod advice;
+mod body;
+mod emit;
+mod expression;
+mod fault;
+mod film;
+mod header;
+mod loops;
+mod names;
+mod tokens;
+mod values;
+
+pub(crate) use body::Origin;
+pub(crate) use header::expand;
+#[cfg(test)]
+pub(crate) use {
+    fault::Faults,
+    header::{Read, read},
+    tokens::Table,
+};
+
+use body::Body;
+#[cfg(not(test))]
+use fault::Faults;
+use header::Header;
+use qrt_core::front::tree::{Node, Span, Value};
+use qrt_core::front::{Files, Loaded, of_tree};
+use qrt_core::report::{Path, Problem, Step};
+use qrt_core::valid::ValidScene;
+use std::path::Path as FilePath;
+
+/// A scene of a macro, and where its parts were written.
+#[derive(Debug)]
+pub(crate) struct Parsed {
+    /// Attributes, visibility and name of the type that stands for it.
+    pub(crate) header: Header,
+    /// The labels of its primitives, by their number in the scene; none for a scene of a file.
+    pub(crate) primitives: Vec<Origin>,
+    /// The labels of its rays, likewise.
+    pub(crate) rays: Vec<Origin>,
+    source: Source,
+}
+
+#[derive(Debug)]
+enum Source {
+    /// The tokens of the macro themselves.
+    Tokens(Box<Written>),
+    /// A file.
+    File(Box<Loaded>),
+    /// A file with errors.
+    Nothing,
+}
+
+/// A scene that the macro spells out.
+#[derive(Debug)]
+struct Written {
+    tree: Node,
+    body: Body,
+}
+
+impl Parsed {
+    /// Adds problems that were found in the scene, each at its place.
+    pub(crate) fn report(&self, problems: Vec<Problem>, faults: &mut Faults) {
+        match &self.source {
+            Source::Tokens(written) => {
+                for problem in problems {
+                    self.place(written, problem, faults);
+                }
+            }
+            Source::File(loaded) => {
+                let report = loaded.report(problems);
+                self.header.report(&report, faults);
+            }
+            Source::Nothing => {}
+        }
+    }
+
+    /// Adds a problem at its tokens, unless it only follows from what could not be read.
+    fn place(&self, written: &Written, problem: Problem, faults: &mut Faults) {
+        let Written { tree, body } = written;
+        let found = tree.resolve(&problem.path);
+        let reader = &body.reader;
+        let is_missing = problem.code == qrt_core::codes::MISSING_KEY;
+        if follows(tree, &problem.path)
+            || is_missing && reader.incomplete.contains(&found.node.span)
+        {
+            return;
+        }
+        let expression = (found.node.span.source as usize)
+            .checked_sub(1)
+            .and_then(|index| reader.expressions.get(index));
+        if let Some(expression) = expression.filter(|_| problem.within.is_some()) {
+            return expression.report(problem, &reader.names, faults);
+        }
+        let origin = match &problem.path.0[..] {
+            [Step::Key(key), Step::Item(index), ..] if key == "geometry" => {
+                self.primitives.get(*index)
+            }
+            [
+                Step::Key(sampling),
+                Step::Key(depths),
+                Step::Item(index),
+                ..,
+            ] if sampling == "sampling" && depths == "depths" => self.rays.get(*index),
+            _ => None,
+        };
+        let fault = faults.add(problem.code, found.span, advice::message(&problem));
+        if !problem.label.is_empty() {
+            fault.note(problem.label.clone());
+        }
+        if let Some((path, why)) = &problem.also {
+            fault.also(tree.resolve(path).span, format!("{why} is"));
+        }
+        if let Some(origin) = origin {
+            if let Some(label) = &origin.label {
+                fault.note(format!("in the {} `{label}`", origin.kind));
+            }
+            if !origin.pass.is_empty() {
+                fault.in_pass(&origin.pass);
+            }
+        }
+        fault.help(advice::help(&problem));
+    }
+}
+
+/// Whether what is said of `path` follows from a value there, above or below that could not be read.
+fn follows(tree: &Node, path: &Path) -> bool {
+    let mut node = tree;
+    for step in &path.0 {
+        if matches!(node.value, Value::Null) && values::is_faulty(node) {
+            return true;
+        }
+        node = match (step, &node.value) {
+            (Step::Key(key) | Step::Name(key), Value::Map(_)) => match node.entry(key) {
+                Some(entry) => &entry.value,
+                None => return false,
+            },
+            (Step::Item(index), Value::List(items)) => match items.get(*index) {
+                Some(item) => item,
+                None => return false,
+            },
+            _ => return false,
+        };
+    }
+    let is_name = matches!(path.0.last(), Some(Step::Name(_)));
+    !is_name && !path.0.is_empty() && values::is_faulty(node)
+}
+
+/// The scene that `body` and `name` say, if it is one; everything that is wrong otherwise.
+fn check(
+    header: Header,
+    mut body: Body,
+    name: Span,
+    root: &FilePath,
+    faults: &mut Faults,
+) -> (Parsed, Option<ValidScene>) {
+    let tree = body.tree(&header.scene_name(), name);
+    faults.append(std::mem::take(&mut body.reader.faults));
+    let parsed = Parsed {
+        header,
+        primitives: body.primitives.clone(),
+        rays: body.rays.clone(),
+        source: Source::Tokens(Box::new(Written { tree, body })),
+    };
+    let Source::Tokens(written) = &parsed.source else {
+        return (parsed, None);
+    };
+    match of_tree(&written.tree, Files::below(root, "".as_ref())) {
+        Ok(valid) => (parsed, Some(valid)),
+        Err(problems) => {
+            parsed.report(problems, faults);
+            (parsed, None)
+        }
+    }
+}

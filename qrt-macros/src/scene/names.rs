@@ -1,0 +1,152 @@
+//! The author's constants and loop variables.
+
+use super::fault::Faults;
+use super::tokens::{Kind, Token, place_of};
+use qrt_core::codes;
+use qrt_core::expr::{Variable, function_names};
+use qrt_core::front::tree::Span;
+use qrt_core::report::nearest;
+
+/// The names that stand for numbers at some place of a scene.
+#[derive(Debug, Default)]
+pub(crate) struct Names(Vec<Name>);
+
+#[derive(Debug)]
+struct Name {
+    text: String,
+    /// Nothing where the value is faulty: then nothing is said of what depends on it.
+    value: Option<f64>,
+    place: Span,
+    is_variable: bool,
+}
+
+impl Names {
+    /// The value of a name, if it is one.
+    pub(crate) fn value(&self, text: &str) -> Option<Option<f64>> {
+        let found = self.0.iter().rev().find(|name| name.text == text);
+        found.map(|name| name.value)
+    }
+
+    /// The name that `text` was probably meant to be.
+    pub(crate) fn nearest(&self, text: &str) -> Option<&str> {
+        let names: Vec<&str> = self.0.iter().map(|name| name.text.as_str()).collect();
+        nearest(text, &names)
+    }
+
+    /// How many there are: to [`Names::keep`] later.
+    pub(crate) fn count(&self) -> usize {
+        self.0.len()
+    }
+
+    /// Forgets all names but the first `count`.
+    pub(crate) fn keep(&mut self, count: usize) {
+        self.0.truncate(count);
+    }
+
+    /// The loop variables and their values: `i = 3`.
+    pub(crate) fn passes(&self) -> String {
+        let variables = self.0.iter().filter(|name| name.is_variable);
+        let shown = variables.filter_map(|name| {
+            let value = qrt_core::scene::text::number(name.value?);
+            Some(format!("{} = {value}", name.text))
+        });
+        shown.collect::<Vec<_>>().join(", ")
+    }
+
+    /// Adds a name, unless it is taken. `_` is no name.
+    pub(crate) fn define(
+        &mut self,
+        token: &Token,
+        value: Option<f64>,
+        is_variable: bool,
+        faults: &mut Faults,
+    ) {
+        let Some(text) = token.word().filter(|text| *text != "_") else {
+            return;
+        };
+        let place = token.place();
+        let noun = if is_variable {
+            "a loop variable"
+        } else {
+            "a constant"
+        };
+        let reserved = Variable::ALL.iter().any(|variable| variable.name() == text)
+            || function_names().any(|name| name == text)
+            || matches!(text, "pi" | "rgb" | "auto" | "x");
+        if let Some(first) = self.0.iter().find(|name| name.text == text) {
+            let message = format!("the name `{text}` is given twice");
+            faults
+                .add(codes::MACRO_NAME_TAKEN, place, message)
+                .also(first.place, "the first is")
+                .help("choose another name for one of them");
+        } else if reserved {
+            let message = format!("{noun} cannot be called `{text}`");
+            faults
+                .add(codes::MACRO_NAME_TAKEN, place, message)
+                .note("expressions, colours and films use this name themselves")
+                .help(format!("choose another one, such as `{}`", other(text)));
+        }
+        self.0.push(Name {
+            text: text.to_owned(),
+            value,
+            place,
+            is_variable,
+        });
+    }
+
+    /// Whether some of the names in `tokens` have faulty values.
+    pub(crate) fn are_faulty(&self, tokens: &[Token]) -> bool {
+        tokens.iter().any(|token| match &token.kind {
+            Kind::Word(text) => self.value(text) == Some(None),
+            Kind::Group(_, inner) => self.are_faulty(inner),
+            _ => false,
+        })
+    }
+
+    /// Reports the names in `tokens`, a number, that stand for nothing.
+    pub(crate) fn check(&self, tokens: &[Token], later: &[String], faults: &mut Faults) -> bool {
+        let mut sound = true;
+        for token in tokens {
+            let text = match &token.kind {
+                Kind::Word(text) => text,
+                Kind::Group(_, inner) => {
+                    sound &= self.check(inner, later, faults);
+                    continue;
+                }
+                _ => continue,
+            };
+            let known = text == "pi" || function_names().any(|name| name == text);
+            if known || self.value(text).is_some() {
+                continue;
+            }
+            sound = false;
+            let variable = Variable::ALL.iter().any(|variable| variable.name() == text);
+            let functions: Vec<&str> = function_names().chain(["pi"]).collect();
+            let message = format!("no constant is called `{text}`");
+            let help = if later.contains(text) {
+                format!("`{text}` is defined further down: move it up")
+            } else if variable {
+                format!("`{text}` has a value only in the expressions of a `bsdf`")
+            } else if let Some(near) = self.nearest(text).or_else(|| nearest(text, &functions)) {
+                format!("did you mean `{near}`?")
+            } else {
+                format!("define it before: `const {}: f64 = 1.0;`", other(text))
+            };
+            let place = place_of(std::slice::from_ref(token)).unwrap_or_default();
+            faults
+                .add(codes::MACRO_NUMBER_NAME, place, message)
+                .help(help);
+        }
+        sound
+    }
+}
+
+/// As a constant's name.
+fn other(text: &str) -> String {
+    let upper = text.to_uppercase();
+    if upper == text {
+        format!("{text}0")
+    } else {
+        upper
+    }
+}

@@ -1,0 +1,443 @@
+//! Values and records: what stands behind a key, as nodes of the tree that YAML becomes too.
+
+use super::expression::{Expression, number};
+use super::fault::Faults;
+use super::names::Names;
+use super::tokens::{Kind, Token, between_commas, join, place_of};
+use proc_macro2::Delimiter;
+use qrt_core::codes;
+use qrt_core::front::tree::{Entry, Node, Scalar, Span, Value};
+
+/// The source of a node that could not be read: what is said of it is already known.
+const FAULTY: u32 = u32::MAX;
+
+/// Reads values; keeps what later readers and reports need.
+#[derive(Debug, Default)]
+pub(crate) struct Reader {
+    /// What is wrong so far.
+    pub(crate) faults: Faults,
+    /// Names that stand for numbers.
+    pub(crate) names: Names,
+    /// Constants that are defined somewhere.
+    pub(crate) later: Vec<String>,
+    /// The expressions: a node of source `n` is number `n - 1`.
+    pub(crate) expressions: Vec<Expression>,
+    /// Records in which something could not be read: what they lack may be that.
+    pub(crate) incomplete: Vec<Span>,
+}
+
+/// What kind of value a key has.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Sort {
+    /// Numbers, points, colours.
+    Plain,
+    /// One of a few words.
+    Word,
+    /// A text in quotes.
+    Text,
+    /// An expression in the variables of a BSDF.
+    Expression,
+    /// One of those, or three.
+    Channels,
+    /// `|u, v| (x, y, z)`
+    Map,
+}
+
+impl Sort {
+    /// Of the value of `key` in a record that is called `record`.
+    fn of(record: &str, key: &str) -> Self {
+        match (record, key) {
+            ("bsdf", "map") => Self::Map,
+            ("bsdf", "jacobian") => Self::Expression,
+            ("bsdf", "value") => Self::Channels,
+            (_, "sequence" | "map" | "at" | "window" | "estimator") => Self::Word,
+            (_, "uncompute" | "nearest" | "fraction") => Self::Word,
+            (_, "name" | "obj") => Self::Text,
+            _ => Self::Plain,
+        }
+    }
+}
+
+/// A text, as in quotes.
+pub(crate) fn text(text: &str, span: Span) -> Node {
+    scalar(text.to_owned(), true, span)
+}
+
+/// A number or a word; with `quoted`, a text.
+pub(crate) fn scalar(text: String, quoted: bool, span: Span) -> Node {
+    let value = Value::Scalar(Scalar { text, quoted });
+    Node { span, value }
+}
+
+/// In place of what could not be read.
+pub(crate) fn faulty(span: Span) -> Node {
+    let span = Span {
+        source: FAULTY,
+        ..span
+    };
+    let value = Value::Null;
+    Node { span, value }
+}
+
+/// Whether a node, or one within it, could not be read.
+pub(crate) fn is_faulty(node: &Node) -> bool {
+    node.span.source == FAULTY
+        || match &node.value {
+            Value::List(items) => items.iter().any(is_faulty),
+            Value::Map(entries) => entries.iter().any(|entry| is_faulty(&entry.value)),
+            _ => false,
+        }
+}
+
+/// An entry of a map.
+pub(crate) fn entry(key: &str, key_span: Span, value: Node) -> Entry {
+    Entry {
+        key: key.to_owned(),
+        key_span,
+        value,
+    }
+}
+
+impl Reader {
+    /// The value of `key`, which stands at `at`, in a record that is called `record`.
+    pub(crate) fn value(&mut self, record: &str, key: &str, at: Span, tokens: &[Token]) -> Node {
+        let Some(place) = place_of(tokens) else {
+            let message = format!("`{key}` has no value");
+            let fault = self.faults.add(codes::MACRO_VALUE, at, message);
+            fault.help(match super::advice::example(key) {
+                Some(example) => format!("write `{example}`"),
+                None => format!("write `{key}: ...`"),
+            });
+            return faulty(at);
+        };
+        match Sort::of(record, key) {
+            Sort::Plain => self.plain(key, tokens, place),
+            Sort::Word => self.word(key, tokens, place),
+            Sort::Text => self.text(key, tokens, place),
+            Sort::Expression => self.expression(tokens, place),
+            Sort::Channels => self.channels(tokens, place),
+            Sort::Map => self.map(tokens, place),
+        }
+    }
+
+    fn plain(&mut self, key: &str, tokens: &[Token], place: Span) -> Node {
+        match tokens {
+            [
+                Token {
+                    kind: Kind::Text(own),
+                    ..
+                },
+            ] => return text(own, place),
+            [only] => {
+                if let Some(items) = list(only) {
+                    return self.list(key, items, place, Self::plain);
+                }
+                if let Some(inner) = only.group(Delimiter::Brace) {
+                    return self.record(key, inner, place);
+                }
+            }
+            [rgb, channels] if rgb.is_word("rgb") => {
+                if let Some(inner) = channels.group(Delimiter::Parenthesis) {
+                    return self.list(key, between_commas(inner), place, Self::plain);
+                }
+            }
+            [first, second, ..] if list(first).is_some() && list(second).is_some() => {
+                self.faults
+                    .add(
+                        codes::MACRO_COMMA,
+                        second.place(),
+                        "there is no comma before this",
+                    )
+                    .help("write `,` between two points");
+                return faulty(place);
+            }
+            _ => {}
+        }
+        match number(tokens, &self.names, &self.later, &mut self.faults) {
+            Some(text) => scalar(text, false, place),
+            None => faulty(place),
+        }
+    }
+
+    /// The points of a primitive, whose braces stand at `place`.
+    pub(crate) fn points(&mut self, tokens: &[Token], place: Span) -> Node {
+        self.list("vertices", between_commas(tokens), place, Self::plain)
+    }
+
+    /// The elements of a list, each read by `read`.
+    fn list(
+        &mut self,
+        key: &str,
+        items: Vec<&[Token]>,
+        place: Span,
+        read: fn(&mut Self, &str, &[Token], Span) -> Node,
+    ) -> Node {
+        let mut nodes = Vec::with_capacity(items.len());
+        // An element that is not there is shown at the one before it.
+        let mut before = place;
+        for item in items {
+            let Some(here) = place_of(item) else {
+                self.faults
+                    .add(
+                        codes::MACRO_VALUE,
+                        before,
+                        "nothing stands between two commas",
+                    )
+                    .help("write a value, or take one of the commas away");
+                nodes.push(faulty(before));
+                continue;
+            };
+            before = here;
+            nodes.push(read(self, key, item, here));
+        }
+        let value = Value::List(nodes);
+        Node { span: place, value }
+    }
+
+    fn word(&mut self, key: &str, tokens: &[Token], place: Span) -> Node {
+        match tokens {
+            [only] => {
+                if let Some(word) = only.word().filter(|word| self.names.value(word).is_none()) {
+                    return scalar(word.replace('_', "-"), false, place);
+                }
+            }
+            [first, .., last] if first.word().is_some() && last.word().is_some() => {
+                let hyphens = tokens.iter().skip(1).step_by(2);
+                if tokens.len() % 2 == 1 && hyphens.clone().all(|token| token.is_sign('-')) {
+                    let words: Vec<&str> = tokens.iter().filter_map(Token::word).collect();
+                    let message = format!("`{}` is not one word", words.join("-"));
+                    self.faults
+                        .add(codes::MACRO_WORD, place, message)
+                        .help(format!("write `{}`", words.join("_")));
+                    return faulty(place);
+                }
+            }
+            _ => {}
+        }
+        self.plain(key, tokens, place)
+    }
+
+    fn text(&mut self, key: &str, tokens: &[Token], place: Span) -> Node {
+        if let Some(word) = tokens.first().and_then(Token::word) {
+            let message = format!("the text of `{key}` is not in quotes");
+            self.faults
+                .add(codes::MACRO_TEXT, place, message)
+                .help(format!("write `{key}: \"{word}\"`"));
+            return faulty(place);
+        }
+        self.plain(key, tokens, place)
+    }
+
+    fn expression(&mut self, tokens: &[Token], place: Span) -> Node {
+        let Some(expression) = Expression::of(tokens, &self.names, &mut self.faults) else {
+            return faulty(place);
+        };
+        if self.names.are_faulty(tokens) {
+            return faulty(place);
+        }
+        let text = expression.text.clone();
+        self.expressions.push(expression);
+        let source = u32::try_from(self.expressions.len()).unwrap_or(FAULTY);
+        scalar(text, false, Span { source, ..place })
+    }
+
+    fn channels(&mut self, tokens: &[Token], place: Span) -> Node {
+        let inner = match tokens {
+            [rgb, channels] if rgb.is_word("rgb") => {
+                channels.group(Delimiter::Parenthesis).map(between_commas)
+            }
+            [only] => list(only),
+            _ => None,
+        };
+        match inner {
+            Some(items) => self.list("value", items, place, |reader, _, tokens, place| {
+                reader.expression(tokens, place)
+            }),
+            None => self.expression(tokens, place),
+        }
+    }
+
+    /// `|u, v| (x, y, z)`
+    fn map(&mut self, tokens: &[Token], place: Span) -> Node {
+        if let [bar, u, comma, v, close, body] = tokens
+            && bar.is_sign('|')
+            && comma.is_sign(',')
+            && close.is_sign('|')
+            && let (Some(first), Some(second)) = (u.word(), v.word())
+        {
+            if (first, second) != ("u", "v") {
+                let message =
+                    format!("a map's variables are `u` and `v`, not `{first}` and `{second}`");
+                self.faults
+                    .add(codes::MACRO_MAP, join(u.place(), v.place()), message)
+                    .help("write `|u, v|`: the Jacobian and the value use the same names");
+                return faulty(place);
+            }
+            if let Kind::Group(Delimiter::Parenthesis | Delimiter::Bracket, inner) = &body.kind {
+                let items = between_commas(inner);
+                return self.list("map", items, body.place(), |reader, _, tokens, place| {
+                    reader.expression(tokens, place)
+                });
+            }
+        }
+        self.faults
+            .add(codes::MACRO_MAP, place, "a map is a function of `u` and `v`")
+            .help("write `map: |u, v| (sqrt(u) * cos(2 * pi * v), sqrt(u) * sin(2 * pi * v), sqrt(1 - u))`");
+        faulty(place)
+    }
+
+    /// A map of keys; `place` is that of its braces.
+    pub(crate) fn record(&mut self, name: &str, tokens: &[Token], place: Span) -> Node {
+        let mut entries: Vec<Entry> = Vec::new();
+        for part in fields(tokens, &mut self.faults) {
+            let Some((key, at, rest)) = self.key(name, part) else {
+                self.incomplete.push(place);
+                continue;
+            };
+            if (name, key) == ("mesh", "material") {
+                let white = place_of(rest).map_or(at, |end| join(at, end));
+                self.faults
+                    .add(
+                        codes::MACRO_MATERIAL,
+                        white,
+                        "the material stands before the braces",
+                    )
+                    .help("write `mesh: white { obj: \"mesh.obj\" }`");
+                continue;
+            }
+            let value = self.value(name, key, at, rest);
+            self.enter(&mut entries, entry(key, at, value));
+        }
+        let value = Value::Map(entries);
+        Node { span: place, value }
+    }
+
+    /// `key: ...` as the key, its place and what follows the colon.
+    fn key<'t>(&mut self, record: &str, part: &'t [Token]) -> Option<(&'t str, Span, &'t [Token])> {
+        if let [first, colon, rest @ ..] = part
+            && let Some(key) = first.word()
+            && colon.is_sign(':')
+        {
+            return Some((key, first.place(), rest));
+        }
+        let place = place_of(part)?;
+        let words: Vec<&str> = part
+            .iter()
+            .take_while(|token| !token.is_sign(':'))
+            .filter_map(Token::word)
+            .collect();
+        let (message, help) = match part {
+            [first, sign, ..] if first.word().is_some() && sign.is_sign('=') => (
+                "a key is followed by `:`, not by `=`".to_owned(),
+                format!("write `{}: ...`", words.join("_")),
+            ),
+            [first, sign, ..] if first.word().is_some() && sign.is_sign('-') => (
+                "there are no hyphens in keys".to_owned(),
+                format!("write `{}`", words.join("_")),
+            ),
+            [
+                Token {
+                    kind: Kind::Text(text),
+                    ..
+                },
+                sign,
+                ..,
+            ] if sign.is_sign(':') => (
+                "a key is not in quotes".to_owned(),
+                format!("write `{text}: ...`"),
+            ),
+            _ => {
+                let example = super::advice::record(record);
+                let message = "expected `key: value`".to_owned();
+                (message, format!("write {example}"))
+            }
+        };
+        // What is wrong is in front of the value.
+        let before = part.iter().position(|token| token.is_sign(':'));
+        let front = &part[..before.unwrap_or(part.len()).max(1)];
+        let place = place_of(front).unwrap_or(place);
+        self.faults.add(codes::MACRO_KEY, place, message).help(help);
+        None
+    }
+
+    /// Adds an entry, unless its key is there.
+    pub(crate) fn enter(&mut self, entries: &mut Vec<Entry>, new: Entry) {
+        let Some(first) = entries.iter().find(|old| old.key == new.key) else {
+            entries.push(new);
+            return;
+        };
+        let message = format!("`{}` is written twice", new.key);
+        self.faults
+            .add(codes::DUPLICATE_KEY, new.key_span, message)
+            .also(first.key_span, "the first is")
+            .help("keep one of the two");
+    }
+}
+
+/// The elements of `(a, b)`, `(a,)` or `[...]`; `(a)` is no list but a number in parentheses.
+fn list(token: &Token) -> Option<Vec<&[Token]>> {
+    if let Some(inner) = token.group(Delimiter::Bracket) {
+        return Some(between_commas(inner));
+    }
+    let inner = token.group(Delimiter::Parenthesis)?;
+    let is_list = inner.is_empty() || inner.iter().any(|token| token.is_sign(','));
+    is_list.then(|| between_commas(inner))
+}
+
+/// The entries of a record; where two stand together, the missing comma is reported.
+fn fields<'t>(tokens: &'t [Token], faults: &mut Faults) -> Vec<&'t [Token]> {
+    let mut fields = Vec::new();
+    for mut part in split_fields(tokens) {
+        // A colon behind the first belongs to another key.
+        while let Some(at) = (2..part.len().saturating_sub(1)).find(|&at| {
+            part[at].word().is_some()
+                && matches!(part[at + 1].kind, Kind::Sign(':', false))
+                && !part[at - 1].is_sign(':')
+        }) {
+            let place = part[at].place();
+            let key = part[at].found();
+            faults
+                .add(
+                    codes::MACRO_COMMA,
+                    place,
+                    format!("there is no comma before {key}"),
+                )
+                .help("write `,` between two keys");
+            let (first, rest) = part.split_at(at);
+            fields.push(first);
+            part = rest;
+        }
+        if part.is_empty() {
+            if let Some(place) = place_of(tokens) {
+                faults
+                    .add(
+                        codes::MACRO_VALUE,
+                        place,
+                        "nothing stands between two commas",
+                    )
+                    .help("take one of the commas away");
+            }
+            continue;
+        }
+        fields.push(part);
+    }
+    fields
+}
+
+/// The parts between commas; those between the bars of a map separate nothing.
+fn split_fields(tokens: &[Token]) -> Vec<&[Token]> {
+    let mut parts = Vec::new();
+    let mut start = 0;
+    let mut in_bars = false;
+    for (at, token) in tokens.iter().enumerate() {
+        in_bars ^= token.is_sign('|');
+        if token.is_sign(',') && !in_bars {
+            parts.push(&tokens[start..at]);
+            start = at + 1;
+        }
+    }
+    if start < tokens.len() {
+        parts.push(&tokens[start..]);
+    }
+    parts
+}

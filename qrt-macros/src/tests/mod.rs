@@ -1,0 +1,30 @@
+//! Scenes of `qrt!` beside those of YAML.
+
+#![allow(clippy::unwrap_used, clippy::expect_used)]
+
+mod grammar;
+mod twins;
+mod writer;
+
+use crate::scene::{Faults, Read, Table, read};
+use std::path::Path;
+
+/// What `text` says, relative to `root`, and the errors: code, message and all.
+fn read_text(text: &str, root: &Path) -> (Vec<Read>, Vec<String>) {
+    let stream = text
+        .parse()
+        .unwrap_or_else(|error| panic!("{error}: {text}"));
+    let mut table = Table::default();
+    let mut faults = Faults::default();
+    let scenes = read(stream, root, &mut table, &mut faults);
+    let faults = faults.settle();
+    let texts = faults.iter().map(|fault| fault.text(&table));
+    (scenes, texts.collect())
+}
+
+/// The code in an error's text.
+fn code(text: &str) -> &str {
+    let line = text.lines().next().unwrap_or_default();
+    let (_, code) = line.rsplit_once('[').unwrap_or_default();
+    code.trim_end_matches(']')
+}

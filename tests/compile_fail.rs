@@ -1,0 +1,35 @@
+//! What would be a wrong circuit does not compile: one short program a rule in `tests/ui`, each
+//! with the compiler's words beside it. After a deliberate change of the words,
+//! `TRYBUILD=overwrite cargo test --test compile_fail` writes them anew.
+
+#![allow(clippy::unwrap_used, clippy::expect_used)]
+
+use qrt::core::codes;
+use std::path::Path;
+
+#[test]
+fn wrong_programs_do_not_compile() {
+    // The programs are compiled as a package of their own, and `qrt!` looks for files beside its
+    // manifest.
+    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).parent().unwrap();
+    let scenes = target.join("tests/trybuild/qrt/scenes");
+    std::fs::create_dir_all(&scenes).unwrap();
+    std::fs::copy("tests/ui/scenes/faulty.yaml", scenes.join("faulty.yaml")).unwrap();
+    trybuild::TestCases::new().compile_fail("tests/ui/*.rs");
+}
+
+#[test]
+fn every_code_of_the_macro_is_shown_by_some_program() {
+    let mut all = String::new();
+    for entry in std::fs::read_dir("tests/ui").unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_some_and(|end| end == "stderr") {
+            all += &std::fs::read_to_string(path).unwrap();
+        }
+    }
+    let unseen: Vec<_> = codes::TABLE
+        .iter()
+        .filter(|row| row.code.starts_with("QRT07") && !all.contains(&format!("[{}]", row.code)))
+        .collect();
+    assert!(unseen.is_empty(), "{unseen:#?}");
+}

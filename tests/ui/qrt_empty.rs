@@ -1,0 +1,6 @@
+use qrt::prelude::*;
+
+qrt! {}
+
+fn main() {
+}

@@ -1,0 +1,8 @@
+use qrt::prelude::*;
+
+qrt! {
+    pub scene Room from scenes_yaml
+}
+
+fn main() {
+}

@@ -1,0 +1,8 @@
+use qrt::prelude::*;
+
+qrt! {
+    pub scene Room: Scene;
+}
+
+fn main() {
+}
