@@ -52,9 +52,13 @@ pub use qrt_runtime as runtime;
 pub mod prelude {
     pub use qrt_core::diagnostics::Report;
     pub use qrt_core::front::{Loaded, load, parse};
+    pub use qrt_core::oracle::compiled::CompiledOracle;
     pub use qrt_core::scene::{Estimator, Scene};
     pub use qrt_core::valid::{ValidScene, validate};
     pub use qrt_macros::qrt;
     pub use qrt_runtime::image::{Encoding, Image, ImageError, Metadata, save, write_counts};
-    pub use qrt_runtime::render::{Options, Progress, RenderError, Rendered, render};
+    pub use qrt_runtime::machines::State;
+    pub use qrt_runtime::render::{
+        Model, Options, Progress, RenderError, Rendered, render, render_compiled,
+    };
 }

@@ -111,6 +111,21 @@ pub struct Outline {
 }
 
 impl Outline {
+    /// Of a scene that has none, because of its errors.
+    pub const NONE: Self = Self {
+        registers: &[],
+        blocks: &[],
+        parameters: &[],
+        style: Style::Wide,
+        channels: &[],
+        id: RegisterId(0),
+        comparator: RegisterId(0),
+        flag: RegisterId(0),
+        fraction: 0,
+        sharing: [0; 2],
+        places: &[],
+    };
+
     /// A recorder that knows the registers.
     pub fn recorder(&self) -> Recorder {
         let block = |block: &BlockDeclaration| Block {

@@ -35,6 +35,39 @@ pub(crate) fn scene(parsed: &Parsed, valid: &ValidScene) -> Result<TokenStream, 
     Ok(text.parse().unwrap_or_default())
 }
 
+/// What stands there for a scene with errors, so that the rest of a program is understood.
+pub(crate) fn broken(name: &str) -> TokenStream {
+    let why = "::core::unreachable!(\"this scene has errors\")";
+    let text = format!(
+        "#[allow(missing_docs)]
+        impl {name} {{
+            pub const QUBITS: u64 = 0;
+            pub const TOFFOLI: u64 = 0;
+            pub const PATH_BITS: u32 = 0;
+            pub const COMPARATOR_BITS: u32 = 0;
+            pub const FRACTION_BITS: u32 = 0;
+            pub const DEPTH: usize = 0;
+            pub const FILM: [u32; 2] = [0; 2];
+            pub const SCALE: [f64; 3] = [0.0; 3];
+            pub const OPERATIONS: usize = 0;
+        }}
+        impl ::qrt::core::oracle::compiled::CompiledOracle for {name} {{
+            const OUTLINE: &'static ::qrt::core::oracle::compiled::Outline =
+                &::qrt::core::oracle::compiled::Outline::NONE;
+            fn scene() -> &'static ::qrt::core::valid::ValidScene {{ {why} }}
+            fn within<M: ::qrt::core::circuit::Machine, T>(
+                _: &mut M,
+                _: &M::Register,
+                _: impl ::core::ops::FnOnce(
+                    &mut M,
+                    ::qrt::core::oracle::compiled::Computed<'_, Self, M::Register>,
+                ) -> T,
+            ) -> T {{ {why} }}
+        }}"
+    );
+    text.parse().unwrap_or_default()
+}
+
 /// The same as text.
 fn text(scene: &str, public: &str, valid: &ValidScene) -> Result<String, Vec<Problem>> {
     let (channels, oracle) = Oracle::all(valid).map_err(|error| vec![error.problem()])?;

@@ -78,9 +78,12 @@ pub(crate) fn broken(header: &Header) -> TokenStream {
         name,
         ..
     } = header;
+    let figures = crate::generate::broken(&name.to_string());
     quote! {
         #attributes
         #visibility struct #name;
+
+        #figures
 
         impl #name {
             /// The scene, once its errors are corrected.

@@ -327,3 +327,52 @@ impl Machine for State {
         self.run();
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use qrt_core::circuit::Type;
+
+    const A: Declaration = Declaration::work("a", Type::UInt, 4);
+    const DOUBLE: Declaration = Declaration::work("double", Type::UInt, 5);
+
+    fn twice(state: &mut State, a: &Recorded) -> Recorded {
+        let [x, y] = [0, 1].map(|_| Operand::unsigned(a, 0, 4));
+        state.add(&DOUBLE, x, y)
+    }
+
+    #[test]
+    fn what_is_undone_leaves_nothing() {
+        let mut state = State::new();
+        let a = state.input(&A, 11);
+        let double = twice(&mut state, &a);
+        assert_eq!(state.bits(&double), 22);
+        assert_eq!(state.read(Word::signed(&double, 0, 5)), -10);
+        let id = double.id();
+        state.undo([double]);
+        state.clean().unwrap();
+        assert_eq!(state.contents.registers[id.index()], 0);
+    }
+
+    #[test]
+    fn an_operand_that_was_changed_is_found() {
+        let mut state = State::new();
+        let mut a = state.input(&A, 11);
+        let double = twice(&mut state, &a);
+        state.add_into(&mut a, Operand::Constant(1), false, When::Always);
+        state.undo([double]);
+        let unclean = state.clean().unwrap_err();
+        assert_eq!((unclean.held, unclean.expected), (22, 24));
+        assert!(unclean.to_string().starts_with("`double` held 22"));
+    }
+
+    #[test]
+    fn a_register_given_back_must_be_zero() {
+        let mut state = State::new();
+        let mut own = state.zero(&A);
+        state.xor_into(&mut own, Operand::Constant(5), None);
+        assert_eq!(state.bits(&own), 5);
+        state.free(own);
+        assert_eq!(state.clean().unwrap_err().held, 5);
+    }
+}

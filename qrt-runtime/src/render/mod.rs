@@ -55,6 +55,7 @@ use crate::image::{Count, Image};
 use crate::machines::{OracleMachine, Real, Simd};
 use pixel::{Pixels, Source, Totals};
 use qrt_core::oracle::Oracle;
+use qrt_core::oracle::compiled::CompiledOracle;
 use qrt_core::scene::Estimator;
 use qrt_core::valid::ValidScene;
 use rayon::prelude::*;
@@ -209,6 +210,37 @@ impl Rendered {
 /// # Errors
 /// See [`RenderError`]. An interruption is one: what is finished then is in the checkpoint.
 pub fn render(scene: &ValidScene, options: &Options<'_>) -> Result<Rendered, RenderError> {
+    render_by(scene, options, |model| {
+        let oracle = Oracle::rgb(scene, qrt_core::oracle::Options::default())?.into();
+        Ok(match model {
+            Model::Gates => OracleMachine::gates(oracle, options.seed, false)?,
+            Model::Real | Model::Fixed => OracleMachine::fixed(oracle, options.seed, false),
+        })
+    })
+}
+
+/// Renders a scene of `qrt!` by the circuit that was compiled with it: the same picture as
+/// [`render`]'s, without building its circuit again, and under [`Model::Fixed`] by native code.
+///
+/// # Errors
+/// As [`render`].
+pub fn render_compiled<C: CompiledOracle>(options: &Options<'_>) -> Result<Rendered, RenderError> {
+    render_by(C::scene(), options, |model| {
+        let oracle = C::oracle()
+            .map_err(qrt_core::oracle::OracleError::from)?
+            .into();
+        Ok(match model {
+            Model::Gates => OracleMachine::gates(oracle, options.seed, false)?,
+            Model::Real | Model::Fixed => OracleMachine::fixed(oracle, options.seed, false),
+        })
+    })
+}
+
+fn render_by(
+    scene: &ValidScene,
+    options: &Options<'_>,
+    machine: impl FnOnce(Model) -> Result<OracleMachine, RenderError>,
+) -> Result<Rendered, RenderError> {
     let written = scene.scene();
     if written.accuracy.is_some() {
         return Err(RenderError::Accuracy);
@@ -230,14 +262,7 @@ pub fn render(scene: &ValidScene, options: &Options<'_>) -> Result<Rendered, Ren
             let real = Real::new(scene, options.seed)?.with_simd(options.simd);
             Source::Real(Box::new(real))
         }
-        Model::Fixed | Model::Gates => {
-            let oracle = Oracle::rgb(scene, qrt_core::oracle::Options::default())?;
-            Source::Oracle(if options.model == Model::Fixed {
-                OracleMachine::fixed(oracle.into(), options.seed, false)
-            } else {
-                OracleMachine::gates(oracle.into(), options.seed, false)?
-            })
-        }
+        model @ (Model::Fixed | Model::Gates) => Source::Oracle(machine(model)?),
     };
     let pixels = Pixels::new(source, written, estimator, options.seed)?;
     let threads = options.threads.map_or(0, NonZeroUsize::get);

@@ -1,0 +1,166 @@
+//! What `qrt!` compiles is the circuit of the scene: the same program, computed and undone, the same
+//! numbers on every machine, and the same picture.
+
+#![allow(clippy::unwrap_used, clippy::expect_used)]
+
+use qrt::core::circuit::{Program, Word};
+use qrt::core::oracle::{Options as Compile, Oracle};
+use qrt::prelude::*;
+use qrt::runtime::machines::OracleMachine;
+
+qrt! {
+    scene Box from "scenes-yaml/cornell-box.yaml"
+    scene Mirror from "scenes-yaml/cornell-mirror.yaml"
+    scene Copper from "scenes-yaml/cornell-ggx.yaml"
+    scene Floor from "scenes-yaml/floor-and-light.yaml"
+    scene Furnace from "scenes-yaml/furnace.yaml"
+    scene Scoped from "tests/scenes/scoped.yaml"
+    scene Lattice from "tests/scenes/lattice.yaml"
+}
+
+/// All that the code says to a recorder, from the first operation to the last inverse.
+fn whole<C: CompiledOracle>() -> Program {
+    let mut recorder = C::OUTLINE.recorder();
+    let id = C::OUTLINE.inputs(&mut recorder);
+    C::within(&mut recorder, &id, |_, _| {});
+    recorder.finish()
+}
+
+fn is_the_scene<C: CompiledOracle>() {
+    let oracle = Oracle::rgb(C::scene(), Compile::default()).unwrap();
+    assert!(C::program() == oracle.program, "another program");
+    let compiled = C::oracle().unwrap();
+    assert_eq!(compiled.channels, oracle.channels);
+    assert_eq!(compiled.places, oracle.places);
+    assert_eq!(
+        (compiled.id, compiled.comparator, compiled.flag),
+        (oracle.id, oracle.comparator, oracle.flag)
+    );
+    assert_eq!(
+        (compiled.fraction, compiled.film, compiled.sharing),
+        (oracle.fraction, oracle.film, oracle.sharing)
+    );
+    let mut both = oracle.program.instructions.clone();
+    both.extend(oracle.program.inverse().instructions);
+    assert!(whole::<C>().instructions == both, "not undone in reverse");
+}
+
+/// Paths of a pixel, one basis state at a time, against the fixed machine.
+fn counts_as_the_fixed_machine<C: CompiledOracle>(pixel: [u32; 2]) {
+    let machine = OracleMachine::fixed(C::oracle().unwrap().into(), 3, true);
+    let native = OracleMachine::native::<C>(C::oracle().unwrap().into(), 3, true);
+    let most = 1 << machine.oracle().comparator_bits();
+    for machine in [machine, native] {
+        let trace = |ids, check: &mut dyn FnMut(usize, u64, [i64; 3], [i64; 3])| {
+            machine
+                .trace(&[pixel], ids, |run| {
+                    for place in 0..run.good[0].len() {
+                        let good = run.good.map(|good| good[place]);
+                        let colour = run.colours.map(|colour| colour[place]);
+                        check(run.pixel, run.first_id + place as u64, good, colour);
+                    }
+                })
+                .unwrap();
+        };
+        trace(0..machine.paths().min(24), &mut |_, path, good, colour| {
+            let (mut state, id) = State::path::<C>(3, pixel, path).unwrap();
+            C::within(&mut state, &id, |state, computed| {
+                let counts = computed.counts().map(|count| state.operand(count));
+                assert_eq!(
+                    counts.map(|count| count.clamp(0, most)),
+                    good,
+                    "path {path}"
+                );
+                let colours = computed.colours().map(|c| state.operand(c));
+                assert_eq!(colours, colour, "path {path}");
+            });
+            state.clean().unwrap();
+        });
+    }
+}
+
+macro_rules! scenes {
+    ($($test:ident: $scene:ident at $pixel:expr;)*) => {
+        $(#[test]
+        fn $test() {
+            is_the_scene::<$scene>();
+            counts_as_the_fixed_machine::<$scene>($pixel);
+        })*
+    };
+}
+
+scenes! {
+    of_the_cornell_box: Box at [20, 40];
+    of_the_cornell_box_with_a_mirror: Mirror at [44, 40];
+    of_the_cornell_box_with_copper: Copper at [20, 44];
+    of_the_floor_under_a_light: Floor at [5, 5];
+    of_the_furnace: Furnace at [7, 7];
+    of_a_circuit_that_uncomputes_early: Scoped at [3, 4];
+    of_the_product_lattice: Lattice at [3, 4];
+}
+
+#[test]
+fn constants_are_what_inspect_says() {
+    let inspection =
+        qrt::core::inspect::Inspection::new(Box::scene(), None, Compile::default()).unwrap();
+    assert_eq!(Box::QUBITS, u64::from(inspection.qubits));
+    assert_eq!(Box::TOFFOLI, inspection.total().toffoli);
+    assert_eq!(Box::PATH_BITS, 14);
+    assert_eq!(Box::DEPTH, 3);
+    assert_eq!(Box::FILM, [64, 64]);
+    assert_eq!(Box::OPERATIONS, Box::oracle().unwrap().program.ops.len());
+}
+
+/// Fields of the layout read what the real tracer knows of a path.
+#[test]
+fn the_layout_reads_rays_of_unit_length_inside_the_box() {
+    let ray = Box::LAYOUT.ray1;
+    let mut hits = 0;
+    for path in 0..64 {
+        let pixel = [30, 20];
+        let (mut state, id) = State::path::<Box>(1, pixel, path).unwrap();
+        Box::within(&mut state, &id, |state, computed| {
+            let found = computed.word(&Box::LAYOUT.ray0.found);
+            let found = Box::LAYOUT
+                .ray0
+                .found
+                .value(state.bits(found.register), pixel);
+            assert!(found == 0.0 || found == 1.0);
+            let of = |word: Word<&_>| state.bits(word.register);
+            let x = ray
+                .direction
+                .x
+                .value(of(computed.word(&ray.direction.x)), pixel);
+            let y = ray
+                .direction
+                .y
+                .value(of(computed.word(&ray.direction.y)), pixel);
+            let z = ray
+                .direction
+                .z
+                .value(of(computed.word(&ray.direction.z)), pixel);
+            if found == 1.0 {
+                hits += 1;
+                let length = (x * x + y * y + z * z).sqrt();
+                assert!((length - 1.0).abs() < 1e-3, "{length} on path {path}");
+            }
+        });
+        state.clean().unwrap();
+    }
+    assert!(hits > 50, "{hits} hits");
+}
+
+#[test]
+fn pictures_are_those_of_the_scene() {
+    for model in [Model::Real, Model::Fixed, Model::Gates] {
+        let options = Options {
+            model,
+            crop: Some([30, 30, 3, 2]),
+            ..Options::default()
+        };
+        let compiled = render_compiled::<Floor>(&options).unwrap();
+        let built = render(Floor::scene(), &options).unwrap();
+        assert_eq!(compiled.image.pixels, built.image.pixels);
+        assert_eq!(compiled.good, built.good);
+    }
+}
