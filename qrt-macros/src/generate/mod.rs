@@ -9,6 +9,10 @@ use qrt_core::valid::ValidScene;
 ///
 /// # Errors
 /// What keeps the scene from having one.
+#[expect(
+    clippy::unnecessary_wraps,
+    reason = "a circuit may cost more than its budget"
+)]
 pub(crate) fn scene(_: &Parsed, _: &ValidScene) -> Result<TokenStream, Vec<Problem>> {
     Ok(TokenStream::new())
 }
