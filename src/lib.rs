@@ -1,9 +1,9 @@
 //! Quantum ray tracing: scenes as countable sets of paths.
 //!
-//! A scene is written in YAML. qrt traces each of its pixels along `2^path_bits` paths, the ones
-//! that a reversible circuit can trace in superposition, and estimates their mean colour as
-//! quantum counting over that circuit would. The framework is that of Lu & Lin, "A Framework for
-//! Quantum Ray Tracing".
+//! A scene is written in YAML, or in Rust by the macro [`qrt!`]. qrt traces each of its pixels
+//! along `2^path_bits` paths, the ones that a reversible circuit can trace in superposition, and
+//! estimates their mean colour as quantum counting over that circuit would. The framework is that
+//! of Lu & Lin, "A Framework for Quantum Ray Tracing".
 //!
 //! The command `qrt render` does it all; this library is what it is made of:
 //!
@@ -45,6 +45,7 @@
 //! tracer. [`runtime`] holds what runs: machines, counting, rendering, files.
 
 pub use qrt_core as core;
+#[doc = include_str!("scene_macro.md")]
 pub use qrt_macros::qrt;
 pub use qrt_runtime as runtime;
 

@@ -5,7 +5,7 @@ qrt! {
         camera: perspective { eye: (0, 1, 5), target: (0, 1, 0), vfov: 40 },
         film: 8 x 8,
         material white: lambertian { albedo: rgb(0.7, 0.7, 0.7) },
-        mesh: { obj: "scenes-yaml/meshes/knot.obj", material: white },
+        triangle roof { material: white, (0, 0, 0), (1, 0, 0), (0, 1, 0) },
     }
 }
 

@@ -5,4 +5,5 @@ qrt! {
 }
 
 fn main() {
+    Room::scene();
 }

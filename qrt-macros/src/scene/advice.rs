@@ -113,6 +113,9 @@ pub(crate) fn help(problem: &Problem) -> String {
         codes::UNKNOWN_MATERIAL if problem.help.as_deref().is_some_and(|h| h.contains("under")) => {
             return format!("define it: `{}`", example("material").unwrap_or_default());
         }
+        codes::OBJ_UNREADABLE => {
+            return "relative paths start at the folder of Cargo.toml".to_owned();
+        }
         codes::WRONG_TYPE | codes::WRONG_LENGTH => {
             let forms = [
                 ("a list of 2", "write `(a, b)`"),
@@ -136,15 +139,13 @@ pub(crate) fn help(problem: &Problem) -> String {
         }
         _ => {}
     }
-    match &problem.help {
-        Some(help) => spelled(help, problem.code == codes::UNKNOWN_WORD),
-        None => {
-            let advice = codes::lookup(problem.code).map_or("", |row| row.advice);
-            let mut letters = advice.chars();
-            let first = letters.next().map(|first| first.to_lowercase().to_string());
-            spelled(&(first.unwrap_or_default() + letters.as_str()), false)
-        }
+    if let Some(help) = &problem.help {
+        return spelled(help, problem.code == codes::UNKNOWN_WORD);
     }
+    let advice = codes::lookup(problem.code).map_or("", |row| row.advice);
+    let mut letters = advice.chars();
+    let first = letters.next().map(|first| first.to_lowercase().to_string());
+    spelled(&(first.unwrap_or_default() + letters.as_str()), false)
 }
 
 /// A text whose words of scenes, between backticks, are written with `_`; with `all`, whatever

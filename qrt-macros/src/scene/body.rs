@@ -48,14 +48,14 @@ pub(crate) struct Body {
     pub(crate) reader: Reader,
     /// All but materials, primitives and depths.
     pub(crate) blocks: Vec<Entry>,
-    materials: Vec<Entry>,
-    geometry: Vec<Node>,
-    depths: Vec<Node>,
+    pub(super) materials: Vec<Entry>,
+    pub(super) geometry: Vec<Node>,
+    pub(super) depths: Vec<Node>,
     /// Of each element of `geometry`.
     pub(crate) primitives: Vec<Origin>,
     /// Of each element of `depths`.
     pub(crate) rays: Vec<Origin>,
-    labels: Vec<(String, Span)>,
+    pub(super) labels: Vec<(String, Span)>,
     /// Passes of loops so far.
     pub(super) passes: usize,
 }
@@ -92,6 +92,13 @@ impl Body {
                         "put it outside; a loop repeats {}",
                         listed(&REPEATED, "and")
                     ));
+                if let Some(name) = tokens.get(at + 1).filter(|_| word == "material")
+                    && let Some(key) = name.name()
+                    && self.materials.iter().all(|material| material.key != key)
+                {
+                    let node = faulty(name.place());
+                    self.materials.push(entry(key, name.place(), node));
+                }
                 (at, is_separated) = self.end(tokens, at);
                 continue;
             }
@@ -270,7 +277,7 @@ impl Body {
     }
 
     /// The braces that `rest` is, and what stands in them.
-    fn braces<'t>(
+    pub(super) fn braces<'t>(
         &mut self,
         key: &str,
         first: &Token,
@@ -303,7 +310,13 @@ impl Body {
     }
 
     /// `kind { ... }`, as a map with one key.
-    fn variant(&mut self, key: &str, first: &Token, rest: &[Token], place: Span) -> Node {
+    pub(super) fn variant(
+        &mut self,
+        key: &str,
+        first: &Token,
+        rest: &[Token],
+        place: Span,
+    ) -> Node {
         let Some((kind, braces)) = rest.split_first() else {
             self.form(first.place(), format!("`{key}` has no value"), key);
             return faulty(place);
@@ -322,138 +335,6 @@ impl Body {
             span: join(kind.place(), at),
             value: Value::Map(entries),
         }
-    }
-
-    fn material(&mut self, first: &Token, rest: &[Token], place: Span) {
-        let Some((name, rest)) = rest.split_first() else {
-            return self.form(first.place(), "a material has a name", "material");
-        };
-        let Some(key) = name.name() else {
-            let message = format!("expected the name of a material, found {}", name.found());
-            return self.form(name.place(), message, "material");
-        };
-        let node = match rest {
-            [colon, rest @ ..] if colon.is_sign(':') => {
-                self.variant("material", colon, rest, place)
-            }
-            _ => {
-                let message = format!("`{key}` is not followed by `:` and a kind");
-                self.form(name.place(), message, "material");
-                faulty(place)
-            }
-        };
-        let new = entry(key, name.place(), node);
-        self.reader.enter(&mut self.materials, new);
-    }
-
-    /// `quad label: white { ... }`; label and material may be missing.
-    fn primitive(&mut self, kind: &'static str, first: &Token, rest: &[Token], place: Span) {
-        let (label, rest) = self.label(kind, rest);
-        let (material, rest) = match rest {
-            [colon, name, rest @ ..] if colon.is_sign(':') && name.name().is_some() => {
-                let found = name.name().unwrap_or_default();
-                (
-                    Some(entry("material", name.place(), text(found, name.place()))),
-                    rest,
-                )
-            }
-            [colon, rest @ ..] if colon.is_sign(':') => {
-                let message = "expected the name of a material behind `:`";
-                self.form(colon.place(), message, kind);
-                return self.add_primitive(kind, label, faulty(place));
-            }
-            rest => (None, rest),
-        };
-        let Some((at, inner)) = self.braces(kind, first, rest) else {
-            return self.add_primitive(kind, label, faulty(place));
-        };
-        let mut record = if kind == "mesh" {
-            self.reader.record("mesh", inner, at)
-        } else {
-            let Some(points) = self.points(kind, inner, at) else {
-                return self.add_primitive(kind, label, faulty(place));
-            };
-            let value = Value::Map(vec![entry("vertices", at, points)]);
-            Node { span: place, value }
-        };
-        if let Value::Map(entries) = &mut record.value {
-            entries.extend(material);
-        }
-        let value = Value::Map(vec![entry(kind, first.place(), record)]);
-        self.add_primitive(kind, label, Node { span: place, value });
-    }
-
-    fn add_primitive(&mut self, kind: &'static str, label: Option<String>, node: Node) {
-        let pass = self.reader.names.passes();
-        self.primitives.push(Origin { kind, label, pass });
-        self.geometry.push(node);
-    }
-
-    /// The points of a quad or a triangle.
-    fn points(&mut self, kind: &str, inner: &[Token], at: Span) -> Option<Node> {
-        if let [key, colon, ..] = inner
-            && key.word().is_some()
-            && colon.is_sign(':')
-        {
-            let place = join(key.place(), colon.place());
-            if key.is_word("material") {
-                self.reader
-                    .faults
-                    .add(
-                        codes::MACRO_MATERIAL,
-                        place,
-                        "the material stands before the braces",
-                    )
-                    .help(format!("write `{kind}: white {{ ... }}`"));
-            } else {
-                self.form(
-                    place,
-                    format!("a {kind} holds points alone, without keys"),
-                    kind,
-                );
-            }
-            return None;
-        }
-        Some(self.reader.points(inner, at))
-    }
-
-    fn depth(&mut self, first: &Token, rest: &[Token], place: Span) {
-        let (label, rest) = self.label("depth", rest);
-        let node = match self.braces("depth", first, rest) {
-            Some((at, inner)) => self.reader.record("depth", inner, at),
-            None => faulty(place),
-        };
-        let (kind, pass) = ("depth", self.reader.names.passes());
-        self.rays.push(Origin { kind, label, pass });
-        // Where the ray itself is meant, its whole entry is.
-        let source = node.span.source;
-        let span = Span { source, ..place };
-        self.depths.push(Node { span, ..node });
-    }
-
-    /// The label in front of `rest`, which must be new.
-    fn label<'t>(&mut self, kind: &str, rest: &'t [Token]) -> (Option<String>, &'t [Token]) {
-        let Some((first, after)) = rest.split_first() else {
-            return (None, rest);
-        };
-        let Some(label) = first.word() else {
-            return (None, rest);
-        };
-        let found = self.labels.iter().find(|(other, _)| other == label);
-        match found {
-            // The same label, in another pass of a loop.
-            Some((_, place)) if *place == first.place() => {}
-            Some((_, place)) => {
-                let message = format!("the label `{label}` is given twice");
-                self.reader
-                    .faults
-                    .add(codes::MACRO_LABEL, first.place(), message)
-                    .also(*place, "the first is")
-                    .help(format!("give this {kind} another label, or none"));
-            }
-            None => self.labels.push((label.to_owned(), first.place())),
-        }
-        (Some(label.to_owned()), after)
     }
 
     /// The tree; `place` is that of the scene's name, which is called `name` unless it says so.

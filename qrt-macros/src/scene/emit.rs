@@ -49,7 +49,7 @@ pub(crate) fn sound(
 
         impl #name {
             /// The scene, checked.
-            pub fn scene() -> &'static ::qrt::core::valid::ValidScene {
+            #visibility fn scene() -> &'static ::qrt::core::valid::ValidScene {
                 static SCENE: ::std::sync::OnceLock<::qrt::core::valid::ValidScene> =
                     ::std::sync::OnceLock::new();
                 const TEXT: &str = #text;
@@ -87,7 +87,7 @@ pub(crate) fn broken(header: &Header) -> TokenStream {
 
         impl #name {
             /// The scene, once its errors are corrected.
-            pub fn scene() -> &'static ::qrt::core::valid::ValidScene {
+            #visibility fn scene() -> &'static ::qrt::core::valid::ValidScene {
                 ::core::unreachable!("this scene has errors")
             }
         }

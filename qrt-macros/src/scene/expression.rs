@@ -2,7 +2,7 @@
 //! constants put in, and a way back from the text's bytes to the tokens.
 
 use super::fault::Faults;
-use super::names::Names;
+use super::names::{Meaning, Names};
 use super::tokens::{Kind, Token, join, place_of};
 use proc_macro2::Delimiter;
 use qrt_core::codes;
@@ -32,8 +32,9 @@ impl Expression {
             match &token.kind {
                 Kind::Word(word) => match names.value(word) {
                     None => self.piece(word, token.place()),
-                    Some(value) => {
-                        let value = value.unwrap_or(1.0);
+                    // What is faulty goes no further than this text.
+                    Some(Meaning::Faulty) => self.piece("1", token.place()),
+                    Some(Meaning::Number(value)) => {
                         let text = number_text(value);
                         if value < 0.0 {
                             self.piece(&format!("({text})"), token.place());
@@ -114,7 +115,7 @@ fn is_bare(token: &Token, digits: &str, suffix: &str, faults: &mut Faults) -> bo
     let message = format!("the number `{digits}{suffix}` has the suffix `{suffix}`");
     faults
         .add(codes::MACRO_SUFFIX, token.place(), message)
-        .help(format!("write `{}`", digits));
+        .help(format!("write `{digits}`"));
     false
 }
 

@@ -4,6 +4,7 @@ use super::tokens::Table;
 use proc_macro2::{Delimiter, Group, Literal, Punct, Spacing, Span, TokenStream, TokenTree};
 use qrt_core::front::tree;
 use quote::quote_spanned;
+use std::fmt::Write as _;
 
 /// One thing that is wrong, at a place.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -71,9 +72,10 @@ impl Fault {
         if let Some((place, why)) = &self.also {
             let (here, _) = table.ends(self.place);
             let there = table.ends(*place).0.start();
-            text += &format!("\nnote: {why} on line {}", there.line);
+            // Writing to a string cannot fail.
+            let _ = write!(text, "\nnote: {why} on line {}", there.line);
             if there.line == here.start().line {
-                text += &format!(", column {}", there.column + 1);
+                let _ = write!(text, ", column {}", there.column + 1);
             }
         }
         if let Some(help) = &self.help {

@@ -95,7 +95,7 @@ impl Body {
             return end + 1;
         }
         if let Some(passes) = self.range(header, range) {
-            self.unroll(variable, range, passes, body);
+            self.unroll(variable, range, &passes, body);
         }
         end + 1
     }
@@ -158,7 +158,7 @@ impl Body {
         None
     }
 
-    fn unroll(&mut self, variable: &Token, range: &[Token], passes: Passes, body: &[Token]) {
+    fn unroll(&mut self, variable: &Token, range: &[Token], passes: &Passes, body: &[Token]) {
         let count = passes.count();
         if self.passes + count > MAX_PASSES {
             let message = format!("the loops take more than {MAX_PASSES} passes by here");

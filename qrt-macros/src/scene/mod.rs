@@ -10,23 +10,21 @@ mod expression;
 mod fault;
 mod film;
 mod header;
+mod input;
 mod loops;
 mod names;
+mod parts;
+mod records;
 mod tokens;
 mod values;
 
 pub(crate) use body::Origin;
-pub(crate) use header::expand;
+pub(crate) use fault::Faults;
+pub(crate) use input::expand;
 #[cfg(test)]
-pub(crate) use {
-    fault::Faults,
-    header::{Read, read},
-    tokens::Table,
-};
+pub(crate) use {input::Read, input::read, tokens::Table};
 
 use body::Body;
-#[cfg(not(test))]
-use fault::Faults;
 use header::Header;
 use qrt_core::front::tree::{Node, Span, Value};
 use qrt_core::front::{Files, Loaded, of_tree};
@@ -52,7 +50,7 @@ enum Source {
     Tokens(Box<Written>),
     /// A file.
     File(Box<Loaded>),
-    /// A file with errors.
+    /// What could not be read.
     Nothing,
 }
 
@@ -64,6 +62,25 @@ struct Written {
 }
 
 impl Parsed {
+    /// A scene of a file.
+    fn of_file(header: Header, loaded: Loaded) -> Self {
+        let source = Source::File(Box::new(loaded));
+        Self {
+            source,
+            ..Self::nothing(header)
+        }
+    }
+
+    /// A scene of which nothing but the name could be read.
+    fn nothing(header: Header) -> Self {
+        Self {
+            header,
+            primitives: Vec::new(),
+            rays: Vec::new(),
+            source: Source::Nothing,
+        }
+    }
+
     /// Adds problems that were found in the scene, each at its place.
     pub(crate) fn report(&self, problems: Vec<Problem>, faults: &mut Faults) {
         match &self.source {
@@ -110,7 +127,7 @@ impl Parsed {
             _ => None,
         };
         let fault = faults.add(problem.code, found.span, advice::message(&problem));
-        if !problem.label.is_empty() {
+        if !problem.label.is_empty() && !is_missing {
             fault.note(problem.label.clone());
         }
         if let Some((path, why)) = &problem.also {

@@ -7,6 +7,15 @@ use qrt_core::expr::{Variable, function_names};
 use qrt_core::front::tree::Span;
 use qrt_core::report::nearest;
 
+/// What a name of the author's own stands for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Meaning {
+    /// A number.
+    Number(f64),
+    /// What could not be read: nothing is said of what depends on it.
+    Faulty,
+}
+
 /// The names that stand for numbers at some place of a scene.
 #[derive(Debug, Default)]
 pub(crate) struct Names(Vec<Name>);
@@ -14,17 +23,16 @@ pub(crate) struct Names(Vec<Name>);
 #[derive(Debug)]
 struct Name {
     text: String,
-    /// Nothing where the value is faulty: then nothing is said of what depends on it.
-    value: Option<f64>,
+    meaning: Meaning,
     place: Span,
     is_variable: bool,
 }
 
 impl Names {
-    /// The value of a name, if it is one.
-    pub(crate) fn value(&self, text: &str) -> Option<Option<f64>> {
+    /// What `text` stands for, if it is a name.
+    pub(crate) fn value(&self, text: &str) -> Option<Meaning> {
         let found = self.0.iter().rev().find(|name| name.text == text);
-        found.map(|name| name.value)
+        found.map(|name| name.meaning)
     }
 
     /// The name that `text` was probably meant to be.
@@ -46,14 +54,17 @@ impl Names {
     /// The loop variables and their values: `i = 3`.
     pub(crate) fn passes(&self) -> String {
         let variables = self.0.iter().filter(|name| name.is_variable);
-        let shown = variables.filter_map(|name| {
-            let value = qrt_core::scene::text::number(name.value?);
-            Some(format!("{} = {value}", name.text))
+        let shown = variables.filter_map(|name| match name.meaning {
+            Meaning::Number(value) => {
+                let value = qrt_core::scene::text::number(value);
+                Some(format!("{} = {value}", name.text))
+            }
+            Meaning::Faulty => None,
         });
         shown.collect::<Vec<_>>().join(", ")
     }
 
-    /// Adds a name, unless it is taken. `_` is no name.
+    /// Adds a name for `value`, which is nothing where it is faulty. `_` is no name.
     pub(crate) fn define(
         &mut self,
         token: &Token,
@@ -88,7 +99,7 @@ impl Names {
         }
         self.0.push(Name {
             text: text.to_owned(),
-            value,
+            meaning: value.map_or(Meaning::Faulty, Meaning::Number),
             place,
             is_variable,
         });
@@ -97,7 +108,7 @@ impl Names {
     /// Whether some of the names in `tokens` have faulty values.
     pub(crate) fn are_faulty(&self, tokens: &[Token]) -> bool {
         tokens.iter().any(|token| match &token.kind {
-            Kind::Word(text) => self.value(text) == Some(None),
+            Kind::Word(text) => self.value(text) == Some(Meaning::Faulty),
             Kind::Group(_, inner) => self.are_faulty(inner),
             _ => false,
         })

@@ -1,6 +1,6 @@
 //! Scenes of `qrt!` beside those of YAML.
 
-#![allow(clippy::unwrap_used, clippy::expect_used)]
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::format_push_string)]
 
 mod grammar;
 mod twins;

@@ -72,9 +72,63 @@ fn every_scene_is_the_same_in_both_languages() {
     }
 }
 
-/// Faulty scenes that say by YAML's own means, or at its own places, what tokens cannot say or say
-/// in another way.
-const YAML_ALONE: &[&str] = &["expression-blank", "expression-empty"];
+/// Faulty scenes whose fault is YAML's own, or that of the command line; those whose macro twin is
+/// no scene in form, which are the grammar's errors `QRT07..`; and those with a key or a material
+/// written twice, which YAML's tree does not keep.
+const WITHOUT_TWIN: [&str; 40] = [
+    "alias-bomb",
+    "complex-key",
+    "duplicate-key",
+    "duplicate-material",
+    "empty-document",
+    "empty",
+    "everything-at-once",
+    "expression-blank",
+    "expression-empty",
+    "expressions-all-at-once",
+    "material-not-a-map",
+    "material-outside",
+    "materials-not-a-map",
+    "merge-key",
+    "no-kind",
+    "not-a-map",
+    "not-a-scene",
+    "not-utf8",
+    "nothing-written",
+    "null-geometry",
+    "null-key",
+    "recursive-alias",
+    "second-document",
+    "set-bad-index",
+    "set-bad-value",
+    "set-missing-element",
+    "set-out-of-range",
+    "set-through-number",
+    "set-unknown-key",
+    "set-without-key",
+    "set-without-value",
+    "syntax-bracket",
+    "syntax-control-character",
+    "syntax-quote",
+    "syntax-tab",
+    "tag",
+    "too-deep",
+    "two-kinds",
+    "unknown-alias",
+    "unknown-key",
+];
+
+/// Codes of the checker that these scenes do not show: what the grammar says itself (a variant has
+/// one kind, an expression something in it), and what only scenes built in Rust, files of 256 MiB
+/// and disagreements of the OBJ library get.
+const ELSEWHERE: [&str; 6] = [
+    codes::ONE_VARIANT,
+    codes::DUPLICATE_NAME,
+    codes::OBJ_TOO_LARGE,
+    codes::OBJ_REFUSED,
+    codes::EXPR_EMPTY,
+    codes::BSDF_CHANNELS,
+];
 
 #[test]
 fn every_faulty_scene_gets_the_same_codes() {
@@ -84,14 +138,13 @@ fn every_faulty_scene_gets_the_same_codes() {
     for file in scenes("tests/bad_scenes") {
         let name = file.file_stem().unwrap().to_string_lossy().into_owned();
         let text = String::from_utf8_lossy(&std::fs::read(&file).unwrap()).into_owned();
-        let Some(text) = written(&file).filter(|_| !text.contains("# --set")) else {
+        // An empty text in quotes is no value at all where there are none.
+        let is_empty = ["expression-blank", "expression-empty"].contains(&name.as_str());
+        let twin = written(&file).filter(|_| !text.contains("# --set") && !is_empty);
+        let Some(text) = twin else {
             skipped.push(name);
             continue;
         };
-        if YAML_ALONE.contains(&name.as_str()) {
-            skipped.push(name);
-            continue;
-        }
         let mut expected = load(&file, &[]).unwrap_err().codes();
         expected.sort_unstable();
         let (_, faults) = read_text(&text, file.parent().unwrap());
@@ -103,11 +156,12 @@ fn every_faulty_scene_gets_the_same_codes() {
         reached.extend(expected);
     }
     assert!(failures.is_empty(), "{}", failures.join("\n"));
-    println!("{skipped:?}");
+    assert_eq!(skipped, WITHOUT_TWIN);
+    let checked = "QRT0120".."QRT0600";
     let unreached: Vec<_> = codes::TABLE
         .iter()
         .map(|row| row.code)
-        .filter(|code| ("QRT012".."QRT06").contains(code) && !reached.contains(code))
+        .filter(|code| checked.contains(code) && !reached.contains(code))
         .collect();
-    println!("{unreached:?}");
+    assert_eq!(unreached, ELSEWHERE);
 }

@@ -1,0 +1,298 @@
+//! The macro's input: one scene after another.
+
+use super::body::Body;
+use super::fault::{Faults, compile_error};
+use super::header::Header;
+use super::tokens::{Kind, Table, Token, place_of};
+use super::values::{entry, scalar};
+use super::{Parsed, check, emit};
+use proc_macro2::{Delimiter, Ident, TokenStream, TokenTree};
+use qrt_core::codes;
+use qrt_core::front::load_below;
+use qrt_core::front::tree::{Entry, Node, Span, Value};
+use qrt_core::valid::ValidScene;
+use std::path::Path;
+
+/// A scene that was read, checked if nothing is wrong with it.
+pub(crate) type Read = (Parsed, Option<ValidScene>);
+
+/// What `qrt!` expands to; files are relative to `root`.
+pub(crate) fn expand(input: TokenStream, root: &Path) -> TokenStream {
+    let mut table = Table::default();
+    let mut faults = Faults::default();
+    let mut out = TokenStream::new();
+    for (parsed, valid) in read(input, root, &mut table, &mut faults) {
+        let generated = valid.and_then(|valid| match crate::generate::scene(&parsed, &valid) {
+            Ok(code) => Some(emit::sound(&parsed, &valid, root, &code)),
+            Err(problems) => {
+                parsed.report(problems, &mut faults);
+                None
+            }
+        });
+        out.extend(generated.unwrap_or_else(|| emit::broken(&parsed.header)));
+    }
+    for fault in faults.settle() {
+        out.extend(compile_error(&fault.text(&table), fault.ends(&table)));
+    }
+    out
+}
+
+/// The scenes of `input`.
+pub(crate) fn read(
+    input: TokenStream,
+    root: &Path,
+    table: &mut Table,
+    faults: &mut Faults,
+) -> Vec<Read> {
+    let mut trees = Vec::new();
+    flatten(input, &mut trees);
+    let tokens = trees
+        .iter()
+        .flat_map(|tree| table.read(tree.clone().into()));
+    let tokens: Vec<Token> = tokens.collect();
+    let mut input = Input {
+        trees: &trees,
+        tokens: &tokens,
+        at: 0,
+        faults,
+    };
+    let mut scenes = Vec::new();
+    while input.at < tokens.len() || scenes.is_empty() {
+        match input.scene(root) {
+            Some(scene) => scenes.push(scene),
+            None if input.at >= tokens.len() => break,
+            None => {}
+        }
+    }
+    scenes
+}
+
+/// Token trees without the invisible brackets of other macros' variables.
+fn flatten(stream: TokenStream, out: &mut Vec<TokenTree>) {
+    for tree in stream {
+        match tree {
+            TokenTree::Group(group) if group.delimiter() == Delimiter::None => {
+                flatten(group.stream(), out);
+            }
+            tree => out.push(tree),
+        }
+    }
+}
+
+/// What follows a scene's name.
+enum Rest<'t> {
+    Body(&'t [Token]),
+    Path(&'t str, Span),
+}
+
+/// The macro's input, read from one scene to the next.
+struct Input<'t> {
+    trees: &'t [TokenTree],
+    tokens: &'t [Token],
+    at: usize,
+    faults: &'t mut Faults,
+}
+
+impl<'t> Input<'t> {
+    fn peek(&self) -> Option<&'t Token> {
+        self.tokens.get(self.at)
+    }
+
+    /// The trees from `start` to here, as they were written.
+    fn since(&self, start: usize) -> TokenStream {
+        self.trees[start..self.at].iter().cloned().collect()
+    }
+
+    /// Reports what stands here in place of `expected`, and goes on behind the next braces.
+    fn fail<T>(&mut self, code: &'static str, expected: &str) -> Option<T> {
+        let last = self.tokens.last().map(Token::place).unwrap_or_default();
+        let (place, found) = match self.peek() {
+            Some(token) => (token.place(), token.found()),
+            None => (last, "the end".to_owned()),
+        };
+        let help = match code {
+            codes::MACRO_FILE => {
+                "write `from \"scene.yaml\"`, relative to the folder of Cargo.toml"
+            }
+            _ => "write `pub scene Name { ... }` or `pub scene Name from \"scene.yaml\"`",
+        };
+        self.faults
+            .add(code, place, format!("expected {expected}, found {found}"))
+            .help(help);
+        let rest = self.tokens.get(self.at..).unwrap_or_default();
+        let next = rest
+            .iter()
+            .position(|token| token.group(Delimiter::Brace).is_some());
+        self.at += next.map_or(rest.len(), |length| length + 1);
+        None
+    }
+
+    fn scene(&mut self, root: &Path) -> Option<Read> {
+        let start = self.at;
+        while self.peek().is_some_and(|token| token.is_sign('#')) {
+            let body = self.tokens.get(self.at + 1);
+            let is_whole = body.is_some_and(|token| token.group(Delimiter::Bracket).is_some());
+            self.at += 1 + usize::from(is_whole);
+        }
+        let attributes = self.since(start);
+        let start = self.at;
+        if self.peek().is_some_and(|token| token.is_word("pub")) {
+            self.at += 1;
+            let within = self.peek().and_then(|t| t.group(Delimiter::Parenthesis));
+            self.at += usize::from(within.is_some());
+        }
+        let visibility = self.since(start);
+        if !self.peek().is_some_and(|token| token.is_word("scene")) {
+            return self.fail(codes::MACRO_SCENE, "`scene`");
+        }
+        self.at += 1;
+        let name = self.trees.get(self.at).cloned().map(TokenStream::from);
+        let Some(Ok(name)) = name.map(syn::parse2::<Ident>) else {
+            return self.fail(codes::MACRO_SCENE, "the name of the scene");
+        };
+        let place = self.peek().map(Token::place).unwrap_or_default();
+        self.at += 1;
+        let precision = self.format();
+        let known = self.faults.count();
+        let rest = self.rest();
+        let header = Header {
+            attributes,
+            visibility,
+            name,
+            path: match rest {
+                Some(Rest::Path(_, place)) => Some(place),
+                _ => None,
+            },
+        };
+        let (parsed, valid) = match rest {
+            None => (Parsed::nothing(header), None),
+            Some(Rest::Body(tokens)) => {
+                let mut body = Body::default();
+                body.reader.later = constants(tokens);
+                body.entries(tokens, false);
+                if let Some(precision) = precision {
+                    add_precision(&mut body, precision);
+                }
+                check(header, body, place, root, self.faults)
+            }
+            Some(Rest::Path(path, _)) => {
+                if let Some(precision) = precision {
+                    let what = "the number format of a scene in a file stands in the file";
+                    self.faults
+                        .add(codes::MACRO_FORMAT, precision.key_span, what)
+                        .help("write `precision: { fraction: 14 }` there");
+                }
+                self.file(header, Path::new(path), root)
+            }
+        };
+        let is_sound = self.faults.count() == known;
+        Some((parsed, valid.filter(|_| is_sound)))
+    }
+
+    /// The scene of a file.
+    fn file(&mut self, header: Header, path: &Path, root: &Path) -> Read {
+        match load_below(root, path, &[]) {
+            Ok(loaded) => {
+                let valid = loaded.valid.clone();
+                (Parsed::of_file(header, loaded), Some(valid))
+            }
+            Err(report) => {
+                header.report(&report, self.faults);
+                (Parsed::nothing(header), None)
+            }
+        }
+    }
+
+    /// `<Fixed<2, 14>>`, as the precision that it means.
+    fn format(&mut self) -> Option<Entry> {
+        if !self.peek()?.is_sign('<') {
+            return None;
+        }
+        let start = self.at;
+        while self
+            .peek()
+            .is_some_and(|token| token.group(Delimiter::Brace).is_none() && !token.is_word("from"))
+        {
+            self.at += 1;
+        }
+        let own = &self.tokens[start..self.at];
+        let place = place_of(own)?;
+        let help = "write `<Fixed<2, 14>>` for 14 fraction bits, or leave it out";
+        if let [_, fixed, open, first, comma, second, close, _] = own
+            && fixed.is_word("Fixed")
+            && open.is_sign('<')
+            && comma.is_sign(',')
+            && close.is_sign('>')
+            && let (Kind::Number(whole, a), Kind::Number(fraction, b)) = (&first.kind, &second.kind)
+            && a.is_empty()
+            && b.is_empty()
+        {
+            if whole != "2" {
+                let message = format!("the first number of `Fixed` is 2, not {whole}");
+                self.faults
+                    .add(codes::MACRO_FORMAT, first.place(), message)
+                    .note("unit numbers lie in [-1, 1]; other registers get the integer bits that their ranges need")
+                    .help(format!("write `<Fixed<2, {fraction}>>`"));
+                return None;
+            }
+            let at = second.place();
+            let fraction = entry("fraction", at, scalar(fraction.clone(), false, at));
+            let value = Value::Map(vec![fraction]);
+            return Some(entry("precision", place, Node { span: place, value }));
+        }
+        self.faults
+            .add(codes::MACRO_FORMAT, place, "this is not a number format")
+            .help(help);
+        None
+    }
+
+    /// The braces behind the name, or `from` and a path.
+    fn rest(&mut self) -> Option<Rest<'t>> {
+        let token = self.peek();
+        if let Some(inner) = token.and_then(|token| token.group(Delimiter::Brace)) {
+            self.at += 1;
+            return Some(Rest::Body(inner));
+        }
+        if !token.is_some_and(|token| token.is_word("from")) {
+            return self.fail(codes::MACRO_SCENE, "`{ ... }` or `from`");
+        }
+        self.at += 1;
+        let Some(token) = self.peek() else {
+            return self.fail(codes::MACRO_FILE, "a path in quotes");
+        };
+        let Kind::Text(path) = &token.kind else {
+            return self.fail(codes::MACRO_FILE, "a path in quotes");
+        };
+        self.at += 1;
+        if self
+            .peek()
+            .is_some_and(|token| token.is_sign(';') || token.is_sign(','))
+        {
+            self.at += 1;
+        }
+        Some(Rest::Path(path, token.place()))
+    }
+}
+
+/// The names of all constants of a scene.
+fn constants(tokens: &[Token]) -> Vec<String> {
+    let pairs = tokens.windows(2).filter(|pair| pair[0].is_word("const"));
+    pairs
+        .filter_map(|pair| pair[1].word().map(str::to_owned))
+        .collect()
+}
+
+/// Adds the precision that a number format means, unless the scene has its own.
+fn add_precision(body: &mut Body, precision: Entry) {
+    let own = body.blocks.iter().find(|entry| entry.key == "precision");
+    let Some(own) = own else {
+        body.blocks.push(precision);
+        return;
+    };
+    let what = "the precision is given twice";
+    body.reader
+        .faults
+        .add(codes::MACRO_PRECISION, own.key_span, what)
+        .also(precision.key_span, "the number format is")
+        .help("keep one of the two");
+}

@@ -1,0 +1,155 @@
+//! Records: `{ key: value, ... }`.
+
+use super::fault::Faults;
+use super::tokens::{Kind, Token, join, place_of};
+use super::values::{Reader, entry};
+use qrt_core::codes;
+use qrt_core::front::tree::{Entry, Node, Span, Value};
+
+impl Reader {
+    /// A map of keys; `place` is that of its braces.
+    pub(crate) fn record(&mut self, name: &str, tokens: &[Token], place: Span) -> Node {
+        let mut entries: Vec<Entry> = Vec::new();
+        for part in fields(tokens, &mut self.faults) {
+            let Some((key, at, rest)) = self.key(name, part) else {
+                self.incomplete.push(place);
+                continue;
+            };
+            if (name, key) == ("mesh", "material") {
+                let white = place_of(rest).map_or(at, |end| join(at, end));
+                self.faults
+                    .add(
+                        codes::MACRO_MATERIAL,
+                        white,
+                        "the material stands before the braces",
+                    )
+                    .help("write `mesh: white { obj: \"mesh.obj\" }`");
+                continue;
+            }
+            let value = self.value(name, key, at, rest);
+            self.enter(&mut entries, entry(key, at, value));
+        }
+        let value = Value::Map(entries);
+        Node { span: place, value }
+    }
+
+    /// `key: ...` as the key, its place and what follows the colon.
+    fn key<'t>(&mut self, record: &str, part: &'t [Token]) -> Option<(&'t str, Span, &'t [Token])> {
+        if let [first, colon, rest @ ..] = part
+            && let Some(key) = first.word()
+            && colon.is_sign(':')
+        {
+            return Some((key, first.place(), rest));
+        }
+        let place = place_of(part)?;
+        let words: Vec<&str> = part
+            .iter()
+            .take_while(|token| !token.is_sign(':'))
+            .filter_map(Token::word)
+            .collect();
+        let (message, help) = match part {
+            [first, sign, ..] if first.word().is_some() && sign.is_sign('=') => (
+                "a key is followed by `:`, not by `=`".to_owned(),
+                format!("write `{}: ...`", words.join("_")),
+            ),
+            [first, sign, ..] if first.word().is_some() && sign.is_sign('-') => (
+                "there are no hyphens in keys".to_owned(),
+                format!("write `{}`", words.join("_")),
+            ),
+            [
+                Token {
+                    kind: Kind::Text(text),
+                    ..
+                },
+                sign,
+                ..,
+            ] if sign.is_sign(':') => (
+                "a key is not in quotes".to_owned(),
+                format!("write `{text}: ...`"),
+            ),
+            _ => {
+                let example = super::advice::record(record);
+                let message = "expected `key: value`".to_owned();
+                (message, format!("write {example}"))
+            }
+        };
+        // What is wrong is in front of the value.
+        let before = part.iter().position(|token| token.is_sign(':'));
+        let front = &part[..before.unwrap_or(part.len()).max(1)];
+        let place = place_of(front).unwrap_or(place);
+        self.faults.add(codes::MACRO_KEY, place, message).help(help);
+        None
+    }
+
+    /// Adds an entry, unless its key is there.
+    pub(crate) fn enter(&mut self, entries: &mut Vec<Entry>, new: Entry) {
+        let Some(first) = entries.iter().find(|old| old.key == new.key) else {
+            entries.push(new);
+            return;
+        };
+        let message = format!("`{}` is written twice", new.key);
+        self.faults
+            .add(codes::DUPLICATE_KEY, new.key_span, message)
+            .also(first.key_span, "the first is")
+            .help("keep one of the two");
+    }
+}
+
+/// The entries of a record; where two stand together, the missing comma is reported.
+fn fields<'t>(tokens: &'t [Token], faults: &mut Faults) -> Vec<&'t [Token]> {
+    let mut fields = Vec::new();
+    for mut part in split_fields(tokens) {
+        // A colon behind the first belongs to another key.
+        while let Some(at) = (2..part.len().saturating_sub(1)).find(|&at| {
+            part[at].word().is_some()
+                && matches!(part[at + 1].kind, Kind::Sign(':', false))
+                && !part[at - 1].is_sign(':')
+                && !(part[at - 1].is_sign('-') && part[..at].iter().all(|t| !t.is_sign(':')))
+        }) {
+            let place = part[at].place();
+            let key = part[at].found();
+            faults
+                .add(
+                    codes::MACRO_COMMA,
+                    place,
+                    format!("there is no comma before {key}"),
+                )
+                .help("write `,` between two keys");
+            let (first, rest) = part.split_at(at);
+            fields.push(first);
+            part = rest;
+        }
+        if part.is_empty() {
+            if let Some(place) = place_of(tokens) {
+                faults
+                    .add(
+                        codes::MACRO_VALUE,
+                        place,
+                        "nothing stands between two commas",
+                    )
+                    .help("take one of the commas away");
+            }
+            continue;
+        }
+        fields.push(part);
+    }
+    fields
+}
+
+/// The parts between commas; those between the bars of a map separate nothing.
+fn split_fields(tokens: &[Token]) -> Vec<&[Token]> {
+    let mut parts = Vec::new();
+    let mut start = 0;
+    let mut in_bars = false;
+    for (at, token) in tokens.iter().enumerate() {
+        in_bars ^= token.is_sign('|');
+        if token.is_sign(',') && !in_bars {
+            parts.push(&tokens[start..at]);
+            start = at + 1;
+        }
+    }
+    if start < tokens.len() {
+        parts.push(&tokens[start..]);
+    }
+    parts
+}
