@@ -33,7 +33,9 @@
 //! three alone, so that each checks the others.
 
 pub mod builder;
+mod controlled;
 mod evaluate;
+pub mod format;
 mod gate;
 pub mod lower;
 mod machine;
@@ -43,6 +45,7 @@ mod program;
 mod record;
 mod register;
 
+pub use controlled::{Controlled, controlled, unconditional};
 pub use evaluate::Contents;
 pub use gate::{Circuit, Gate, Gates, Qubit};
 pub use machine::{Declaration, Machine};
