@@ -1,1 +1,11 @@
 //! The macro front end of qrt.
+
+mod reversible;
+
+use proc_macro::TokenStream;
+
+/// Makes a function of registers reversible.
+#[proc_macro_attribute]
+pub fn reversible(arguments: TokenStream, item: TokenStream) -> TokenStream {
+    reversible::expand(&arguments.into(), item.into()).into()
+}

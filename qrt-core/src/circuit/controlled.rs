@@ -117,21 +117,11 @@ impl<M: Machine> Machine for Controlled<'_, M> {
         self.machine.parity(t, source, columns, parameter)
     }
 
-    fn and(
-        &mut self,
-        t: &Declaration,
-        a: Bit<&M::Register>,
-        b: Bit<&M::Register>,
-    ) -> M::Register {
+    fn and(&mut self, t: &Declaration, a: Bit<&M::Register>, b: Bit<&M::Register>) -> M::Register {
         self.machine.and(t, a, b)
     }
 
-    fn xor(
-        &mut self,
-        t: &Declaration,
-        a: Bit<&M::Register>,
-        b: Bit<&M::Register>,
-    ) -> M::Register {
+    fn xor(&mut self, t: &Declaration, a: Bit<&M::Register>, b: Bit<&M::Register>) -> M::Register {
         self.machine.xor(t, a, b)
     }
 
@@ -265,12 +255,7 @@ impl<M: Machine> Machine for Controlled<'_, M> {
         }
     }
 
-    fn swap(
-        &mut self,
-        a: &mut M::Register,
-        b: &mut M::Register,
-        when: Option<Bit<&M::Register>>,
-    ) {
+    fn swap(&mut self, a: &mut M::Register, b: &mut M::Register, when: Option<Bit<&M::Register>>) {
         self.under(when, |machine, when| machine.swap(a, b, when));
     }
 }

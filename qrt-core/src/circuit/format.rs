@@ -185,8 +185,14 @@ mod tests {
         for bits in 0..256 {
             assert_eq!(UInt::<8>::bits(UInt::<8>::value(bits)), Some(bits));
             assert_eq!(Int::<8>::bits(Int::<8>::value(bits)), Some(bits));
-            assert_eq!(Fixed::<-1, 9>::bits(Fixed::<-1, 9>::value(bits)), Some(bits));
-            assert_eq!(UFixed::<3, 5>::bits(UFixed::<3, 5>::value(bits)), Some(bits));
+            assert_eq!(
+                Fixed::<-1, 9>::bits(Fixed::<-1, 9>::value(bits)),
+                Some(bits)
+            );
+            assert_eq!(
+                UFixed::<3, 5>::bits(UFixed::<3, 5>::value(bits)),
+                Some(bits)
+            );
         }
         assert_eq!(Int::<8>::value(0x80), -128.0);
         assert_eq!(UFixed::<3, 5>::value(1), 0.03125);

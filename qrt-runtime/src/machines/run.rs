@@ -64,7 +64,10 @@ impl fmt::Display for RunError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Inputs { state, expected } => {
-                write!(f, "state {state} does not hold {expected} contents, one an input")
+                write!(
+                    f,
+                    "state {state} does not hold {expected} contents, one an input"
+                )
             }
             Self::TooWide { state, register } => {
                 write!(f, "state {state} holds more than fits into `{register}`")
@@ -72,7 +75,10 @@ impl fmt::Display for RunError {
             Self::Parameters => f.write_str("the program has classical words"),
             Self::Kept { register } => write!(f, "`{register}` is never given back"),
             Self::Dirty { state, register } => {
-                write!(f, "`{register}` is given back, and is not zero from state {state}")
+                write!(
+                    f,
+                    "`{register}` is given back, and is not zero from state {state}"
+                )
             }
         }
     }
@@ -128,9 +134,8 @@ fn follow(
     if !targets.is_empty() {
         let mut expected = contents.clone();
         expected.compute(op);
-        let differs = |id: &&RegisterId| {
-            expected.registers[id.index()] != contents.registers[id.index()]
-        };
+        let differs =
+            |id: &&RegisterId| expected.registers[id.index()] != contents.registers[id.index()];
         if let Some(dirty) = targets.iter().find(differs) {
             return Err(*dirty);
         }
@@ -193,7 +198,8 @@ pub fn on_gates(
     };
     let qubits = |id: &RegisterId| -> &[Qubit] {
         let mut held = circuit.inputs.iter();
-        held.find(|(held, _)| held == id).map_or(&[], |(_, qubits)| qubits)
+        held.find(|(held, _)| held == id)
+            .map_or(&[], |(_, qubits)| qubits)
     };
     let inputs: Vec<&[Qubit]> = program.inputs.iter().map(qubits).collect();
     let mut rows = machine.rows();
