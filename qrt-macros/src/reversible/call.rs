@@ -1,7 +1,7 @@
 //! Calls of reversible functions, and swaps.
 
 use super::ir::{Place, Register, Statement, StatementKind as K};
-use super::scope::{Scope, text};
+use super::scope::{Scope, text, type_text};
 use proc_macro2::{Span, TokenStream};
 use qrt_core::codes;
 use quote::ToTokens;
@@ -139,7 +139,7 @@ impl Scope {
             return None;
         }
         if first.format != second.format {
-            let [one, other] = [&first.ty, &second.ty].map(text);
+            let [one, other] = [&first.ty, &second.ty].map(type_text);
             let known = [&first, &second].map(|r| {
                 (
                     r.format.kind,

@@ -16,7 +16,7 @@
 
 use super::dim::{Dim, Linear};
 use super::ir::{Bit, Kind, Number, NumberKind, Place, Size, Term, Update};
-use super::scope::{Scope, text};
+use super::scope::{Scope, text, type_text};
 use qrt_core::codes;
 use quote::{ToTokens, quote};
 use syn::{BinOp, Expr, UnOp};
@@ -171,7 +171,7 @@ impl Scope {
             ),
         };
         let name = match &target.part {
-            None => text(&target.register.ty),
+            None => type_text(&target.register.ty),
             Some([_, bits]) => format!("{bits} bits of `{}`", target.register.name),
         };
         let Number { size, source, kind } = &number;

@@ -293,3 +293,11 @@ pub(super) fn text(source: impl ToTokens) -> String {
     }
     text
 }
+
+/// A type, as it is usually written.
+pub(super) fn type_text(ty: &syn::Type) -> String {
+    text(ty)
+        .replace(" <", "<")
+        .replace("< ", "<")
+        .replace(" >", ">")
+}

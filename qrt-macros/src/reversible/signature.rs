@@ -3,6 +3,7 @@
 use super::dim::Linear;
 use super::ir::{Format, Kind, Register, Signature};
 use super::problem::Problems;
+use super::scope::type_text;
 use qrt_core::codes;
 use std::rc::Rc;
 use syn::{FnArg, GenericArgument, GenericParam, Ident, ItemFn, Pat, PathArguments, Type};
@@ -144,7 +145,7 @@ fn parameter(input: &FnArg, constants: &[Ident], problems: &mut Problems) -> Opt
     }
     let Type::Reference(reference) = &*input.ty else {
         let ty = &input.ty;
-        let shown = quote::quote!(#ty).to_string().replace(' ', "");
+        let shown = type_text(ty);
         let help = format!("write `{name}: &{shown}`, or `&mut {shown}` if it is changed");
         let message = "a register is taken by reference: it can neither be copied nor dropped";
         problems.add(codes::REV_PARAMETER, ty, message, &help);
@@ -167,7 +168,7 @@ fn parameter(input: &FnArg, constants: &[Ident], problems: &mut Problems) -> Opt
 /// The format that a type is.
 pub(super) fn format(ty: &Type, constants: &[Ident], problems: &mut Problems) -> Option<Format> {
     let unknown = |problems: &mut Problems| {
-        let shown = quote::quote!(#ty).to_string().replace(' ', "");
+        let shown = type_text(ty);
         problems.add(
             codes::REV_FORMAT_NAME,
             ty,

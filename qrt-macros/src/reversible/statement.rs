@@ -2,7 +2,7 @@
 
 use super::dim::Linear;
 use super::ir::{Bit, Place, Register, Statement, StatementKind as K};
-use super::scope::{Scope, text};
+use super::scope::{Scope, text, type_text};
 use super::signature;
 use proc_macro2::TokenStream;
 use qrt_core::codes;
@@ -298,7 +298,7 @@ impl Scope {
     pub(super) fn may_change(&mut self, target: &Place, source: impl ToTokens) {
         if !target.register.mutable {
             let name = &target.register.name;
-            let ty = text(&target.register.ty);
+            let ty = type_text(&target.register.ty);
             let message = format!("`{name}` can only be read");
             let help = format!("take it as `{name}: &mut {ty}`");
             self.problems

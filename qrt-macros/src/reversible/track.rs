@@ -9,7 +9,7 @@
 use super::dim::Linear;
 use super::ir::{Bit, Register, Statement, StatementKind as K, Term, Update};
 use super::problem::Problems;
-use super::scope::text;
+use super::scope::{text, type_text};
 use proc_macro2::TokenStream;
 use qrt_core::codes;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
@@ -411,7 +411,7 @@ fn key(kind: &K) -> String {
             format!(
                 "let {}: {} {{{}}}",
                 register.name,
-                text(&register.ty),
+                type_text(&register.ty),
                 keys(body)
             )
         }
