@@ -3,7 +3,8 @@
 //! Codes are stable: a number, once given, keeps its meaning. `QRT01..` is about the text and its
 //! structure, `QRT02..` about values and names, `QRT03..` about geometry and meshes, `QRT04..`
 //! about expressions and BSDFs, `QRT05..` about sampling and limits, `QRT06..` about the circuit,
-//! `QRT07..` about the form of the macro `qrt!`, `QRT09..` about the use of the command line.
+//! `QRT07..` about the form of the macro `qrt!`, `QRT08..` about reversible routines, `QRT09..`
+//! about the use of the command line.
 
 /// A row of the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -253,6 +254,68 @@ codes! {
         "Keep one of the two";
     MACRO_ATTRIBUTE = "QRT0724", "an attribute within a scene",
         "Put attributes before the scene; within it there are doc comments only";
+    REV_ASSIGNMENT = "QRT0801", "an assignment, which forgets what was there",
+        "Write `+=`, `-=` or `^=`, which can be undone";
+    REV_ALIAS = "QRT0802", "a statement that reads what it changes",
+        "Copy what is read into a scratch register first";
+    REV_EARLY_EXIT = "QRT0803", "a way out that would skip an uncompute",
+        "Let every statement run; write `if` for what depends on a bit";
+    REV_DIRTY = "QRT0804", "a scratch register that is computed and never uncomputed",
+        "Compute it in `within!` and use it in `apply!`";
+    REV_WITHIN = "QRT0805", "an `apply!` that changes what its `within!` computed from",
+        "Change it before or after the two";
+    REV_WIDTH = "QRT0806", "a number with more bits than its target",
+        "Use a wider target, or `wrapping(..)` for its lowest bits";
+    REV_FORMAT = "QRT0807", "a number of another format than its target",
+        "Use a target that can be negative or has the fraction bits, or `wrapping(..)` or `floor(..)`";
+    REV_CONSTANT = "QRT0808", "a constant that its format does not have",
+        "Write a multiple of the format's lowest bit";
+    REV_CONDITION = "QRT0809", "a condition that is changed in its own branch",
+        "Change it after the `if`, or copy the bit into a scratch register first";
+    REV_NOT_A_BIT = "QRT0810", "a number where a bit is needed",
+        "Write a bit such as `a[0]`, a `Bool` or a comparison";
+    REV_LOOP = "QRT0811", "a loop that is not over constants",
+        "Write `for i in 0..8`, with constant bounds";
+    REV_CALL = "QRT0812", "a call of something that is not reversible",
+        "Call functions marked `#[reversible]` by name";
+    REV_ARGUMENT = "QRT0813", "an argument that is not a register",
+        "Write `&x` to let it be read and `&mut x` to let it be changed";
+    REV_STATEMENT = "QRT0814", "a statement that has no inverse",
+        "Write updates, `swap`, `if`, `for`, calls, scratch registers, `within!` and `apply!`";
+    REV_OPERATOR = "QRT0815", "an operator that has no inverse, or none here",
+        "Write `+=`, `-=` or `^=`";
+    REV_NAME = "QRT0816", "an unknown name",
+        "Compare with the nearest name";
+    REV_TAKEN = "QRT0817", "a name that is taken",
+        "Choose another name";
+    REV_READ_ONLY = "QRT0818", "a change of what can only be read",
+        "Take the register by `&mut`";
+    REV_INDEX = "QRT0819", "a bit beyond a register's last",
+        "Count bits from 0";
+    REV_PARAMETER = "QRT0820", "a parameter that is not a register",
+        "Write `x: &UInt<8>`, or `&mut` if it is changed";
+    REV_RESULT = "QRT0821", "a result",
+        "Add it to a `&mut` parameter";
+    REV_SIGNATURE = "QRT0822", "a function that cannot be reversible",
+        "Write a plain `fn`";
+    REV_GENERIC = "QRT0823", "a generic parameter that is not a constant",
+        "Write `const W: u32`";
+    REV_UNUSED = "QRT0824", "a scratch register that nothing is computed into",
+        "Remove it";
+    REV_SCRATCH = "QRT0825", "a declaration that is not a scratch register's",
+        "Write `let mut t: UInt<8> = 0;`";
+    REV_PAIR = "QRT0826", "one of `within!` and `apply!` without the other",
+        "Write `within! { .. } apply! { .. }`";
+    REV_FORMAT_NAME = "QRT0827", "a type that is not a register's format",
+        "Choose `UInt<W>`, `Int<W>`, `Fixed<I, F>`, `UFixed<I, F>` or `Bool`";
+    REV_EXPRESSION = "QRT0828", "an expression that is not computed reversibly",
+        "Write registers, constants, `+ - * << >>`, slices, comparisons, `! & | ^` of bits";
+    REV_TOO_WIDE = "QRT0829", "a register or a number of more than 63 bits",
+        "Use fewer bits";
+    REV_ITEM = "QRT0830", "`#[reversible]` on something that is not a function",
+        "Put it on a function, without arguments";
+    REV_CHANGE_TWICE = "QRT0831", "a register handed over twice that is changed",
+        "Hand over different registers";
     SET_SYNTAX = "QRT0901", "an override that is not key=value",
         "Write `--set sampling.path_bits=14` or `--set 'film={ width: 8, height: 8 }'`";
     SET_PLACE = "QRT0902", "an override of something that is not there",

@@ -1,11 +1,13 @@
-//! The macro front end of qrt: scenes in Rust's tokens.
+//! The macro front end of qrt: scenes in Rust's tokens, and reversible functions.
 //!
 //! Authors use it through the crate `qrt`, whose documentation holds the grammar. `scene/` reads the
 //! tokens into the tree that YAML becomes too, and hands it to the one checker; `generate/` writes
-//! the circuit. All of it are functions on token streams of `proc_macro2`, which tests call.
+//! the circuit; `reversible/` reads functions. All of it are functions on token streams of
+//! `proc_macro2`, which tests call.
 
 mod expand;
 mod generate;
+mod reversible;
 mod scene;
 #[cfg(test)]
 mod tests;
@@ -14,4 +16,13 @@ mod tests;
 #[proc_macro]
 pub fn qrt(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
     expand::expand(input.into()).into()
+}
+
+/// Makes a function of registers reversible; see the crate `qrt`.
+#[proc_macro_attribute]
+pub fn reversible(
+    arguments: proc_macro::TokenStream,
+    item: proc_macro::TokenStream,
+) -> proc_macro::TokenStream {
+    reversible::expand(&arguments.into(), item.into()).into()
 }

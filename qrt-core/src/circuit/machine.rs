@@ -104,6 +104,16 @@ pub trait Machine {
     /// What follows is charged to this block.
     #[inline(always)]
     fn block(&mut self, _block: BlockId) {}
+    /// The conjunction of a bit and the condition under which this machine's registers change, to
+    /// be undone by the caller; none where they change on every path. See [`super::controlled`].
+    #[inline(always)]
+    fn joined(&mut self, _when: Bit<&Self::Register>) -> Option<Self::Register> {
+        None
+    }
+    /// Enters or leaves a part that is undone again by what follows, and therefore needs no
+    /// condition. See [`super::unconditional`].
+    #[inline(always)]
+    fn unconditional(&mut self, _entered: bool) {}
 
     /// [`super::Op::Copy`]
     fn copy(&mut self, t: &Declaration, a: Word<&Self::Register>) -> Self::Register;

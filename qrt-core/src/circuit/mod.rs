@@ -33,6 +33,7 @@
 //! three alone, so that each checks the others.
 
 pub mod builder;
+mod controlled;
 mod evaluate;
 pub mod format;
 mod gate;
@@ -44,6 +45,7 @@ mod program;
 mod record;
 mod register;
 
+pub use controlled::{Controlled, controlled, unconditional};
 pub use evaluate::Contents;
 pub use gate::{Circuit, Gate, Gates, Qubit};
 pub use machine::{Declaration, Machine};

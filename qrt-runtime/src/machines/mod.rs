@@ -3,6 +3,7 @@
 //! [`Real`] reads it over lanes of `f64`: pictures, meshes, and the limit that every finite width
 //! converges to. [`Fixed`] evaluates the program that it is compiled to, operation by operation, on
 //! integers of its registers' widths. [`Gates`] executes the circuit of that program, gate by gate.
+//! [`run`] does so with routines written by hand.
 
 mod bvh;
 mod fixed;
@@ -12,6 +13,7 @@ mod lanes;
 mod oracle;
 mod rays;
 mod real;
+pub mod run;
 mod span;
 mod state;
 

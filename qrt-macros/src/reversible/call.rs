@@ -1,0 +1,168 @@
+//! Calls of reversible functions, and swaps.
+
+use super::ir::{Place, Register, Statement, StatementKind as K};
+use super::scope::{Scope, text, type_text};
+use proc_macro2::{Span, TokenStream};
+use qrt_core::codes;
+use quote::ToTokens;
+use std::rc::Rc;
+use syn::spanned::Spanned;
+use syn::{Expr, ExprCall};
+
+impl Scope {
+    pub(super) fn call(&mut self, call: &ExprCall, source: TokenStream) -> Option<Statement> {
+        let Expr::Path(function) = &*call.func else {
+            let message = "what is called here is not the name of a function";
+            let help = "call functions marked `#[reversible]` by name";
+            self.problems
+                .add(codes::REV_CALL, &call.func, message, help);
+            return None;
+        };
+        let path = &function.path;
+        if path.is_ident("swap") {
+            return self.swap(call, source);
+        }
+        if path.get_ident().is_some_and(|name| {
+            let name = name.to_string();
+            self.routine == name.strip_suffix("_inverse").unwrap_or(&name)
+        }) {
+            let message = "a reversible function cannot call itself";
+            let help = "write `for` over constants";
+            self.problems.add(codes::REV_CALL, path, message, help);
+            return None;
+        }
+        let mut arguments: Vec<(Rc<Register>, bool, Span)> = Vec::new();
+        let mut complete = true;
+        for argument in &call.args {
+            match self.argument(argument) {
+                Some((register, change)) => {
+                    self.handed_twice(&arguments, &register, change, argument);
+                    arguments.push((register, change, argument.span()));
+                }
+                None => complete = false,
+            }
+        }
+        for (register, change, _) in &arguments {
+            if *change {
+                let place = Place {
+                    register: register.clone(),
+                    part: None,
+                };
+                self.writes.push((place, source.clone()));
+            }
+        }
+        let kind = K::Call {
+            path: path.clone(),
+            inverse: false,
+            arguments,
+        };
+        complete.then_some(Statement { kind, source })
+    }
+
+    /// A register, and whether it may be changed.
+    fn argument(&mut self, argument: &Expr) -> Option<(Rc<Register>, bool)> {
+        let Expr::Reference(reference) = argument else {
+            let shown = text(argument);
+            let (message, help) = if matches!(argument, Expr::Path(_)) {
+                let help = format!(
+                    "write `&{shown}` to let it be read, `&mut {shown}` to let it be changed"
+                );
+                ("a register is handed over by reference", help)
+            } else {
+                let help = "compute it into a scratch register in `within!`, and call in `apply!`";
+                ("an argument is a register", help.to_owned())
+            };
+            self.problems
+                .add(codes::REV_ARGUMENT, argument, message, &help);
+            return None;
+        };
+        let Expr::Path(_) = &*reference.expr else {
+            let message = "an argument is a whole register";
+            let help = "compute it into a scratch register in `within!`, and call in `apply!`";
+            self.problems
+                .add(codes::REV_ARGUMENT, &reference.expr, message, help);
+            return None;
+        };
+        let place = self.place(&reference.expr)?;
+        let change = reference.mutability.is_some();
+        if change {
+            self.may_change(&place, argument);
+        }
+        Some((place.register, change))
+    }
+
+    fn handed_twice(
+        &mut self,
+        earlier: &[(Rc<Register>, bool, Span)],
+        register: &Register,
+        change: bool,
+        place: impl ToTokens,
+    ) {
+        let mut earlier = earlier.iter();
+        if earlier.any(|(other, changed, _)| other.name == register.name && (change || *changed)) {
+            let name = &register.name;
+            let message = format!("`{name}` is handed over twice, and may be changed");
+            let help = "hand over another register, such as a copy in a scratch register";
+            self.problems
+                .add(codes::REV_CHANGE_TWICE, place, &message, help);
+        }
+    }
+
+    fn swap(&mut self, call: &ExprCall, source: TokenStream) -> Option<Statement> {
+        let arguments: Vec<&Expr> = call.args.iter().collect();
+        let [a, b] = arguments.as_slice() else {
+            let message = "`swap` exchanges two registers";
+            self.problems
+                .add(codes::REV_ARGUMENT, call, message, "write `swap(a, b)`");
+            return None;
+        };
+        let mut places = Vec::new();
+        for argument in [a, b] {
+            let place = self.place(argument)?;
+            if place.part.is_some() {
+                let message = "`swap` exchanges whole registers";
+                let help = "exchange bits by three `^=`: a ^= b, b ^= a, a ^= b";
+                self.problems
+                    .add(codes::REV_ARGUMENT, argument, message, help);
+                return None;
+            }
+            self.may_change(&place, argument);
+            self.writes.push((place.clone(), source.clone()));
+            places.push(place.register);
+        }
+        let [first, second] = [places[0].clone(), places[1].clone()];
+        if first.name == second.name {
+            let message = format!("`{}` is swapped with itself", first.name);
+            let help = "name another register, or remove the statement";
+            self.problems
+                .add(codes::REV_CHANGE_TWICE, b, &message, help);
+            return None;
+        }
+        if first.format != second.format {
+            let [one, other] = [&first.ty, &second.ty].map(type_text);
+            let known = [&first, &second].map(|r| {
+                (
+                    r.format.kind,
+                    r.format.width.known(),
+                    r.format.fraction.known(),
+                )
+            });
+            let message = format!("`{one}` is swapped with `{other}`");
+            let help = "swap registers of one format";
+            if known[0].0 == known[1].0 && known.iter().any(|(_, width, _)| width.is_none()) {
+                let widths = [&first, &second].map(|register| register.format.width.clone());
+                let fractions = [&first, &second].map(|r| r.format.fraction.clone());
+                let equal = "QRT0807: registers of different formats are swapped";
+                for [a, b] in [widths, fractions] {
+                    self.holds(&a.minus(&b), equal);
+                    self.holds(&b.minus(&a), equal);
+                }
+            } else {
+                self.problems.add(codes::REV_FORMAT, b, &message, help);
+                return None;
+            }
+        }
+        let kind = K::Swap(first, second);
+        Some(Statement { kind, source })
+    }
+}

@@ -1,0 +1,224 @@
+//! A routine that has been understood: names are resolved, widths are known.
+
+use super::dim::{Dim, Linear};
+use proc_macro2::{Span, TokenStream};
+use std::rc::Rc;
+use syn::{Ident, Path, Type};
+
+/// A function marked `#[reversible]`.
+pub(super) struct Routine {
+    pub(super) signature: Signature,
+    pub(super) body: Vec<Statement>,
+    pub(super) demands: Vec<Demand>,
+}
+
+/// All of a function but its body.
+#[derive(Clone)]
+pub(super) struct Signature {
+    pub(super) attributes: Vec<syn::Attribute>,
+    pub(super) visibility: syn::Visibility,
+    pub(super) name: Ident,
+    pub(super) constants: Vec<Ident>,
+    pub(super) parameters: Vec<Rc<Register>>,
+}
+
+/// What must hold of the constants that a routine is generic over.
+pub(super) struct Demand {
+    pub(super) condition: TokenStream,
+    pub(super) message: String,
+}
+
+/// A register, as it is declared.
+pub(super) struct Register {
+    pub(super) name: Ident,
+    pub(super) ty: Type,
+    pub(super) format: Format,
+    /// A parameter is a reference, a scratch register a value.
+    pub(super) parameter: bool,
+    pub(super) mutable: bool,
+}
+
+/// What a register's bits mean.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Format {
+    pub(super) kind: Kind,
+    pub(super) width: Linear,
+    pub(super) fraction: Linear,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    Bool,
+    UInt,
+    Int,
+    UFixed,
+    Fixed,
+}
+
+impl Format {
+    pub(super) fn signed(&self) -> bool {
+        matches!(self.kind, Kind::Int | Kind::Fixed)
+    }
+
+    pub(super) fn fixed(&self) -> bool {
+        matches!(self.kind, Kind::Fixed | Kind::UFixed)
+    }
+}
+
+/// A number of an expression, and the place in the text that it stands for.
+#[derive(Clone)]
+pub(super) struct Number {
+    pub(super) kind: NumberKind,
+    pub(super) size: Size,
+    pub(super) source: TokenStream,
+}
+
+/// What a number's bits mean.
+#[derive(Clone, Debug)]
+pub(super) struct Size {
+    pub(super) width: Dim,
+    pub(super) signed: bool,
+    pub(super) fraction: Linear,
+    /// Has it a point, so that shifts move that and floor nothing?
+    pub(super) fixed: bool,
+    /// May its lowest fraction bits be dropped without being asked?
+    pub(super) floors: bool,
+}
+
+#[derive(Clone)]
+pub(super) enum NumberKind {
+    /// In units of the lowest fraction bit.
+    Constant(i64),
+    /// The bits from the first on, as many as the number has.
+    Word(Rc<Register>, Linear),
+    Truth(Box<Bit>),
+    /// Times `2^n`.
+    Shifted(Box<Number>, Linear),
+    /// `floor(x / 2^n)`.
+    Dropped(Box<Number>, Linear),
+    /// The same bits, with the point elsewhere.
+    Pointed(Box<Number>),
+    Product(Box<Number>, Box<Number>),
+    Square(Box<Number>),
+    /// Numbers that are added, and those (`true`) that are subtracted.
+    Sum(Vec<(bool, Number)>),
+}
+
+/// A truth value of an expression.
+#[derive(Clone)]
+pub(super) enum Bit {
+    Constant(bool),
+    At(Rc<Register>, Linear),
+    Not(Box<Bit>),
+    And(Box<Bit>, Box<Bit>),
+    Xor(Box<Bit>, Box<Bit>),
+    Less(Box<Number>, Box<Number>),
+    Equal(Box<Number>, Box<Number>),
+}
+
+/// Where an update goes: some bits of a register, or all.
+#[derive(Clone)]
+pub(super) struct Place {
+    pub(super) register: Rc<Register>,
+    /// The first bit and their number.
+    pub(super) part: Option<[Linear; 2]>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Update {
+    Add,
+    Subtract,
+    Xor,
+}
+
+/// What an update takes: a part of a sum.
+#[derive(Clone)]
+pub(super) enum Term {
+    Number(Number),
+    Bit(Bit, TokenStream),
+}
+
+#[derive(Clone)]
+pub(super) struct Statement {
+    pub(super) kind: StatementKind,
+    /// What errors underline.
+    pub(super) source: TokenStream,
+}
+
+#[derive(Clone)]
+pub(super) enum StatementKind {
+    Update(Place, Vec<(Update, Term)>),
+    Swap(Rc<Register>, Rc<Register>),
+    Call {
+        path: Path,
+        /// Is it the inverse of the function that is named?
+        inverse: bool,
+        /// Registers, and whether they may be changed.
+        arguments: Vec<(Rc<Register>, bool, Span)>,
+    },
+    If(Bit, Vec<Statement>, Vec<Statement>),
+    For {
+        variable: Ident,
+        bounds: [Linear; 2],
+        reversed: bool,
+        body: Vec<Statement>,
+    },
+    /// Computes, uses and undoes.
+    Within(Vec<Statement>, Vec<Statement>),
+    /// A scratch register, and what it is there for.
+    Scratch(Rc<Register>, Vec<Statement>),
+    Block(Vec<Statement>),
+}
+
+impl Statement {
+    pub(super) fn inverse(&self) -> Self {
+        use StatementKind as K;
+        let kind = match &self.kind {
+            K::Update(place, terms) => {
+                let turned = terms.iter().rev().map(|(update, term)| {
+                    let update = match update {
+                        Update::Add => Update::Subtract,
+                        Update::Subtract => Update::Add,
+                        Update::Xor => Update::Xor,
+                    };
+                    (update, term.clone())
+                });
+                K::Update(place.clone(), turned.collect())
+            }
+            K::Swap(a, b) => K::Swap(a.clone(), b.clone()),
+            K::Call {
+                path,
+                inverse,
+                arguments,
+            } => K::Call {
+                path: path.clone(),
+                inverse: !inverse,
+                arguments: arguments.clone(),
+            },
+            K::If(bit, holds, fails) => K::If(bit.clone(), inverse(holds), inverse(fails)),
+            K::For {
+                variable,
+                bounds,
+                reversed,
+                body,
+            } => K::For {
+                variable: variable.clone(),
+                bounds: bounds.clone(),
+                reversed: !reversed,
+                body: inverse(body),
+            },
+            K::Within(within, apply) => K::Within(within.clone(), inverse(apply)),
+            K::Scratch(register, body) => K::Scratch(register.clone(), inverse(body)),
+            K::Block(body) => K::Block(inverse(body)),
+        };
+        Self {
+            kind,
+            source: self.source.clone(),
+        }
+    }
+}
+
+/// The inverses, in reverse order.
+pub(super) fn inverse(statements: &[Statement]) -> Vec<Statement> {
+    statements.iter().rev().map(Statement::inverse).collect()
+}

@@ -1,0 +1,394 @@
+//! Expressions, computed out of place: what is computed first, and how the result is read.
+
+use super::dim::{Dim, Linear};
+use super::ir::{Bit, Number, NumberKind, Register, Size};
+use super::scope::text;
+use proc_macro2::{Ident, Literal, Span, TokenStream};
+use quote::{format_ident, quote};
+
+/// A name of the generated code's own, which no name of the author's can be mixed up with.
+pub(super) fn own(name: &str) -> Ident {
+    Ident::new(name, Span::mixed_site())
+}
+
+/// What a statement computes before and undoes after it.
+#[derive(Default)]
+pub(super) struct Temporaries {
+    pub(super) computed: Vec<TokenStream>,
+    names: Vec<Ident>,
+    /// Registers that can't be read while the statement runs: their bits are copied.
+    pub(super) copied: Vec<syn::Ident>,
+    /// How many the routine has had before.
+    first: usize,
+}
+
+/// A number, as it is read.
+pub(super) enum Value {
+    Constant(TokenStream),
+    Word(View),
+}
+
+/// Some bits of a register.
+#[derive(Clone)]
+pub(super) struct View {
+    /// A reference to the register.
+    register: TokenStream,
+    /// Its [`qrt_core::circuit::Word`], where all of it is read.
+    whole: Option<TokenStream>,
+    first: Linear,
+    width: Dim,
+    signed: bool,
+    shift: Linear,
+}
+
+impl View {
+    fn temporary(name: &Ident, width: Dim, signed: bool) -> Self {
+        Self {
+            register: quote!(&#name),
+            whole: None,
+            first: 0.into(),
+            width,
+            signed,
+            shift: 0.into(),
+        }
+    }
+
+    fn tokens(&self) -> TokenStream {
+        let (register, first) = (&self.register, self.first.tokens());
+        let width = self.width.tokens();
+        let word = match &self.whole {
+            Some(whole) => whole.clone(),
+            None if self.signed => quote!(Word::signed(#register, #first, #width)),
+            None => quote!(Word::unsigned(#register, #first, #width)),
+        };
+        if self.shift.is_zero() {
+            return word;
+        }
+        let shift = self.shift.tokens();
+        quote!(#word.shifted(#shift))
+    }
+}
+
+impl Value {
+    fn operand(&self) -> TokenStream {
+        match self {
+            Self::Constant(units) => quote!(Operand::Constant(#units)),
+            Self::Word(view) => {
+                let word = view.tokens();
+                quote!(#word.into())
+            }
+        }
+    }
+
+    fn shifted(self, by: &Linear) -> Self {
+        match self {
+            _ if by.is_zero() => self,
+            Self::Constant(units) => {
+                let known = units.to_string().parse::<i64>().ok().zip(by.known());
+                let shifted = known.and_then(|(units, by)| units.checked_shl(by as u32));
+                Self::Constant(match shifted {
+                    Some(units) => {
+                        let units = Literal::i64_unsuffixed(units);
+                        quote!(#units)
+                    }
+                    None => {
+                        let by = by.tokens();
+                        quote!((#units << (#by)))
+                    }
+                })
+            }
+            Self::Word(view) => Self::Word(View {
+                shift: view.shift.plus(by),
+                ..view
+            }),
+        }
+    }
+}
+
+impl Temporaries {
+    /// None yet, after so many of other statements.
+    pub(super) fn after(first: usize) -> Self {
+        Self {
+            first,
+            ..Self::default()
+        }
+    }
+
+    /// Undoes what was computed, last first.
+    pub(super) fn undone(&self) -> TokenStream {
+        let names = self.names.iter().rev();
+        let machine = own("machine");
+        quote!(#(#machine.undo([#names]);)*)
+    }
+
+    pub(super) fn count(&self) -> usize {
+        self.names.len()
+    }
+
+    fn operation(&mut self, operation: &str, operands: &TokenStream) -> Ident {
+        let name = own(&format!("t{}", self.first + self.names.len()));
+        let (machine, operation) = (own("machine"), own(operation));
+        self.computed
+            .push(quote!(let #name = #machine.#operation(#operands);));
+        self.names.push(name.clone());
+        name
+    }
+
+    /// An operand of an operation.
+    pub(super) fn operand(&mut self, number: &Number) -> TokenStream {
+        self.value(number).operand()
+    }
+
+    /// An operand, shifted up to the first bit of a place.
+    pub(super) fn operand_at(&mut self, number: &Number, first: &Linear) -> TokenStream {
+        self.value(number).shifted(first).operand()
+    }
+
+    fn word(&mut self, number: &Number) -> TokenStream {
+        match self.value(number) {
+            Value::Word(view) => view.tokens(),
+            Value::Constant(_) => {
+                let name = self.sum(&[(false, number.clone())], number);
+                View::temporary(&name, number.size.width.clone(), number.size.signed).tokens()
+            }
+        }
+    }
+
+    fn value(&mut self, number: &Number) -> Value {
+        let Size { width, signed, .. } = &number.size;
+        match &number.kind {
+            NumberKind::Constant(units) => {
+                let units = Literal::i64_unsuffixed(*units);
+                Value::Constant(quote!(#units))
+            }
+            NumberKind::Word(register, first) => Value::Word(self.read(register, first, number)),
+            NumberKind::Truth(bit) => {
+                let when = self.bit(bit);
+                let declared = declaration(number, width);
+                let name = self.operation(
+                    "select",
+                    &quote!(#declared, #when, Operand::Constant(1), Operand::Constant(0),),
+                );
+                Value::Word(View::temporary(&name, 1.into(), false))
+            }
+            NumberKind::Shifted(inner, by) => self.value(inner).shifted(by),
+            NumberKind::Pointed(inner) => self.value(inner),
+            NumberKind::Dropped(inner, by) => self.dropped(inner, by, number),
+            NumberKind::Product(..) | NumberKind::Square(_) => {
+                let name = self.product(number, &0.into(), number);
+                Value::Word(View::temporary(&name, width.clone(), *signed))
+            }
+            NumberKind::Sum(terms) => {
+                let name = self.sum(terms, number);
+                Value::Word(View::temporary(&name, width.clone(), *signed))
+            }
+        }
+    }
+
+    fn read(&mut self, register: &Register, first: &Linear, number: &Number) -> View {
+        let name = &register.name;
+        let Size { width, signed, .. } = &number.size;
+        let all = first.is_zero() && *width == register.format.width.clone().into();
+        let view = View {
+            register: quote!(#name.register()),
+            whole: (all && *signed == register.format.signed()).then(|| quote!(#name.word())),
+            first: first.clone(),
+            width: width.clone(),
+            signed: *signed,
+            shift: 0.into(),
+        };
+        if !self.copied.contains(name) {
+            return view;
+        }
+        let (declared, word) = (declaration(number, width), view.tokens());
+        let copy = self.operation("copy", &quote!(#declared, #word));
+        View::temporary(&copy, width.clone(), *signed)
+    }
+
+    fn dropped(&mut self, inner: &Number, by: &Linear, number: &Number) -> Value {
+        if inner.is_product() {
+            let name = self.product(inner, by, number);
+            let Size { width, signed, .. } = &number.size;
+            return Value::Word(View::temporary(&name, width.clone(), *signed));
+        }
+        let view = match self.value(inner) {
+            Value::Word(view) => view,
+            Value::Constant(units) => {
+                let by = by.tokens();
+                return Value::Constant(quote!((#units >> (#by))));
+            }
+        };
+        let width = number.size.width.clone();
+        if by.minus(&view.shift).never_negative() {
+            let first = view.first.plus(&by.minus(&view.shift));
+            let (shift, whole) = (0.into(), None);
+            return Value::Word(View {
+                first,
+                width,
+                shift,
+                whole,
+                ..view
+            });
+        }
+        if view.shift.minus(by).never_negative() {
+            let shift = view.shift.minus(by);
+            return Value::Word(View { shift, ..view });
+        }
+        // Which of the two is more is not known: the zeros below become bits.
+        let (declared, word) = (declaration(inner, &inner.size.width), view.tokens());
+        let copy = self.operation("copy", &quote!(#declared, #word));
+        let view = View::temporary(&copy, width, inner.size.signed);
+        Value::Word(View {
+            first: by.clone(),
+            ..view
+        })
+    }
+
+    /// A product without its lowest bits; its size is that of `result`.
+    fn product(&mut self, number: &Number, drop: &Linear, result: &Number) -> Ident {
+        if let NumberKind::Pointed(inner) = &number.kind {
+            return self.product(inner, drop, result);
+        }
+        let declared = declaration(result, &result.size.width);
+        let drop = drop.tokens();
+        match &number.kind {
+            NumberKind::Square(a) => {
+                let a = self.word(a);
+                self.operation("square", &quote!(#declared, #a, #drop))
+            }
+            NumberKind::Product(a, b) => {
+                if let NumberKind::Constant(factor) = a.kind {
+                    let factor = Literal::i64_unsuffixed(factor);
+                    let b = self.word(b);
+                    return self.operation("scale", &quote!(#declared, #b, #factor, #drop));
+                }
+                let (a, b) = (self.word(a), self.word(b));
+                self.operation("multiply", &quote!(#declared, #a, #b, #drop))
+            }
+            _ => self.sum(&[(false, number.clone())], number),
+        }
+    }
+
+    /// A sum, its terms aligned to the result's last bit.
+    fn sum(&mut self, terms: &[(bool, Number)], result: &Number) -> Ident {
+        let declared = declaration(result, &result.size.width);
+        let fraction = &result.size.fraction;
+        let mut sum = quote!(Operand::Constant(0));
+        let mut name = None;
+        for (place, (subtract, term)) in terms.iter().enumerate() {
+            let below = fraction.minus(&term.size.fraction);
+            let term = self.operand_at(term, &below);
+            if place == 0 && !subtract && terms.len() > 1 {
+                sum = term;
+                continue;
+            }
+            let operation = if *subtract { "subtract" } else { "add" };
+            let next = self.operation(operation, &quote!(#declared, #sum, #term));
+            let view = View::temporary(&next, result.size.width.clone(), result.size.signed);
+            let word = view.tokens();
+            sum = quote!(#word.into());
+            name = Some(next);
+        }
+        name.unwrap_or_else(|| format_ident!("_"))
+    }
+
+    /// A bit of a register or of what is computed.
+    pub(super) fn bit(&mut self, bit: &Bit) -> TokenStream {
+        match bit {
+            Bit::Constant(value) => {
+                let declared = bit_declaration("constant");
+                let units = Literal::i64_unsuffixed(i64::from(*value));
+                let name = self.operation(
+                    "add",
+                    &quote!(#declared, Operand::Constant(#units), Operand::Constant(0),),
+                );
+                quote!(Bit::at(&#name, 0))
+            }
+            Bit::At(register, index) => {
+                let name = &register.name;
+                let index = index.tokens();
+                if !self.copied.contains(name) {
+                    return quote!(Bit::at(#name.register(), #index));
+                }
+                let declared = bit_declaration(&format!("{name}[{index}]"));
+                let copy = self.operation(
+                    "copy",
+                    &quote!(#declared, Word::unsigned(#name.register(), #index, 1)),
+                );
+                quote!(Bit::at(&#copy, 0))
+            }
+            Bit::Not(inner) => {
+                let inner = self.bit(inner);
+                quote!(#inner.inverted())
+            }
+            Bit::And(a, b) => {
+                let (a, b) = (self.bit(a), self.bit(b));
+                let declared = bit_declaration("and");
+                let name = self.operation("and", &quote!(#declared, #a, #b));
+                quote!(Bit::at(&#name, 0))
+            }
+            Bit::Xor(a, b) => {
+                let (a, b) = (self.bit(a), self.bit(b));
+                let declared = bit_declaration("xor");
+                let name = self.operation("xor", &quote!(#declared, #a, #b));
+                quote!(Bit::at(&#name, 0))
+            }
+            Bit::Less(a, b) => {
+                let [a, b] = self.aligned(a, b);
+                let name = self.less(&a, &b);
+                quote!(Bit::at(&#name, 0))
+            }
+            Bit::Equal(a, b) => {
+                let [a, b] = self.aligned(a, b);
+                let (less, greater) = (self.less(&a, &b), self.less(&b, &a));
+                let declared = bit_declaration("equal");
+                let name = self.operation(
+                    "and",
+                    &quote!(#declared,
+                        Bit::at(&#less, 0).inverted(),
+                        Bit::at(&#greater, 0).inverted(),),
+                );
+                quote!(Bit::at(&#name, 0))
+            }
+        }
+    }
+
+    fn less(&mut self, a: &TokenStream, b: &TokenStream) -> Ident {
+        let declared = bit_declaration("less");
+        self.operation("less", &quote!(#declared, #a, #b))
+    }
+
+    /// Two numbers in units of the lower last bit of the two.
+    fn aligned(&mut self, a: &Number, b: &Number) -> [TokenStream; 2] {
+        let more = a.size.fraction.minus(&b.size.fraction);
+        let less = more.times(-1);
+        if more.never_negative() || b.is_constant() && !less.never_negative() {
+            [self.operand(a), self.operand_at(b, &more)]
+        } else {
+            [self.operand_at(a, &less), self.operand(b)]
+        }
+    }
+}
+
+impl Number {
+    fn is_constant(&self) -> bool {
+        matches!(self.kind, NumberKind::Constant(_))
+    }
+}
+
+fn bit_declaration(name: &str) -> TokenStream {
+    quote!(&Declaration::work(#name, Type::Bool, 1))
+}
+
+fn declaration(number: &Number, width: &Dim) -> TokenStream {
+    let name = text(&number.source);
+    let fraction = number.size.fraction.tokens();
+    let ty = match (number.size.fixed, number.size.signed) {
+        (false, false) => quote!(Type::UInt),
+        (false, true) => quote!(Type::Int),
+        (true, false) => quote!(Type::UFixed { fraction: #fraction }),
+        (true, true) => quote!(Type::Fixed { fraction: #fraction }),
+    };
+    let width = width.tokens();
+    quote!(&Declaration::work(#name, #ty, #width))
+}

@@ -1,0 +1,273 @@
+//! Routines, run: a program whose inputs are changed in place, on each of the machines.
+//!
+//! A *state* is what the program's inputs hold, in their order: bits, as unsigned integers. The
+//! same registers are read after the program, and everything else must be zero again.
+//!
+//! ```
+//! use qrt_core::circuit::format::{Reg, UInt};
+//! use qrt_core::circuit::{Machine, Recorder, Style, When};
+//! use qrt_runtime::machines::run;
+//!
+//! let mut recorder = Recorder::new(Style::Lean);
+//! let a: Reg<_, UInt<4>> = Reg::input(&mut recorder, "a");
+//! let mut b: Reg<_, UInt<4>> = Reg::input(&mut recorder, "b");
+//! recorder.add_into(b.register_mut(), a.word().into(), false, When::Always);
+//! let program = recorder.finish();
+//!
+//! let states = [[3, 4], [9, 9]];
+//! assert_eq!(run::on_definition(&program, &states)?, [[3, 7], [9, 2]]);
+//! assert_eq!(run::on_fixed(&program, &states)?, [[3, 7], [9, 2]]);
+//! assert_eq!(run::on_gates(&program, &states)?, [[3, 7], [9, 2]]);
+//! # Ok::<(), run::RunError>(())
+//! ```
+
+use super::{Fixed, Gates};
+use qrt_core::circuit::{
+    Contents, Instruction, Op, Operand, Program, Qubit, RegisterId, Word, lower,
+};
+use std::fmt;
+
+/// Why a program did not run as a routine does.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum RunError {
+    /// A state has another number of contents than the program has inputs.
+    Inputs {
+        /// The state's place.
+        state: usize,
+        /// What the program has.
+        expected: usize,
+    },
+    /// A state's content has more bits than its register.
+    TooWide {
+        /// The state's place.
+        state: usize,
+        /// The register's name.
+        register: String,
+    },
+    /// A program with classical words, which only a scene's pixels decide.
+    Parameters,
+    /// A register is not given back.
+    Kept {
+        /// The register's name.
+        register: String,
+    },
+    /// A register is given back that is not zero, or is undone after its operands have changed.
+    Dirty {
+        /// The state's place.
+        state: usize,
+        /// The register's name, or the qubit.
+        register: String,
+    },
+}
+
+impl fmt::Display for RunError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Inputs { state, expected } => {
+                write!(
+                    f,
+                    "state {state} does not hold {expected} contents, one an input"
+                )
+            }
+            Self::TooWide { state, register } => {
+                write!(f, "state {state} holds more than fits into `{register}`")
+            }
+            Self::Parameters => f.write_str("the program has classical words"),
+            Self::Kept { register } => write!(f, "`{register}` is never given back"),
+            Self::Dirty { state, register } => {
+                write!(
+                    f,
+                    "`{register}` is given back, and is not zero from state {state}"
+                )
+            }
+        }
+    }
+}
+
+impl std::error::Error for RunError {}
+
+/// By the definition of its operations, one state at a time. Whatever is undone is compared with
+/// what its operation computes at that moment.
+///
+/// # Errors
+/// If a state does not fit the program, or the program leaves something behind.
+pub fn on_definition(
+    program: &Program,
+    states: &[impl AsRef<[u64]>],
+) -> Result<Vec<Vec<u64>>, RunError> {
+    check(program, states)?;
+    let widths: Vec<u32> = program.registers.iter().map(|r| r.width).collect();
+    let run = |(state, inputs): (usize, &[u64])| {
+        let mut contents = Contents {
+            registers: vec![0; widths.len()],
+            parameters: Vec::new(),
+            widths: widths.clone(),
+            negative: false,
+        };
+        for (register, bits) in program.inputs.iter().zip(inputs) {
+            contents.registers[register.index()] = *bits;
+        }
+        for instruction in &program.instructions {
+            follow(program, *instruction, &mut contents).map_err(|register| RunError::Dirty {
+                state,
+                register: name(program, register),
+            })?;
+        }
+        let inputs = program.inputs.iter();
+        Ok(inputs.map(|id| contents.registers[id.index()]).collect())
+    };
+    let states = states.iter().map(AsRef::as_ref).enumerate();
+    states.map(run).collect()
+}
+
+fn follow(
+    program: &Program,
+    instruction: Instruction,
+    contents: &mut Contents,
+) -> Result<(), RegisterId> {
+    let op = &program.ops[instruction.op as usize];
+    if !instruction.inverse {
+        contents.compute(op);
+        return Ok(());
+    }
+    let targets = op.targets();
+    if !targets.is_empty() {
+        let mut expected = contents.clone();
+        expected.compute(op);
+        let differs =
+            |id: &&RegisterId| expected.registers[id.index()] != contents.registers[id.index()];
+        if let Some(dirty) = targets.iter().find(differs) {
+            return Err(*dirty);
+        }
+    }
+    contents.uncompute(op);
+    Ok(())
+}
+
+/// On the fixed machine. It undoes nothing; registers of the routine's own are read after it
+/// instead, and must be zero.
+///
+/// # Errors
+/// If a state does not fit the program, or the program leaves something behind.
+pub fn on_fixed(
+    program: &Program,
+    states: &[impl AsRef<[u64]>],
+) -> Result<Vec<Vec<u64>>, RunError> {
+    check(program, states)?;
+    let read = |id: RegisterId| Word::unsigned(id, 0, program.width(id));
+    let own = own(program);
+    let held = program.inputs.iter().chain(&own).map(|id| read(*id));
+    let machine = Fixed::new(program, &held.collect::<Vec<_>>());
+    let mut lanes = machine.lanes();
+    let mut results = Vec::with_capacity(states.len());
+    for (block, states) in states.chunks(Fixed::LANES).enumerate() {
+        let columns = columns(program, states);
+        let inputs: Vec<&[u64]> = columns.iter().map(Vec::as_slice).collect();
+        let mut outputs = vec![vec![0_i64; states.len()]; program.inputs.len() + own.len()];
+        let mut slices: Vec<&mut [i64]> = outputs.iter_mut().map(Vec::as_mut_slice).collect();
+        machine.run(&mut lanes, &inputs, &[], &mut slices);
+        let (outputs, own_outputs) = outputs.split_at(program.inputs.len());
+        for (id, contents) in own.iter().zip(own_outputs) {
+            if let Some(lane) = contents.iter().position(|bits| *bits != 0) {
+                return Err(RunError::Dirty {
+                    state: block * Fixed::LANES + lane,
+                    register: name(program, *id),
+                });
+            }
+        }
+        let state = |lane: usize| outputs.iter().map(|o| o[lane].cast_unsigned()).collect();
+        results.extend((0..states.len()).map(state));
+    }
+    Ok(results)
+}
+
+/// On the gates machine: every gate of its circuit. All qubits but those of the inputs must be
+/// zero after it.
+///
+/// # Errors
+/// If a state does not fit the program, or the program leaves something behind.
+pub fn on_gates(
+    program: &Program,
+    states: &[impl AsRef<[u64]>],
+) -> Result<Vec<Vec<u64>>, RunError> {
+    check(program, states)?;
+    let circuit = lower::circuit(program);
+    // The lowering makes no invalid gates.
+    let Ok(machine) = Gates::new(&[&circuit]) else {
+        return Err(RunError::Parameters);
+    };
+    let qubits = |id: &RegisterId| -> &[Qubit] {
+        let mut held = circuit.inputs.iter();
+        held.find(|(held, _)| held == id)
+            .map_or(&[], |(_, qubits)| qubits)
+    };
+    let inputs: Vec<&[Qubit]> = program.inputs.iter().map(qubits).collect();
+    let mut rows = machine.rows();
+    let mut results = Vec::with_capacity(states.len());
+    for (block, states) in states.chunks(Gates::LANES).enumerate() {
+        rows.clear();
+        for (qubits, column) in inputs.iter().zip(columns(program, states)) {
+            rows.set(qubits, &column);
+        }
+        machine.run(0, &mut rows);
+        if let Some(dirty) = rows.dirty(&inputs.concat(), states.len()) {
+            return Err(RunError::Dirty {
+                state: block * Gates::LANES + dirty.lane,
+                register: format!("qubit {}", dirty.qubit),
+            });
+        }
+        let mut outputs = vec![vec![0; states.len()]; inputs.len()];
+        for (qubits, output) in inputs.iter().zip(&mut outputs) {
+            rows.get(qubits, output);
+        }
+        let state = |lane: usize| outputs.iter().map(|output| output[lane]).collect();
+        results.extend((0..states.len()).map(state));
+    }
+    Ok(results)
+}
+
+fn name(program: &Program, register: RegisterId) -> String {
+    program.registers[register.index()].name.clone()
+}
+
+/// Registers that a routine has changed in place and given back: computed by nothing.
+fn own(program: &Program) -> Vec<RegisterId> {
+    let zero = |op: &Op| match op {
+        Op::Add {
+            a: Operand::Constant(0),
+            b: Operand::Constant(0),
+            target,
+            ..
+        } => Some(*target),
+        _ => None,
+    };
+    program.ops.iter().filter_map(zero).collect()
+}
+
+fn columns(program: &Program, states: &[impl AsRef<[u64]>]) -> Vec<Vec<u64>> {
+    let column = |input| states.iter().map(|state| state.as_ref()[input]).collect();
+    (0..program.inputs.len()).map(column).collect()
+}
+
+fn check(program: &Program, states: &[impl AsRef<[u64]>]) -> Result<(), RunError> {
+    if !program.parameters.is_empty() {
+        return Err(RunError::Parameters);
+    }
+    let outputs = program.outputs();
+    if let Some(kept) = outputs.iter().find(|id| !program.inputs.contains(id)) {
+        let register = name(program, *kept);
+        return Err(RunError::Kept { register });
+    }
+    for (state, contents) in states.iter().map(AsRef::as_ref).enumerate() {
+        let expected = program.inputs.len();
+        if contents.len() != expected {
+            return Err(RunError::Inputs { state, expected });
+        }
+        let mut held = program.inputs.iter().zip(contents);
+        if let Some((id, _)) = held.find(|(id, bits)| *bits >> program.width(**id) != 0) {
+            let register = name(program, *id);
+            return Err(RunError::TooWide { state, register });
+        }
+    }
+    Ok(())
+}
