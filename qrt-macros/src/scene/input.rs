@@ -231,7 +231,10 @@ impl<'t> Input<'t> {
                 let message = format!("the first number of `Fixed` is 2, not {whole}");
                 self.faults
                     .add(codes::MACRO_FORMAT, first.place(), message)
-                    .note("unit numbers lie in [-1, 1]; other registers get the integer bits that their ranges need")
+                    .note(
+                        "unit numbers lie in [-1, 1]; \
+                     other registers get the integer bits that their ranges need",
+                    )
                     .help(format!("write `<Fixed<2, {fraction}>>`"));
                 return None;
             }

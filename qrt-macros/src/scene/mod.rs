@@ -1,7 +1,7 @@
 //! `qrt!`: tokens to a checked scene, and back to what says it in Rust.
 //!
 //! The tokens become the same tree that YAML text becomes, with the tokens' numbers for places, and
-//! the one checker does the rest: what it says of a path in the tree is shown at that path's tokens.
+//! the one checker does the rest: what it says of a path in the tree is shown at the path's tokens.
 
 mod advice;
 mod body;
@@ -145,7 +145,7 @@ impl Parsed {
     }
 }
 
-/// Whether what is said of `path` follows from a value there, above or below that could not be read.
+/// Whether what is said of `path` follows from a value there, above or below, that was not read.
 fn follows(tree: &Node, path: &Path) -> bool {
     let mut node = tree;
     for step in &path.0 {

@@ -284,8 +284,15 @@ impl Reader {
             }
         }
         self.faults
-            .add(codes::MACRO_MAP, place, "a map is a function of `u` and `v`")
-            .help("write `map: |u, v| (sqrt(u) * cos(2 * pi * v), sqrt(u) * sin(2 * pi * v), sqrt(1 - u))`");
+            .add(
+                codes::MACRO_MAP,
+                place,
+                "a map is a function of `u` and `v`",
+            )
+            .help(format!(
+                "write `{}`",
+                super::advice::example("map").unwrap_or("map")
+            ));
         faulty(place)
     }
 }
