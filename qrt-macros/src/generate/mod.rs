@@ -8,6 +8,7 @@ mod code;
 mod data;
 mod fields;
 mod names;
+mod native;
 #[cfg(test)]
 mod tests;
 
@@ -63,6 +64,13 @@ pub(crate) fn broken(name: &str) -> TokenStream {
                     ::qrt::core::oracle::compiled::Computed<'_, Self, M::Register>,
                 ) -> T,
             ) -> T {{ {why} }}
+        }}
+        impl ::qrt::runtime::machines::NativeOracle for {name} {{
+            fn native<V: ::qrt::runtime::machines::native::Vectors>(
+                _: V,
+                _: &[u64],
+                _: V::Longs,
+            ) -> [[V::Longs; 3]; 2] {{ {why} }}
         }}"
     );
     text.parse().unwrap_or_default()
@@ -91,7 +99,10 @@ fn text(scene: &str, public: &str, valid: &ValidScene) -> Result<String, Vec<Pro
             use ::qrt::core::oracle::compiled::{{
                 BlockDeclaration, CompiledOracle, Computed, Field, Outline, Vector,
             }};
-            use ::qrt::core::tracer::Named;"
+            use ::qrt::core::tracer::Named;
+            use ::qrt::runtime::machines::native::{{
+                Integers, NativeOracle, Truths, Vectors, word,
+            }};"
         );
         let _ = writeln!(
             out,
@@ -102,6 +113,7 @@ fn text(scene: &str, public: &str, valid: &ValidScene) -> Result<String, Vec<Pro
         );
         data::write(&mut out, &oracle);
         code::write(&mut out, scene, &oracle, &names);
+        native::write(&mut out, scene, &oracle, &names);
         out.push_str("};\n");
     }
     Ok(out)

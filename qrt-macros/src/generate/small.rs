@@ -86,6 +86,7 @@ const _: () = {
         BlockDeclaration, CompiledOracle, Computed, Field, Outline, Vector,
     };
     use ::qrt::core::tracer::Named;
+    use ::qrt::runtime::machines::native::{Integers, NativeOracle, Truths, Vectors, word};
     impl LitFloor {
         /// Where the numbers of a path are among its registers, ray by ray.
         pub const LAYOUT: LitFloorLayout = LitFloorLayout {
@@ -1109,6 +1110,147 @@ const _: () = {
             m.undo([ray0_sample_v_4]);
             m.undo([ray0_sample_u_3]);
             applied
+        }
+    }
+    static N7: [i32; 16] = [0, 3, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0];
+    static N18: [i32; 16] = [0, 27, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0];
+    static N43: [i32; 16] = [239, 202, 157, 91, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0];
+    static N48: [i32; 16] = [
+        64, 111, 143, 169, -64, -111, -143, -169, -64, -111, -143, -169, 64, 111, 143, 169,
+    ];
+    static N52: [i32; 16] = [
+        64, 111, 143, 169, 64, 111, 143, 169, -64, -111, -143, -169, -64, -111, -143, -169,
+    ];
+    static N86: [i32; 16] = [0, 205, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0];
+    static N88: [i32; 16] = [7, 212, 7, 7, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0];
+    static N92: [i32; 16] = [7, 135, 7, 7, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0];
+    static N94: [i32; 16] = [0, 51, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0];
+    static N96: [i32; 16] = [7, 58, 7, 7, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0];
+
+    impl NativeOracle for LitFloor {
+        #[inline(always)]
+        fn native<V: Vectors>(v: V, words: &[u64], ids: V::Longs) -> [[V::Longs; 3]; 2] {
+            let t1 = ids;
+            let t2 = v.narrow(t1);
+            let t3 = v.ints(word(words, 0, 1, false) as i32);
+            let t4 = v.table16(&[0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1], t2);
+            let t5 = t3.xor(t4);
+            let ray0_sample_u_3 = t5.has(1);
+            let t7 = v.ints(word(words, 1, 1, false) as i32);
+            let t8 = v.table16(&[0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0], t2);
+            let t9 = t7.xor(t8);
+            let ray0_sample_v_4 = t9.has(1);
+            let add5 = v.ints(16).add(v.ints(0));
+            let load6 = v.ints(word(words, 2, 8, false) as i32);
+            let t13 = v.ints(1).choose(ray0_sample_v_4, v.ints(0));
+            let ray0_direction_y_7 = v.table16(&N7, t13);
+            let t15 = ray0_direction_y_7.left(3);
+            let t16 = load6.add(t15);
+            let add9 = t16.lowest(8);
+            let t18 = add5.less(add9);
+            let t19 = add5.choose(t18, v.ints(0));
+            let t20 = v.quotient_single(t19, add9, 8);
+            let t21 = t20.mul(add9);
+            let t22 = t19.left(8).sub(t21);
+            let t23 = t22.less(v.ints(0));
+            let t24 = t20.sub(v.ints(1)).choose(t23, t20);
+            let t25 = add9.less(v.ints(1));
+            let ray0_distance_10 = v.ints(255).choose(t25, t24);
+            let load13 = v.ints(word(words, 3, 10, true) as i32);
+            let t28 = ray0_direction_y_7.left(2);
+            let t29 = load13.add(t28);
+            let add14 = t29.left(22).right(22);
+            let t31 = ray0_distance_10.mul(add14).right(8);
+            let multiply15 = t31.left(23).right(23);
+            let load17 = v.ints(word(words, 4, 8, true) as i32);
+            let t34 = v.ints(1).choose(ray0_sample_u_3, v.ints(0));
+            let ray0_direction_x_18 = v.table16(&N18, t34);
+            let t36 = load17.add(ray0_direction_x_18);
+            let add20 = t36.left(24).right(24);
+            let t38 = ray0_distance_10.mul(add20).right(8);
+            let multiply21 = t38.left(25).right(25);
+            let t40 = v.ints(word(words, 5, 2, false) as i32);
+            let t41 = v.table16(&[0, 2, 3, 1, 0, 2, 3, 1, 0, 2, 3, 1, 0, 2, 3, 1], t2);
+            let ray1_sample_u_33 = t40.xor(t41);
+            let t43 = v.ints(word(words, 6, 2, false) as i32);
+            let t44 = v.table16(&[0, 2, 3, 1, 0, 2, 3, 1, 0, 2, 3, 1, 0, 2, 3, 1], t2);
+            let ray1_sample_v_34 = t43.xor(t44);
+            let t46 = multiply21.right(6);
+            let ray1_origin_x_35 = multiply21.sub(t46);
+            let load36 = v.ints(word(words, 7, 9, true) as i32);
+            let t49 = ray0_direction_y_7.left(3);
+            let t50 = load36.sub(t49);
+            let add37 = t50.left(23).right(23);
+            let t52 = ray0_distance_10.mul(add37).right(8);
+            let multiply38 = t52.left(24).right(24);
+            let t54 = multiply38.right(6);
+            let ray1_origin_y_40 = multiply38.sub(t54);
+            let t56 = multiply15.right(6);
+            let ray1_origin_z_41 = multiply15.sub(t56);
+            let add42 = v.ints(64).sub(ray1_origin_y_40);
+            let ray1_direction_y_43 = v.table16(&N43, ray1_sample_u_33);
+            let t60 = add42.right(1);
+            let t61 = t60.less(ray1_direction_y_43);
+            let t62 = add42.choose(t61, v.ints(0));
+            let t63 = v.quotient_single(t62, ray1_direction_y_43, 8);
+            let t64 = t63.mul(ray1_direction_y_43);
+            let t65 = t62.left(8).sub(t64);
+            let t66 = t65.less(v.ints(0));
+            let t67 = t63.sub(v.ints(1)).choose(t66, t63);
+            let t68 = ray1_direction_y_43.less(v.ints(1));
+            let divide45 = v.ints(511).choose(t68, t67);
+            let t70 = ray1_sample_u_33.has(1);
+            let t71 = v.ints(0).add(v.ints(1));
+            let t72 = t71.choose(t70, v.ints(0));
+            let t73 = ray1_sample_u_33.has(2);
+            let t74 = t72.add(v.ints(2));
+            let t75 = t74.choose(t73, t72);
+            let t76 = ray1_sample_v_34.has(1);
+            let t77 = t75.add(v.ints(4));
+            let t78 = t77.choose(t76, t75);
+            let t79 = ray1_sample_v_34.has(2);
+            let t80 = t78.add(v.ints(8));
+            let t81 = t80.choose(t79, t78);
+            let ray1_direction_z_48 = v.table16(&N48, t81);
+            let ray1_direction_x_52 = v.table16(&N52, t81);
+            let multiply50 = divide45.mul(ray1_direction_z_48).right(8);
+            let multiply54 = divide45.mul(ray1_direction_x_52).right(8);
+            let add56 = ray1_origin_z_41.add(multiply50);
+            let add57 = ray1_origin_x_35.add(multiply54);
+            let add58 = v.ints(177).add(add56);
+            let add59 = v.ints(113).sub(add56);
+            let t90 = add58.less(v.ints(0));
+            let t91 = t90.not();
+            let t92 = add59.less(v.ints(0));
+            let t93 = t92.not();
+            let and60 = t91.and(t93);
+            let add61 = v.ints(145).add(add57);
+            let add62 = v.ints(145).sub(add57);
+            let t97 = add61.less(v.ints(0));
+            let t98 = t97.not();
+            let t99 = add62.less(v.ints(0));
+            let t100 = t99.not();
+            let and63 = t98.and(t100);
+            let and64 = and60.and(and63);
+            let select66 = v.ints(1).choose(and64, v.ints(2));
+            let colour_r_86 = v.table16(&N86, select66);
+            let table88 = v.table16(&N88, select66);
+            let colour_g_90 = v.marks(2, select66);
+            let table92 = v.table16(&N92, select66);
+            let colour_b_94 = v.table16(&N94, select66);
+            let table96 = v.table16(&N96, select66);
+            let t110 = table88.right(4);
+            let t111 = v.widen(t110);
+            let t112 = v.widen(colour_r_86);
+            let t113 = table92.right(4);
+            let t114 = v.widen(t113);
+            let t115 = v.ints(1).choose(colour_g_90, v.ints(0));
+            let t116 = t115.left(7);
+            let t117 = v.widen(t116);
+            let t118 = table96.right(4);
+            let t119 = v.widen(t118);
+            let t120 = v.widen(colour_b_94);
+            [[t111, t114, t119], [t112, t117, t120]]
         }
     }
 };

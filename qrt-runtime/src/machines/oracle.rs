@@ -1,6 +1,7 @@
-//! Oracles, run by the fixed machine or by the gates machine on paths of many pixels.
+//! Oracles, run by the fixed machine, as native code or by the gates machine on paths of many
+//! pixels.
 //!
-//! Both hand over, path by path, how many thresholds the path's colour exceeds: of a path's `2^c`
+//! All hand over, path by path, how many thresholds the path's colour exceeds: of a path's `2^c`
 //! ids, that many are good.
 //!
 //! The gates machine runs compute and uncompute once per path, and looks at every qubit between
@@ -8,124 +9,24 @@
 //! else but the colour. So this block is run apart, for *every* pair of a colour and a comparator:
 //! which ids have their sign turned follows exactly, `2^c` times cheaper than path by path.
 
+mod defect;
 mod flips;
+mod parts;
+mod through_gates;
+
+pub use defect::Defect;
+pub use parts::Parts;
 
 use super::fixed::{self, Fixed};
-use super::gates::{Dirty, Gates, InvalidGate, Rows};
+use super::gates::{Gates, Rows};
+use super::instructions::InstructionSet;
+use super::native;
+use super::native::NativeOracle;
 use super::span::Span;
-use qrt_core::circuit::{Circuit, Instruction, Operand, Qubit, RegisterId, Word, lower};
+use qrt_core::circuit::{Operand, Word};
 use qrt_core::oracle::Oracle;
-use std::fmt;
 use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};
-
-/// A circuit that does not do what an oracle must: a defect of qrt, found while it ran.
-#[derive(Clone, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Defect {
-    /// The list of gates is not a circuit.
-    Gate(InvalidGate),
-    /// A qubit that was not returned to zero.
-    Dirty {
-        /// Which, and in which lane.
-        dirty: Dirty,
-        /// Column and row of the path's pixel.
-        pixel: [u32; 2],
-        /// The path.
-        id: u64,
-        /// What the qubit was last used for.
-        register: String,
-    },
-    /// A path whose id was changed.
-    Id {
-        /// Column and row of the path's pixel.
-        pixel: [u32; 2],
-        /// The path.
-        id: u64,
-    },
-    /// A sign that was turned, or not, against the comparison.
-    Flip {
-        /// 0 red, 1 green, 2 blue.
-        channel: usize,
-        /// The thresholds that the colour exceeds.
-        count: i64,
-        /// The comparator.
-        comparator: u64,
-    },
-    /// A comparison that changes what it compares.
-    Compared {
-        /// 0 red, 1 green, 2 blue.
-        channel: usize,
-        /// The thresholds that the colour exceeds.
-        count: i64,
-        /// The comparator.
-        comparator: u64,
-    },
-    /// A comparison that touches a qubit which holds something else.
-    Foreign {
-        /// 0 red, 1 green, 2 blue.
-        channel: usize,
-        /// The qubit.
-        qubit: Qubit,
-        /// What it holds.
-        register: String,
-    },
-}
-
-impl fmt::Display for Defect {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Gate(gate) => gate.fmt(f),
-            Self::Dirty {
-                dirty,
-                pixel: [x, y],
-                id,
-                register,
-            } => write!(
-                f,
-                "qubit {} (`{register}`) is not returned to zero on path {id} of pixel ({x}, {y})",
-                dirty.qubit
-            ),
-            Self::Id { pixel: [x, y], id } => {
-                write!(f, "the id of path {id} of pixel ({x}, {y}) is changed")
-            }
-            Self::Flip {
-                channel,
-                count,
-                comparator,
-            } => write!(
-                f,
-                "channel {channel}: the phase of comparator {comparator} is wrong for a colour \
-                 above {count} thresholds"
-            ),
-            Self::Compared {
-                channel,
-                count,
-                comparator,
-            } => write!(
-                f,
-                "channel {channel}: comparing comparator {comparator} with a colour above {count} \
-                 thresholds changes one of them"
-            ),
-            Self::Foreign {
-                channel,
-                qubit,
-                register,
-            } => write!(
-                f,
-                "channel {channel}: the comparison touches qubit {qubit}, which holds `{register}`"
-            ),
-        }
-    }
-}
-
-impl std::error::Error for Defect {}
-
-impl From<InvalidGate> for Defect {
-    fn from(gate: InvalidGate) -> Self {
-        Self::Gate(gate)
-    }
-}
 
 /// An oracle of all three channels on a machine.
 pub struct OracleMachine {
@@ -141,77 +42,15 @@ enum Machine {
         fixed: Box<Fixed>,
         lanes: Mutex<Vec<fixed::Lanes>>,
     },
+    Native {
+        run: fn(InstructionSet, &[native::Run<'_>], &mut [Vec<i64>]),
+        instructions: InstructionSet,
+    },
     Gates {
         gates: Box<Gates>,
         rows: Mutex<Vec<Rows>>,
         parts: Box<Parts>,
     },
-}
-
-/// The parts of an oracle's circuit, which share their qubits.
-#[derive(Clone, Debug)]
-pub struct Parts {
-    /// From ids to colours.
-    pub compute: Circuit,
-    /// By channel: compare, flip, undo the comparison.
-    pub flips: Vec<Circuit>,
-    /// From colours back to ids alone.
-    pub uncompute: Circuit,
-}
-
-impl Parts {
-    /// Lowers an oracle to gates: compute, all channels' flips one after another, uncompute.
-    pub fn new(oracle: &Oracle) -> Self {
-        let mut whole = oracle.program.clone();
-        let undo = whole.inverse().instructions;
-        let mut cuts = vec![whole.instructions.len()];
-        for channel in 0..oracle.channels.len() {
-            let flip = oracle.flip(channel);
-            let (own, base) = (oracle.program.ops.len(), whole.ops.len());
-            whole.blocks = flip.blocks;
-            whole.ops.extend_from_slice(&flip.ops[own..]);
-            whole
-                .instructions
-                .extend(flip.instructions.into_iter().map(|step| Instruction {
-                    op: step.op - own as u32 + base as u32,
-                    ..step
-                }));
-            cuts.push(whole.instructions.len());
-        }
-        whole.instructions.extend(undo);
-        let mut parts = lower::parts(&whole, &cuts).into_iter();
-        let compute = parts.next().unwrap_or_default();
-        let uncompute = parts.next_back().unwrap_or_default();
-        Self {
-            compute,
-            flips: parts.collect(),
-            uncompute,
-        }
-    }
-
-    /// Gates of all parts.
-    pub fn gates(&self) -> usize {
-        let flips = self.flips.iter().map(|flip| flip.gates.len());
-        self.compute.gates.len() + flips.sum::<usize>() + self.uncompute.gates.len()
-    }
-
-    /// The qubits of an operand after compute, its lowest bit first; none for a constant.
-    fn qubits(&self, operand: Operand) -> Vec<Qubit> {
-        match operand {
-            Operand::Constant(_) => Vec::new(),
-            Operand::Word(word) => {
-                let all = self.register(word.register);
-                let range = word.offset as usize..(word.offset + word.width) as usize;
-                all.get(range).map(<[Qubit]>::to_vec).unwrap_or_default()
-            }
-        }
-    }
-
-    fn register(&self, register: RegisterId) -> &[Qubit] {
-        let mut held = self.compute.outputs.iter();
-        held.find(|(id, _)| *id == register)
-            .map_or(&[], |(_, qubits)| qubits)
-    }
 }
 
 /// A run of paths of one pixel, finished: by channel, and path by path in the order of ids.
@@ -235,6 +74,39 @@ impl OracleMachine {
         let machine = Machine::Fixed {
             fixed: Box::new(Fixed::new(&oracle.program, &words)),
             lanes: Mutex::new(Vec::new()),
+        };
+        Self {
+            oracle,
+            seed,
+            outputs,
+            machine,
+        }
+    }
+
+    /// The native machine: the oracle's program as code, `C`, which gives the same bits as the fixed
+    /// machine. On processors without AVX-512 this is the fixed machine itself, which is faster
+    /// there.
+    pub fn native<C: NativeOracle>(oracle: Arc<Oracle>, seed: u64, colours: bool) -> Self {
+        let widest = InstructionSet::widest();
+        if widest == InstructionSet::Avx512 {
+            Self::native_on::<C>(widest, oracle, seed, colours)
+        } else {
+            Self::fixed(oracle, seed, colours)
+        }
+    }
+
+    /// The native machine, with the instruction set that is given: there is code for AVX-512, and
+    /// code for a path at a time, which takes the place of all others.
+    pub fn native_on<C: NativeOracle>(
+        instructions: InstructionSet,
+        oracle: Arc<Oracle>,
+        seed: u64,
+        colours: bool,
+    ) -> Self {
+        let outputs = outputs(&oracle, colours);
+        let machine = Machine::Native {
+            run: native::run::<C>,
+            instructions,
         };
         Self {
             oracle,
@@ -291,7 +163,7 @@ impl OracleMachine {
     pub fn parts(&self) -> Option<&Parts> {
         match &self.machine {
             Machine::Gates { parts, .. } => Some(parts),
-            Machine::Fixed { .. } => None,
+            Machine::Fixed { .. } | Machine::Native { .. } => None,
         }
     }
 
@@ -313,7 +185,7 @@ impl OracleMachine {
     ) -> Result<(), Defect> {
         let parameters: Vec<Vec<u64>> = pixels.iter().map(|&pixel| self.words(pixel)).collect();
         let most = match &self.machine {
-            Machine::Fixed { .. } => Fixed::LANES,
+            Machine::Fixed { .. } | Machine::Native { .. } => Fixed::LANES,
             Machine::Gates { .. } => Gates::LANES,
         };
         let mut block = Block {
@@ -389,6 +261,15 @@ impl OracleMachine {
                 fixed.run(&mut own, &[&block.ids, &zeros], &spans, &mut wanted);
                 put_back(lanes, own);
             }
+            Machine::Native { run, instructions } => {
+                let runs = block.runs.iter().map(|run| native::Run {
+                    first: run.first,
+                    count: run.count,
+                    parameters: &parameters[run.pixel],
+                });
+                let runs: Vec<_> = runs.collect();
+                run(*instructions, &runs, &mut block.values);
+            }
             Machine::Gates { gates, rows, parts } => {
                 let mut own = take(rows).unwrap_or_else(|| gates.rows());
                 let done = self.run_gates(gates, parts, &mut own, block, &spans);
@@ -409,71 +290,6 @@ impl OracleMachine {
             }
         }
         Ok(())
-    }
-
-    fn run_gates(
-        &self,
-        gates: &Gates,
-        parts: &Parts,
-        rows: &mut Rows,
-        block: &mut Block,
-        spans: &[Span<'_>],
-    ) -> Result<(), Defect> {
-        let count = block.ids.len();
-        let id = parts.register(self.oracle.id).to_vec();
-        rows.set(&id, &block.ids);
-        rows.set_parameters(spans);
-        gates.run(0, rows);
-        let mut bits = vec![0; count];
-        for (output, values) in self.outputs.iter().zip(&mut block.values) {
-            let Some(word) = word_of(*output) else {
-                continue;
-            };
-            rows.get(&parts.qubits(*output), &mut bits);
-            // The word is all that was read.
-            let alone = Word { offset: 0, ..word };
-            for (value, bits) in values.iter_mut().zip(&bits) {
-                *value = alone.read(*bits);
-            }
-        }
-        gates.run(1 + parts.flips.len(), rows);
-        let place = |lane: usize| {
-            let mut start = 0;
-            let runs = block.runs.iter();
-            let mut runs = runs.filter(|run| {
-                start += run.count;
-                lane < start
-            });
-            runs.next().map_or([0, 0], |run| run.place)
-        };
-        if let Some(dirty) = rows.dirty(&id, count) {
-            return Err(Defect::Dirty {
-                dirty,
-                pixel: place(dirty.lane),
-                id: block.ids.get(dirty.lane).copied().unwrap_or(0),
-                register: parts.name(&self.oracle, dirty.qubit),
-            });
-        }
-        rows.get(&id, &mut bits);
-        match bits.iter().zip(&block.ids).position(|(is, was)| is != was) {
-            Some(lane) => Err(Defect::Id {
-                pixel: place(lane),
-                id: block.ids[lane],
-            }),
-            None => Ok(()),
-        }
-    }
-}
-
-impl Parts {
-    /// The register that a qubit belongs to after compute, if it belongs to one.
-    fn name(&self, oracle: &Oracle, qubit: Qubit) -> String {
-        let mut held = self.compute.outputs.iter();
-        held.find(|(_, qubits)| qubits.contains(&qubit))
-            .map_or_else(
-                || "an ancilla".to_owned(),
-                |(register, _)| oracle.program.registers[register.index()].name.clone(),
-            )
     }
 }
 

@@ -52,10 +52,9 @@ pub use error::RenderError;
 
 use crate::checkpoint::{Checkpoint, Header, Tile};
 use crate::image::{Count, Image};
-use crate::machines::{OracleMachine, Real, Simd};
+use crate::machines::{NativeOracle, OracleMachine, Real, Simd};
 use pixel::{Pixels, Source, Totals};
 use qrt_core::oracle::Oracle;
-use qrt_core::oracle::compiled::CompiledOracle;
 use qrt_core::scene::Estimator;
 use qrt_core::valid::ValidScene;
 use rayon::prelude::*;
@@ -224,14 +223,14 @@ pub fn render(scene: &ValidScene, options: &Options<'_>) -> Result<Rendered, Ren
 ///
 /// # Errors
 /// As [`render`].
-pub fn render_compiled<C: CompiledOracle>(options: &Options<'_>) -> Result<Rendered, RenderError> {
+pub fn render_compiled<C: NativeOracle>(options: &Options<'_>) -> Result<Rendered, RenderError> {
     render_by(C::scene(), options, |model| {
         let oracle = C::oracle()
             .map_err(qrt_core::oracle::OracleError::from)?
             .into();
         Ok(match model {
             Model::Gates => OracleMachine::gates(oracle, options.seed, false)?,
-            Model::Real | Model::Fixed => OracleMachine::fixed(oracle, options.seed, false),
+            Model::Real | Model::Fixed => OracleMachine::native::<C>(oracle, options.seed, false),
         })
     })
 }

@@ -1,0 +1,129 @@
+//! What is looked up: tables, linear maps over GF(2), and the pixel's classical words.
+
+use super::number::Number;
+use super::range::Range;
+use super::{Coder, signed};
+use qrt_core::circuit::{Bit, RegisterId, Word};
+use std::fmt::Write as _;
+
+impl Coder<'_> {
+    /// A classical word, as the register's type reads its lowest bits.
+    pub(super) fn classical(&mut self, parameter: u32, target: RegisterId) -> Number {
+        let register = self.register(target);
+        let (width, signed) = (register.width, signed(register.ty));
+        let range = Range::of(width, signed);
+        let word = format!("word(words, {parameter}, {width}, {signed})");
+        let value = if range.narrow() {
+            format!("v.ints({word} as i32)")
+        } else {
+            format!("v.longs({word})")
+        };
+        let text = self.bind(&value);
+        Number { text, range }
+    }
+
+    /// The XOR of the columns whose place is a bit that is set in the source, and of a word of the
+    /// pixel: four columns at a time, by a table of their sums.
+    pub(super) fn parity(
+        &mut self,
+        source: RegisterId,
+        columns: &[u64],
+        parameter: Option<u32>,
+        target: RegisterId,
+    ) {
+        let range = Range::of(self.register(target).width, false);
+        let source = self.content(source);
+        let mut sum = match parameter {
+            Some(parameter) => self.classical(parameter, target).text,
+            None => "v.ints(0)".to_owned(),
+        };
+        for (digit, four) in columns.chunks(4).enumerate() {
+            let sums = (0..16_usize).map(|bits| {
+                let places = four.iter().enumerate();
+                let set = places.filter(|(place, _)| bits >> place & 1 == 1);
+                set.fold(0, |sum, (_, column)| sum ^ column) as i32
+            });
+            let sums: Vec<i32> = sums.collect();
+            let bits = self.right(source.clone(), 4 * digit as u32);
+            let bits = self.ints(&bits);
+            let part = self.bind(&format!("v.table16(&{sums:?}, {bits})"));
+            sum = self.bind(&format!("{sum}.xor({part})"));
+        }
+        self.set(target, Number { text: sum, range });
+    }
+
+    pub(super) fn table(
+        &mut self,
+        address: &[Bit],
+        columns: &[Box<[i64]>],
+        targets: &[RegisterId],
+    ) {
+        let index = self.index(address);
+        for (column, target) in columns.iter().zip(targets) {
+            self.look_up(&index, address.len() as u32, column, *target);
+        }
+    }
+
+    /// The number that the bits are the digits of.
+    fn index(&mut self, address: &[Bit]) -> String {
+        if let Some(word) = neighbours(address) {
+            let bits = self.bits(word);
+            return self.ints(&bits);
+        }
+        let mut index = "v.ints(0)".to_owned();
+        for (place, bit) in address.iter().enumerate() {
+            let bit = self.bit(*bit);
+            let digit = self.bind(&format!("{index}.add(v.ints({}))", 1_u64 << place));
+            index = self.bind(&format!("{digit}.choose({bit}, {index})"));
+        }
+        index
+    }
+
+    /// What a column holds there; 0 beyond its end.
+    fn look_up(&mut self, index: &str, bits: u32, column: &[i64], target: RegisterId) {
+        let register = self.register(target);
+        let (width, signed) = (register.width, signed(register.ty));
+        let range = Range::of(width, signed);
+        if width == 1 && !signed && bits <= 5 {
+            let entries = column.iter().take(32).enumerate();
+            let marks = entries.fold(0_u32, |marks, (place, entry)| {
+                marks | ((entry & 1) as u32) << place
+            });
+            let truths = self.bind(&format!("v.marks({marks}, {index})"));
+            return self.set_truths(target, truths);
+        }
+        let length = 1_usize << bits.max(4);
+        let cut = |entry: i64| {
+            Word {
+                signed,
+                ..Word::unsigned((), 0, width)
+            }
+            .read(entry.cast_unsigned())
+        };
+        let entries = (0..length).map(|place| column.get(place).map_or(0, |entry| cut(*entry)));
+        let entries: Vec<i64> = entries.collect();
+        let (kind, how) = match (range.narrow(), bits) {
+            (false, _) => ("i64", "wide_table"),
+            (true, 0..=4) => ("i32", "table16"),
+            (true, 5) => ("i32", "table32"),
+            (true, _) => ("i32", "table"),
+        };
+        let table = format!("N{}", target.0);
+        let _ = writeln!(
+            self.statics,
+            "static {table}: [{kind}; {length}] = {entries:?};"
+        );
+        let text = self.bind(&format!("v.{how}(&{table}, {index})"));
+        self.set(target, Number { text, range });
+    }
+}
+
+/// The word whose bits these are, if they stand side by side in one register.
+fn neighbours(address: &[Bit]) -> Option<Word> {
+    let first = address.first()?;
+    let in_order = address.iter().enumerate().all(|(place, bit)| {
+        !bit.inverted && bit.register == first.register && bit.index == first.index + place as u32
+    });
+    let width = address.len() as u32;
+    in_order.then(|| Word::unsigned(first.register, first.index, width))
+}

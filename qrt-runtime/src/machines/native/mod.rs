@@ -1,0 +1,101 @@
+//! The native machine: a scene's program as code for vectors of lanes.
+//!
+//! It computes what [`qrt_core::circuit::Contents`] defines, as the fixed machine does, without a
+//! list of steps to look through and without memory between them: `qrt!` writes the program as one
+//! function over [`Vectors`], whose every line is an instruction or a few, and decides by the
+//! registers' ranges which lanes each number takes. The compiler keeps them in the processor's
+//! registers.
+//!
+//! Nothing is undone: values are computed once, and forgotten.
+
+#[cfg(target_arch = "x86_64")]
+mod avx512;
+mod scalar;
+#[cfg(test)]
+mod tests;
+mod vectors;
+
+pub use scalar::Scalar;
+pub use vectors::{Integers, Truths, Vectors, word};
+
+use super::instructions::InstructionSet;
+use pulp::NullaryFnOnce;
+use qrt_core::oracle::compiled::CompiledOracle;
+use std::marker::PhantomData;
+
+/// A compiled oracle, as code for vectors too.
+#[diagnostic::on_unimplemented(
+    message = "there is no native code for the circuit of `{Self}`",
+    label = "not compiled to native code",
+    note = "`qrt!` writes code for circuits of at most 20,000 operations"
+)]
+pub trait NativeOracle: CompiledOracle {
+    /// Computes the paths of these ids in a pixel that has these classical words: by channel, how
+    /// many thresholds their colours exceed, before that is cut to `2^c`, and the colours.
+    fn native<V: Vectors>(v: V, words: &[u64], ids: V::Longs) -> [[V::Longs; 3]; 2];
+}
+
+/// Neighbouring ids of one pixel.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Run<'a> {
+    pub(super) first: u64,
+    pub(super) count: usize,
+    /// The pixel's classical words.
+    pub(super) parameters: &'a [u64],
+}
+
+/// Computes runs of paths, one after another: `values[k][path]` becomes the path's k-th output, by
+/// channel the counts and, if there are more than three columns, the colours.
+pub(super) fn run<C: NativeOracle>(set: InstructionSet, runs: &[Run<'_>], values: &mut [Vec<i64>]) {
+    #[cfg(target_arch = "x86_64")]
+    if set == InstructionSet::Avx512
+        && let Some(simd) = pulp::x86::V4::try_new()
+    {
+        return simd.vectorize(Block::<C, _>::new(simd, runs, values));
+    }
+    let _ = set;
+    Block::<C, _>::new(Scalar, runs, values).call();
+}
+
+struct Block<'a, C, V> {
+    vectors: V,
+    runs: &'a [Run<'a>],
+    values: &'a mut [Vec<i64>],
+    oracle: PhantomData<C>,
+}
+
+impl<'a, C, V> Block<'a, C, V> {
+    fn new(vectors: V, runs: &'a [Run<'a>], values: &'a mut [Vec<i64>]) -> Self {
+        Self {
+            vectors,
+            runs,
+            values,
+            oracle: PhantomData,
+        }
+    }
+}
+
+impl<C: NativeOracle, V: Vectors> NullaryFnOnce for Block<'_, C, V> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let v = self.vectors;
+        let mut start = 0;
+        for run in self.runs {
+            for done in (0..run.count).step_by(V::LANES) {
+                let ids = v.from(run.first + done as u64);
+                let [counts, colours] = C::native(v, run.parameters, ids);
+                let place = start + done;
+                let rest = V::LANES.min(run.count - done);
+                let outputs = counts.into_iter().chain(colours);
+                for (column, output) in self.values.iter_mut().zip(outputs) {
+                    if let Some(lanes) = column.get_mut(place..place + rest) {
+                        v.store(output, lanes);
+                    }
+                }
+            }
+            start += run.count;
+        }
+    }
+}

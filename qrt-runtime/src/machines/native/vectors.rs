@@ -1,0 +1,112 @@
+//! What an instruction set must offer: vectors of truths and of integers.
+
+/// Truths, one a lane.
+pub trait Truths: Copy {
+    /// Conjunction.
+    fn and(self, other: Self) -> Self;
+    /// Are they different?
+    fn xor(self, other: Self) -> Self;
+    /// Negation.
+    fn not(self) -> Self;
+}
+
+/// Integers of one width, one a lane. What does not fit is cut off above.
+pub trait Integers<T>: Copy {
+    /// `a + b`
+    fn add(self, other: Self) -> Self;
+    /// `a - b`
+    fn sub(self, other: Self) -> Self;
+    /// `a b`
+    fn mul(self, other: Self) -> Self;
+    /// Bit by bit.
+    fn xor(self, other: Self) -> Self;
+    /// By less than the lanes' width, as all shifts.
+    fn left(self, by: u32) -> Self;
+    /// With copies of the sign.
+    fn right(self, by: u32) -> Self;
+    /// The lowest bits, with zeros.
+    fn lowest(self, bits: u32) -> Self;
+    /// `a < b`
+    fn less(self, other: Self) -> T;
+    /// Is any of these bits set?
+    fn has(self, bits: i64) -> T;
+    /// Itself where `when` holds, the other elsewhere.
+    fn choose(self, when: T, other: Self) -> Self;
+}
+
+/// An instruction set's vectors of [`Vectors::LANES`] lanes.
+///
+/// Each method is one instruction or a few; what depends on widths was decided when the code that
+/// calls them was written.
+pub trait Vectors: Copy {
+    /// Lanes of a vector.
+    const LANES: usize;
+    /// Truths.
+    type Truths: Truths;
+    /// 32 bits a lane.
+    type Ints: Integers<Self::Truths>;
+    /// 64 bits a lane.
+    type Longs: Integers<Self::Truths>;
+
+    /// The same in all lanes.
+    fn truths(self, all: bool) -> Self::Truths;
+    /// The same in all lanes.
+    fn ints(self, all: i32) -> Self::Ints;
+    /// The same in all lanes.
+    fn longs(self, all: i64) -> Self::Longs;
+    /// `first`, `first + 1`, ...
+    fn from(self, first: u64) -> Self::Longs;
+
+    /// With copies of the sign.
+    fn widen(self, a: Self::Ints) -> Self::Longs;
+    /// The lowest bits.
+    fn narrow(self, a: Self::Longs) -> Self::Ints;
+
+    /// The lowest bits of `a b >> drop`, the product of all bits; `drop < 64`.
+    fn product_above(self, a: Self::Ints, b: Self::Ints, drop: u32) -> Self::Ints;
+    /// All bits of `a b`.
+    fn product(self, a: Self::Ints, b: Self::Ints) -> Self::Longs;
+    /// The lowest bits of `a b >> drop`, the product of all bits.
+    fn product_of_longs(self, a: Self::Longs, b: Self::Longs, drop: u32) -> Self::Longs;
+
+    /// `a 2^up / b`, correctly rounded to 24 bits and then down, of numbers that 24 bits hold.
+    /// Anything where b is 0.
+    fn quotient_single(self, a: Self::Ints, b: Self::Ints, up: u32) -> Self::Ints;
+    /// `floor(a / b)` of numbers in 0 .. 2^52. Anything where b is 0.
+    fn quotient_double(self, a: Self::Longs, b: Self::Longs) -> Self::Longs;
+    /// `floor(a / b)` of numbers that are not negative. Anything where b is 0.
+    fn quotient_of_longs(self, a: Self::Longs, b: Self::Longs) -> Self::Longs;
+    /// `floor(sqrt(a))` of numbers in 0 .. 2^23.
+    fn root_single(self, a: Self::Ints) -> Self::Ints;
+    /// `floor(sqrt(a))` of numbers in 0 .. 2^52.
+    fn root_double(self, a: Self::Longs) -> Self::Longs;
+    /// `floor(sqrt(a))` of numbers that are not negative.
+    fn root_of_longs(self, a: Self::Longs) -> Self::Longs;
+
+    /// The entries that the index's lowest 4 bits name.
+    fn table16(self, table: &[i32; 16], index: Self::Ints) -> Self::Ints;
+    /// The entries that the index's lowest 5 bits name.
+    fn table32(self, table: &[i32; 32], index: Self::Ints) -> Self::Ints;
+    /// The entries that the index's lowest bits name; `L` is a power of two.
+    fn table<const L: usize>(self, table: &[i32; L], index: Self::Ints) -> Self::Ints;
+    /// The same of wide entries.
+    fn wide_table<const L: usize>(self, table: &[i64; L], index: Self::Ints) -> Self::Longs;
+    /// The bits of `table` that the index names, which is below 32.
+    fn marks(self, table: u32, index: Self::Ints) -> Self::Truths;
+
+    /// The first lanes, as many as there is place for.
+    fn store(self, a: Self::Longs, lanes: &mut [i64]);
+}
+
+/// The lowest `width` bits of a classical word, extended by zeros or copies of the top one.
+#[inline(always)]
+pub fn word(words: &[u64], place: usize, width: u32, signed: bool) -> i64 {
+    let word = words.get(place).copied().unwrap_or(0);
+    let unused = 64 - width;
+    let bits = word << unused;
+    if signed {
+        bits.cast_signed() >> unused
+    } else {
+        (bits >> unused).cast_signed()
+    }
+}
