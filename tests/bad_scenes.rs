@@ -127,6 +127,8 @@ fn every_code_is_shown_by_some_scene() {
         .iter()
         .filter(|row| !all.contains(&format!("error[{}]", row.code)))
         .filter(|row| !ELSEWHERE.contains(&row.code))
+        // Of routines, which `tests/ui` shows.
+        .filter(|row| !row.code.starts_with("QRT08"))
         .collect();
     assert!(unseen.is_empty(), "{unseen:#?}");
 }

@@ -10,6 +10,7 @@ fn run_all(program: &Program, states: &[Vec<u64>]) -> Vec<Vec<u64>> {
     let inverse = program.inverse();
     assert_eq!(run::on_definition(&inverse, &result).unwrap(), states);
     assert_eq!(run::on_gates(&inverse, &result).unwrap(), states);
+    assert_eq!(run::on_fixed(&inverse, &result).unwrap(), states);
     result
 }
 

@@ -6,7 +6,7 @@ use super::ir::{
 };
 use super::value::{Temporaries, own};
 use proc_macro2::{TokenStream, TokenTree};
-use quote::{ToTokens, format_ident, quote, quote_spanned};
+use quote::{ToTokens, format_ident, quote};
 use std::collections::BTreeSet;
 use syn::{Ident, Path, PathArguments};
 
@@ -49,6 +49,7 @@ fn functions(signature: &Signature, forward: &TokenStream, backward: &TokenStrea
         name,
         constants,
         parameters,
+        ..
     } = signature;
     let inverse_name = format_ident!("{name}_inverse");
     let program_name = format_ident!("{name}_program");
@@ -221,12 +222,11 @@ impl Emitter {
                 {
                     given.args.push(syn::parse_quote!(_));
                 }
-                let arguments = arguments.iter().map(|(register, change, span)| {
-                    let name = &register.name;
+                let arguments = arguments.iter().map(|(register, change, name)| {
                     match (register.parameter, *change) {
-                        (true, _) => quote_spanned!(*span=> #name),
-                        (false, true) => quote_spanned!(*span=> &mut #name),
-                        (false, false) => quote_spanned!(*span=> &#name),
+                        (true, _) => quote!(#name),
+                        (false, true) => quote!(&mut #name),
+                        (false, false) => quote!(&#name),
                     }
                 });
                 quote!(#function(#machine, #(#arguments),*);)

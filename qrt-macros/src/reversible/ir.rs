@@ -1,7 +1,7 @@
 //! A routine that has been understood: names are resolved, widths are known.
 
 use super::dim::{Dim, Linear};
-use proc_macro2::{Span, TokenStream};
+use proc_macro2::TokenStream;
 use std::rc::Rc;
 use syn::{Ident, Path, Type};
 
@@ -20,6 +20,8 @@ pub(super) struct Signature {
     pub(super) name: Ident,
     pub(super) constants: Vec<Ident>,
     pub(super) parameters: Vec<Rc<Register>>,
+    /// Names of parameters that are not registers.
+    pub(super) broken: Vec<Ident>,
 }
 
 /// What must hold of the constants that a routine is generic over.
@@ -153,8 +155,8 @@ pub(super) enum StatementKind {
         path: Path,
         /// Is it the inverse of the function that is named?
         inverse: bool,
-        /// Registers, and whether they may be changed.
-        arguments: Vec<(Rc<Register>, bool, Span)>,
+        /// Registers, whether they may be changed, and their names as they stand there.
+        arguments: Vec<(Rc<Register>, bool, Ident)>,
     },
     If(Bit, Vec<Statement>, Vec<Statement>),
     For {

@@ -58,6 +58,7 @@ fn expanded(arguments: &TokenStream, item: TokenStream) -> (TokenStream, Problem
     let mut scope = Scope {
         routine: signature.name.clone(),
         registers: signature.parameters.clone(),
+        broken: signature.broken.clone(),
         constants: signature.constants.clone(),
         loops: Vec::new(),
         demands: Vec::new(),

@@ -13,6 +13,8 @@ use syn::{BinOp, Expr, Ident, Lit, RangeLimits, UnOp};
 pub(super) struct Scope {
     pub(super) routine: Ident,
     pub(super) registers: Vec<Rc<Register>>,
+    /// Names whose declarations are wrong, which is enough to be said once.
+    pub(super) broken: Vec<Ident>,
     pub(super) constants: Vec<Ident>,
     /// Variables of the loops around, and from where to where they run.
     pub(super) loops: Vec<(Ident, [Linear; 2])>,
@@ -27,12 +29,13 @@ pub(super) struct Scope {
 impl Scope {
     /// The register of a name.
     pub(super) fn register(&mut self, name: &Ident) -> Option<Rc<Register>> {
-        let found = self
-            .registers
-            .iter()
-            .find(|register| register.name == *name);
+        let mut latest_first = self.registers.iter().rev();
+        let found = latest_first.find(|register| register.name == *name);
         if let Some(register) = found {
             return Some(register.clone());
+        }
+        if self.broken.contains(name) {
+            return None;
         }
         let message;
         let help;

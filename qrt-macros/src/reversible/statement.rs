@@ -25,6 +25,7 @@ impl Scope {
             match first {
                 Stmt::Local(local) => {
                     let Some(register) = self.scratch(local) else {
+                        self.broken.extend(declared(&local.pat));
                         continue;
                     };
                     let register = Rc::new(register);
@@ -202,9 +203,9 @@ impl Scope {
                 let help = "call functions marked `#[reversible]` by name: `add(&x, &mut y)`";
                 (codes::REV_CALL, place, "a method is not reversible", help)
             }
-            Expr::Match(_) => (
+            Expr::Match(choice) => (
                 codes::REV_STATEMENT,
-                quote!(#expression),
+                choice.match_token.to_token_stream(),
                 "`match` has no inverse",
                 "write `if` on bits or comparisons",
             ),
@@ -324,7 +325,7 @@ impl Scope {
         let condition = condition?;
         let mut reads = Vec::new();
         condition.reads(&mut |place| reads.push(place));
-        for (written, source) in self.writes.split_off_copy(before) {
+        for (written, source) in self.writes[before..].to_vec() {
             if let Some(read) = reads.iter().find(|read| !self.apart(read, &written)) {
                 let shown = text(&branch.cond);
                 let message = format!("`{}` decides whether this runs", read.register.name);
@@ -395,13 +396,11 @@ impl Scope {
     }
 }
 
-/// What a vector holds from a place on.
-trait SplitOffCopy<T> {
-    fn split_off_copy(&self, from: usize) -> Vec<T>;
-}
-
-impl<T: Clone> SplitOffCopy<T> for Vec<T> {
-    fn split_off_copy(&self, from: usize) -> Vec<T> {
-        self[from..].to_vec()
+/// The name that a declaration gives.
+fn declared(pattern: &Pat) -> Option<Ident> {
+    match pattern {
+        Pat::Ident(name) => Some(name.ident.clone()),
+        Pat::Type(typed) => declared(&typed.pat),
+        _ => None,
     }
 }

@@ -29,6 +29,8 @@ struct Change {
     key: String,
     /// The key of what would take it back.
     undone_by: String,
+    /// The two without what they read.
+    effects: [String; 2],
     class: Class,
     source: TokenStream,
 }
@@ -106,6 +108,7 @@ impl Frame {
         let change = Change {
             key: format!("{done} from {from}"),
             undone_by: format!("{undone_by} from {from}"),
+            effects: [done, undone_by].map(str::to_owned),
             class,
             source: source.clone(),
         };
@@ -240,7 +243,7 @@ impl<'a> Tracker<'a> {
                 self.compound(statement, BTreeSet::new(), &inside, frame);
             }
             K::Within(within, apply) => self.within(statement, within, apply, frame),
-            K::Scratch(register, body) => self.scratch(register, body, source, frame),
+            K::Scratch(register, body) => self.scratch(register, body, frame),
             K::Block(body) => self.block(body, frame),
         }
     }
@@ -310,13 +313,7 @@ impl<'a> Tracker<'a> {
         self.compound(statement, touched, &[begin], frame);
     }
 
-    fn scratch(
-        &mut self,
-        register: &Register,
-        body: &[Statement],
-        source: &TokenStream,
-        frame: &mut Frame,
-    ) {
+    fn scratch(&mut self, register: &Register, body: &[Statement], frame: &mut Frame) {
         let name = register.name.to_string();
         // A name of its own, also if another block has used it.
         frame
@@ -326,11 +323,18 @@ impl<'a> Tracker<'a> {
         let dirty = frame.changes.remove(&name).unwrap_or_default();
         if let Some(first) = dirty.first() {
             let message = format!("computed here, never uncomputed: `{name}` is not 0 at its end");
-            let help = match text(source).split_once('=') {
-                _ if dirty.len() > 1 => {
+            let late = dirty
+                .iter()
+                .find(|later| later.effects[0] == first.effects[1]);
+            let help = match late {
+                Some(late) => format!(
+                    "`{}` does not undo it: what it reads has changed in between",
+                    text(&late.source)
+                ),
+                None if dirty.len() > 1 => {
                     "compute it in `within! { .. }` and use it in `apply! { .. }`".to_owned()
                 }
-                _ => format!(
+                None => format!(
                     "write `within! {{ {}; }} apply! {{ .. }}` around what uses it",
                     text(&first.source)
                 ),
