@@ -45,6 +45,7 @@
 //! tracer. [`runtime`] holds what runs: machines, counting, rendering, files.
 
 pub use qrt_core as core;
+#[doc = include_str!("reversible.md")]
 pub use qrt_macros::reversible;
 pub use qrt_runtime as runtime;
 

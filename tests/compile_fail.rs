@@ -1,5 +1,7 @@
 //! What would be a wrong circuit does not compile, and the compiler says why.
 
+#![allow(clippy::unwrap_used, clippy::expect_used)]
+
 use qrt::core::codes;
 
 const FOLDER: &str = "tests/ui";

@@ -1,5 +1,7 @@
 //! Reversible routines compute what plain integers say, on every machine, and can be undone.
 
+#![allow(clippy::unwrap_used, clippy::expect_used)]
+
 use qrt::prelude::*;
 
 /// Runs a program on all machines, which must agree, and backwards, which must lead back.
@@ -236,7 +238,7 @@ fn comparisons() {
                 a == b,
                 a != b,
                 a < 3 && b != 2,
-                (a < 0) | ((b & 1 == 1) ^ (b & 2 == 0)),
+                a < 0 || ((b & 1 == 1) ^ (b & 2 == 0)),
             ];
             let flips = (0..8).fold(0, |all, i| all | u64::from(bits[i]) << i);
             vec![s[0], s[1], s[2] ^ flips]

@@ -85,6 +85,9 @@ impl Scope {
             return wrong(quote!(#name), "a scratch register is there to be changed");
         }
         let name = name.ident.clone();
+        if let Some(attribute) = local.attrs.first() {
+            self.no_attribute(attribute);
+        }
         self.take(&name);
         let constants = self.constants.clone();
         let format = signature::format(&typed.ty, &constants, &mut self.problems)?;
@@ -140,6 +143,10 @@ impl Scope {
 
     fn statement(&mut self, expression: &Expr) -> Option<Statement> {
         let source = quote!(#expression);
+        if let Some(attribute) = attribute(&source) {
+            self.no_attribute(attribute);
+            return None;
+        }
         let kind = match expression {
             Expr::Binary(binary) => return self.update(binary, source),
             Expr::Call(call) => return self.call(call, source),
@@ -161,6 +168,13 @@ impl Scope {
             }
         };
         Some(Statement { kind, source })
+    }
+
+    fn no_attribute(&mut self, attribute: impl ToTokens) {
+        let message = "an attribute of a statement";
+        let help = "put attributes on the function";
+        self.problems
+            .add(codes::REV_STATEMENT, attribute, message, help);
     }
 
     fn no_statement(&mut self, expression: &Expr) {
@@ -394,6 +408,14 @@ impl Scope {
             syn::RangeLimits::Closed(_) => [start, end.plus(&1.into())],
         })
     }
+}
+
+/// The attribute that source text begins with.
+fn attribute(source: &TokenStream) -> Option<TokenStream> {
+    let mut tokens = source.clone().into_iter();
+    let sign = tokens.next().filter(|first| first.to_string() == "#")?;
+    let body = tokens.next();
+    Some(quote!(#sign #body))
 }
 
 /// The name that a declaration gives.

@@ -212,9 +212,16 @@ impl<'a> Tracker<'a> {
                         Update::Subtract => (Class::Sum, Update::Add),
                         Update::Xor => (Class::Xor, Update::Xor),
                     };
+                    let read = read(term);
+                    // What depends on the register's other bits has its place in the order.
+                    let class = if read.is_disjoint(&written) {
+                        class
+                    } else {
+                        Class::Other
+                    };
                     let keys = (one(*update), one(back));
                     let keys = (keys.0.as_str(), keys.1.as_str());
-                    frame.change(&written, &read(term), keys, class, source, &mut self.names);
+                    frame.change(&written, &read, keys, class, source, &mut self.names);
                 }
             }
             K::Swap(..) | K::Call { .. } => {
@@ -316,9 +323,11 @@ impl<'a> Tracker<'a> {
     fn scratch(&mut self, register: &Register, body: &[Statement], frame: &mut Frame) {
         let name = register.name.to_string();
         // A name of its own, also if another block has used it.
-        frame
-            .before
-            .insert(name.clone(), self.names.of(format!("zero {name}")));
+        frame.before.insert(
+            name.clone(),
+            self.names
+                .of(format!("zero {name}: {}", type_text(&register.ty))),
+        );
         self.block(body, frame);
         let dirty = frame.changes.remove(&name).unwrap_or_default();
         if let Some(first) = dirty.first() {

@@ -92,8 +92,8 @@ impl Value {
                         quote!(#units)
                     }
                     None => {
-                        let by = by.tokens();
-                        quote!((#units << (#by)))
+                        let by = distance(by);
+                        quote!(#units << #by)
                     }
                 })
             }
@@ -214,8 +214,8 @@ impl Temporaries {
         let view = match self.value(inner) {
             Value::Word(view) => view,
             Value::Constant(units) => {
-                let by = by.tokens();
-                return Value::Constant(quote!((#units >> (#by))));
+                let by = distance(by);
+                return Value::Constant(quote!(#units >> #by));
             }
         };
         let width = number.size.width.clone();
@@ -373,6 +373,16 @@ impl Temporaries {
 impl Number {
     fn is_constant(&self) -> bool {
         matches!(self.kind, NumberKind::Constant(_))
+    }
+}
+
+/// How far a constant is shifted.
+fn distance(by: &Linear) -> TokenStream {
+    let tokens = by.tokens();
+    if tokens.clone().into_iter().count() == 1 {
+        tokens
+    } else {
+        quote!((#tokens))
     }
 }
 
