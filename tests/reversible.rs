@@ -377,12 +377,12 @@ fn polynomials_in_fixed_point() {
     let states = all_then(&[8], &[0]);
     let x = |s: &[u64]| (s[0] << 56).cast_signed() >> 56;
     check([parabola_program, back_program], &states, |s| {
-        let y = x(s) - (x(s) * x(s) >> 8) + 16;
+        let y = x(s) - ((x(s) * x(s)) >> 8) + 16;
         assert!((y as f64 / 64.0 - exact(x(s))).abs() <= 1.0 / 64.0);
         vec![s[0], y.cast_unsigned() & 1023]
     });
     check([horner_program, horner_back_program], &states, |s| {
-        let y = ((64 - (x(s) >> 2)) * x(s) >> 6) + 16;
+        let y = (((64 - (x(s) >> 2)) * x(s)) >> 6) + 16;
         assert!((y as f64 / 64.0 - exact(x(s))).abs() <= 4.0 / 64.0);
         vec![s[0], y.cast_unsigned() & 1023]
     });

@@ -359,18 +359,24 @@ fn number(bit: &Bit, source: &TokenStream) -> super::ir::Number {
 
 /// Registers that a statement writes.
 fn written(statement: &Statement, names: &mut Vec<Ident>) {
-    match &statement.kind {
-        K::Update(place, _) => names.push(place.register.name.clone()),
-        K::Swap(a, b) => names.extend([a.name.clone(), b.name.clone()]),
+    let (first, second): (&[Statement], &[Statement]) = match &statement.kind {
+        K::Update(place, _) => {
+            names.push(place.register.name.clone());
+            return;
+        }
+        K::Swap(a, b) => {
+            names.extend([a.name.clone(), b.name.clone()]);
+            return;
+        }
         K::Call { arguments, .. } => {
             let changed = arguments.iter().filter(|(_, change, _)| *change);
             names.extend(changed.map(|(register, ..)| register.name.clone()));
+            return;
         }
-        K::If(_, a, b) | K::Within(a, b) => {
-            a.iter().chain(b).for_each(|inner| written(inner, names));
-        }
-        K::For { body, .. } | K::Scratch(_, body) | K::Block(body) => {
-            body.iter().for_each(|inner| written(inner, names));
-        }
+        K::If(_, a, b) | K::Within(a, b) => (a, b),
+        K::For { body, .. } | K::Scratch(_, body) | K::Block(body) => (body, &[]),
+    };
+    for inner in first.iter().chain(second) {
+        written(inner, names);
     }
 }

@@ -221,13 +221,12 @@ impl Scope {
     /// The first of some bits, and their number.
     fn part(&mut self, register: &Register, index: &Expr) -> Option<[Linear; 2]> {
         let width = &register.format.width;
-        let [first, end] = match index {
-            Expr::Range(range) => self.range(range, Some(width))?,
-            _ => {
-                let bit = self.constant(index, "the place of a bit")?;
-                let end = bit.plus(&1.into());
-                [bit, end]
-            }
+        let [first, end] = if let Expr::Range(range) = index {
+            self.range(range, Some(width))?
+        } else {
+            let bit = self.constant(index, "the place of a bit")?;
+            let end = bit.plus(&1.into());
+            [bit, end]
         };
         let name = &register.name;
         let message = format!("QRT0819: bits beyond the last of `{name}`");

@@ -339,7 +339,8 @@ impl Scope {
         let condition = condition?;
         let mut reads = Vec::new();
         condition.reads(&mut |place| reads.push(place));
-        for (written, source) in self.writes[before..].to_vec() {
+        for place in before..self.writes.len() {
+            let (written, source) = self.writes[place].clone();
             if let Some(read) = reads.iter().find(|read| !self.apart(read, &written)) {
                 let shown = text(&branch.cond);
                 let message = format!("`{}` decides whether this runs", read.register.name);

@@ -83,7 +83,7 @@ impl Frame {
         for run in changes.chunk_by(|a, b| a.class == b.class && a.class != Class::Other) {
             let mut keys: Vec<&str> = run.iter().map(|change| change.key.as_str()).collect();
             keys.sort_unstable();
-            content += &format!(" ({})", keys.join("; "));
+            content.extend([" (", &keys.join("; "), ")"]);
         }
         names.of(content)
     }

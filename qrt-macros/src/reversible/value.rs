@@ -86,15 +86,12 @@ impl Value {
             Self::Constant(units) => {
                 let known = units.to_string().parse::<i64>().ok().zip(by.known());
                 let shifted = known.and_then(|(units, by)| units.checked_shl(by as u32));
-                Self::Constant(match shifted {
-                    Some(units) => {
-                        let units = Literal::i64_unsuffixed(units);
-                        quote!(#units)
-                    }
-                    None => {
-                        let by = distance(by);
-                        quote!(#units << #by)
-                    }
+                Self::Constant(if let Some(units) = shifted {
+                    let units = Literal::i64_unsuffixed(units);
+                    quote!(#units)
+                } else {
+                    let by = distance(by);
+                    quote!(#units << #by)
                 })
             }
             Self::Word(view) => Self::Word(View {
@@ -223,10 +220,10 @@ impl Temporaries {
             let first = view.first.plus(&by.minus(&view.shift));
             let (shift, whole) = (0.into(), None);
             return Value::Word(View {
+                whole,
                 first,
                 width,
                 shift,
-                whole,
                 ..view
             });
         }

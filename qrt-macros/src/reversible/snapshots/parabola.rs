@@ -32,7 +32,7 @@ fn parabola<const F: u32, M: ::qrt::core::circuit::Machine>(
     machine
         .add_into(
             y.register_mut(),
-            Operand::Constant((1 << (F - 2))),
+            Operand::Constant(1 << (F - 2)),
             false,
             When::Always,
         );
@@ -52,12 +52,7 @@ fn parabola_inverse<const F: u32, M: ::qrt::core::circuit::Machine>(
         )
     };
     machine
-        .add_into(
-            y.register_mut(),
-            Operand::Constant((1 << (F - 2))),
-            true,
-            When::Always,
-        );
+        .add_into(y.register_mut(), Operand::Constant(1 << (F - 2)), true, When::Always);
     let t0 = machine
         .multiply(
             &Declaration::work("0.25 * x * x", Type::Fixed { fraction: F }, F + 2),
