@@ -318,7 +318,7 @@ mod tests {
         assert_eq!(plain, expected(|p, q, b| b + if p && !q { 3 } else { 0 }));
         let turned = all(|m, [p, q], b| {
             controlled(m, p, |m| {
-                m.add_into(b.register_mut(), three, false, When::Reversed(q))
+                m.add_into(b.register_mut(), three, false, When::Reversed(q));
             });
         });
         let by = |p, q| if p { if q { 5 } else { 3 } } else { 0 };
@@ -368,7 +368,7 @@ mod tests {
         let unconditioned = all(|m, [p, _], b| {
             controlled(m, p, |m| {
                 unconditional(m, |m| {
-                    m.xor_into(b.register_mut(), Operand::Constant(1), None)
+                    m.xor_into(b.register_mut(), Operand::Constant(1), None);
                 });
             });
         });

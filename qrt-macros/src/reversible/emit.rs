@@ -5,8 +5,8 @@ use super::ir::{
     Update, inverse,
 };
 use super::value::{Temporaries, own};
-use proc_macro2::{TokenStream, TokenTree};
-use quote::{ToTokens, format_ident, quote};
+use proc_macro2::{Span, TokenStream, TokenTree};
+use quote::{ToTokens, format_ident, quote, quote_spanned};
 use std::collections::BTreeSet;
 use syn::{Ident, Path, PathArguments};
 
@@ -14,7 +14,8 @@ use syn::{Ident, Path, PathArguments};
 pub(super) fn routine(routine: &Routine) -> TokenStream {
     let demands = routine.demands.iter().map(|demand| {
         let (condition, message) = (&demand.condition, &demand.message);
-        quote!(const { ::core::assert!(#condition, #message) };)
+        let span = Span::mixed_site().located_at(demand.span);
+        quote_spanned!(span=> const { ::core::assert!(#condition, #message) };)
     });
     let demands: TokenStream = demands.collect();
     let body = |statements: &[Statement]| {

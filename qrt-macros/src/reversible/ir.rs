@@ -1,7 +1,7 @@
 //! A routine that has been understood: names are resolved, widths are known.
 
 use super::dim::{Dim, Linear};
-use proc_macro2::TokenStream;
+use proc_macro2::{Span, TokenStream};
 use std::rc::Rc;
 use syn::{Ident, Path, Type};
 
@@ -28,6 +28,8 @@ pub(super) struct Signature {
 pub(super) struct Demand {
     pub(super) condition: TokenStream,
     pub(super) message: String,
+    /// The statement or term that it is for.
+    pub(super) span: Span,
 }
 
 /// A register, as it is declared.

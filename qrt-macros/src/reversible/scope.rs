@@ -3,7 +3,7 @@
 use super::dim::Linear;
 use super::ir::{Demand, Place, Register};
 use super::problem::{Problems, nearest};
-use proc_macro2::TokenStream;
+use proc_macro2::{Span, TokenStream};
 use qrt_core::codes;
 use quote::{ToTokens, quote};
 use std::rc::Rc;
@@ -24,6 +24,8 @@ pub(super) struct Scope {
     pub(super) writes: Vec<(Place, TokenStream)>,
     /// Fraction bits of what is updated, which say what constants can be.
     pub(super) fraction: Option<i64>,
+    /// The statement or term that is being understood.
+    pub(super) here: Span,
 }
 
 impl Scope {
@@ -156,6 +158,7 @@ impl Scope {
                 self.demands.push(Demand {
                     condition,
                     message: message.to_owned(),
+                    span: self.here,
                 });
             }
         }
@@ -247,6 +250,12 @@ impl Scope {
         }
         Some([first, bits])
     }
+}
+
+/// Where source text begins.
+pub(super) fn begin(source: &TokenStream) -> Span {
+    let first = source.clone().into_iter().next();
+    first.map_or_else(Span::call_site, |token| token.span())
 }
 
 /// A whole number as it is written.

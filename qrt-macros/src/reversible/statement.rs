@@ -2,7 +2,7 @@
 
 use super::dim::Linear;
 use super::ir::{Bit, Place, Register, Statement, StatementKind as K};
-use super::scope::{Scope, text, type_text};
+use super::scope::{Scope, begin, text, type_text};
 use super::signature;
 use proc_macro2::TokenStream;
 use qrt_core::codes;
@@ -143,6 +143,7 @@ impl Scope {
 
     fn statement(&mut self, expression: &Expr) -> Option<Statement> {
         let source = quote!(#expression);
+        self.here = begin(&source);
         if let Some(attribute) = attribute(&source) {
             self.no_attribute(attribute);
             return None;

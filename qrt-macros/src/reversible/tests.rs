@@ -171,3 +171,66 @@ fn a_condition_may_read_bits_beside_those_that_change() {
         ["QRT0809"]
     );
 }
+
+/// The formula of a function, and that it reads back.
+fn formula(function: TokenStream) -> String {
+    use qrt_core::expr::{Expr, Variable};
+    let text = super::as_expression(&syn::parse2(function).unwrap()).unwrap();
+    let all = [
+        Variable::CosI,
+        Variable::CosO,
+        Variable::CosA,
+        Variable::U,
+        Variable::V,
+    ];
+    Expr::parse(&text, &all).unwrap().simplify().to_string();
+    text
+}
+
+#[test]
+fn a_term_is_a_formula() {
+    let plain = formula(quote! {
+        fn term(cos_i: &Fixed<1, 12>, cos_o: &Fixed<1, 12>, out: &mut Fixed<6, 12>) {
+            let mut square: Fixed<3, 12> = 0;
+            within! { square += cos_i * cos_i; }
+            apply! { out += 0.25 + 1.5 * square * cos_o - (cos_o >> 1); }
+        }
+    });
+    assert_eq!(plain, "((0.25 + 1.5 * (cos_i)^2 * cos_o) - cos_o / 2)");
+    let decided = formula(quote! {
+        fn term(cos_i: &Fixed<1, 12>, out: &mut Fixed<6, 12>) {
+            for i in 0..2 {
+                out += cos_i << i;
+            }
+            if cos_i < 0.5 { out -= 1; } else if !(cos_i < 0.75) && 3 < 4 * cos_i {
+                out += 2 * (cos_i - 1);
+            }
+        }
+    });
+    let before = "(cos_i + cos_i * 2)";
+    let inner = format!(
+        "if_less(cos_i, 0.75, {before}, if_less(3, cos_i * 4, ({before} + (cos_i - 1) * 2), {before}))"
+    );
+    assert_eq!(
+        decided,
+        format!("if_less(cos_i, 0.5, ({before} - 1), {inner})")
+    );
+}
+
+#[test]
+fn bits_have_no_formula() {
+    let wrong = |body: TokenStream| {
+        let function = quote! {
+            fn term(cos_i: &Fixed<1, 12>, u: &UFixed<0, 12>, out: &mut Fixed<4, 12>) { #body }
+        };
+        super::as_expression(&syn::parse2(function).unwrap()).is_err()
+    };
+    assert!(!wrong(quote!(out += u * cos_i;)));
+    assert!(wrong(quote!(out ^= cos_i;)));
+    assert!(wrong(quote!(out += u[3];)));
+    assert!(wrong(quote!(if u[3] {
+        out += 1;
+    })));
+    assert!(wrong(quote!(other(&u, &mut out);)));
+    assert!(wrong(quote!(out = u;)));
+}
