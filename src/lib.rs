@@ -47,6 +47,7 @@
 pub use qrt_core as core;
 #[doc = include_str!("scene_macro.md")]
 pub use qrt_macros::qrt;
+#[doc = include_str!("reversible.md")]
 pub use qrt_macros::reversible;
 pub use qrt_runtime as runtime;
 

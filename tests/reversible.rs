@@ -1,5 +1,7 @@
 //! Reversible routines compute what plain integers say, on every machine, and can be undone.
 
+#![allow(clippy::unwrap_used, clippy::expect_used)]
+
 use qrt::prelude::*;
 
 /// Runs a program on all machines, which must agree, and backwards, which must lead back.
@@ -10,6 +12,7 @@ fn run_all(program: &Program, states: &[Vec<u64>]) -> Vec<Vec<u64>> {
     let inverse = program.inverse();
     assert_eq!(run::on_definition(&inverse, &result).unwrap(), states);
     assert_eq!(run::on_gates(&inverse, &result).unwrap(), states);
+    assert_eq!(run::on_fixed(&inverse, &result).unwrap(), states);
     result
 }
 
@@ -235,7 +238,7 @@ fn comparisons() {
                 a == b,
                 a != b,
                 a < 3 && b != 2,
-                (a < 0) | ((b & 1 == 1) ^ (b & 2 == 0)),
+                a < 0 || ((b & 1 == 1) ^ (b & 2 == 0)),
             ];
             let flips = (0..8).fold(0, |all, i| all | u64::from(bits[i]) << i);
             vec![s[0], s[1], s[2] ^ flips]
@@ -374,12 +377,12 @@ fn polynomials_in_fixed_point() {
     let states = all_then(&[8], &[0]);
     let x = |s: &[u64]| (s[0] << 56).cast_signed() >> 56;
     check([parabola_program, back_program], &states, |s| {
-        let y = x(s) - (x(s) * x(s) >> 8) + 16;
+        let y = x(s) - ((x(s) * x(s)) >> 8) + 16;
         assert!((y as f64 / 64.0 - exact(x(s))).abs() <= 1.0 / 64.0);
         vec![s[0], y.cast_unsigned() & 1023]
     });
     check([horner_program, horner_back_program], &states, |s| {
-        let y = ((64 - (x(s) >> 2)) * x(s) >> 6) + 16;
+        let y = (((64 - (x(s) >> 2)) * x(s)) >> 6) + 16;
         assert!((y as f64 / 64.0 - exact(x(s))).abs() <= 4.0 / 64.0);
         vec![s[0], y.cast_unsigned() & 1023]
     });

@@ -18,7 +18,8 @@ pub fn qrt(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
     expand::expand(input.into()).into()
 }
 
-/// Makes a function of registers reversible; see the crate `qrt`.
+/// Makes a function of registers reversible: generates it, its inverse and its program. The whole
+/// language, with examples, is described where the facade `qrt` shows this macro.
 #[proc_macro_attribute]
 pub fn reversible(
     arguments: proc_macro::TokenStream,

@@ -259,3 +259,119 @@ impl<M: Machine> Machine for Controlled<'_, M> {
         self.under(when, |machine, when| machine.swap(a, b, when));
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::format::{Bool, Reg, UInt};
+    use super::super::{Contents, Recorded, Recorder, Style};
+    use super::*;
+
+    type Number = Reg<Recorded, UInt<3>>;
+
+    /// What `b` is after a program of two conditions and two numbers, of all contents of these.
+    fn all(code: impl Fn(&mut Recorder, [Bit<&Recorded>; 2], &mut Number)) -> Vec<u64> {
+        let mut m = Recorder::new(Style::Lean);
+        let [p, q]: [Reg<_, Bool>; 2] = ["p", "q"].map(|name| Reg::input(&mut m, name));
+        let mut b = Reg::input(&mut m, "b");
+        code(
+            &mut m,
+            [&p, &q].map(|flag| Bit::at(flag.register(), 0)),
+            &mut b,
+        );
+        let program = m.finish();
+        let after = (0..32_u64).map(|state| {
+            let mut contents = Contents {
+                registers: vec![0; program.registers.len()],
+                parameters: Vec::new(),
+                widths: program.registers.iter().map(|r| r.width).collect(),
+                negative: false,
+            };
+            let [p, q, b] = [state & 1, state >> 1 & 1, state >> 2];
+            contents.registers[..3].copy_from_slice(&[p, q, b]);
+            for instruction in &program.instructions {
+                let op = &program.ops[instruction.op as usize];
+                if instruction.inverse {
+                    contents.uncompute(op);
+                } else {
+                    contents.compute(op);
+                }
+            }
+            assert!(contents.registers[3..].iter().all(|bits| *bits == 0));
+            contents.registers[2]
+        });
+        after.collect()
+    }
+
+    fn expected(change: impl Fn(bool, bool, u64) -> u64) -> Vec<u64> {
+        let of = |state: u64| change(state & 1 == 1, state >> 1 & 1 == 1, state >> 2) % 8;
+        (0..32).map(of).collect()
+    }
+
+    #[test]
+    fn every_kind_of_addition_is_under_the_condition() {
+        let three = Operand::Constant(3);
+        let plain = all(|m, [p, q], b| {
+            controlled(m, p, |m| {
+                m.add_into(b.register_mut(), three, false, When::If(q.inverted()));
+            });
+        });
+        assert_eq!(plain, expected(|p, q, b| b + if p && !q { 3 } else { 0 }));
+        let turned = all(|m, [p, q], b| {
+            controlled(m, p, |m| {
+                m.add_into(b.register_mut(), three, false, When::Reversed(q));
+            });
+        });
+        let by = |p, q| if p { if q { 5 } else { 3 } } else { 0 };
+        assert_eq!(turned, expected(|p, q, b| b + by(p, q)));
+    }
+
+    #[test]
+    fn conditions_within_conditions_are_joined_once() {
+        let flips = all(|m, [p, q], b| {
+            controlled(m, p, |m| {
+                controlled(m, q.inverted(), |m| {
+                    m.xor_into(b.register_mut(), Operand::Constant(1), None);
+                    m.add_into(b.register_mut(), Operand::Constant(2), true, When::Always);
+                });
+                m.xor_into(b.register_mut(), Operand::Constant(4), None);
+            });
+        });
+        let inner = |b: u64| (b ^ 1) + 6;
+        assert_eq!(
+            flips,
+            expected(|p, q, b| match (p, q) {
+                (false, _) => b,
+                (true, true) => b ^ 4,
+                (true, false) => (inner(b) % 8) ^ 4,
+            })
+        );
+        let mut m = Recorder::new(Style::Lean);
+        let [p, q]: [Reg<_, Bool>; 2] = ["p", "q"].map(|name| Reg::input(&mut m, name));
+        let mut b: Reg<_, UInt<3>> = Reg::input(&mut m, "b");
+        let [p, q] = [&p, &q].map(|flag| Bit::at(flag.register(), 0));
+        controlled(&mut m, p, |m| {
+            controlled(m, q, |m| {
+                for _ in 0..5 {
+                    m.xor_into(b.register_mut(), Operand::Constant(1), None);
+                }
+            });
+        });
+        let instructions = m.finish().instructions;
+        let ands = instructions
+            .iter()
+            .filter(|instruction| instruction.op == 0);
+        assert_eq!(ands.count(), 2, "computed once and undone once");
+    }
+
+    #[test]
+    fn what_is_undone_needs_no_condition() {
+        let unconditioned = all(|m, [p, _], b| {
+            controlled(m, p, |m| {
+                unconditional(m, |m| {
+                    m.xor_into(b.register_mut(), Operand::Constant(1), None);
+                });
+            });
+        });
+        assert_eq!(unconditioned, expected(|_, _, b| b ^ 1));
+    }
+}

@@ -71,7 +71,7 @@ impl Recorder {
         style: Style,
     ) -> Self {
         let mut recorder = Self::new(style);
-        let registers = registers.iter().map(|declared| register(declared));
+        let registers = registers.iter().map(register);
         recorder.program.registers = registers.collect();
         recorder.program.blocks = blocks;
         recorder.program.parameters = parameters;

@@ -2,12 +2,11 @@
 
 use super::ir::{Place, Register, Statement, StatementKind as K};
 use super::scope::{Scope, text, type_text};
-use proc_macro2::{Span, TokenStream};
+use proc_macro2::TokenStream;
 use qrt_core::codes;
 use quote::ToTokens;
 use std::rc::Rc;
-use syn::spanned::Spanned;
-use syn::{Expr, ExprCall};
+use syn::{Expr, ExprCall, Ident};
 
 impl Scope {
     pub(super) fn call(&mut self, call: &ExprCall, source: TokenStream) -> Option<Statement> {
@@ -31,13 +30,13 @@ impl Scope {
             self.problems.add(codes::REV_CALL, path, message, help);
             return None;
         }
-        let mut arguments: Vec<(Rc<Register>, bool, Span)> = Vec::new();
+        let mut arguments: Vec<(Rc<Register>, bool, Ident)> = Vec::new();
         let mut complete = true;
         for argument in &call.args {
             match self.argument(argument) {
-                Some((register, change)) => {
+                Some((register, change, name)) => {
                     self.handed_twice(&arguments, &register, change, argument);
-                    arguments.push((register, change, argument.span()));
+                    arguments.push((register, change, name));
                 }
                 None => complete = false,
             }
@@ -59,8 +58,8 @@ impl Scope {
         complete.then_some(Statement { kind, source })
     }
 
-    /// A register, and whether it may be changed.
-    fn argument(&mut self, argument: &Expr) -> Option<(Rc<Register>, bool)> {
+    /// A register, whether it may be changed, and its name.
+    fn argument(&mut self, argument: &Expr) -> Option<(Rc<Register>, bool, Ident)> {
         let Expr::Reference(reference) = argument else {
             let shown = text(argument);
             let (message, help) = if matches!(argument, Expr::Path(_)) {
@@ -76,7 +75,11 @@ impl Scope {
                 .add(codes::REV_ARGUMENT, argument, message, &help);
             return None;
         };
-        let Expr::Path(_) = &*reference.expr else {
+        let name = match &*reference.expr {
+            Expr::Path(path) => path.path.get_ident().cloned(),
+            _ => None,
+        };
+        let Some(name) = name else {
             let message = "an argument is a whole register";
             let help = "compute it into a scratch register in `within!`, and call in `apply!`";
             self.problems
@@ -88,12 +91,12 @@ impl Scope {
         if change {
             self.may_change(&place, argument);
         }
-        Some((place.register, change))
+        Some((place.register, change, name))
     }
 
     fn handed_twice(
         &mut self,
-        earlier: &[(Rc<Register>, bool, Span)],
+        earlier: &[(Rc<Register>, bool, Ident)],
         register: &Register,
         change: bool,
         place: impl ToTokens,

@@ -123,12 +123,12 @@ impl Linear {
     }
 
     fn parts(&self) -> Vec<TokenStream> {
-        let terms = self.terms.iter().map(|(name, factor)| match factor {
-            1 => quote!(#name),
-            _ => {
-                let factor = Literal::i64_unsuffixed(*factor);
-                quote!(#factor * #name)
+        let terms = self.terms.iter().map(|(name, factor)| {
+            if *factor == 1 {
+                return quote!(#name);
             }
+            let factor = Literal::i64_unsuffixed(*factor);
+            quote!(#factor * #name)
         });
         let mut parts: Vec<TokenStream> = terms.collect();
         if self.constant != 0 {

@@ -5,7 +5,7 @@ use super::ir::{
     Update, inverse,
 };
 use super::value::{Temporaries, own};
-use proc_macro2::{TokenStream, TokenTree};
+use proc_macro2::{Span, TokenStream, TokenTree};
 use quote::{ToTokens, format_ident, quote, quote_spanned};
 use std::collections::BTreeSet;
 use syn::{Ident, Path, PathArguments};
@@ -14,7 +14,8 @@ use syn::{Ident, Path, PathArguments};
 pub(super) fn routine(routine: &Routine) -> TokenStream {
     let demands = routine.demands.iter().map(|demand| {
         let (condition, message) = (&demand.condition, &demand.message);
-        quote!(const { ::core::assert!(#condition, #message) };)
+        let span = Span::mixed_site().located_at(demand.span);
+        quote_spanned!(span=> const { ::core::assert!(#condition, #message) };)
     });
     let demands: TokenStream = demands.collect();
     let body = |statements: &[Statement]| {
@@ -49,6 +50,7 @@ fn functions(signature: &Signature, forward: &TokenStream, backward: &TokenStrea
         name,
         constants,
         parameters,
+        ..
     } = signature;
     let inverse_name = format_ident!("{name}_inverse");
     let program_name = format_ident!("{name}_program");
@@ -221,12 +223,11 @@ impl Emitter {
                 {
                     given.args.push(syn::parse_quote!(_));
                 }
-                let arguments = arguments.iter().map(|(register, change, span)| {
-                    let name = &register.name;
+                let arguments = arguments.iter().map(|(register, change, name)| {
                     match (register.parameter, *change) {
-                        (true, _) => quote_spanned!(*span=> #name),
-                        (false, true) => quote_spanned!(*span=> &mut #name),
-                        (false, false) => quote_spanned!(*span=> &#name),
+                        (true, _) => quote!(#name),
+                        (false, true) => quote!(&mut #name),
+                        (false, false) => quote!(&#name),
                     }
                 });
                 quote!(#function(#machine, #(#arguments),*);)
@@ -359,18 +360,24 @@ fn number(bit: &Bit, source: &TokenStream) -> super::ir::Number {
 
 /// Registers that a statement writes.
 fn written(statement: &Statement, names: &mut Vec<Ident>) {
-    match &statement.kind {
-        K::Update(place, _) => names.push(place.register.name.clone()),
-        K::Swap(a, b) => names.extend([a.name.clone(), b.name.clone()]),
+    let (first, second): (&[Statement], &[Statement]) = match &statement.kind {
+        K::Update(place, _) => {
+            names.push(place.register.name.clone());
+            return;
+        }
+        K::Swap(a, b) => {
+            names.extend([a.name.clone(), b.name.clone()]);
+            return;
+        }
         K::Call { arguments, .. } => {
             let changed = arguments.iter().filter(|(_, change, _)| *change);
             names.extend(changed.map(|(register, ..)| register.name.clone()));
+            return;
         }
-        K::If(_, a, b) | K::Within(a, b) => {
-            a.iter().chain(b).for_each(|inner| written(inner, names));
-        }
-        K::For { body, .. } | K::Scratch(_, body) | K::Block(body) => {
-            body.iter().for_each(|inner| written(inner, names));
-        }
+        K::If(_, a, b) | K::Within(a, b) => (a, b),
+        K::For { body, .. } | K::Scratch(_, body) | K::Block(body) => (body, &[]),
+    };
+    for inner in first.iter().chain(second) {
+        written(inner, names);
     }
 }

@@ -16,7 +16,7 @@
 
 use super::dim::{Dim, Linear};
 use super::ir::{Bit, Kind, Number, NumberKind, Place, Size, Term, Update};
-use super::scope::{Scope, text, type_text};
+use super::scope::{Scope, begin, text, type_text};
 use qrt_core::codes;
 use quote::{ToTokens, quote};
 use syn::{BinOp, Expr, UnOp};
@@ -141,6 +141,7 @@ impl Scope {
             }
             _ => {}
         }
+        self.here = begin(&expression.to_token_stream());
         let number = self.number(expression)?;
         // A negative multiple is a multiple that is subtracted.
         let number = match number.kind {

@@ -20,12 +20,16 @@ pub(super) struct Signature {
     pub(super) name: Ident,
     pub(super) constants: Vec<Ident>,
     pub(super) parameters: Vec<Rc<Register>>,
+    /// Names of parameters that are not registers.
+    pub(super) broken: Vec<Ident>,
 }
 
 /// What must hold of the constants that a routine is generic over.
 pub(super) struct Demand {
     pub(super) condition: TokenStream,
     pub(super) message: String,
+    /// The statement or term that it is for.
+    pub(super) span: Span,
 }
 
 /// A register, as it is declared.
@@ -153,8 +157,8 @@ pub(super) enum StatementKind {
         path: Path,
         /// Is it the inverse of the function that is named?
         inverse: bool,
-        /// Registers, and whether they may be changed.
-        arguments: Vec<(Rc<Register>, bool, Span)>,
+        /// Registers, whether they may be changed, and their names as they stand there.
+        arguments: Vec<(Rc<Register>, bool, Ident)>,
     },
     If(Bit, Vec<Statement>, Vec<Statement>),
     For {

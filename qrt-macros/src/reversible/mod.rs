@@ -9,6 +9,7 @@ mod call;
 mod constant;
 mod dim;
 mod emit;
+mod expression;
 mod fit;
 mod ir;
 mod number;
@@ -23,10 +24,26 @@ mod value;
 
 use ir::Routine;
 use problem::Problems;
-use proc_macro2::TokenStream;
+use proc_macro2::{Span, TokenStream};
 use qrt_core::codes;
 use scope::Scope;
 use track::Tracker;
+
+/// A function of registers as an expression of the scene's language: what it adds to its one
+/// `&mut` register, in the real numbers that its registers stand for.
+#[cfg_attr(
+    not(test),
+    expect(dead_code, reason = "the terms of scenes are read elsewhere")
+)]
+pub(crate) fn as_expression(function: &syn::ItemFn) -> Result<String, TokenStream> {
+    let mut problems = Problems::default();
+    let read = understood(function, &mut problems);
+    let text = match (read, problems.count()) {
+        (Some(routine), 0) => expression::read(&routine, &mut problems),
+        _ => None,
+    };
+    text.ok_or_else(|| problems.tokens())
+}
 
 /// What the attribute turns an item into.
 pub(crate) fn expand(arguments: &TokenStream, item: TokenStream) -> TokenStream {
@@ -54,35 +71,38 @@ fn expanded(arguments: &TokenStream, item: TokenStream) -> (TokenStream, Problem
             return (item, problems);
         }
     };
-    let signature = signature::read(&function, &mut problems);
+    let tokens = match understood(&function, &mut problems) {
+        Some(routine) => emit::routine(&routine),
+        None => emit::unfinished(&signature::read(&function, &mut Problems::default())),
+    };
+    (tokens, problems)
+}
+
+/// A function without anything wrong.
+fn understood(function: &syn::ItemFn, problems: &mut Problems) -> Option<Routine> {
+    let signature = signature::read(function, problems);
     let mut scope = Scope {
         routine: signature.name.clone(),
         registers: signature.parameters.clone(),
+        broken: signature.broken.clone(),
         constants: signature.constants.clone(),
         loops: Vec::new(),
         demands: Vec::new(),
-        problems,
+        problems: std::mem::take(problems),
         writes: Vec::new(),
         fraction: None,
+        here: Span::call_site(),
     };
     let body = scope.block(&function.block);
-    let Scope {
-        demands,
-        mut problems,
-        ..
-    } = scope;
+    *problems = scope.problems;
     if problems.count() == 0 {
-        Tracker::new(&mut problems).body(&body);
+        Tracker::new(problems).body(&body);
     }
-    if problems.count() > 0 {
-        return (emit::unfinished(&signature), problems);
-    }
-    let routine = Routine {
+    (problems.count() == 0).then_some(Routine {
         signature,
         body,
-        demands,
-    };
-    (emit::routine(&routine), problems)
+        demands: scope.demands,
+    })
 }
 
 /// The keyword that an item begins with, which is enough to be underlined.

@@ -111,7 +111,7 @@ impl Scope {
             Ok(Constant { units, fraction }) => Some(constant(units, fraction, source)),
             Err(reason) => {
                 let message = match reason {
-                    Inexact::Never => format!("{digits} has no last bit"),
+                    Inexact::Never => format!("{digits} has no last bit in binary"),
                     Inexact::TooLong => format!("{digits} has more bits than a register can"),
                 };
                 let fraction = self.fraction.unwrap_or(14).clamp(0, 62);

@@ -43,7 +43,7 @@ impl Problems {
 
 /// Of `names`, the one that is nearest to `name`, if it is near at all.
 pub(super) fn nearest<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> Option<&'a str> {
-    let far = name.chars().count().div_ceil(3);
+    let far = (name.chars().count() + 1) / 3;
     let near = names.map(|other| (distance(name, other), other));
     let best = near.min_by_key(|(distance, _)| *distance)?;
     (best.0 <= far).then_some(best.1)

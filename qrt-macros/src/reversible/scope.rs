@@ -3,7 +3,7 @@
 use super::dim::Linear;
 use super::ir::{Demand, Place, Register};
 use super::problem::{Problems, nearest};
-use proc_macro2::TokenStream;
+use proc_macro2::{Span, TokenStream};
 use qrt_core::codes;
 use quote::{ToTokens, quote};
 use std::rc::Rc;
@@ -13,6 +13,8 @@ use syn::{BinOp, Expr, Ident, Lit, RangeLimits, UnOp};
 pub(super) struct Scope {
     pub(super) routine: Ident,
     pub(super) registers: Vec<Rc<Register>>,
+    /// Names whose declarations are wrong, which is enough to be said once.
+    pub(super) broken: Vec<Ident>,
     pub(super) constants: Vec<Ident>,
     /// Variables of the loops around, and from where to where they run.
     pub(super) loops: Vec<(Ident, [Linear; 2])>,
@@ -22,17 +24,20 @@ pub(super) struct Scope {
     pub(super) writes: Vec<(Place, TokenStream)>,
     /// Fraction bits of what is updated, which say what constants can be.
     pub(super) fraction: Option<i64>,
+    /// The statement or term that is being understood.
+    pub(super) here: Span,
 }
 
 impl Scope {
     /// The register of a name.
     pub(super) fn register(&mut self, name: &Ident) -> Option<Rc<Register>> {
-        let found = self
-            .registers
-            .iter()
-            .find(|register| register.name == *name);
+        let mut latest_first = self.registers.iter().rev();
+        let found = latest_first.find(|register| register.name == *name);
         if let Some(register) = found {
             return Some(register.clone());
+        }
+        if self.broken.contains(name) {
+            return None;
         }
         let message;
         let help;
@@ -153,6 +158,7 @@ impl Scope {
                 self.demands.push(Demand {
                     condition,
                     message: message.to_owned(),
+                    span: self.here,
                 });
             }
         }
@@ -218,13 +224,12 @@ impl Scope {
     /// The first of some bits, and their number.
     fn part(&mut self, register: &Register, index: &Expr) -> Option<[Linear; 2]> {
         let width = &register.format.width;
-        let [first, end] = match index {
-            Expr::Range(range) => self.range(range, Some(width))?,
-            _ => {
-                let bit = self.constant(index, "the place of a bit")?;
-                let end = bit.plus(&1.into());
-                [bit, end]
-            }
+        let [first, end] = if let Expr::Range(range) = index {
+            self.range(range, Some(width))?
+        } else {
+            let bit = self.constant(index, "the place of a bit")?;
+            let end = bit.plus(&1.into());
+            [bit, end]
         };
         let name = &register.name;
         let message = format!("QRT0819: bits beyond the last of `{name}`");
@@ -245,6 +250,12 @@ impl Scope {
         }
         Some([first, bits])
     }
+}
+
+/// Where source text begins.
+pub(super) fn begin(source: &TokenStream) -> Span {
+    let first = source.clone().into_iter().next();
+    first.map_or_else(Span::call_site, |token| token.span())
 }
 
 /// A whole number as it is written.

@@ -53,8 +53,14 @@ pub(super) fn read(function: &ItemFn, problems: &mut Problems) -> Signature {
     }
     let constants = constants(function, problems);
     let mut parameters: Vec<Rc<Register>> = Vec::new();
+    let mut broken = Vec::new();
     for input in &signature.inputs {
         let Some(register) = parameter(input, &constants, problems) else {
+            if let FnArg::Typed(input) = input
+                && let Pat::Ident(name) = &*input.pat
+            {
+                broken.push(name.ident.clone());
+            }
             continue;
         };
         if constants.contains(&register.name) {
@@ -75,6 +81,7 @@ pub(super) fn read(function: &ItemFn, problems: &mut Problems) -> Signature {
         name: signature.ident.clone(),
         constants,
         parameters,
+        broken,
     }
 }
 

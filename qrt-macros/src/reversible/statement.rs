@@ -2,7 +2,7 @@
 
 use super::dim::Linear;
 use super::ir::{Bit, Place, Register, Statement, StatementKind as K};
-use super::scope::{Scope, text, type_text};
+use super::scope::{Scope, begin, text, type_text};
 use super::signature;
 use proc_macro2::TokenStream;
 use qrt_core::codes;
@@ -25,6 +25,7 @@ impl Scope {
             match first {
                 Stmt::Local(local) => {
                     let Some(register) = self.scratch(local) else {
+                        self.broken.extend(declared(&local.pat));
                         continue;
                     };
                     let register = Rc::new(register);
@@ -84,6 +85,9 @@ impl Scope {
             return wrong(quote!(#name), "a scratch register is there to be changed");
         }
         let name = name.ident.clone();
+        if let Some(attribute) = local.attrs.first() {
+            self.no_attribute(attribute);
+        }
         self.take(&name);
         let constants = self.constants.clone();
         let format = signature::format(&typed.ty, &constants, &mut self.problems)?;
@@ -139,6 +143,11 @@ impl Scope {
 
     fn statement(&mut self, expression: &Expr) -> Option<Statement> {
         let source = quote!(#expression);
+        self.here = begin(&source);
+        if let Some(attribute) = attribute(&source) {
+            self.no_attribute(attribute);
+            return None;
+        }
         let kind = match expression {
             Expr::Binary(binary) => return self.update(binary, source),
             Expr::Call(call) => return self.call(call, source),
@@ -160,6 +169,13 @@ impl Scope {
             }
         };
         Some(Statement { kind, source })
+    }
+
+    fn no_attribute(&mut self, attribute: impl ToTokens) {
+        let message = "an attribute of a statement";
+        let help = "put attributes on the function";
+        self.problems
+            .add(codes::REV_STATEMENT, attribute, message, help);
     }
 
     fn no_statement(&mut self, expression: &Expr) {
@@ -202,9 +218,9 @@ impl Scope {
                 let help = "call functions marked `#[reversible]` by name: `add(&x, &mut y)`";
                 (codes::REV_CALL, place, "a method is not reversible", help)
             }
-            Expr::Match(_) => (
+            Expr::Match(choice) => (
                 codes::REV_STATEMENT,
-                quote!(#expression),
+                choice.match_token.to_token_stream(),
                 "`match` has no inverse",
                 "write `if` on bits or comparisons",
             ),
@@ -324,7 +340,8 @@ impl Scope {
         let condition = condition?;
         let mut reads = Vec::new();
         condition.reads(&mut |place| reads.push(place));
-        for (written, source) in self.writes.split_off_copy(before) {
+        for place in before..self.writes.len() {
+            let (written, source) = self.writes[place].clone();
             if let Some(read) = reads.iter().find(|read| !self.apart(read, &written)) {
                 let shown = text(&branch.cond);
                 let message = format!("`{}` decides whether this runs", read.register.name);
@@ -395,13 +412,19 @@ impl Scope {
     }
 }
 
-/// What a vector holds from a place on.
-trait SplitOffCopy<T> {
-    fn split_off_copy(&self, from: usize) -> Vec<T>;
+/// The attribute that source text begins with.
+fn attribute(source: &TokenStream) -> Option<TokenStream> {
+    let mut tokens = source.clone().into_iter();
+    let sign = tokens.next().filter(|first| first.to_string() == "#")?;
+    let body = tokens.next();
+    Some(quote!(#sign #body))
 }
 
-impl<T: Clone> SplitOffCopy<T> for Vec<T> {
-    fn split_off_copy(&self, from: usize) -> Vec<T> {
-        self[from..].to_vec()
+/// The name that a declaration gives.
+fn declared(pattern: &Pat) -> Option<Ident> {
+    match pattern {
+        Pat::Ident(name) => Some(name.ident.clone()),
+        Pat::Type(typed) => declared(&typed.pat),
+        _ => None,
     }
 }

@@ -1,1 +1,236 @@
+//! The expansion as text, and what is found wrong, without a compiler around it.
 
+use super::expanded;
+use proc_macro2::TokenStream;
+use quote::quote;
+use std::path::Path;
+
+/// Compares with the file of this name, or writes it where `QRT_BLESS` is set.
+fn snapshot(name: &str, item: TokenStream) {
+    let (tokens, problems) = expanded(&TokenStream::new(), item);
+    assert_eq!(problems.messages(), [""; 0]);
+    let file = syn::parse2(tokens).unwrap();
+    let text = format!(
+        "// Generated; see `reversible/tests.rs`.\n\n{}",
+        prettyplease::unparse(&file)
+    );
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/reversible/snapshots");
+    let path = folder.join(name);
+    if std::env::var_os("QRT_BLESS").is_some() {
+        std::fs::create_dir_all(&folder).unwrap();
+        std::fs::write(&path, &text).unwrap();
+    }
+    let expected = std::fs::read_to_string(&path).unwrap_or_default();
+    assert_eq!(
+        text,
+        expected,
+        "run with QRT_BLESS=1 and read {}",
+        path.display()
+    );
+}
+
+/// The codes of what is wrong.
+fn codes(item: TokenStream) -> Vec<String> {
+    let messages = expanded(&TokenStream::new(), item).1.messages();
+    let code = |message: &String| {
+        message
+            .split(['[', ']'])
+            .find(|p| p.starts_with("QRT"))
+            .map(str::to_owned)
+    };
+    messages.iter().filter_map(code).collect()
+}
+
+#[test]
+fn a_polynomial_is_generated_readably() {
+    snapshot(
+        "polynomial.rs",
+        quote! {
+            /// out += x^2 + 3 y
+            pub fn polynomial(x: &UInt<4>, y: &UInt<4>, out: &mut UInt<10>) {
+                let mut square: UInt<8> = 0;
+                within! { square += x * x; }
+                apply! { out += square; out += 3 * y; }
+            }
+        },
+    );
+}
+
+#[test]
+fn conditions_and_loops_are_generated_readably() {
+    snapshot(
+        "rotate_where.rs",
+        quote! {
+            /// Rotates a by one, and adds it to b, where a is less and the flag is set.
+            #[inline]
+            fn rotate_where<const W: u32>(flag: &Bool, a: &mut UInt<W>, b: &mut UInt<W>) {
+                if flag & !b[0] {
+                    for i in 1..W {
+                        a[i] ^= a[i - 1];
+                    }
+                    if b < 3 << 2 { helpers::add::<W>(&flag, &mut a); } else { a -= 5; }
+                }
+                swap(a, b);
+            }
+        },
+    );
+}
+
+#[test]
+fn fixed_point_is_generated_readably() {
+    snapshot(
+        "parabola.rs",
+        quote! {
+            /// y += x - x^2 / 4 + 0.25
+            fn parabola<const F: u32>(x: &Fixed<2, F>, y: &mut Fixed<4, F>) {
+                y += x - 0.25 * x * x + 0.25;
+            }
+        },
+    );
+}
+
+#[test]
+fn what_a_register_reads_of_itself_is_undone_in_order() {
+    let order = |last: TokenStream| {
+        codes(quote! {
+            fn f(x: &UInt<4>) {
+                let mut t: UInt<4> = 0;
+                t[1] ^= t[0];
+                t[0] ^= x[0];
+                #last
+            }
+        })
+    };
+    assert_eq!(order(quote!(t[1] ^= t[0]; t[0] ^= x[0];)), ["QRT0804"]);
+    assert_eq!(order(quote!(t[0] ^= x[0]; t[1] ^= t[0];)), [""; 0]);
+}
+
+#[test]
+fn what_was_read_must_be_there_again() {
+    let between = |between: TokenStream| {
+        codes(quote! {
+            fn f(x: &mut UInt<4>, y: &mut UInt<4>) {
+                let mut t: UInt<4> = 0;
+                t += x;
+                #between
+                t -= x;
+            }
+        })
+    };
+    assert_eq!(between(quote!(y += t;)), [""; 0]);
+    assert_eq!(between(quote!(x += 1;)), ["QRT0804"]);
+    assert_eq!(between(quote!(x += 1; y += t; x -= 1;)), [""; 0]);
+    assert_eq!(
+        between(quote!(if y[0] {
+            x += 1;
+        })),
+        ["QRT0804"]
+    );
+    assert_eq!(
+        between(quote!(for _ in 0..2 {
+            x += 1;
+        })),
+        ["QRT0804"]
+    );
+    assert_eq!(between(quote!(swap(x, y);)), ["QRT0804"]);
+    assert_eq!(between(quote!(swap(x, y); swap(y, x);)), [""; 0]);
+    assert_eq!(
+        between(quote!(g(&t, &mut x); h(&x, &mut y); g_inverse(&t, &mut x);)),
+        [""; 0]
+    );
+    assert_eq!(
+        between(quote!(g(&y, &mut x); y += 1; g_inverse(&y, &mut x);)),
+        ["QRT0804"]
+    );
+    assert_eq!(
+        between(quote!(within! { x += 1; } apply! { y += t; })),
+        [""; 0]
+    );
+    assert_eq!(
+        between(quote!(within! { y += 1; } apply! { x += 1; })),
+        ["QRT0804"]
+    );
+}
+
+#[test]
+fn a_condition_may_read_bits_beside_those_that_change() {
+    let branch = |body: TokenStream| {
+        codes(quote! {
+            fn f(a: &mut UInt<8>) {
+                for i in 0..4 { if a[i] { #body } }
+            }
+        })
+    };
+    assert_eq!(branch(quote!(a[i + 1] ^= true;)), [""; 0]);
+    assert_eq!(branch(quote!(a[4..8] ^= 3;)), [""; 0]);
+    assert_eq!(branch(quote!(a[3..8] ^= 3;)), ["QRT0809"]);
+    assert_eq!(
+        branch(quote!(for j in 1..3 {
+            a[j] ^= true;
+        })),
+        ["QRT0809"]
+    );
+}
+
+/// The formula of a function, and that it reads back.
+fn formula(function: TokenStream) -> String {
+    use qrt_core::expr::{Expr, Variable};
+    let text = super::as_expression(&syn::parse2(function).unwrap()).unwrap();
+    let all = [
+        Variable::CosI,
+        Variable::CosO,
+        Variable::CosA,
+        Variable::U,
+        Variable::V,
+    ];
+    Expr::parse(&text, &all).unwrap().simplify().to_string();
+    text
+}
+
+#[test]
+fn a_term_is_a_formula() {
+    let plain = formula(quote! {
+        fn term(cos_i: &Fixed<1, 12>, cos_o: &Fixed<1, 12>, out: &mut Fixed<6, 12>) {
+            let mut square: Fixed<3, 12> = 0;
+            within! { square += cos_i * cos_i; }
+            apply! { out += 0.25 + 1.5 * square * cos_o - (cos_o >> 1); }
+        }
+    });
+    assert_eq!(plain, "((0.25 + 1.5 * (cos_i)^2 * cos_o) - cos_o / 2)");
+    let decided = formula(quote! {
+        fn term(cos_i: &Fixed<1, 12>, out: &mut Fixed<6, 12>) {
+            for i in 0..2 {
+                out += cos_i << i;
+            }
+            if cos_i < 0.5 { out -= 1; } else if !(cos_i < 0.75) && 3 < 4 * cos_i {
+                out += 2 * (cos_i - 1);
+            }
+        }
+    });
+    let before = "(cos_i + cos_i * 2)";
+    let inner = format!(
+        "if_less(cos_i, 0.75, {before}, if_less(3, cos_i * 4, ({before} + (cos_i - 1) * 2), {before}))"
+    );
+    assert_eq!(
+        decided,
+        format!("if_less(cos_i, 0.5, ({before} - 1), {inner})")
+    );
+}
+
+#[test]
+fn bits_have_no_formula() {
+    let wrong = |body: TokenStream| {
+        let function = quote! {
+            fn term(cos_i: &Fixed<1, 12>, u: &UFixed<0, 12>, out: &mut Fixed<4, 12>) { #body }
+        };
+        super::as_expression(&syn::parse2(function).unwrap()).is_err()
+    };
+    assert!(!wrong(quote!(out += u * cos_i;)));
+    assert!(wrong(quote!(out ^= cos_i;)));
+    assert!(wrong(quote!(out += u[3];)));
+    assert!(wrong(quote!(if u[3] {
+        out += 1;
+    })));
+    assert!(wrong(quote!(other(&u, &mut out);)));
+    assert!(wrong(quote!(out = u;)));
+}

@@ -29,6 +29,8 @@ struct Change {
     key: String,
     /// The key of what would take it back.
     undone_by: String,
+    /// The two without what they read.
+    effects: [String; 2],
     class: Class,
     source: TokenStream,
 }
@@ -81,7 +83,7 @@ impl Frame {
         for run in changes.chunk_by(|a, b| a.class == b.class && a.class != Class::Other) {
             let mut keys: Vec<&str> = run.iter().map(|change| change.key.as_str()).collect();
             keys.sort_unstable();
-            content += &format!(" ({})", keys.join("; "));
+            content.extend([" (", &keys.join("; "), ")"]);
         }
         names.of(content)
     }
@@ -106,6 +108,7 @@ impl Frame {
         let change = Change {
             key: format!("{done} from {from}"),
             undone_by: format!("{undone_by} from {from}"),
+            effects: [done, undone_by].map(str::to_owned),
             class,
             source: source.clone(),
         };
@@ -209,9 +212,16 @@ impl<'a> Tracker<'a> {
                         Update::Subtract => (Class::Sum, Update::Add),
                         Update::Xor => (Class::Xor, Update::Xor),
                     };
+                    let read = read(term);
+                    // What depends on the register's other bits has its place in the order.
+                    let class = if read.is_disjoint(&written) {
+                        class
+                    } else {
+                        Class::Other
+                    };
                     let keys = (one(*update), one(back));
                     let keys = (keys.0.as_str(), keys.1.as_str());
-                    frame.change(&written, &read(term), keys, class, source, &mut self.names);
+                    frame.change(&written, &read, keys, class, source, &mut self.names);
                 }
             }
             K::Swap(..) | K::Call { .. } => {
@@ -240,7 +250,7 @@ impl<'a> Tracker<'a> {
                 self.compound(statement, BTreeSet::new(), &inside, frame);
             }
             K::Within(within, apply) => self.within(statement, within, apply, frame),
-            K::Scratch(register, body) => self.scratch(register, body, source, frame),
+            K::Scratch(register, body) => self.scratch(register, body, frame),
             K::Block(body) => self.block(body, frame),
         }
     }
@@ -310,27 +320,30 @@ impl<'a> Tracker<'a> {
         self.compound(statement, touched, &[begin], frame);
     }
 
-    fn scratch(
-        &mut self,
-        register: &Register,
-        body: &[Statement],
-        source: &TokenStream,
-        frame: &mut Frame,
-    ) {
+    fn scratch(&mut self, register: &Register, body: &[Statement], frame: &mut Frame) {
         let name = register.name.to_string();
         // A name of its own, also if another block has used it.
-        frame
-            .before
-            .insert(name.clone(), self.names.of(format!("zero {name}")));
+        frame.before.insert(
+            name.clone(),
+            self.names
+                .of(format!("zero {name}: {}", type_text(&register.ty))),
+        );
         self.block(body, frame);
         let dirty = frame.changes.remove(&name).unwrap_or_default();
         if let Some(first) = dirty.first() {
             let message = format!("computed here, never uncomputed: `{name}` is not 0 at its end");
-            let help = match text(source).split_once('=') {
-                _ if dirty.len() > 1 => {
+            let late = dirty
+                .iter()
+                .find(|later| later.effects[0] == first.effects[1]);
+            let help = match late {
+                Some(late) => format!(
+                    "`{}` does not undo it: what it reads has changed in between",
+                    text(&late.source)
+                ),
+                None if dirty.len() > 1 => {
                     "compute it in `within! { .. }` and use it in `apply! { .. }`".to_owned()
                 }
-                _ => format!(
+                None => format!(
                     "write `within! {{ {}; }} apply! {{ .. }}` around what uses it",
                     text(&first.source)
                 ),

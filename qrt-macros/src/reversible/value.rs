@@ -86,15 +86,12 @@ impl Value {
             Self::Constant(units) => {
                 let known = units.to_string().parse::<i64>().ok().zip(by.known());
                 let shifted = known.and_then(|(units, by)| units.checked_shl(by as u32));
-                Self::Constant(match shifted {
-                    Some(units) => {
-                        let units = Literal::i64_unsuffixed(units);
-                        quote!(#units)
-                    }
-                    None => {
-                        let by = by.tokens();
-                        quote!((#units << (#by)))
-                    }
+                Self::Constant(if let Some(units) = shifted {
+                    let units = Literal::i64_unsuffixed(units);
+                    quote!(#units)
+                } else {
+                    let by = distance(by);
+                    quote!(#units << #by)
                 })
             }
             Self::Word(view) => Self::Word(View {
@@ -214,8 +211,8 @@ impl Temporaries {
         let view = match self.value(inner) {
             Value::Word(view) => view,
             Value::Constant(units) => {
-                let by = by.tokens();
-                return Value::Constant(quote!((#units >> (#by))));
+                let by = distance(by);
+                return Value::Constant(quote!(#units >> #by));
             }
         };
         let width = number.size.width.clone();
@@ -223,10 +220,10 @@ impl Temporaries {
             let first = view.first.plus(&by.minus(&view.shift));
             let (shift, whole) = (0.into(), None);
             return Value::Word(View {
+                whole,
                 first,
                 width,
                 shift,
-                whole,
                 ..view
             });
         }
@@ -373,6 +370,16 @@ impl Temporaries {
 impl Number {
     fn is_constant(&self) -> bool {
         matches!(self.kind, NumberKind::Constant(_))
+    }
+}
+
+/// How far a constant is shifted.
+fn distance(by: &Linear) -> TokenStream {
+    let tokens = by.tokens();
+    if tokens.clone().into_iter().count() == 1 {
+        tokens
+    } else {
+        quote!((#tokens))
     }
 }
 

@@ -271,3 +271,72 @@ fn check(program: &Program, states: &[impl AsRef<[u64]>]) -> Result<(), RunError
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use qrt_core::circuit::format::{Reg, UInt};
+    use qrt_core::circuit::{Declaration, Machine, Recorder, Style, Type, When};
+
+    /// A scratch register that is given back with what a state holds.
+    fn leaves() -> Program {
+        let mut m = Recorder::new(Style::Lean);
+        let a: Reg<_, UInt<4>> = Reg::input(&mut m, "a");
+        let mut t: Reg<_, UInt<4>> = Reg::zero(&mut m, "t");
+        m.add_into(t.register_mut(), a.word().into(), false, When::Always);
+        t.free(&mut m);
+        m.finish()
+    }
+
+    #[test]
+    fn what_is_left_behind_is_found() {
+        let program = leaves();
+        let states = [[0], [0], [3]];
+        let dirty = |register: &str| RunError::Dirty {
+            state: 2,
+            register: register.to_owned(),
+        };
+        assert_eq!(on_definition(&program, &states), Err(dirty("t")));
+        assert_eq!(on_fixed(&program, &states), Err(dirty("t")));
+        assert_eq!(on_gates(&program, &states), Err(dirty("qubit 4")));
+        assert_eq!(on_gates(&program, &[[0]]), Ok(vec![vec![0]]));
+    }
+
+    #[test]
+    fn what_is_undone_after_its_operands_changed_is_found() {
+        let mut m = Recorder::new(Style::Lean);
+        let mut a: Reg<_, UInt<4>> = Reg::input(&mut m, "a");
+        let declared = Declaration::work("copy", Type::UInt, 4);
+        let copy = m.copy(&declared, a.word());
+        m.add_into(a.register_mut(), Operand::Constant(1), false, When::Always);
+        m.undo([copy]);
+        let program = m.finish();
+        assert!(matches!(
+            on_definition(&program, &[[7]]),
+            Err(RunError::Dirty { .. })
+        ));
+        assert!(matches!(
+            on_gates(&program, &[[7]]),
+            Err(RunError::Dirty { .. })
+        ));
+    }
+
+    #[test]
+    fn states_must_fit() {
+        let program = leaves();
+        assert!(matches!(
+            on_fixed(&program, &[[16]]),
+            Err(RunError::TooWide { .. })
+        ));
+        assert!(matches!(
+            on_gates(&program, &[[0, 0]]),
+            Err(RunError::Inputs { .. })
+        ));
+        let mut kept = program;
+        kept.instructions.pop();
+        assert!(matches!(
+            on_fixed(&kept, &[[0]]),
+            Err(RunError::Kept { .. })
+        ));
+    }
+}

@@ -94,7 +94,10 @@ impl<'a> Compiler<'a> {
             compiler.input(input, *register);
         }
         let all = &program.instructions;
-        let computed = all.iter().rposition(|instruction| !instruction.inverse);
+        let in_place = |op: u32| program.ops[op as usize].targets().is_empty();
+        let computed = all
+            .iter()
+            .rposition(|instruction| !instruction.inverse || in_place(instruction.op));
         for instruction in &all[..computed.map_or(0, |last| last + 1)] {
             let op = &program.ops[instruction.op as usize];
             if !instruction.inverse {

@@ -62,7 +62,7 @@ impl Fixed {
     pub const LANES: usize = LANES;
 
     /// A machine that computes `outputs`, numbers read from the program's registers after the last
-    /// of its instructions that is not an inverse.
+    /// of its instructions that computes something: none of those that only undo follow it.
     ///
     /// # Panics
     /// If the program names a register, an operation or a parameter that it doesn't have.

@@ -1,0 +1,104 @@
+//! How many paths a second the code that `qrt!` compiles traces, beside the fixed machine, which
+//! goes through the same program step by step.
+//!
+//! `cargo bench --bench native` prints, scene by scene, paths a second of one core by each, and how
+//! many times as fast the code is. Both compute all three channels of every path, and the same bits.
+//!
+//! It fails where a promise is broken: on the Cornell box, on a processor with AVX-512, the code is
+//! faster than the interpreted program.
+
+// A bench that cannot run has nothing to report.
+#![allow(clippy::unwrap_used, clippy::expect_used)]
+
+use qrt::prelude::*;
+use qrt::runtime::machines::{Finished, InstructionSet, NativeOracle, OracleMachine};
+use std::process::ExitCode;
+use std::time::Instant;
+
+qrt! {
+    scene Furnace from "scenes-yaml/furnace.yaml"
+    scene Floor from "scenes-yaml/floor-and-light.yaml"
+    scene CornellBox from "scenes-yaml/cornell-box.yaml"
+    scene Mirror from "scenes-yaml/cornell-mirror.yaml"
+}
+
+/// Best of so many runs, in turn, so that what slows the machine slows both.
+const RUNS: usize = 40;
+
+/// How many times as fast as the interpreted program; the aim is 2.
+const BAR: f64 = 1.0;
+
+const PIXELS: [[u32; 2]; 4] = [[19, 37], [32, 16], [25, 50], [44, 44]];
+
+fn main() -> ExitCode {
+    let widest = InstructionSet::widest();
+    println!(
+        "million paths a second of one core, all three channels; best of {RUNS} runs; {widest:?}"
+    );
+    println!("                      ops     fixed    native   ratio");
+    compared::<Furnace>("furnace");
+    compared::<Floor>("floor-and-light");
+    let of_box = compared::<CornellBox>("cornell-box");
+    compared::<Mirror>("cornell-mirror");
+    if widest != InstructionSet::Avx512 {
+        println!("\nno AVX-512 here: the fixed machine takes the place of the code");
+        return ExitCode::SUCCESS;
+    }
+    let kept = of_box > BAR;
+    println!(
+        "\n{} box: the code {of_box:.2} times as fast as the interpreted program, more than {BAR}",
+        if kept { "kept  " } else { "BROKEN" }
+    );
+    if kept {
+        ExitCode::SUCCESS
+    } else {
+        ExitCode::FAILURE
+    }
+}
+
+fn compared<C: NativeOracle>(name: &str) -> f64 {
+    let oracle = C::oracle().unwrap();
+    let ops = oracle.program.ops.len();
+    let oracle = std::sync::Arc::new(oracle);
+    let fixed = OracleMachine::fixed(oracle.clone(), 1, false);
+    let native = OracleMachine::native::<C>(oracle, 1, false);
+    assert!(all(&fixed) == all(&native), "{name}: the bits differ");
+    let (mut by_fixed, mut by_native) = (0.0_f64, 0.0_f64);
+    for _ in 0..RUNS {
+        by_fixed = by_fixed.max(speed(&fixed));
+        by_native = by_native.max(speed(&native));
+    }
+    println!(
+        "  {name:16} {ops:7}  {:8.3}  {:8.3}  {:6.2}",
+        by_fixed / 1e6,
+        by_native / 1e6,
+        by_native / by_fixed
+    );
+    by_native / by_fixed
+}
+
+fn all(machine: &OracleMachine) -> Vec<i64> {
+    let mut values = Vec::new();
+    let finished = |found: Finished<'_>| {
+        found
+            .good
+            .iter()
+            .for_each(|good| values.extend_from_slice(good));
+    };
+    machine
+        .trace(&PIXELS, 0..machine.paths(), finished)
+        .expect("neither machine finds anything");
+    values
+}
+
+/// Paths a second.
+fn speed(machine: &OracleMachine) -> f64 {
+    let started = Instant::now();
+    machine
+        .trace(&PIXELS, 0..machine.paths(), |found| {
+            std::hint::black_box(found.good);
+        })
+        .expect("neither machine finds anything");
+    let paths = PIXELS.len() as u64 * machine.paths();
+    paths as f64 / started.elapsed().as_secs_f64()
+}

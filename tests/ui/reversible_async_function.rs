@@ -1,0 +1,8 @@
+use qrt::prelude::*;
+
+#[reversible]
+async fn later(a: &mut UInt<4>) {
+    a += 1;
+}
+
+fn main() {}

@@ -1,0 +1,8 @@
+use qrt::prelude::*;
+
+#[reversible]
+fn width<const W: u32>(out: &mut UInt<W>) {
+    out += W;
+}
+
+fn main() {}

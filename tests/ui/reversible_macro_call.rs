@@ -1,0 +1,8 @@
+use qrt::prelude::*;
+
+#[reversible]
+fn show(a: &mut UInt<4>) {
+    println!("{a}");
+}
+
+fn main() {}

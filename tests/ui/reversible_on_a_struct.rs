@@ -1,0 +1,8 @@
+use qrt::prelude::*;
+
+#[reversible]
+struct Registers {
+    a: UInt<4>,
+}
+
+fn main() {}

@@ -1,0 +1,8 @@
+use qrt::prelude::*;
+
+#[reversible]
+fn change(a: &UInt<4>) {
+    a += 1;
+}
+
+fn main() {}
