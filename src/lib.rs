@@ -44,6 +44,11 @@
 //! [`core`] holds what needs no machine: the scene, its checks, the sequences of paths and the
 //! tracer. [`runtime`] holds what runs: machines, counting, rendering, files.
 
+/// The README's example is a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
 pub use qrt_core as core;
 #[doc = include_str!("scene_macro.md")]
 pub use qrt_macros::qrt;

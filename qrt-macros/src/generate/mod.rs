@@ -4,6 +4,7 @@
 //! The code is written as text and read back as tokens: it is long, and making it token by token
 //! takes a macro that nobody has optimised many times as long.
 
+mod broken;
 mod code;
 mod data;
 mod fields;
@@ -11,6 +12,8 @@ mod names;
 mod native;
 #[cfg(test)]
 mod tests;
+
+pub(crate) use broken::broken;
 
 use crate::scene::Parsed;
 use names::Names;
@@ -36,52 +39,12 @@ pub(crate) fn scene(parsed: &Parsed, valid: &ValidScene) -> Result<TokenStream, 
     Ok(text.parse().unwrap_or_default())
 }
 
-/// What stands there for a scene with errors, so that the rest of a program is understood.
-pub(crate) fn broken(name: &str) -> TokenStream {
-    let why = "::core::unreachable!(\"this scene has errors\")";
-    let text = format!(
-        "#[allow(missing_docs)]
-        impl {name} {{
-            pub const QUBITS: u64 = 0;
-            pub const TOFFOLI: u64 = 0;
-            pub const PATH_BITS: u32 = 0;
-            pub const COMPARATOR_BITS: u32 = 0;
-            pub const FRACTION_BITS: u32 = 0;
-            pub const DEPTH: usize = 0;
-            pub const FILM: [u32; 2] = [0; 2];
-            pub const SCALE: [f64; 3] = [0.0; 3];
-            pub const OPERATIONS: usize = 0;
-        }}
-        impl ::qrt::core::oracle::compiled::CompiledOracle for {name} {{
-            const OUTLINE: &'static ::qrt::core::oracle::compiled::Outline =
-                &::qrt::core::oracle::compiled::Outline::NONE;
-            fn scene() -> &'static ::qrt::core::valid::ValidScene {{ {why} }}
-            fn within<M: ::qrt::core::circuit::Machine, T>(
-                _: &mut M,
-                _: &M::Register,
-                _: impl ::core::ops::FnOnce(
-                    &mut M,
-                    ::qrt::core::oracle::compiled::Computed<'_, Self, M::Register>,
-                ) -> T,
-            ) -> T {{ {why} }}
-        }}
-        impl ::qrt::runtime::machines::NativeOracle for {name} {{
-            fn native<V: ::qrt::runtime::machines::native::Vectors>(
-                _: V,
-                _: &[u64],
-                _: V::Longs,
-            ) -> [[V::Longs; 3]; 2] {{ {why} }}
-        }}"
-    );
-    text.parse().unwrap_or_default()
-}
-
 /// The same as text.
 fn text(scene: &str, public: &str, valid: &ValidScene) -> Result<String, Vec<Problem>> {
     let (channels, oracle) = Oracle::all(valid).map_err(|error| vec![error.problem()])?;
     let spent = spent(&channels);
     check_budget(valid, spent)?;
-    let mut out = figures(scene, valid, &oracle, spent);
+    let mut out = figures(scene, public, valid, &oracle, spent);
     if oracle.program.ops.len() <= MOST {
         let names = Names::new(&oracle);
         let layout = fields::write(&mut out, scene, public, &oracle);
@@ -120,7 +83,7 @@ fn text(scene: &str, public: &str, valid: &ValidScene) -> Result<String, Vec<Pro
 }
 
 /// What the circuit is and costs.
-fn figures(scene: &str, valid: &ValidScene, oracle: &Oracle, spent: Spent) -> String {
+fn figures(scene: &str, public: &str, valid: &ValidScene, oracle: &Oracle, spent: Spent) -> String {
     let Spent { qubits, toffoli } = spent;
     let film = oracle.film;
     let path_bits = oracle.points.path_bits();
@@ -133,26 +96,27 @@ fn figures(scene: &str, valid: &ValidScene, oracle: &Oracle, spent: Spent) -> St
         scale[channel.number] = channel.scale;
     }
     format!(
-        "impl {scene} {{
+        "#[allow(dead_code)]
+        impl {scene} {{
             /// The most qubits in use at any time during a call of the oracle of the channel that
             /// has the most Toffolis.
-            pub const QUBITS: u64 = {qubits};
+            {public} const QUBITS: u64 = {qubits};
             /// Toffoli gates of a call of the oracle of the channel that has the most.
-            pub const TOFFOLI: u64 = {toffoli};
+            {public} const TOFFOLI: u64 = {toffoli};
             /// A pixel has `2^PATH_BITS` paths.
-            pub const PATH_BITS: u32 = {path_bits};
+            {public} const PATH_BITS: u32 = {path_bits};
             /// Qubits of the comparator.
-            pub const COMPARATOR_BITS: u32 = {comparator_bits};
+            {public} const COMPARATOR_BITS: u32 = {comparator_bits};
             /// Bits after the point of every number.
-            pub const FRACTION_BITS: u32 = {fraction};
+            {public} const FRACTION_BITS: u32 = {fraction};
             /// Rays on a path.
-            pub const DEPTH: usize = {depth};
+            {public} const DEPTH: usize = {depth};
             /// Columns and rows of the film.
-            pub const FILM: [u32; 2] = {film:?};
+            {public} const FILM: [u32; 2] = {film:?};
             /// By channel (red, green, blue): the proven bound on a path's colour, in radiance.
-            pub const SCALE: [f64; 3] = {scale:?};
+            {public} const SCALE: [f64; 3] = {scale:?};
             /// Operations from a path's id to its three colours.
-            pub const OPERATIONS: usize = {operations};
+            {public} const OPERATIONS: usize = {operations};
         }}
 "
     )

@@ -1,3 +1,4 @@
+#[allow(dead_code)]
 impl LitFloor {
     /// The most qubits in use at any time during a call of the oracle of the channel that
     /// has the most Toffolis.

@@ -78,7 +78,7 @@ pub(crate) fn broken(header: &Header) -> TokenStream {
         name,
         ..
     } = header;
-    let figures = crate::generate::broken(&name.to_string());
+    let figures = crate::generate::broken(&name.to_string(), &quote!(#visibility).to_string());
     quote! {
         #attributes
         #visibility struct #name;

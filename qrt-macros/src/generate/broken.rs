@@ -1,0 +1,109 @@
+//! What stands beside a scene with errors, so that the rest of a program is understood, and the
+//! compiler speaks of the scene's errors alone.
+
+use proc_macro2::TokenStream;
+
+/// Rays that such a scene seems to have.
+const RAYS: usize = 16;
+
+/// What the layout of a scene can have.
+const VECTORS: [&str; 2] = ["origin", "direction"];
+const NUMBERS: [&str; 14] = [
+    "distance",
+    "found",
+    "face",
+    "sample_u",
+    "sample_v",
+    "throughput_r",
+    "throughput_g",
+    "throughput_b",
+    "origin_x",
+    "origin_y",
+    "origin_z",
+    "direction_x",
+    "direction_y",
+    "direction_z",
+];
+
+/// Its figures are 0, its functions never return, and its layout has all that any can have.
+pub(crate) fn broken(name: &str, visibility: &str) -> TokenStream {
+    let never = "::core::unreachable!(\"this scene has errors\")";
+    let field =
+        format!("::qrt::core::oracle::compiled::Field<{name}, ::qrt::core::circuit::format::Bool>");
+    let bool = "::qrt::core::circuit::format::Bool";
+    let vector = format!("::qrt::core::oracle::compiled::Vector<{name}, {bool}, {bool}, {bool}>");
+    let place = "::qrt::core::oracle::compiled::Field::new(0, \
+                 ::qrt::core::circuit::Word::unsigned(::qrt::core::circuit::RegisterId(0), 0, 1))";
+    let each = |vectors: &dyn Fn(&str) -> String, numbers: &dyn Fn(&str) -> String| {
+        let vectors = VECTORS.iter().map(|name| vectors(name));
+        let numbers = NUMBERS.iter().map(|name| numbers(name));
+        vectors.chain(numbers).collect::<Vec<_>>().join(", ")
+    };
+    let fields = each(&|name| format!("pub {name}: {vector}"), &|name| {
+        format!("pub {name}: {field}")
+    });
+    let places = each(
+        &|name| {
+            format!(
+                "{name}: ::qrt::core::oracle::compiled::Vector {{ \
+                 x: {place}, y: {place}, z: {place} }}"
+            )
+        },
+        &|name| format!("{name}: {place}"),
+    );
+    let rays = |text: &str| {
+        let rays = (0..RAYS).map(|ray| {
+            format!(
+                "{}ray{ray}: {text}",
+                if text == "RAY" { "" } else { "pub " }
+            )
+        });
+        rays.collect::<Vec<_>>().join(", ")
+    };
+    let (all, each_is) = (rays(&format!("{name}Ray")), rays("RAY"));
+    let text = format!(
+        "#[allow(missing_docs, dead_code)]
+        #[derive(Clone, Copy, Debug)]
+        {visibility} struct {name}Ray {{ {fields} }}
+        #[allow(missing_docs, dead_code)]
+        #[derive(Clone, Copy, Debug)]
+        {visibility} struct {name}Layout {{ {all} }}
+        #[allow(missing_docs, dead_code)]
+        impl {name} {{
+            pub const QUBITS: u64 = 0;
+            pub const TOFFOLI: u64 = 0;
+            pub const PATH_BITS: u32 = 0;
+            pub const COMPARATOR_BITS: u32 = 0;
+            pub const FRACTION_BITS: u32 = 0;
+            pub const DEPTH: usize = 0;
+            pub const FILM: [u32; 2] = [0; 2];
+            pub const SCALE: [f64; 3] = [0.0; 3];
+            pub const OPERATIONS: usize = 0;
+            {visibility} const LAYOUT: {name}Layout = {{
+                const RAY: {name}Ray = {name}Ray {{ {places} }};
+                {name}Layout {{ {each_is} }}
+            }};
+        }}
+        impl ::qrt::core::oracle::compiled::CompiledOracle for {name} {{
+            const OUTLINE: &'static ::qrt::core::oracle::compiled::Outline =
+                &::qrt::core::oracle::compiled::Outline::NONE;
+            fn scene() -> &'static ::qrt::core::valid::ValidScene {{ {never} }}
+            fn within<M: ::qrt::core::circuit::Machine, T>(
+                _: &mut M,
+                _: &M::Register,
+                _: impl ::core::ops::FnOnce(
+                    &mut M,
+                    ::qrt::core::oracle::compiled::Computed<'_, Self, M::Register>,
+                ) -> T,
+            ) -> T {{ {never} }}
+        }}
+        impl ::qrt::runtime::machines::NativeOracle for {name} {{
+            fn native<V: ::qrt::runtime::machines::native::Vectors>(
+                _: V,
+                _: &[u64],
+                _: V::Longs,
+            ) -> [[V::Longs; 3]; 2] {{ {never} }}
+        }}"
+    );
+    text.parse().unwrap_or_default()
+}
