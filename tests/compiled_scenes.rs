@@ -6,7 +6,8 @@
 use qrt::core::circuit::{Program, Word};
 use qrt::core::oracle::{Options as Compile, Oracle};
 use qrt::prelude::*;
-use qrt::runtime::machines::OracleMachine;
+use qrt::runtime::machines::{Finished, InstructionSet, NativeOracle, OracleMachine};
+use std::sync::Arc;
 
 qrt! {
     scene Box from "scenes-yaml/cornell-box.yaml"
@@ -45,37 +46,43 @@ fn is_the_scene<C: CompiledOracle>() {
     assert!(whole::<C>().instructions == both, "not undone in reverse");
 }
 
-/// Paths of a pixel, one basis state at a time, against the fixed machine.
-fn counts_as_the_fixed_machine<C: CompiledOracle>(pixel: [u32; 2]) {
-    let machine = OracleMachine::fixed(C::oracle().unwrap().into(), 3, true);
-    let native = OracleMachine::native::<C>(C::oracle().unwrap().into(), 3, true);
-    let most = 1 << machine.oracle().comparator_bits();
-    for machine in [machine, native] {
-        let trace = |ids, check: &mut dyn FnMut(usize, u64, [i64; 3], [i64; 3])| {
-            machine
-                .trace(&[pixel], ids, |run| {
-                    for place in 0..run.good[0].len() {
-                        let good = run.good.map(|good| good[place]);
-                        let colour = run.colours.map(|colour| colour[place]);
-                        check(run.pixel, run.first_id + place as u64, good, colour);
-                    }
-                })
-                .unwrap();
-        };
-        trace(0..machine.paths().min(24), &mut |_, path, good, colour| {
-            let (mut state, id) = State::path::<C>(3, pixel, path).unwrap();
-            C::within(&mut state, &id, |state, computed| {
-                let counts = computed.counts().map(|count| state.operand(count));
-                assert_eq!(
-                    counts.map(|count| count.clamp(0, most)),
-                    good,
-                    "path {path}"
-                );
-                let colours = computed.colours().map(|c| state.operand(c));
-                assert_eq!(colours, colour, "path {path}");
-            });
-            state.clean().unwrap();
+/// By path of a pixel: by channel the count and the colour.
+fn paths(machine: &OracleMachine, pixel: [u32; 2]) -> Vec<[[i64; 3]; 2]> {
+    let mut paths = Vec::new();
+    let finished = |run: Finished<'_>| {
+        for place in 0..run.good[0].len() {
+            let of = |values: [&[i64]; 3]| values.map(|values| values[place]);
+            paths.push([of(run.good), of(run.colours)]);
+        }
+    };
+    machine
+        .trace(&[pixel], 0..machine.paths(), finished)
+        .unwrap();
+    paths
+}
+
+/// All paths of a pixel, as native code by each instruction set, against the fixed machine; and some
+/// of them one basis state at a time.
+fn computes_what_the_fixed_machine_does<C: NativeOracle>(pixel: [u32; 2]) {
+    let oracle: Arc<Oracle> = C::oracle().unwrap().into();
+    let fixed = paths(&OracleMachine::fixed(oracle.clone(), 3, true), pixel);
+    for set in InstructionSet::available() {
+        let native = OracleMachine::native_on::<C>(set, oracle.clone(), 3, true);
+        assert!(
+            paths(&native, pixel) == fixed,
+            "{set:?} computes something else"
+        );
+    }
+    let most = 1 << oracle.comparator_bits();
+    for (path, expected) in (0..).zip(&fixed).step_by(fixed.len().div_ceil(24)) {
+        let (mut state, id) = State::path::<C>(3, pixel, path).unwrap();
+        C::within(&mut state, &id, |state, computed| {
+            let counts = computed.counts().map(|count| state.operand(count));
+            let counts = counts.map(|count| count.clamp(0, most));
+            let colours = computed.colours().map(|colour| state.operand(colour));
+            assert_eq!([counts, colours], *expected, "path {path}");
         });
+        state.clean().unwrap();
     }
 }
 
@@ -84,7 +91,7 @@ macro_rules! scenes {
         $(#[test]
         fn $test() {
             is_the_scene::<$scene>();
-            counts_as_the_fixed_machine::<$scene>($pixel);
+            computes_what_the_fixed_machine_does::<$scene>($pixel);
         })*
     };
 }

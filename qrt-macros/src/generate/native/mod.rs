@@ -46,8 +46,12 @@ pub(super) fn write(out: &mut String, scene: &str, oracle: &Oracle, names: &Name
     };
     coder.variables.insert(oracle.id, Variable::Number(id));
     for instruction in &oracle.program.instructions {
-        if !instruction.inverse {
-            coder.op(&oracle.program.ops[instruction.op as usize]);
+        let op = &oracle.program.ops[instruction.op as usize];
+        let targets = op.targets();
+        // What is undone and computed again is the same.
+        let known = |target| coder.variables.contains_key(target);
+        if !instruction.inverse && !targets.iter().all(known) {
+            coder.op(op);
         }
     }
     let mut outputs = [const { String::new() }; 2];
