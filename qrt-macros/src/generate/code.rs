@@ -1,12 +1,13 @@
 //! Compute and uncompute as straight-line code.
 
+use super::lines::{self, Line};
 use super::names::Names;
 use qrt_core::circuit::{Bit, BlockId, Instruction, Op, Operand, Program, RegisterId, When, Word};
 use qrt_core::oracle::{Channel, Oracle};
 use std::fmt::Write as _;
 
 struct Coder<'a> {
-    out: &'a mut String,
+    lines: Vec<Line>,
     program: &'a Program,
     names: &'a Names,
     id: RegisterId,
@@ -33,7 +34,7 @@ pub(super) fn write(out: &mut String, scene: &str, oracle: &Oracle, names: &Name
             ) -> T {{"
     );
     let mut coder = Coder {
-        out,
+        lines: Vec::new(),
         program: &oracle.program,
         names,
         id: oracle.id,
@@ -42,27 +43,35 @@ pub(super) fn write(out: &mut String, scene: &str, oracle: &Oracle, names: &Name
     for instruction in &oracle.program.instructions {
         coder.instruction(*instruction);
     }
-    coder.out.push_str("let fields = &[");
-    for named in &oracle.places {
-        let register = coder.borrowed(named.place.register());
-        let _ = write!(coder.out, "{register}, ");
+    let compute = lines::blocks(&std::mem::take(&mut coder.lines), |_, _| true);
+    for instruction in &oracle.program.inverse().instructions {
+        coder.instruction(*instruction);
     }
-    coder.out.push_str("];\nlet channels = [");
-    for number in 0..3 {
+    let uncompute = lines::blocks(&coder.lines, |_, _| true);
+    let fields = oracle.places.iter();
+    let fields: Vec<String> = fields
+        .map(|named| coder.borrowed(named.place.register()))
+        .collect();
+    let channels = (0..3).map(|number| {
         let channel = oracle.channels.iter().find(|c| c.number == number);
         let zero = Operand::Constant(0);
         let pair = channel.map_or([zero; 2], |&Channel { count, colour, .. }| [count, colour]);
         let [count, colour] = pair.map(|operand| coder.operand(operand));
-        let _ = write!(coder.out, "[{count}, {colour}], ");
-    }
-    coder.out.push_str(
-        "];
-        let applied = apply(m, Computed::new(fields, channels));\n",
+        format!("[{count}, {colour}]")
+    });
+    let _ = writeln!(
+        out,
+        "{compute}
+        let fields = &[{}];
+        let channels = [{}];
+        let applied = apply(m, Computed::new(fields, channels));
+        {uncompute}
+        applied
+        }}
+        }}",
+        fields.join(", "),
+        channels.collect::<Vec<_>>().join(", "),
     );
-    for instruction in &oracle.program.inverse().instructions {
-        coder.instruction(*instruction);
-    }
-    out.push_str("applied\n}\n}\n");
 }
 
 impl Coder<'_> {
@@ -119,23 +128,29 @@ impl Coder<'_> {
 
     fn instruction(&mut self, instruction: Instruction) {
         if self.block.replace(instruction.block) != Some(instruction.block) {
-            let _ = writeln!(self.out, "m.block(BlockId({}));", instruction.block.0);
+            self.lines.push(Line {
+                text: format!("m.block(BlockId({}));", instruction.block.0),
+                ..Line::default()
+            });
         }
         let op = &self.program.ops[instruction.op as usize];
         let targets = self.targets(op);
-        let line = if targets.is_empty() {
+        let own = || targets.iter().map(|&name| name.to_owned()).collect();
+        let (mut bound, mut taken) = (Vec::new(), Vec::new());
+        let text = if targets.is_empty() {
             format!("m.{};", self.in_place(op, instruction.inverse))
         } else if instruction.inverse {
+            taken = own();
             format!("m.undo([{}]);", targets.join(", "))
         } else {
+            bound = own();
             let targets = match (op, targets.as_slice()) {
                 (Op::Table { .. } | Op::Divide { .. }, all) => format!("[{}]", all.join(", ")),
                 (_, all) => all.concat(),
             };
             format!("let {targets} = m.{};", self.call(op))
         };
-        self.out.push_str(&line);
-        self.out.push('\n');
+        self.lines.push(Line { text, bound, taken });
     }
 
     /// An operation out of place.

@@ -8,6 +8,7 @@ mod broken;
 mod code;
 mod data;
 mod fields;
+mod lines;
 mod names;
 mod native;
 #[cfg(test)]

@@ -847,185 +847,286 @@ const _: () = {
             id: &M::Register,
             apply: impl FnOnce(&mut M, Computed<'_, Self, M::Register>) -> T,
         ) -> T {
-            m.block(BlockId(1));
-            let ray0_sample_u_3 = m.parity(&R[3], id, &[1, 0], Some(0));
-            let ray0_sample_v_4 = m.parity(&R[4], id, &[1, 1], Some(1));
-            m.block(BlockId(3));
-            let add5 = m.add(&R[5], Operand::Constant(16), Operand::Constant(0));
-            let load6 = m.load(&R[6], 2);
-            let [ray0_direction_y_7] = m.table([&R[7]], &[Bit::at(&ray0_sample_v_4, 0)], [T7], 0);
-            let add9 = m.add(
-                &R[9],
-                Operand::unsigned(&load6, 0, 8),
-                Word::unsigned(&ray0_direction_y_7, 0, 2).shifted(3).into(),
-            );
-            let [ray0_distance_10, divide11] = m.divide(
-                &R[10],
-                &R[11],
-                Word::unsigned(&add5, 0, 5).shifted(8),
-                Word::unsigned(&add9, 0, 8),
-            );
-            let load13 = m.load(&R[13], 3);
-            let add14 = m.add(
-                &R[14],
-                Operand::signed(&load13, 0, 10),
-                Word::unsigned(&ray0_direction_y_7, 0, 2).shifted(2).into(),
-            );
-            let multiply15 = m.multiply(
-                &R[15],
-                Word::unsigned(&ray0_distance_10, 0, 8),
-                Word::signed(&add14, 0, 10),
-                8,
-            );
-            let load17 = m.load(&R[17], 4);
-            let [ray0_direction_x_18] =
-                m.table([&R[18]], &[Bit::at(&ray0_sample_u_3, 0)], [T18], 0);
-            let add20 = m.add(
-                &R[20],
-                Operand::signed(&load17, 0, 8),
-                Operand::unsigned(&ray0_direction_x_18, 0, 5),
-            );
-            let multiply21 = m.multiply(
-                &R[21],
-                Word::unsigned(&ray0_distance_10, 0, 8),
-                Word::signed(&add20, 0, 8),
-                8,
-            );
-            m.block(BlockId(6));
-            let ray1_sample_u_33 = m.parity(&R[33], id, &[2, 3], Some(5));
-            let ray1_sample_v_34 = m.parity(&R[34], id, &[2, 3], Some(6));
-            m.block(BlockId(11));
-            let ray1_origin_x_35 = m.subtract(
-                &R[35],
-                Operand::signed(&multiply21, 0, 7),
-                Operand::signed(&multiply21, 6, 1),
-            );
-            m.block(BlockId(12));
-            let load36 = m.load(&R[36], 7);
-            let add37 = m.subtract(
-                &R[37],
-                Operand::signed(&load36, 0, 9),
-                Word::unsigned(&ray0_direction_y_7, 0, 2).shifted(3).into(),
-            );
-            let multiply38 = m.multiply(
-                &R[38],
-                Word::unsigned(&ray0_distance_10, 0, 8),
-                Word::signed(&add37, 0, 9),
-                8,
-            );
-            let ray1_origin_y_40 = m.subtract(
-                &R[40],
-                Operand::signed(&multiply38, 0, 8),
-                Operand::signed(&multiply38, 6, 2),
-            );
-            m.block(BlockId(13));
-            let ray1_origin_z_41 = m.subtract(
-                &R[41],
-                Operand::signed(&multiply15, 0, 9),
-                Operand::signed(&multiply15, 6, 3),
-            );
-            m.block(BlockId(15));
-            let add42 = m.subtract(
-                &R[42],
-                Operand::Constant(64),
-                Operand::signed(&ray1_origin_y_40, 0, 8),
-            );
-            let [ray1_direction_y_43] = m.table(
-                [&R[43]],
-                &[Bit::at(&ray1_sample_u_33, 0), Bit::at(&ray1_sample_u_33, 1)],
-                [T43],
-                0,
-            );
-            let [divide45, divide46] = m.divide(
-                &R[45],
-                &R[46],
-                Word::unsigned(&add42, 0, 8).shifted(8),
-                Word::unsigned(&ray1_direction_y_43, 0, 8),
-            );
-            let [ray1_direction_z_48, ray1_direction_x_52] = m.table(
-                [&R[48], &R[52]],
-                &[
-                    Bit::at(&ray1_sample_u_33, 0),
-                    Bit::at(&ray1_sample_u_33, 1),
-                    Bit::at(&ray1_sample_v_34, 0),
-                    Bit::at(&ray1_sample_v_34, 1),
-                ],
-                [T48, T52],
-                0,
-            );
-            let multiply50 = m.multiply(
-                &R[50],
-                Word::unsigned(&divide45, 0, 9),
-                Word::signed(&ray1_direction_z_48, 0, 9),
-                8,
-            );
-            let multiply54 = m.multiply(
-                &R[54],
-                Word::unsigned(&divide45, 0, 9),
-                Word::signed(&ray1_direction_x_52, 0, 9),
-                8,
-            );
-            let add56 = m.add(
-                &R[56],
-                Operand::signed(&ray1_origin_z_41, 0, 9),
-                Operand::signed(&multiply50, 0, 10),
-            );
-            let add57 = m.add(
-                &R[57],
-                Operand::signed(&ray1_origin_x_35, 0, 7),
-                Operand::signed(&multiply54, 0, 10),
-            );
-            let add58 = m.add(
-                &R[58],
-                Operand::Constant(177),
-                Operand::signed(&add56, 0, 10),
-            );
-            let add59 = m.subtract(
-                &R[59],
-                Operand::Constant(113),
-                Operand::signed(&add56, 0, 10),
-            );
-            let and60 = m.and(
-                &R[60],
-                Bit::at(&add58, 9).inverted(),
-                Bit::at(&add59, 10).inverted(),
-            );
-            let add61 = m.add(
-                &R[61],
-                Operand::Constant(145),
-                Operand::signed(&add57, 0, 10),
-            );
-            let add62 = m.subtract(
-                &R[62],
-                Operand::Constant(145),
-                Operand::signed(&add57, 0, 10),
-            );
-            let and63 = m.and(
-                &R[63],
-                Bit::at(&add61, 9).inverted(),
-                Bit::at(&add62, 9).inverted(),
-            );
-            let and64 = m.and(&R[64], Bit::at(&and60, 0), Bit::at(&and63, 0));
-            let select66 = m.select(
-                &R[66],
-                Bit::at(&and64, 0),
-                Operand::Constant(1),
-                Operand::Constant(2),
-            );
-            m.block(BlockId(0));
-            let [
+            let (
+                ray0_sample_u_3,
+                ray0_sample_v_4,
+                add5,
+                load6,
+                ray0_direction_y_7,
+                add9,
+                ray0_distance_10,
+                divide11,
+                load13,
+                add14,
+                multiply15,
+                load17,
+                ray0_direction_x_18,
+                add20,
+                multiply21,
+                ray1_sample_u_33,
+                ray1_sample_v_34,
+                ray1_origin_x_35,
+                load36,
+                add37,
+                multiply38,
+                ray1_origin_y_40,
+                ray1_origin_z_41,
+                add42,
+                ray1_direction_y_43,
+                divide45,
+                divide46,
+                ray1_direction_z_48,
+                ray1_direction_x_52,
+                multiply50,
+                multiply54,
+                add56,
+                add57,
+                add58,
+                add59,
+                and60,
+                add61,
+                add62,
+                and63,
+                and64,
+                select66,
                 colour_r_86,
                 table88,
                 colour_g_90,
                 table92,
                 colour_b_94,
                 table96,
-            ] = m.table(
-                [&R[86], &R[88], &R[90], &R[92], &R[94], &R[96]],
-                &[Bit::at(&select66, 0), Bit::at(&select66, 1)],
-                [T86, T88, T90, T92, T94, T96],
-                0,
-            );
+            ) = {
+                m.block(BlockId(1));
+                let ray0_sample_u_3 = m.parity(&R[3], id, &[1, 0], Some(0));
+                let ray0_sample_v_4 = m.parity(&R[4], id, &[1, 1], Some(1));
+                m.block(BlockId(3));
+                let add5 = m.add(&R[5], Operand::Constant(16), Operand::Constant(0));
+                let load6 = m.load(&R[6], 2);
+                let [ray0_direction_y_7] =
+                    m.table([&R[7]], &[Bit::at(&ray0_sample_v_4, 0)], [T7], 0);
+                let add9 = m.add(
+                    &R[9],
+                    Operand::unsigned(&load6, 0, 8),
+                    Word::unsigned(&ray0_direction_y_7, 0, 2).shifted(3).into(),
+                );
+                let [ray0_distance_10, divide11] = m.divide(
+                    &R[10],
+                    &R[11],
+                    Word::unsigned(&add5, 0, 5).shifted(8),
+                    Word::unsigned(&add9, 0, 8),
+                );
+                let load13 = m.load(&R[13], 3);
+                let add14 = m.add(
+                    &R[14],
+                    Operand::signed(&load13, 0, 10),
+                    Word::unsigned(&ray0_direction_y_7, 0, 2).shifted(2).into(),
+                );
+                let multiply15 = m.multiply(
+                    &R[15],
+                    Word::unsigned(&ray0_distance_10, 0, 8),
+                    Word::signed(&add14, 0, 10),
+                    8,
+                );
+                let load17 = m.load(&R[17], 4);
+                let [ray0_direction_x_18] =
+                    m.table([&R[18]], &[Bit::at(&ray0_sample_u_3, 0)], [T18], 0);
+                let add20 = m.add(
+                    &R[20],
+                    Operand::signed(&load17, 0, 8),
+                    Operand::unsigned(&ray0_direction_x_18, 0, 5),
+                );
+                let multiply21 = m.multiply(
+                    &R[21],
+                    Word::unsigned(&ray0_distance_10, 0, 8),
+                    Word::signed(&add20, 0, 8),
+                    8,
+                );
+                m.block(BlockId(6));
+                let ray1_sample_u_33 = m.parity(&R[33], id, &[2, 3], Some(5));
+                let ray1_sample_v_34 = m.parity(&R[34], id, &[2, 3], Some(6));
+                m.block(BlockId(11));
+                let ray1_origin_x_35 = m.subtract(
+                    &R[35],
+                    Operand::signed(&multiply21, 0, 7),
+                    Operand::signed(&multiply21, 6, 1),
+                );
+                m.block(BlockId(12));
+                let load36 = m.load(&R[36], 7);
+                let add37 = m.subtract(
+                    &R[37],
+                    Operand::signed(&load36, 0, 9),
+                    Word::unsigned(&ray0_direction_y_7, 0, 2).shifted(3).into(),
+                );
+                let multiply38 = m.multiply(
+                    &R[38],
+                    Word::unsigned(&ray0_distance_10, 0, 8),
+                    Word::signed(&add37, 0, 9),
+                    8,
+                );
+                let ray1_origin_y_40 = m.subtract(
+                    &R[40],
+                    Operand::signed(&multiply38, 0, 8),
+                    Operand::signed(&multiply38, 6, 2),
+                );
+                m.block(BlockId(13));
+                let ray1_origin_z_41 = m.subtract(
+                    &R[41],
+                    Operand::signed(&multiply15, 0, 9),
+                    Operand::signed(&multiply15, 6, 3),
+                );
+                m.block(BlockId(15));
+                let add42 = m.subtract(
+                    &R[42],
+                    Operand::Constant(64),
+                    Operand::signed(&ray1_origin_y_40, 0, 8),
+                );
+                let [ray1_direction_y_43] = m.table(
+                    [&R[43]],
+                    &[Bit::at(&ray1_sample_u_33, 0), Bit::at(&ray1_sample_u_33, 1)],
+                    [T43],
+                    0,
+                );
+                let [divide45, divide46] = m.divide(
+                    &R[45],
+                    &R[46],
+                    Word::unsigned(&add42, 0, 8).shifted(8),
+                    Word::unsigned(&ray1_direction_y_43, 0, 8),
+                );
+                let [ray1_direction_z_48, ray1_direction_x_52] = m.table(
+                    [&R[48], &R[52]],
+                    &[
+                        Bit::at(&ray1_sample_u_33, 0),
+                        Bit::at(&ray1_sample_u_33, 1),
+                        Bit::at(&ray1_sample_v_34, 0),
+                        Bit::at(&ray1_sample_v_34, 1),
+                    ],
+                    [T48, T52],
+                    0,
+                );
+                let multiply50 = m.multiply(
+                    &R[50],
+                    Word::unsigned(&divide45, 0, 9),
+                    Word::signed(&ray1_direction_z_48, 0, 9),
+                    8,
+                );
+                let multiply54 = m.multiply(
+                    &R[54],
+                    Word::unsigned(&divide45, 0, 9),
+                    Word::signed(&ray1_direction_x_52, 0, 9),
+                    8,
+                );
+                let add56 = m.add(
+                    &R[56],
+                    Operand::signed(&ray1_origin_z_41, 0, 9),
+                    Operand::signed(&multiply50, 0, 10),
+                );
+                let add57 = m.add(
+                    &R[57],
+                    Operand::signed(&ray1_origin_x_35, 0, 7),
+                    Operand::signed(&multiply54, 0, 10),
+                );
+                let add58 = m.add(
+                    &R[58],
+                    Operand::Constant(177),
+                    Operand::signed(&add56, 0, 10),
+                );
+                let add59 = m.subtract(
+                    &R[59],
+                    Operand::Constant(113),
+                    Operand::signed(&add56, 0, 10),
+                );
+                let and60 = m.and(
+                    &R[60],
+                    Bit::at(&add58, 9).inverted(),
+                    Bit::at(&add59, 10).inverted(),
+                );
+                let add61 = m.add(
+                    &R[61],
+                    Operand::Constant(145),
+                    Operand::signed(&add57, 0, 10),
+                );
+                let add62 = m.subtract(
+                    &R[62],
+                    Operand::Constant(145),
+                    Operand::signed(&add57, 0, 10),
+                );
+                let and63 = m.and(
+                    &R[63],
+                    Bit::at(&add61, 9).inverted(),
+                    Bit::at(&add62, 9).inverted(),
+                );
+                let and64 = m.and(&R[64], Bit::at(&and60, 0), Bit::at(&and63, 0));
+                let select66 = m.select(
+                    &R[66],
+                    Bit::at(&and64, 0),
+                    Operand::Constant(1),
+                    Operand::Constant(2),
+                );
+                m.block(BlockId(0));
+                let [
+                    colour_r_86,
+                    table88,
+                    colour_g_90,
+                    table92,
+                    colour_b_94,
+                    table96,
+                ] = m.table(
+                    [&R[86], &R[88], &R[90], &R[92], &R[94], &R[96]],
+                    &[Bit::at(&select66, 0), Bit::at(&select66, 1)],
+                    [T86, T88, T90, T92, T94, T96],
+                    0,
+                );
+                (
+                    ray0_sample_u_3,
+                    ray0_sample_v_4,
+                    add5,
+                    load6,
+                    ray0_direction_y_7,
+                    add9,
+                    ray0_distance_10,
+                    divide11,
+                    load13,
+                    add14,
+                    multiply15,
+                    load17,
+                    ray0_direction_x_18,
+                    add20,
+                    multiply21,
+                    ray1_sample_u_33,
+                    ray1_sample_v_34,
+                    ray1_origin_x_35,
+                    load36,
+                    add37,
+                    multiply38,
+                    ray1_origin_y_40,
+                    ray1_origin_z_41,
+                    add42,
+                    ray1_direction_y_43,
+                    divide45,
+                    divide46,
+                    ray1_direction_z_48,
+                    ray1_direction_x_52,
+                    multiply50,
+                    multiply54,
+                    add56,
+                    add57,
+                    add58,
+                    add59,
+                    and60,
+                    add61,
+                    add62,
+                    and63,
+                    and64,
+                    select66,
+                    colour_r_86,
+                    table88,
+                    colour_g_90,
+                    table92,
+                    colour_b_94,
+                    table96,
+                )
+            };
+
             let fields = &[
                 &ray0_direction_x_18,
                 &ray0_direction_y_7,
@@ -1057,59 +1158,63 @@ const _: () = {
                 ],
             ];
             let applied = apply(m, Computed::new(fields, channels));
-            m.undo([
-                colour_r_86,
-                table88,
-                colour_g_90,
-                table92,
-                colour_b_94,
-                table96,
-            ]);
-            m.block(BlockId(15));
-            m.undo([select66]);
-            m.undo([and64]);
-            m.undo([and63]);
-            m.undo([add62]);
-            m.undo([add61]);
-            m.undo([and60]);
-            m.undo([add59]);
-            m.undo([add58]);
-            m.undo([add57]);
-            m.undo([add56]);
-            m.undo([multiply54]);
-            m.undo([multiply50]);
-            m.undo([ray1_direction_z_48, ray1_direction_x_52]);
-            m.undo([divide45, divide46]);
-            m.undo([ray1_direction_y_43]);
-            m.undo([add42]);
-            m.block(BlockId(13));
-            m.undo([ray1_origin_z_41]);
-            m.block(BlockId(12));
-            m.undo([ray1_origin_y_40]);
-            m.undo([multiply38]);
-            m.undo([add37]);
-            m.undo([load36]);
-            m.block(BlockId(11));
-            m.undo([ray1_origin_x_35]);
-            m.block(BlockId(6));
-            m.undo([ray1_sample_v_34]);
-            m.undo([ray1_sample_u_33]);
-            m.block(BlockId(3));
-            m.undo([multiply21]);
-            m.undo([add20]);
-            m.undo([ray0_direction_x_18]);
-            m.undo([load17]);
-            m.undo([multiply15]);
-            m.undo([add14]);
-            m.undo([load13]);
-            m.undo([ray0_distance_10, divide11]);
-            m.undo([add9]);
-            m.undo([ray0_direction_y_7]);
-            m.undo([load6]);
-            m.undo([add5]);
-            m.block(BlockId(1));
-            m.undo([ray0_sample_v_4]);
-            m.undo([ray0_sample_u_3]);
+            let () = {
+                m.undo([
+                    colour_r_86,
+                    table88,
+                    colour_g_90,
+                    table92,
+                    colour_b_94,
+                    table96,
+                ]);
+                m.block(BlockId(15));
+                m.undo([select66]);
+                m.undo([and64]);
+                m.undo([and63]);
+                m.undo([add62]);
+                m.undo([add61]);
+                m.undo([and60]);
+                m.undo([add59]);
+                m.undo([add58]);
+                m.undo([add57]);
+                m.undo([add56]);
+                m.undo([multiply54]);
+                m.undo([multiply50]);
+                m.undo([ray1_direction_z_48, ray1_direction_x_52]);
+                m.undo([divide45, divide46]);
+                m.undo([ray1_direction_y_43]);
+                m.undo([add42]);
+                m.block(BlockId(13));
+                m.undo([ray1_origin_z_41]);
+                m.block(BlockId(12));
+                m.undo([ray1_origin_y_40]);
+                m.undo([multiply38]);
+                m.undo([add37]);
+                m.undo([load36]);
+                m.block(BlockId(11));
+                m.undo([ray1_origin_x_35]);
+                m.block(BlockId(6));
+                m.undo([ray1_sample_v_34]);
+                m.undo([ray1_sample_u_33]);
+                m.block(BlockId(3));
+                m.undo([multiply21]);
+                m.undo([add20]);
+                m.undo([ray0_direction_x_18]);
+                m.undo([load17]);
+                m.undo([multiply15]);
+                m.undo([add14]);
+                m.undo([load13]);
+                m.undo([ray0_distance_10, divide11]);
+                m.undo([add9]);
+                m.undo([ray0_direction_y_7]);
+                m.undo([load6]);
+                m.undo([add5]);
+                m.block(BlockId(1));
+                m.undo([ray0_sample_v_4]);
+                m.undo([ray0_sample_u_3]);
+                ()
+            };
+
             applied
         }
     }
@@ -1131,126 +1236,133 @@ const _: () = {
     impl NativeOracle for LitFloor {
         #[inline(always)]
         fn native<V: Vectors>(v: V, words: &[u64], ids: V::Longs) -> [[V::Longs; 3]; 2] {
-            let t1 = ids;
-            let t2 = v.narrow(t1);
-            let t3 = v.ints(word(words, 0, 1, false) as i32);
-            let t4 = v.table16(&[0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1], t2);
-            let t5 = t3.xor(t4);
-            let ray0_sample_u_3 = t5.has(1);
-            let t7 = v.ints(word(words, 1, 1, false) as i32);
-            let t8 = v.table16(&[0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0], t2);
-            let t9 = t7.xor(t8);
-            let ray0_sample_v_4 = t9.has(1);
-            let add5 = v.ints(16).add(v.ints(0));
-            let load6 = v.ints(word(words, 2, 8, false) as i32);
-            let t13 = v.ints(1).choose(ray0_sample_v_4, v.ints(0));
-            let ray0_direction_y_7 = v.table16(&N7, t13);
-            let t15 = ray0_direction_y_7.left(3);
-            let t16 = load6.add(t15);
-            let add9 = t16.lowest(8);
-            let t18 = add5.less(add9);
-            let t19 = add5.choose(t18, v.ints(0));
-            let t20 = v.quotient_single(t19, add9, 8);
-            let t21 = t20.mul(add9);
-            let t22 = t19.left(8).sub(t21);
-            let t23 = t22.less(v.ints(0));
-            let t24 = t20.sub(v.ints(1)).choose(t23, t20);
-            let t25 = add9.less(v.ints(1));
-            let ray0_distance_10 = v.ints(255).choose(t25, t24);
-            let load13 = v.ints(word(words, 3, 10, true) as i32);
-            let t28 = ray0_direction_y_7.left(2);
-            let t29 = load13.add(t28);
-            let add14 = t29.left(22).right(22);
-            let t31 = ray0_distance_10.mul(add14).right(8);
-            let multiply15 = t31.left(23).right(23);
-            let load17 = v.ints(word(words, 4, 8, true) as i32);
-            let t34 = v.ints(1).choose(ray0_sample_u_3, v.ints(0));
-            let ray0_direction_x_18 = v.table16(&N18, t34);
-            let t36 = load17.add(ray0_direction_x_18);
-            let add20 = t36.left(24).right(24);
-            let t38 = ray0_distance_10.mul(add20).right(8);
-            let multiply21 = t38.left(25).right(25);
-            let t40 = v.ints(word(words, 5, 2, false) as i32);
-            let t41 = v.table16(&[0, 2, 3, 1, 0, 2, 3, 1, 0, 2, 3, 1, 0, 2, 3, 1], t2);
-            let ray1_sample_u_33 = t40.xor(t41);
-            let t43 = v.ints(word(words, 6, 2, false) as i32);
-            let t44 = v.table16(&[0, 2, 3, 1, 0, 2, 3, 1, 0, 2, 3, 1, 0, 2, 3, 1], t2);
-            let ray1_sample_v_34 = t43.xor(t44);
-            let t46 = multiply21.right(6);
-            let ray1_origin_x_35 = multiply21.sub(t46);
-            let load36 = v.ints(word(words, 7, 9, true) as i32);
-            let t49 = ray0_direction_y_7.left(3);
-            let t50 = load36.sub(t49);
-            let add37 = t50.left(23).right(23);
-            let t52 = ray0_distance_10.mul(add37).right(8);
-            let multiply38 = t52.left(24).right(24);
-            let t54 = multiply38.right(6);
-            let ray1_origin_y_40 = multiply38.sub(t54);
-            let t56 = multiply15.right(6);
-            let ray1_origin_z_41 = multiply15.sub(t56);
-            let add42 = v.ints(64).sub(ray1_origin_y_40);
-            let ray1_direction_y_43 = v.table16(&N43, ray1_sample_u_33);
-            let t60 = add42.right(1);
-            let t61 = t60.less(ray1_direction_y_43);
-            let t62 = add42.choose(t61, v.ints(0));
-            let t63 = v.quotient_single(t62, ray1_direction_y_43, 8);
-            let t64 = t63.mul(ray1_direction_y_43);
-            let t65 = t62.left(8).sub(t64);
-            let t66 = t65.less(v.ints(0));
-            let t67 = t63.sub(v.ints(1)).choose(t66, t63);
-            let t68 = ray1_direction_y_43.less(v.ints(1));
-            let divide45 = v.ints(511).choose(t68, t67);
-            let t70 = ray1_sample_u_33.has(1);
-            let t71 = v.ints(0).add(v.ints(1));
-            let t72 = t71.choose(t70, v.ints(0));
-            let t73 = ray1_sample_u_33.has(2);
-            let t74 = t72.add(v.ints(2));
-            let t75 = t74.choose(t73, t72);
-            let t76 = ray1_sample_v_34.has(1);
-            let t77 = t75.add(v.ints(4));
-            let t78 = t77.choose(t76, t75);
-            let t79 = ray1_sample_v_34.has(2);
-            let t80 = t78.add(v.ints(8));
-            let t81 = t80.choose(t79, t78);
-            let ray1_direction_z_48 = v.table16(&N48, t81);
-            let ray1_direction_x_52 = v.table16(&N52, t81);
-            let multiply50 = divide45.mul(ray1_direction_z_48).right(8);
-            let multiply54 = divide45.mul(ray1_direction_x_52).right(8);
-            let add56 = ray1_origin_z_41.add(multiply50);
-            let add57 = ray1_origin_x_35.add(multiply54);
-            let add58 = v.ints(177).add(add56);
-            let add59 = v.ints(113).sub(add56);
-            let t90 = add58.less(v.ints(0));
-            let t91 = t90.not();
-            let t92 = add59.less(v.ints(0));
-            let t93 = t92.not();
-            let and60 = t91.and(t93);
-            let add61 = v.ints(145).add(add57);
-            let add62 = v.ints(145).sub(add57);
-            let t97 = add61.less(v.ints(0));
-            let t98 = t97.not();
-            let t99 = add62.less(v.ints(0));
-            let t100 = t99.not();
-            let and63 = t98.and(t100);
-            let and64 = and60.and(and63);
-            let select66 = v.ints(1).choose(and64, v.ints(2));
-            let colour_r_86 = v.table16(&N86, select66);
-            let table88 = v.table16(&N88, select66);
-            let colour_g_90 = v.marks(2, select66);
-            let table92 = v.table16(&N92, select66);
-            let colour_b_94 = v.table16(&N94, select66);
-            let table96 = v.table16(&N96, select66);
-            let t110 = table88.right(4);
-            let t111 = v.widen(t110);
-            let t112 = v.widen(colour_r_86);
-            let t113 = table92.right(4);
-            let t114 = v.widen(t113);
-            let t115 = v.ints(1).choose(colour_g_90, v.ints(0));
-            let t116 = t115.left(7);
-            let t117 = v.widen(t116);
-            let t118 = table96.right(4);
-            let t119 = v.widen(t118);
-            let t120 = v.widen(colour_b_94);
+            let (and60, t98, t100) = {
+                let t1 = ids;
+                let t2 = v.narrow(t1);
+                let t3 = v.ints(word(words, 0, 1, false) as i32);
+                let t4 = v.table16(&[0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1], t2);
+                let t5 = t3.xor(t4);
+                let ray0_sample_u_3 = t5.has(1);
+                let t7 = v.ints(word(words, 1, 1, false) as i32);
+                let t8 = v.table16(&[0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0], t2);
+                let t9 = t7.xor(t8);
+                let ray0_sample_v_4 = t9.has(1);
+                let add5 = v.ints(16).add(v.ints(0));
+                let load6 = v.ints(word(words, 2, 8, false) as i32);
+                let t13 = v.ints(1).choose(ray0_sample_v_4, v.ints(0));
+                let ray0_direction_y_7 = v.table16(&N7, t13);
+                let t15 = ray0_direction_y_7.left(3);
+                let t16 = load6.add(t15);
+                let add9 = t16.lowest(8);
+                let t18 = add5.less(add9);
+                let t19 = add5.choose(t18, v.ints(0));
+                let t20 = v.quotient_single(t19, add9, 8);
+                let t21 = t20.mul(add9);
+                let t22 = t19.left(8).sub(t21);
+                let t23 = t22.less(v.ints(0));
+                let t24 = t20.sub(v.ints(1)).choose(t23, t20);
+                let t25 = add9.less(v.ints(1));
+                let ray0_distance_10 = v.ints(255).choose(t25, t24);
+                let load13 = v.ints(word(words, 3, 10, true) as i32);
+                let t28 = ray0_direction_y_7.left(2);
+                let t29 = load13.add(t28);
+                let add14 = t29.left(22).right(22);
+                let t31 = ray0_distance_10.mul(add14).right(8);
+                let multiply15 = t31.left(23).right(23);
+                let load17 = v.ints(word(words, 4, 8, true) as i32);
+                let t34 = v.ints(1).choose(ray0_sample_u_3, v.ints(0));
+                let ray0_direction_x_18 = v.table16(&N18, t34);
+                let t36 = load17.add(ray0_direction_x_18);
+                let add20 = t36.left(24).right(24);
+                let t38 = ray0_distance_10.mul(add20).right(8);
+                let multiply21 = t38.left(25).right(25);
+                let t40 = v.ints(word(words, 5, 2, false) as i32);
+                let t41 = v.table16(&[0, 2, 3, 1, 0, 2, 3, 1, 0, 2, 3, 1, 0, 2, 3, 1], t2);
+                let ray1_sample_u_33 = t40.xor(t41);
+                let t43 = v.ints(word(words, 6, 2, false) as i32);
+                let t44 = v.table16(&[0, 2, 3, 1, 0, 2, 3, 1, 0, 2, 3, 1, 0, 2, 3, 1], t2);
+                let ray1_sample_v_34 = t43.xor(t44);
+                let t46 = multiply21.right(6);
+                let ray1_origin_x_35 = multiply21.sub(t46);
+                let load36 = v.ints(word(words, 7, 9, true) as i32);
+                let t49 = ray0_direction_y_7.left(3);
+                let t50 = load36.sub(t49);
+                let add37 = t50.left(23).right(23);
+                let t52 = ray0_distance_10.mul(add37).right(8);
+                let multiply38 = t52.left(24).right(24);
+                let t54 = multiply38.right(6);
+                let ray1_origin_y_40 = multiply38.sub(t54);
+                let t56 = multiply15.right(6);
+                let ray1_origin_z_41 = multiply15.sub(t56);
+                let add42 = v.ints(64).sub(ray1_origin_y_40);
+                let ray1_direction_y_43 = v.table16(&N43, ray1_sample_u_33);
+                let t60 = add42.right(1);
+                let t61 = t60.less(ray1_direction_y_43);
+                let t62 = add42.choose(t61, v.ints(0));
+                let t63 = v.quotient_single(t62, ray1_direction_y_43, 8);
+                let t64 = t63.mul(ray1_direction_y_43);
+                let t65 = t62.left(8).sub(t64);
+                let t66 = t65.less(v.ints(0));
+                let t67 = t63.sub(v.ints(1)).choose(t66, t63);
+                let t68 = ray1_direction_y_43.less(v.ints(1));
+                let divide45 = v.ints(511).choose(t68, t67);
+                let t70 = ray1_sample_u_33.has(1);
+                let t71 = v.ints(0).add(v.ints(1));
+                let t72 = t71.choose(t70, v.ints(0));
+                let t73 = ray1_sample_u_33.has(2);
+                let t74 = t72.add(v.ints(2));
+                let t75 = t74.choose(t73, t72);
+                let t76 = ray1_sample_v_34.has(1);
+                let t77 = t75.add(v.ints(4));
+                let t78 = t77.choose(t76, t75);
+                let t79 = ray1_sample_v_34.has(2);
+                let t80 = t78.add(v.ints(8));
+                let t81 = t80.choose(t79, t78);
+                let ray1_direction_z_48 = v.table16(&N48, t81);
+                let ray1_direction_x_52 = v.table16(&N52, t81);
+                let multiply50 = divide45.mul(ray1_direction_z_48).right(8);
+                let multiply54 = divide45.mul(ray1_direction_x_52).right(8);
+                let add56 = ray1_origin_z_41.add(multiply50);
+                let add57 = ray1_origin_x_35.add(multiply54);
+                let add58 = v.ints(177).add(add56);
+                let add59 = v.ints(113).sub(add56);
+                let t90 = add58.less(v.ints(0));
+                let t91 = t90.not();
+                let t92 = add59.less(v.ints(0));
+                let t93 = t92.not();
+                let and60 = t91.and(t93);
+                let add61 = v.ints(145).add(add57);
+                let add62 = v.ints(145).sub(add57);
+                let t97 = add61.less(v.ints(0));
+                let t98 = t97.not();
+                let t99 = add62.less(v.ints(0));
+                let t100 = t99.not();
+                (and60, t98, t100)
+            };
+            let (t111, t112, t114, t117, t119, t120) = {
+                let and63 = t98.and(t100);
+                let and64 = and60.and(and63);
+                let select66 = v.ints(1).choose(and64, v.ints(2));
+                let colour_r_86 = v.table16(&N86, select66);
+                let table88 = v.table16(&N88, select66);
+                let colour_g_90 = v.marks(2, select66);
+                let table92 = v.table16(&N92, select66);
+                let colour_b_94 = v.table16(&N94, select66);
+                let table96 = v.table16(&N96, select66);
+                let t110 = table88.right(4);
+                let t111 = v.widen(t110);
+                let t112 = v.widen(colour_r_86);
+                let t113 = table92.right(4);
+                let t114 = v.widen(t113);
+                let t115 = v.ints(1).choose(colour_g_90, v.ints(0));
+                let t116 = t115.left(7);
+                let t117 = v.widen(t116);
+                let t118 = table96.right(4);
+                let t119 = v.widen(t118);
+                let t120 = v.widen(colour_b_94);
+                (t111, t112, t114, t117, t119, t120)
+            };
+
             [[t111, t114, t119], [t112, t117, t120]]
         }
     }

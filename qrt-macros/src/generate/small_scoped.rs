@@ -786,403 +786,466 @@ const _: () = {
             id: &M::Register,
             apply: impl FnOnce(&mut M, Computed<'_, Self, M::Register>) -> T,
         ) -> T {
-            m.block(BlockId(1));
-            let ray0_sample_u_3 = m.parity(&R[3], id, &[1, 0], Some(0));
-            let ray0_sample_v_4 = m.parity(&R[4], id, &[1, 1], Some(1));
-            m.block(BlockId(3));
-            let add5 = m.add(&R[5], Operand::Constant(16), Operand::Constant(0));
-            let load6 = m.load(&R[6], 2);
-            let [table7] = m.table([&R[7]], &[Bit::at(&ray0_sample_v_4, 0)], [T7], 0);
-            let add9 = m.add(
-                &R[9],
-                Operand::unsigned(&load6, 0, 8),
-                Word::unsigned(&table7, 0, 2).shifted(3).into(),
-            );
-            let [divide10, divide11] = m.divide(
-                &R[10],
-                &R[11],
-                Word::unsigned(&add5, 0, 5).shifted(8),
-                Word::unsigned(&add9, 0, 8),
-            );
-            let load13 = m.load(&R[13], 3);
-            let add14 = m.add(
-                &R[14],
-                Operand::signed(&load13, 0, 10),
-                Word::unsigned(&table7, 0, 2).shifted(2).into(),
-            );
-            let multiply15 = m.multiply(
-                &R[15],
-                Word::unsigned(&divide10, 0, 8),
-                Word::signed(&add14, 0, 10),
-                8,
-            );
-            let load17 = m.load(&R[17], 4);
-            let [table18] = m.table([&R[18]], &[Bit::at(&ray0_sample_u_3, 0)], [T18], 0);
-            let add20 = m.add(
-                &R[20],
-                Operand::signed(&load17, 0, 8),
-                Operand::unsigned(&table18, 0, 5),
-            );
-            let multiply21 = m.multiply(
-                &R[21],
-                Word::unsigned(&divide10, 0, 8),
-                Word::signed(&add20, 0, 8),
-                8,
-            );
-            m.block(BlockId(2));
-            let ray0_direction_y_98 = m.copy(&R[98], Word::unsigned(&table7, 0, 2));
-            let ray0_distance_99 = m.copy(&R[99], Word::unsigned(&divide10, 0, 8));
-            let multiply15__100 = m.copy(&R[100], Word::unsigned(&multiply15, 0, 9));
-            let multiply21__101 = m.copy(&R[101], Word::unsigned(&multiply21, 0, 7));
-            m.block(BlockId(3));
-            m.undo([multiply21]);
-            m.undo([add20]);
-            m.undo([table18]);
-            m.undo([load17]);
-            m.undo([multiply15]);
-            m.undo([add14]);
-            m.undo([load13]);
-            m.undo([divide10, divide11]);
-            m.undo([add9]);
-            m.undo([table7]);
-            m.undo([load6]);
-            m.undo([add5]);
-            let add5 = m.add(&R[5], Operand::Constant(16), Operand::Constant(0));
-            let load6 = m.load(&R[6], 2);
-            let [table7] = m.table([&R[7]], &[Bit::at(&ray0_sample_v_4, 0)], [T7], 0);
-            let add9 = m.add(
-                &R[9],
-                Operand::unsigned(&load6, 0, 8),
-                Word::unsigned(&table7, 0, 2).shifted(3).into(),
-            );
-            let [divide10, divide11] = m.divide(
-                &R[10],
-                &R[11],
-                Word::unsigned(&add5, 0, 5).shifted(8),
-                Word::unsigned(&add9, 0, 8),
-            );
-            let load13 = m.load(&R[13], 3);
-            let add14 = m.add(
-                &R[14],
-                Operand::signed(&load13, 0, 10),
-                Word::unsigned(&table7, 0, 2).shifted(2).into(),
-            );
-            let multiply15 = m.multiply(
-                &R[15],
-                Word::unsigned(&divide10, 0, 8),
-                Word::signed(&add14, 0, 10),
-                8,
-            );
-            let load17 = m.load(&R[17], 4);
-            let [table18] = m.table([&R[18]], &[Bit::at(&ray0_sample_u_3, 0)], [T18], 0);
-            let add20 = m.add(
-                &R[20],
-                Operand::signed(&load17, 0, 8),
-                Operand::unsigned(&table18, 0, 5),
-            );
-            let multiply21 = m.multiply(
-                &R[21],
-                Word::unsigned(&divide10, 0, 8),
-                Word::signed(&add20, 0, 8),
-                8,
-            );
-            m.undo([multiply21]);
-            m.undo([add20]);
-            m.undo([table18]);
-            m.undo([load17]);
-            m.undo([multiply15]);
-            m.undo([add14]);
-            m.undo([load13]);
-            m.undo([divide10, divide11]);
-            m.undo([add9]);
-            m.undo([table7]);
-            m.undo([load6]);
-            m.undo([add5]);
-            m.block(BlockId(6));
-            let ray1_sample_u_33 = m.parity(&R[33], id, &[2, 3], Some(5));
-            let ray1_sample_v_34 = m.parity(&R[34], id, &[2, 3], Some(6));
-            m.block(BlockId(11));
-            let add35 = m.subtract(
-                &R[35],
-                Operand::signed(&multiply21__101, 0, 7),
-                Operand::signed(&multiply21__101, 6, 1),
-            );
-            m.block(BlockId(12));
-            let load36 = m.load(&R[36], 7);
-            let add37 = m.subtract(
-                &R[37],
-                Operand::signed(&load36, 0, 9),
-                Word::unsigned(&ray0_direction_y_98, 0, 2).shifted(3).into(),
-            );
-            let multiply38 = m.multiply(
-                &R[38],
-                Word::unsigned(&ray0_distance_99, 0, 8),
-                Word::signed(&add37, 0, 9),
-                8,
-            );
-            let add40 = m.subtract(
-                &R[40],
-                Operand::signed(&multiply38, 0, 8),
-                Operand::signed(&multiply38, 6, 2),
-            );
-            m.undo([multiply38]);
-            m.undo([add37]);
-            m.undo([load36]);
-            m.block(BlockId(13));
-            let add41 = m.subtract(
-                &R[41],
-                Operand::signed(&multiply15__100, 0, 9),
-                Operand::signed(&multiply15__100, 6, 3),
-            );
-            m.block(BlockId(0));
-            let ray1_origin_x_102 = m.copy(&R[102], Word::unsigned(&add35, 0, 7));
-            let ray1_origin_y_103 = m.copy(&R[103], Word::unsigned(&add40, 0, 8));
-            let ray1_origin_z_104 = m.copy(&R[104], Word::unsigned(&add41, 0, 9));
-            m.block(BlockId(13));
-            m.undo([add41]);
-            m.block(BlockId(12));
-            let load36 = m.load(&R[36], 7);
-            let add37 = m.subtract(
-                &R[37],
-                Operand::signed(&load36, 0, 9),
-                Word::unsigned(&ray0_direction_y_98, 0, 2).shifted(3).into(),
-            );
-            let multiply38 = m.multiply(
-                &R[38],
-                Word::unsigned(&ray0_distance_99, 0, 8),
-                Word::signed(&add37, 0, 9),
-                8,
-            );
-            m.undo([add40]);
-            m.undo([multiply38]);
-            m.undo([add37]);
-            m.undo([load36]);
-            m.block(BlockId(11));
-            m.undo([add35]);
-            m.block(BlockId(15));
-            let add42 = m.subtract(
-                &R[42],
-                Operand::Constant(64),
-                Operand::signed(&ray1_origin_y_103, 0, 8),
-            );
-            let [table43] = m.table(
-                [&R[43]],
-                &[Bit::at(&ray1_sample_u_33, 0), Bit::at(&ray1_sample_u_33, 1)],
-                [T43],
-                0,
-            );
-            let [divide45, divide46] = m.divide(
-                &R[45],
-                &R[46],
-                Word::unsigned(&add42, 0, 8).shifted(8),
-                Word::unsigned(&table43, 0, 8),
-            );
-            let [table48, table52] = m.table(
-                [&R[48], &R[52]],
-                &[
-                    Bit::at(&ray1_sample_u_33, 0),
-                    Bit::at(&ray1_sample_u_33, 1),
-                    Bit::at(&ray1_sample_v_34, 0),
-                    Bit::at(&ray1_sample_v_34, 1),
-                ],
-                [T48, T52],
-                0,
-            );
-            let multiply50 = m.multiply(
-                &R[50],
-                Word::unsigned(&divide45, 0, 9),
-                Word::signed(&table48, 0, 9),
-                8,
-            );
-            let multiply54 = m.multiply(
-                &R[54],
-                Word::unsigned(&divide45, 0, 9),
-                Word::signed(&table52, 0, 9),
-                8,
-            );
-            let add56 = m.add(
-                &R[56],
-                Operand::signed(&ray1_origin_z_104, 0, 9),
-                Operand::signed(&multiply50, 0, 10),
-            );
-            let add57 = m.add(
-                &R[57],
-                Operand::signed(&ray1_origin_x_102, 0, 7),
-                Operand::signed(&multiply54, 0, 10),
-            );
-            let add58 = m.add(
-                &R[58],
-                Operand::Constant(177),
-                Operand::signed(&add56, 0, 10),
-            );
-            let add59 = m.subtract(
-                &R[59],
-                Operand::Constant(113),
-                Operand::signed(&add56, 0, 10),
-            );
-            let and60 = m.and(
-                &R[60],
-                Bit::at(&add58, 9).inverted(),
-                Bit::at(&add59, 10).inverted(),
-            );
-            let add61 = m.add(
-                &R[61],
-                Operand::Constant(145),
-                Operand::signed(&add57, 0, 10),
-            );
-            let add62 = m.subtract(
-                &R[62],
-                Operand::Constant(145),
-                Operand::signed(&add57, 0, 10),
-            );
-            let and63 = m.and(
-                &R[63],
-                Bit::at(&add61, 9).inverted(),
-                Bit::at(&add62, 9).inverted(),
-            );
-            let and64 = m.and(&R[64], Bit::at(&and60, 0), Bit::at(&and63, 0));
-            let select66 = m.select(
-                &R[66],
-                Bit::at(&and64, 0),
-                Operand::Constant(1),
-                Operand::Constant(2),
-            );
-            m.undo([and64]);
-            m.undo([and63]);
-            m.undo([add62]);
-            m.undo([add61]);
-            m.undo([and60]);
-            m.undo([add59]);
-            m.undo([add58]);
-            m.undo([add57]);
-            m.undo([add56]);
-            m.undo([multiply54]);
-            m.undo([multiply50]);
-            m.undo([table48, table52]);
-            m.undo([divide45, divide46]);
-            m.undo([table43]);
-            m.undo([add42]);
-            m.block(BlockId(0));
-            let select66__105 = m.copy(&R[105], Word::unsigned(&select66, 0, 2));
-            m.block(BlockId(15));
-            let add42 = m.subtract(
-                &R[42],
-                Operand::Constant(64),
-                Operand::signed(&ray1_origin_y_103, 0, 8),
-            );
-            let [table43] = m.table(
-                [&R[43]],
-                &[Bit::at(&ray1_sample_u_33, 0), Bit::at(&ray1_sample_u_33, 1)],
-                [T43],
-                0,
-            );
-            let [divide45, divide46] = m.divide(
-                &R[45],
-                &R[46],
-                Word::unsigned(&add42, 0, 8).shifted(8),
-                Word::unsigned(&table43, 0, 8),
-            );
-            let [table48, table52] = m.table(
-                [&R[48], &R[52]],
-                &[
-                    Bit::at(&ray1_sample_u_33, 0),
-                    Bit::at(&ray1_sample_u_33, 1),
-                    Bit::at(&ray1_sample_v_34, 0),
-                    Bit::at(&ray1_sample_v_34, 1),
-                ],
-                [T48, T52],
-                0,
-            );
-            let multiply50 = m.multiply(
-                &R[50],
-                Word::unsigned(&divide45, 0, 9),
-                Word::signed(&table48, 0, 9),
-                8,
-            );
-            let multiply54 = m.multiply(
-                &R[54],
-                Word::unsigned(&divide45, 0, 9),
-                Word::signed(&table52, 0, 9),
-                8,
-            );
-            let add56 = m.add(
-                &R[56],
-                Operand::signed(&ray1_origin_z_104, 0, 9),
-                Operand::signed(&multiply50, 0, 10),
-            );
-            let add57 = m.add(
-                &R[57],
-                Operand::signed(&ray1_origin_x_102, 0, 7),
-                Operand::signed(&multiply54, 0, 10),
-            );
-            let add58 = m.add(
-                &R[58],
-                Operand::Constant(177),
-                Operand::signed(&add56, 0, 10),
-            );
-            let add59 = m.subtract(
-                &R[59],
-                Operand::Constant(113),
-                Operand::signed(&add56, 0, 10),
-            );
-            let and60 = m.and(
-                &R[60],
-                Bit::at(&add58, 9).inverted(),
-                Bit::at(&add59, 10).inverted(),
-            );
-            let add61 = m.add(
-                &R[61],
-                Operand::Constant(145),
-                Operand::signed(&add57, 0, 10),
-            );
-            let add62 = m.subtract(
-                &R[62],
-                Operand::Constant(145),
-                Operand::signed(&add57, 0, 10),
-            );
-            let and63 = m.and(
-                &R[63],
-                Bit::at(&add61, 9).inverted(),
-                Bit::at(&add62, 9).inverted(),
-            );
-            let and64 = m.and(&R[64], Bit::at(&and60, 0), Bit::at(&and63, 0));
-            m.undo([select66]);
-            m.undo([and64]);
-            m.undo([and63]);
-            m.undo([add62]);
-            m.undo([add61]);
-            m.undo([and60]);
-            m.undo([add59]);
-            m.undo([add58]);
-            m.undo([add57]);
-            m.undo([add56]);
-            m.undo([multiply54]);
-            m.undo([multiply50]);
-            m.undo([table48, table52]);
-            m.undo([divide45, divide46]);
-            m.undo([table43]);
-            m.undo([add42]);
-            m.block(BlockId(20));
-            let [colour_r_86, table88] = m.table(
-                [&R[86], &R[88]],
-                &[Bit::at(&select66__105, 0), Bit::at(&select66__105, 1)],
-                [T86, T88],
-                0,
-            );
-            m.block(BlockId(21));
-            let [colour_g_90, table92] = m.table(
-                [&R[90], &R[92]],
-                &[Bit::at(&select66__105, 0), Bit::at(&select66__105, 1)],
-                [T90, T92],
-                0,
-            );
-            m.block(BlockId(22));
-            let [colour_b_94, table96] = m.table(
-                [&R[94], &R[96]],
-                &[Bit::at(&select66__105, 0), Bit::at(&select66__105, 1)],
-                [T94, T96],
-                0,
-            );
+            let (
+                ray0_sample_u_3,
+                ray0_sample_v_4,
+                ray0_direction_y_98,
+                ray0_distance_99,
+                multiply15__100,
+                multiply21__101,
+                ray1_sample_u_33,
+                ray1_sample_v_34,
+                ray1_origin_x_102,
+                ray1_origin_y_103,
+                ray1_origin_z_104,
+                add42,
+                table43,
+                divide45,
+                divide46,
+                table48,
+                table52,
+                multiply50,
+                multiply54,
+                add56,
+                add57,
+                add58,
+                add59,
+            ) = {
+                m.block(BlockId(1));
+                let ray0_sample_u_3 = m.parity(&R[3], id, &[1, 0], Some(0));
+                let ray0_sample_v_4 = m.parity(&R[4], id, &[1, 1], Some(1));
+                m.block(BlockId(3));
+                let add5 = m.add(&R[5], Operand::Constant(16), Operand::Constant(0));
+                let load6 = m.load(&R[6], 2);
+                let [table7] = m.table([&R[7]], &[Bit::at(&ray0_sample_v_4, 0)], [T7], 0);
+                let add9 = m.add(
+                    &R[9],
+                    Operand::unsigned(&load6, 0, 8),
+                    Word::unsigned(&table7, 0, 2).shifted(3).into(),
+                );
+                let [divide10, divide11] = m.divide(
+                    &R[10],
+                    &R[11],
+                    Word::unsigned(&add5, 0, 5).shifted(8),
+                    Word::unsigned(&add9, 0, 8),
+                );
+                let load13 = m.load(&R[13], 3);
+                let add14 = m.add(
+                    &R[14],
+                    Operand::signed(&load13, 0, 10),
+                    Word::unsigned(&table7, 0, 2).shifted(2).into(),
+                );
+                let multiply15 = m.multiply(
+                    &R[15],
+                    Word::unsigned(&divide10, 0, 8),
+                    Word::signed(&add14, 0, 10),
+                    8,
+                );
+                let load17 = m.load(&R[17], 4);
+                let [table18] = m.table([&R[18]], &[Bit::at(&ray0_sample_u_3, 0)], [T18], 0);
+                let add20 = m.add(
+                    &R[20],
+                    Operand::signed(&load17, 0, 8),
+                    Operand::unsigned(&table18, 0, 5),
+                );
+                let multiply21 = m.multiply(
+                    &R[21],
+                    Word::unsigned(&divide10, 0, 8),
+                    Word::signed(&add20, 0, 8),
+                    8,
+                );
+                m.block(BlockId(2));
+                let ray0_direction_y_98 = m.copy(&R[98], Word::unsigned(&table7, 0, 2));
+                let ray0_distance_99 = m.copy(&R[99], Word::unsigned(&divide10, 0, 8));
+                let multiply15__100 = m.copy(&R[100], Word::unsigned(&multiply15, 0, 9));
+                let multiply21__101 = m.copy(&R[101], Word::unsigned(&multiply21, 0, 7));
+                m.block(BlockId(3));
+                m.undo([multiply21]);
+                m.undo([add20]);
+                m.undo([table18]);
+                m.undo([load17]);
+                m.undo([multiply15]);
+                m.undo([add14]);
+                m.undo([load13]);
+                m.undo([divide10, divide11]);
+                m.undo([add9]);
+                m.undo([table7]);
+                m.undo([load6]);
+                m.undo([add5]);
+                let add5 = m.add(&R[5], Operand::Constant(16), Operand::Constant(0));
+                let load6 = m.load(&R[6], 2);
+                let [table7] = m.table([&R[7]], &[Bit::at(&ray0_sample_v_4, 0)], [T7], 0);
+                let add9 = m.add(
+                    &R[9],
+                    Operand::unsigned(&load6, 0, 8),
+                    Word::unsigned(&table7, 0, 2).shifted(3).into(),
+                );
+                let [divide10, divide11] = m.divide(
+                    &R[10],
+                    &R[11],
+                    Word::unsigned(&add5, 0, 5).shifted(8),
+                    Word::unsigned(&add9, 0, 8),
+                );
+                let load13 = m.load(&R[13], 3);
+                let add14 = m.add(
+                    &R[14],
+                    Operand::signed(&load13, 0, 10),
+                    Word::unsigned(&table7, 0, 2).shifted(2).into(),
+                );
+                let multiply15 = m.multiply(
+                    &R[15],
+                    Word::unsigned(&divide10, 0, 8),
+                    Word::signed(&add14, 0, 10),
+                    8,
+                );
+                let load17 = m.load(&R[17], 4);
+                let [table18] = m.table([&R[18]], &[Bit::at(&ray0_sample_u_3, 0)], [T18], 0);
+                let add20 = m.add(
+                    &R[20],
+                    Operand::signed(&load17, 0, 8),
+                    Operand::unsigned(&table18, 0, 5),
+                );
+                let multiply21 = m.multiply(
+                    &R[21],
+                    Word::unsigned(&divide10, 0, 8),
+                    Word::signed(&add20, 0, 8),
+                    8,
+                );
+                m.undo([multiply21]);
+                m.undo([add20]);
+                m.undo([table18]);
+                m.undo([load17]);
+                m.undo([multiply15]);
+                m.undo([add14]);
+                m.undo([load13]);
+                m.undo([divide10, divide11]);
+                m.undo([add9]);
+                m.undo([table7]);
+                m.undo([load6]);
+                m.undo([add5]);
+                m.block(BlockId(6));
+                let ray1_sample_u_33 = m.parity(&R[33], id, &[2, 3], Some(5));
+                let ray1_sample_v_34 = m.parity(&R[34], id, &[2, 3], Some(6));
+                m.block(BlockId(11));
+                let add35 = m.subtract(
+                    &R[35],
+                    Operand::signed(&multiply21__101, 0, 7),
+                    Operand::signed(&multiply21__101, 6, 1),
+                );
+                m.block(BlockId(12));
+                let load36 = m.load(&R[36], 7);
+                let add37 = m.subtract(
+                    &R[37],
+                    Operand::signed(&load36, 0, 9),
+                    Word::unsigned(&ray0_direction_y_98, 0, 2).shifted(3).into(),
+                );
+                let multiply38 = m.multiply(
+                    &R[38],
+                    Word::unsigned(&ray0_distance_99, 0, 8),
+                    Word::signed(&add37, 0, 9),
+                    8,
+                );
+                let add40 = m.subtract(
+                    &R[40],
+                    Operand::signed(&multiply38, 0, 8),
+                    Operand::signed(&multiply38, 6, 2),
+                );
+                m.undo([multiply38]);
+                m.undo([add37]);
+                m.undo([load36]);
+                m.block(BlockId(13));
+                let add41 = m.subtract(
+                    &R[41],
+                    Operand::signed(&multiply15__100, 0, 9),
+                    Operand::signed(&multiply15__100, 6, 3),
+                );
+                m.block(BlockId(0));
+                let ray1_origin_x_102 = m.copy(&R[102], Word::unsigned(&add35, 0, 7));
+                let ray1_origin_y_103 = m.copy(&R[103], Word::unsigned(&add40, 0, 8));
+                let ray1_origin_z_104 = m.copy(&R[104], Word::unsigned(&add41, 0, 9));
+                m.block(BlockId(13));
+                m.undo([add41]);
+                m.block(BlockId(12));
+                let load36 = m.load(&R[36], 7);
+                let add37 = m.subtract(
+                    &R[37],
+                    Operand::signed(&load36, 0, 9),
+                    Word::unsigned(&ray0_direction_y_98, 0, 2).shifted(3).into(),
+                );
+                let multiply38 = m.multiply(
+                    &R[38],
+                    Word::unsigned(&ray0_distance_99, 0, 8),
+                    Word::signed(&add37, 0, 9),
+                    8,
+                );
+                m.undo([add40]);
+                m.undo([multiply38]);
+                m.undo([add37]);
+                m.undo([load36]);
+                m.block(BlockId(11));
+                m.undo([add35]);
+                m.block(BlockId(15));
+                let add42 = m.subtract(
+                    &R[42],
+                    Operand::Constant(64),
+                    Operand::signed(&ray1_origin_y_103, 0, 8),
+                );
+                let [table43] = m.table(
+                    [&R[43]],
+                    &[Bit::at(&ray1_sample_u_33, 0), Bit::at(&ray1_sample_u_33, 1)],
+                    [T43],
+                    0,
+                );
+                let [divide45, divide46] = m.divide(
+                    &R[45],
+                    &R[46],
+                    Word::unsigned(&add42, 0, 8).shifted(8),
+                    Word::unsigned(&table43, 0, 8),
+                );
+                let [table48, table52] = m.table(
+                    [&R[48], &R[52]],
+                    &[
+                        Bit::at(&ray1_sample_u_33, 0),
+                        Bit::at(&ray1_sample_u_33, 1),
+                        Bit::at(&ray1_sample_v_34, 0),
+                        Bit::at(&ray1_sample_v_34, 1),
+                    ],
+                    [T48, T52],
+                    0,
+                );
+                let multiply50 = m.multiply(
+                    &R[50],
+                    Word::unsigned(&divide45, 0, 9),
+                    Word::signed(&table48, 0, 9),
+                    8,
+                );
+                let multiply54 = m.multiply(
+                    &R[54],
+                    Word::unsigned(&divide45, 0, 9),
+                    Word::signed(&table52, 0, 9),
+                    8,
+                );
+                let add56 = m.add(
+                    &R[56],
+                    Operand::signed(&ray1_origin_z_104, 0, 9),
+                    Operand::signed(&multiply50, 0, 10),
+                );
+                let add57 = m.add(
+                    &R[57],
+                    Operand::signed(&ray1_origin_x_102, 0, 7),
+                    Operand::signed(&multiply54, 0, 10),
+                );
+                let add58 = m.add(
+                    &R[58],
+                    Operand::Constant(177),
+                    Operand::signed(&add56, 0, 10),
+                );
+                let add59 = m.subtract(
+                    &R[59],
+                    Operand::Constant(113),
+                    Operand::signed(&add56, 0, 10),
+                );
+                (
+                    ray0_sample_u_3,
+                    ray0_sample_v_4,
+                    ray0_direction_y_98,
+                    ray0_distance_99,
+                    multiply15__100,
+                    multiply21__101,
+                    ray1_sample_u_33,
+                    ray1_sample_v_34,
+                    ray1_origin_x_102,
+                    ray1_origin_y_103,
+                    ray1_origin_z_104,
+                    add42,
+                    table43,
+                    divide45,
+                    divide46,
+                    table48,
+                    table52,
+                    multiply50,
+                    multiply54,
+                    add56,
+                    add57,
+                    add58,
+                    add59,
+                )
+            };
+            let (select66__105, colour_r_86, table88, colour_g_90, table92, colour_b_94, table96) = {
+                let and60 = m.and(
+                    &R[60],
+                    Bit::at(&add58, 9).inverted(),
+                    Bit::at(&add59, 10).inverted(),
+                );
+                let add61 = m.add(
+                    &R[61],
+                    Operand::Constant(145),
+                    Operand::signed(&add57, 0, 10),
+                );
+                let add62 = m.subtract(
+                    &R[62],
+                    Operand::Constant(145),
+                    Operand::signed(&add57, 0, 10),
+                );
+                let and63 = m.and(
+                    &R[63],
+                    Bit::at(&add61, 9).inverted(),
+                    Bit::at(&add62, 9).inverted(),
+                );
+                let and64 = m.and(&R[64], Bit::at(&and60, 0), Bit::at(&and63, 0));
+                let select66 = m.select(
+                    &R[66],
+                    Bit::at(&and64, 0),
+                    Operand::Constant(1),
+                    Operand::Constant(2),
+                );
+                m.undo([and64]);
+                m.undo([and63]);
+                m.undo([add62]);
+                m.undo([add61]);
+                m.undo([and60]);
+                m.undo([add59]);
+                m.undo([add58]);
+                m.undo([add57]);
+                m.undo([add56]);
+                m.undo([multiply54]);
+                m.undo([multiply50]);
+                m.undo([table48, table52]);
+                m.undo([divide45, divide46]);
+                m.undo([table43]);
+                m.undo([add42]);
+                m.block(BlockId(0));
+                let select66__105 = m.copy(&R[105], Word::unsigned(&select66, 0, 2));
+                m.block(BlockId(15));
+                let add42 = m.subtract(
+                    &R[42],
+                    Operand::Constant(64),
+                    Operand::signed(&ray1_origin_y_103, 0, 8),
+                );
+                let [table43] = m.table(
+                    [&R[43]],
+                    &[Bit::at(&ray1_sample_u_33, 0), Bit::at(&ray1_sample_u_33, 1)],
+                    [T43],
+                    0,
+                );
+                let [divide45, divide46] = m.divide(
+                    &R[45],
+                    &R[46],
+                    Word::unsigned(&add42, 0, 8).shifted(8),
+                    Word::unsigned(&table43, 0, 8),
+                );
+                let [table48, table52] = m.table(
+                    [&R[48], &R[52]],
+                    &[
+                        Bit::at(&ray1_sample_u_33, 0),
+                        Bit::at(&ray1_sample_u_33, 1),
+                        Bit::at(&ray1_sample_v_34, 0),
+                        Bit::at(&ray1_sample_v_34, 1),
+                    ],
+                    [T48, T52],
+                    0,
+                );
+                let multiply50 = m.multiply(
+                    &R[50],
+                    Word::unsigned(&divide45, 0, 9),
+                    Word::signed(&table48, 0, 9),
+                    8,
+                );
+                let multiply54 = m.multiply(
+                    &R[54],
+                    Word::unsigned(&divide45, 0, 9),
+                    Word::signed(&table52, 0, 9),
+                    8,
+                );
+                let add56 = m.add(
+                    &R[56],
+                    Operand::signed(&ray1_origin_z_104, 0, 9),
+                    Operand::signed(&multiply50, 0, 10),
+                );
+                let add57 = m.add(
+                    &R[57],
+                    Operand::signed(&ray1_origin_x_102, 0, 7),
+                    Operand::signed(&multiply54, 0, 10),
+                );
+                let add58 = m.add(
+                    &R[58],
+                    Operand::Constant(177),
+                    Operand::signed(&add56, 0, 10),
+                );
+                let add59 = m.subtract(
+                    &R[59],
+                    Operand::Constant(113),
+                    Operand::signed(&add56, 0, 10),
+                );
+                let and60 = m.and(
+                    &R[60],
+                    Bit::at(&add58, 9).inverted(),
+                    Bit::at(&add59, 10).inverted(),
+                );
+                let add61 = m.add(
+                    &R[61],
+                    Operand::Constant(145),
+                    Operand::signed(&add57, 0, 10),
+                );
+                let add62 = m.subtract(
+                    &R[62],
+                    Operand::Constant(145),
+                    Operand::signed(&add57, 0, 10),
+                );
+                let and63 = m.and(
+                    &R[63],
+                    Bit::at(&add61, 9).inverted(),
+                    Bit::at(&add62, 9).inverted(),
+                );
+                let and64 = m.and(&R[64], Bit::at(&and60, 0), Bit::at(&and63, 0));
+                m.undo([select66]);
+                m.undo([and64]);
+                m.undo([and63]);
+                m.undo([add62]);
+                m.undo([add61]);
+                m.undo([and60]);
+                m.undo([add59]);
+                m.undo([add58]);
+                m.undo([add57]);
+                m.undo([add56]);
+                m.undo([multiply54]);
+                m.undo([multiply50]);
+                m.undo([table48, table52]);
+                m.undo([divide45, divide46]);
+                m.undo([table43]);
+                m.undo([add42]);
+                m.block(BlockId(20));
+                let [colour_r_86, table88] = m.table(
+                    [&R[86], &R[88]],
+                    &[Bit::at(&select66__105, 0), Bit::at(&select66__105, 1)],
+                    [T86, T88],
+                    0,
+                );
+                m.block(BlockId(21));
+                let [colour_g_90, table92] = m.table(
+                    [&R[90], &R[92]],
+                    &[Bit::at(&select66__105, 0), Bit::at(&select66__105, 1)],
+                    [T90, T92],
+                    0,
+                );
+                m.block(BlockId(22));
+                let [colour_b_94, table96] = m.table(
+                    [&R[94], &R[96]],
+                    &[Bit::at(&select66__105, 0), Bit::at(&select66__105, 1)],
+                    [T94, T96],
+                    0,
+                );
+                (
+                    select66__105,
+                    colour_r_86,
+                    table88,
+                    colour_g_90,
+                    table92,
+                    colour_b_94,
+                    table96,
+                )
+            };
+
             let fields = &[
                 &ray0_direction_y_98,
                 &ray0_direction_y_98,
@@ -1210,401 +1273,399 @@ const _: () = {
                 ],
             ];
             let applied = apply(m, Computed::new(fields, channels));
-            m.undo([colour_b_94, table96]);
-            m.block(BlockId(21));
-            m.undo([colour_g_90, table92]);
-            m.block(BlockId(20));
-            m.undo([colour_r_86, table88]);
-            m.block(BlockId(15));
-            let add42 = m.subtract(
-                &R[42],
-                Operand::Constant(64),
-                Operand::signed(&ray1_origin_y_103, 0, 8),
-            );
-            let [table43] = m.table(
-                [&R[43]],
-                &[Bit::at(&ray1_sample_u_33, 0), Bit::at(&ray1_sample_u_33, 1)],
-                [T43],
-                0,
-            );
-            let [divide45, divide46] = m.divide(
-                &R[45],
-                &R[46],
-                Word::unsigned(&add42, 0, 8).shifted(8),
-                Word::unsigned(&table43, 0, 8),
-            );
-            let [table48, table52] = m.table(
-                [&R[48], &R[52]],
-                &[
-                    Bit::at(&ray1_sample_u_33, 0),
-                    Bit::at(&ray1_sample_u_33, 1),
-                    Bit::at(&ray1_sample_v_34, 0),
-                    Bit::at(&ray1_sample_v_34, 1),
-                ],
-                [T48, T52],
-                0,
-            );
-            let multiply50 = m.multiply(
-                &R[50],
-                Word::unsigned(&divide45, 0, 9),
-                Word::signed(&table48, 0, 9),
-                8,
-            );
-            let multiply54 = m.multiply(
-                &R[54],
-                Word::unsigned(&divide45, 0, 9),
-                Word::signed(&table52, 0, 9),
-                8,
-            );
-            let add56 = m.add(
-                &R[56],
-                Operand::signed(&ray1_origin_z_104, 0, 9),
-                Operand::signed(&multiply50, 0, 10),
-            );
-            let add57 = m.add(
-                &R[57],
-                Operand::signed(&ray1_origin_x_102, 0, 7),
-                Operand::signed(&multiply54, 0, 10),
-            );
-            let add58 = m.add(
-                &R[58],
-                Operand::Constant(177),
-                Operand::signed(&add56, 0, 10),
-            );
-            let add59 = m.subtract(
-                &R[59],
-                Operand::Constant(113),
-                Operand::signed(&add56, 0, 10),
-            );
-            let and60 = m.and(
-                &R[60],
-                Bit::at(&add58, 9).inverted(),
-                Bit::at(&add59, 10).inverted(),
-            );
-            let add61 = m.add(
-                &R[61],
-                Operand::Constant(145),
-                Operand::signed(&add57, 0, 10),
-            );
-            let add62 = m.subtract(
-                &R[62],
-                Operand::Constant(145),
-                Operand::signed(&add57, 0, 10),
-            );
-            let and63 = m.and(
-                &R[63],
-                Bit::at(&add61, 9).inverted(),
-                Bit::at(&add62, 9).inverted(),
-            );
-            let and64 = m.and(&R[64], Bit::at(&and60, 0), Bit::at(&and63, 0));
-            let select66 = m.select(
-                &R[66],
-                Bit::at(&and64, 0),
-                Operand::Constant(1),
-                Operand::Constant(2),
-            );
-            m.undo([and64]);
-            m.undo([and63]);
-            m.undo([add62]);
-            m.undo([add61]);
-            m.undo([and60]);
-            m.undo([add59]);
-            m.undo([add58]);
-            m.undo([add57]);
-            m.undo([add56]);
-            m.undo([multiply54]);
-            m.undo([multiply50]);
-            m.undo([table48, table52]);
-            m.undo([divide45, divide46]);
-            m.undo([table43]);
-            m.undo([add42]);
-            m.block(BlockId(0));
-            m.undo([select66__105]);
-            m.block(BlockId(15));
-            let add42 = m.subtract(
-                &R[42],
-                Operand::Constant(64),
-                Operand::signed(&ray1_origin_y_103, 0, 8),
-            );
-            let [table43] = m.table(
-                [&R[43]],
-                &[Bit::at(&ray1_sample_u_33, 0), Bit::at(&ray1_sample_u_33, 1)],
-                [T43],
-                0,
-            );
-            let [divide45, divide46] = m.divide(
-                &R[45],
-                &R[46],
-                Word::unsigned(&add42, 0, 8).shifted(8),
-                Word::unsigned(&table43, 0, 8),
-            );
-            let [table48, table52] = m.table(
-                [&R[48], &R[52]],
-                &[
-                    Bit::at(&ray1_sample_u_33, 0),
-                    Bit::at(&ray1_sample_u_33, 1),
-                    Bit::at(&ray1_sample_v_34, 0),
-                    Bit::at(&ray1_sample_v_34, 1),
-                ],
-                [T48, T52],
-                0,
-            );
-            let multiply50 = m.multiply(
-                &R[50],
-                Word::unsigned(&divide45, 0, 9),
-                Word::signed(&table48, 0, 9),
-                8,
-            );
-            let multiply54 = m.multiply(
-                &R[54],
-                Word::unsigned(&divide45, 0, 9),
-                Word::signed(&table52, 0, 9),
-                8,
-            );
-            let add56 = m.add(
-                &R[56],
-                Operand::signed(&ray1_origin_z_104, 0, 9),
-                Operand::signed(&multiply50, 0, 10),
-            );
-            let add57 = m.add(
-                &R[57],
-                Operand::signed(&ray1_origin_x_102, 0, 7),
-                Operand::signed(&multiply54, 0, 10),
-            );
-            let add58 = m.add(
-                &R[58],
-                Operand::Constant(177),
-                Operand::signed(&add56, 0, 10),
-            );
-            let add59 = m.subtract(
-                &R[59],
-                Operand::Constant(113),
-                Operand::signed(&add56, 0, 10),
-            );
-            let and60 = m.and(
-                &R[60],
-                Bit::at(&add58, 9).inverted(),
-                Bit::at(&add59, 10).inverted(),
-            );
-            let add61 = m.add(
-                &R[61],
-                Operand::Constant(145),
-                Operand::signed(&add57, 0, 10),
-            );
-            let add62 = m.subtract(
-                &R[62],
-                Operand::Constant(145),
-                Operand::signed(&add57, 0, 10),
-            );
-            let and63 = m.and(
-                &R[63],
-                Bit::at(&add61, 9).inverted(),
-                Bit::at(&add62, 9).inverted(),
-            );
-            let and64 = m.and(&R[64], Bit::at(&and60, 0), Bit::at(&and63, 0));
-            m.undo([select66]);
-            m.undo([and64]);
-            m.undo([and63]);
-            m.undo([add62]);
-            m.undo([add61]);
-            m.undo([and60]);
-            m.undo([add59]);
-            m.undo([add58]);
-            m.undo([add57]);
-            m.undo([add56]);
-            m.undo([multiply54]);
-            m.undo([multiply50]);
-            m.undo([table48, table52]);
-            m.undo([divide45, divide46]);
-            m.undo([table43]);
-            m.undo([add42]);
-            m.block(BlockId(11));
-            let add35 = m.subtract(
-                &R[35],
-                Operand::signed(&multiply21__101, 0, 7),
-                Operand::signed(&multiply21__101, 6, 1),
-            );
-            m.block(BlockId(12));
-            let load36 = m.load(&R[36], 7);
-            let add37 = m.subtract(
-                &R[37],
-                Operand::signed(&load36, 0, 9),
-                Word::unsigned(&ray0_direction_y_98, 0, 2).shifted(3).into(),
-            );
-            let multiply38 = m.multiply(
-                &R[38],
-                Word::unsigned(&ray0_distance_99, 0, 8),
-                Word::signed(&add37, 0, 9),
-                8,
-            );
-            let add40 = m.subtract(
-                &R[40],
-                Operand::signed(&multiply38, 0, 8),
-                Operand::signed(&multiply38, 6, 2),
-            );
-            m.undo([multiply38]);
-            m.undo([add37]);
-            m.undo([load36]);
-            m.block(BlockId(13));
-            let add41 = m.subtract(
-                &R[41],
-                Operand::signed(&multiply15__100, 0, 9),
-                Operand::signed(&multiply15__100, 6, 3),
-            );
-            m.block(BlockId(0));
-            m.undo([ray1_origin_z_104]);
-            m.undo([ray1_origin_y_103]);
-            m.undo([ray1_origin_x_102]);
-            m.block(BlockId(13));
-            m.undo([add41]);
-            m.block(BlockId(12));
-            let load36 = m.load(&R[36], 7);
-            let add37 = m.subtract(
-                &R[37],
-                Operand::signed(&load36, 0, 9),
-                Word::unsigned(&ray0_direction_y_98, 0, 2).shifted(3).into(),
-            );
-            let multiply38 = m.multiply(
-                &R[38],
-                Word::unsigned(&ray0_distance_99, 0, 8),
-                Word::signed(&add37, 0, 9),
-                8,
-            );
-            m.undo([add40]);
-            m.undo([multiply38]);
-            m.undo([add37]);
-            m.undo([load36]);
-            m.block(BlockId(11));
-            m.undo([add35]);
-            m.block(BlockId(6));
-            m.undo([ray1_sample_v_34]);
-            m.undo([ray1_sample_u_33]);
-            m.block(BlockId(3));
-            let add5 = m.add(&R[5], Operand::Constant(16), Operand::Constant(0));
-            let load6 = m.load(&R[6], 2);
-            let [table7] = m.table([&R[7]], &[Bit::at(&ray0_sample_v_4, 0)], [T7], 0);
-            let add9 = m.add(
-                &R[9],
-                Operand::unsigned(&load6, 0, 8),
-                Word::unsigned(&table7, 0, 2).shifted(3).into(),
-            );
-            let [divide10, divide11] = m.divide(
-                &R[10],
-                &R[11],
-                Word::unsigned(&add5, 0, 5).shifted(8),
-                Word::unsigned(&add9, 0, 8),
-            );
-            let load13 = m.load(&R[13], 3);
-            let add14 = m.add(
-                &R[14],
-                Operand::signed(&load13, 0, 10),
-                Word::unsigned(&table7, 0, 2).shifted(2).into(),
-            );
-            let multiply15 = m.multiply(
-                &R[15],
-                Word::unsigned(&divide10, 0, 8),
-                Word::signed(&add14, 0, 10),
-                8,
-            );
-            let load17 = m.load(&R[17], 4);
-            let [table18] = m.table([&R[18]], &[Bit::at(&ray0_sample_u_3, 0)], [T18], 0);
-            let add20 = m.add(
-                &R[20],
-                Operand::signed(&load17, 0, 8),
-                Operand::unsigned(&table18, 0, 5),
-            );
-            let multiply21 = m.multiply(
-                &R[21],
-                Word::unsigned(&divide10, 0, 8),
-                Word::signed(&add20, 0, 8),
-                8,
-            );
-            m.undo([multiply21]);
-            m.undo([add20]);
-            m.undo([table18]);
-            m.undo([load17]);
-            m.undo([multiply15]);
-            m.undo([add14]);
-            m.undo([load13]);
-            m.undo([divide10, divide11]);
-            m.undo([add9]);
-            m.undo([table7]);
-            m.undo([load6]);
-            m.undo([add5]);
-            let add5 = m.add(&R[5], Operand::Constant(16), Operand::Constant(0));
-            let load6 = m.load(&R[6], 2);
-            let [table7] = m.table([&R[7]], &[Bit::at(&ray0_sample_v_4, 0)], [T7], 0);
-            let add9 = m.add(
-                &R[9],
-                Operand::unsigned(&load6, 0, 8),
-                Word::unsigned(&table7, 0, 2).shifted(3).into(),
-            );
-            let [divide10, divide11] = m.divide(
-                &R[10],
-                &R[11],
-                Word::unsigned(&add5, 0, 5).shifted(8),
-                Word::unsigned(&add9, 0, 8),
-            );
-            let load13 = m.load(&R[13], 3);
-            let add14 = m.add(
-                &R[14],
-                Operand::signed(&load13, 0, 10),
-                Word::unsigned(&table7, 0, 2).shifted(2).into(),
-            );
-            let multiply15 = m.multiply(
-                &R[15],
-                Word::unsigned(&divide10, 0, 8),
-                Word::signed(&add14, 0, 10),
-                8,
-            );
-            let load17 = m.load(&R[17], 4);
-            let [table18] = m.table([&R[18]], &[Bit::at(&ray0_sample_u_3, 0)], [T18], 0);
-            let add20 = m.add(
-                &R[20],
-                Operand::signed(&load17, 0, 8),
-                Operand::unsigned(&table18, 0, 5),
-            );
-            let multiply21 = m.multiply(
-                &R[21],
-                Word::unsigned(&divide10, 0, 8),
-                Word::signed(&add20, 0, 8),
-                8,
-            );
-            m.block(BlockId(2));
-            m.undo([multiply21__101]);
-            m.undo([multiply15__100]);
-            m.undo([ray0_distance_99]);
-            m.undo([ray0_direction_y_98]);
-            m.block(BlockId(3));
-            m.undo([multiply21]);
-            m.undo([add20]);
-            m.undo([table18]);
-            m.undo([load17]);
-            m.undo([multiply15]);
-            m.undo([add14]);
-            m.undo([load13]);
-            m.undo([divide10, divide11]);
-            m.undo([add9]);
-            m.undo([table7]);
-            m.undo([load6]);
-            m.undo([add5]);
-            m.block(BlockId(1));
-            m.undo([ray0_sample_v_4]);
-            m.undo([ray0_sample_u_3]);
+            let () = {
+                m.undo([colour_b_94, table96]);
+                m.block(BlockId(21));
+                m.undo([colour_g_90, table92]);
+                m.block(BlockId(20));
+                m.undo([colour_r_86, table88]);
+                m.block(BlockId(15));
+                let add42 = m.subtract(
+                    &R[42],
+                    Operand::Constant(64),
+                    Operand::signed(&ray1_origin_y_103, 0, 8),
+                );
+                let [table43] = m.table(
+                    [&R[43]],
+                    &[Bit::at(&ray1_sample_u_33, 0), Bit::at(&ray1_sample_u_33, 1)],
+                    [T43],
+                    0,
+                );
+                let [divide45, divide46] = m.divide(
+                    &R[45],
+                    &R[46],
+                    Word::unsigned(&add42, 0, 8).shifted(8),
+                    Word::unsigned(&table43, 0, 8),
+                );
+                let [table48, table52] = m.table(
+                    [&R[48], &R[52]],
+                    &[
+                        Bit::at(&ray1_sample_u_33, 0),
+                        Bit::at(&ray1_sample_u_33, 1),
+                        Bit::at(&ray1_sample_v_34, 0),
+                        Bit::at(&ray1_sample_v_34, 1),
+                    ],
+                    [T48, T52],
+                    0,
+                );
+                let multiply50 = m.multiply(
+                    &R[50],
+                    Word::unsigned(&divide45, 0, 9),
+                    Word::signed(&table48, 0, 9),
+                    8,
+                );
+                let multiply54 = m.multiply(
+                    &R[54],
+                    Word::unsigned(&divide45, 0, 9),
+                    Word::signed(&table52, 0, 9),
+                    8,
+                );
+                let add56 = m.add(
+                    &R[56],
+                    Operand::signed(&ray1_origin_z_104, 0, 9),
+                    Operand::signed(&multiply50, 0, 10),
+                );
+                let add57 = m.add(
+                    &R[57],
+                    Operand::signed(&ray1_origin_x_102, 0, 7),
+                    Operand::signed(&multiply54, 0, 10),
+                );
+                let add58 = m.add(
+                    &R[58],
+                    Operand::Constant(177),
+                    Operand::signed(&add56, 0, 10),
+                );
+                let add59 = m.subtract(
+                    &R[59],
+                    Operand::Constant(113),
+                    Operand::signed(&add56, 0, 10),
+                );
+                let and60 = m.and(
+                    &R[60],
+                    Bit::at(&add58, 9).inverted(),
+                    Bit::at(&add59, 10).inverted(),
+                );
+                let add61 = m.add(
+                    &R[61],
+                    Operand::Constant(145),
+                    Operand::signed(&add57, 0, 10),
+                );
+                let add62 = m.subtract(
+                    &R[62],
+                    Operand::Constant(145),
+                    Operand::signed(&add57, 0, 10),
+                );
+                let and63 = m.and(
+                    &R[63],
+                    Bit::at(&add61, 9).inverted(),
+                    Bit::at(&add62, 9).inverted(),
+                );
+                let and64 = m.and(&R[64], Bit::at(&and60, 0), Bit::at(&and63, 0));
+                let select66 = m.select(
+                    &R[66],
+                    Bit::at(&and64, 0),
+                    Operand::Constant(1),
+                    Operand::Constant(2),
+                );
+                m.undo([and64]);
+                m.undo([and63]);
+                m.undo([add62]);
+                m.undo([add61]);
+                m.undo([and60]);
+                m.undo([add59]);
+                m.undo([add58]);
+                m.undo([add57]);
+                m.undo([add56]);
+                m.undo([multiply54]);
+                m.undo([multiply50]);
+                m.undo([table48, table52]);
+                m.undo([divide45, divide46]);
+                m.undo([table43]);
+                m.undo([add42]);
+                m.block(BlockId(0));
+                m.undo([select66__105]);
+                m.block(BlockId(15));
+                let add42 = m.subtract(
+                    &R[42],
+                    Operand::Constant(64),
+                    Operand::signed(&ray1_origin_y_103, 0, 8),
+                );
+                let [table43] = m.table(
+                    [&R[43]],
+                    &[Bit::at(&ray1_sample_u_33, 0), Bit::at(&ray1_sample_u_33, 1)],
+                    [T43],
+                    0,
+                );
+                let [divide45, divide46] = m.divide(
+                    &R[45],
+                    &R[46],
+                    Word::unsigned(&add42, 0, 8).shifted(8),
+                    Word::unsigned(&table43, 0, 8),
+                );
+                let [table48, table52] = m.table(
+                    [&R[48], &R[52]],
+                    &[
+                        Bit::at(&ray1_sample_u_33, 0),
+                        Bit::at(&ray1_sample_u_33, 1),
+                        Bit::at(&ray1_sample_v_34, 0),
+                        Bit::at(&ray1_sample_v_34, 1),
+                    ],
+                    [T48, T52],
+                    0,
+                );
+                let multiply50 = m.multiply(
+                    &R[50],
+                    Word::unsigned(&divide45, 0, 9),
+                    Word::signed(&table48, 0, 9),
+                    8,
+                );
+                let multiply54 = m.multiply(
+                    &R[54],
+                    Word::unsigned(&divide45, 0, 9),
+                    Word::signed(&table52, 0, 9),
+                    8,
+                );
+                let add56 = m.add(
+                    &R[56],
+                    Operand::signed(&ray1_origin_z_104, 0, 9),
+                    Operand::signed(&multiply50, 0, 10),
+                );
+                let add57 = m.add(
+                    &R[57],
+                    Operand::signed(&ray1_origin_x_102, 0, 7),
+                    Operand::signed(&multiply54, 0, 10),
+                );
+                let add58 = m.add(
+                    &R[58],
+                    Operand::Constant(177),
+                    Operand::signed(&add56, 0, 10),
+                );
+                let add59 = m.subtract(
+                    &R[59],
+                    Operand::Constant(113),
+                    Operand::signed(&add56, 0, 10),
+                );
+                let and60 = m.and(
+                    &R[60],
+                    Bit::at(&add58, 9).inverted(),
+                    Bit::at(&add59, 10).inverted(),
+                );
+                let add61 = m.add(
+                    &R[61],
+                    Operand::Constant(145),
+                    Operand::signed(&add57, 0, 10),
+                );
+                let add62 = m.subtract(
+                    &R[62],
+                    Operand::Constant(145),
+                    Operand::signed(&add57, 0, 10),
+                );
+                let and63 = m.and(
+                    &R[63],
+                    Bit::at(&add61, 9).inverted(),
+                    Bit::at(&add62, 9).inverted(),
+                );
+                let and64 = m.and(&R[64], Bit::at(&and60, 0), Bit::at(&and63, 0));
+                m.undo([select66]);
+                m.undo([and64]);
+                m.undo([and63]);
+                m.undo([add62]);
+                m.undo([add61]);
+                m.undo([and60]);
+                m.undo([add59]);
+                m.undo([add58]);
+                m.undo([add57]);
+                m.undo([add56]);
+                m.undo([multiply54]);
+                m.undo([multiply50]);
+                m.undo([table48, table52]);
+                m.undo([divide45, divide46]);
+                m.undo([table43]);
+                m.undo([add42]);
+                m.block(BlockId(11));
+                let add35 = m.subtract(
+                    &R[35],
+                    Operand::signed(&multiply21__101, 0, 7),
+                    Operand::signed(&multiply21__101, 6, 1),
+                );
+                m.block(BlockId(12));
+                let load36 = m.load(&R[36], 7);
+                let add37 = m.subtract(
+                    &R[37],
+                    Operand::signed(&load36, 0, 9),
+                    Word::unsigned(&ray0_direction_y_98, 0, 2).shifted(3).into(),
+                );
+                let multiply38 = m.multiply(
+                    &R[38],
+                    Word::unsigned(&ray0_distance_99, 0, 8),
+                    Word::signed(&add37, 0, 9),
+                    8,
+                );
+                let add40 = m.subtract(
+                    &R[40],
+                    Operand::signed(&multiply38, 0, 8),
+                    Operand::signed(&multiply38, 6, 2),
+                );
+                m.undo([multiply38]);
+                m.undo([add37]);
+                m.undo([load36]);
+                m.block(BlockId(13));
+                let add41 = m.subtract(
+                    &R[41],
+                    Operand::signed(&multiply15__100, 0, 9),
+                    Operand::signed(&multiply15__100, 6, 3),
+                );
+                m.block(BlockId(0));
+                m.undo([ray1_origin_z_104]);
+                m.undo([ray1_origin_y_103]);
+                m.undo([ray1_origin_x_102]);
+                m.block(BlockId(13));
+                m.undo([add41]);
+                m.block(BlockId(12));
+                let load36 = m.load(&R[36], 7);
+                let add37 = m.subtract(
+                    &R[37],
+                    Operand::signed(&load36, 0, 9),
+                    Word::unsigned(&ray0_direction_y_98, 0, 2).shifted(3).into(),
+                );
+                let multiply38 = m.multiply(
+                    &R[38],
+                    Word::unsigned(&ray0_distance_99, 0, 8),
+                    Word::signed(&add37, 0, 9),
+                    8,
+                );
+                m.undo([add40]);
+                m.undo([multiply38]);
+                m.undo([add37]);
+                m.undo([load36]);
+                m.block(BlockId(11));
+                m.undo([add35]);
+                m.block(BlockId(6));
+                ()
+            };
+            let () = {
+                m.undo([ray1_sample_v_34]);
+                m.undo([ray1_sample_u_33]);
+                m.block(BlockId(3));
+                let add5 = m.add(&R[5], Operand::Constant(16), Operand::Constant(0));
+                let load6 = m.load(&R[6], 2);
+                let [table7] = m.table([&R[7]], &[Bit::at(&ray0_sample_v_4, 0)], [T7], 0);
+                let add9 = m.add(
+                    &R[9],
+                    Operand::unsigned(&load6, 0, 8),
+                    Word::unsigned(&table7, 0, 2).shifted(3).into(),
+                );
+                let [divide10, divide11] = m.divide(
+                    &R[10],
+                    &R[11],
+                    Word::unsigned(&add5, 0, 5).shifted(8),
+                    Word::unsigned(&add9, 0, 8),
+                );
+                let load13 = m.load(&R[13], 3);
+                let add14 = m.add(
+                    &R[14],
+                    Operand::signed(&load13, 0, 10),
+                    Word::unsigned(&table7, 0, 2).shifted(2).into(),
+                );
+                let multiply15 = m.multiply(
+                    &R[15],
+                    Word::unsigned(&divide10, 0, 8),
+                    Word::signed(&add14, 0, 10),
+                    8,
+                );
+                let load17 = m.load(&R[17], 4);
+                let [table18] = m.table([&R[18]], &[Bit::at(&ray0_sample_u_3, 0)], [T18], 0);
+                let add20 = m.add(
+                    &R[20],
+                    Operand::signed(&load17, 0, 8),
+                    Operand::unsigned(&table18, 0, 5),
+                );
+                let multiply21 = m.multiply(
+                    &R[21],
+                    Word::unsigned(&divide10, 0, 8),
+                    Word::signed(&add20, 0, 8),
+                    8,
+                );
+                m.undo([multiply21]);
+                m.undo([add20]);
+                m.undo([table18]);
+                m.undo([load17]);
+                m.undo([multiply15]);
+                m.undo([add14]);
+                m.undo([load13]);
+                m.undo([divide10, divide11]);
+                m.undo([add9]);
+                m.undo([table7]);
+                m.undo([load6]);
+                m.undo([add5]);
+                let add5 = m.add(&R[5], Operand::Constant(16), Operand::Constant(0));
+                let load6 = m.load(&R[6], 2);
+                let [table7] = m.table([&R[7]], &[Bit::at(&ray0_sample_v_4, 0)], [T7], 0);
+                let add9 = m.add(
+                    &R[9],
+                    Operand::unsigned(&load6, 0, 8),
+                    Word::unsigned(&table7, 0, 2).shifted(3).into(),
+                );
+                let [divide10, divide11] = m.divide(
+                    &R[10],
+                    &R[11],
+                    Word::unsigned(&add5, 0, 5).shifted(8),
+                    Word::unsigned(&add9, 0, 8),
+                );
+                let load13 = m.load(&R[13], 3);
+                let add14 = m.add(
+                    &R[14],
+                    Operand::signed(&load13, 0, 10),
+                    Word::unsigned(&table7, 0, 2).shifted(2).into(),
+                );
+                let multiply15 = m.multiply(
+                    &R[15],
+                    Word::unsigned(&divide10, 0, 8),
+                    Word::signed(&add14, 0, 10),
+                    8,
+                );
+                let load17 = m.load(&R[17], 4);
+                let [table18] = m.table([&R[18]], &[Bit::at(&ray0_sample_u_3, 0)], [T18], 0);
+                let add20 = m.add(
+                    &R[20],
+                    Operand::signed(&load17, 0, 8),
+                    Operand::unsigned(&table18, 0, 5),
+                );
+                let multiply21 = m.multiply(
+                    &R[21],
+                    Word::unsigned(&divide10, 0, 8),
+                    Word::signed(&add20, 0, 8),
+                    8,
+                );
+                m.block(BlockId(2));
+                m.undo([multiply21__101]);
+                m.undo([multiply15__100]);
+                m.undo([ray0_distance_99]);
+                m.undo([ray0_direction_y_98]);
+                m.block(BlockId(3));
+                m.undo([multiply21]);
+                m.undo([add20]);
+                m.undo([table18]);
+                m.undo([load17]);
+                m.undo([multiply15]);
+                m.undo([add14]);
+                m.undo([load13]);
+                m.undo([divide10, divide11]);
+                m.undo([add9]);
+                m.undo([table7]);
+                m.undo([load6]);
+                m.undo([add5]);
+                m.block(BlockId(1));
+                m.undo([ray0_sample_v_4]);
+                m.undo([ray0_sample_u_3]);
+                ()
+            };
+
             applied
         }
     }
     static N7: [i32; 16] = [0, 3, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0];
     static N18: [i32; 16] = [0, 27, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0];
-    static N7: [i32; 16] = [0, 3, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0];
-    static N18: [i32; 16] = [0, 27, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0];
-    static N43: [i32; 16] = [239, 202, 157, 91, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0];
-    static N48: [i32; 16] = [
-        64, 111, 143, 169, -64, -111, -143, -169, -64, -111, -143, -169, 64, 111, 143, 169,
-    ];
-    static N52: [i32; 16] = [
-        64, 111, 143, 169, 64, 111, 143, 169, -64, -111, -143, -169, -64, -111, -143, -169,
-    ];
     static N43: [i32; 16] = [239, 202, 157, 91, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0];
     static N48: [i32; 16] = [
         64, 111, 143, 169, -64, -111, -143, -169, -64, -111, -143, -169, 64, 111, 143, 169,
@@ -1621,217 +1682,144 @@ const _: () = {
     impl NativeOracle for LitFloor {
         #[inline(always)]
         fn native<V: Vectors>(v: V, words: &[u64], ids: V::Longs) -> [[V::Longs; 3]; 2] {
-            let t1 = ids;
-            let t2 = v.narrow(t1);
-            let t3 = v.ints(word(words, 0, 1, false) as i32);
-            let t4 = v.table16(&[0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1], t2);
-            let t5 = t3.xor(t4);
-            let ray0_sample_u_3 = t5.has(1);
-            let t7 = v.ints(word(words, 1, 1, false) as i32);
-            let t8 = v.table16(&[0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0], t2);
-            let t9 = t7.xor(t8);
-            let ray0_sample_v_4 = t9.has(1);
-            let add5 = v.ints(16).add(v.ints(0));
-            let load6 = v.ints(word(words, 2, 8, false) as i32);
-            let t13 = v.ints(1).choose(ray0_sample_v_4, v.ints(0));
-            let table7 = v.table16(&N7, t13);
-            let t15 = table7.left(3);
-            let t16 = load6.add(t15);
-            let add9 = t16.lowest(8);
-            let t18 = add5.less(add9);
-            let t19 = add5.choose(t18, v.ints(0));
-            let t20 = v.quotient_single(t19, add9, 8);
-            let t21 = t20.mul(add9);
-            let t22 = t19.left(8).sub(t21);
-            let t23 = t22.less(v.ints(0));
-            let t24 = t20.sub(v.ints(1)).choose(t23, t20);
-            let t25 = add9.less(v.ints(1));
-            let divide10 = v.ints(255).choose(t25, t24);
-            let load13 = v.ints(word(words, 3, 10, true) as i32);
-            let t28 = table7.left(2);
-            let t29 = load13.add(t28);
-            let add14 = t29.left(22).right(22);
-            let t31 = divide10.mul(add14).right(8);
-            let multiply15 = t31.left(23).right(23);
-            let load17 = v.ints(word(words, 4, 8, true) as i32);
-            let t34 = v.ints(1).choose(ray0_sample_u_3, v.ints(0));
-            let table18 = v.table16(&N18, t34);
-            let t36 = load17.add(table18);
-            let add20 = t36.left(24).right(24);
-            let t38 = divide10.mul(add20).right(8);
-            let multiply21 = t38.left(25).right(25);
-            let t40 = multiply15.lowest(9);
-            let multiply15__100 = t40.left(23).right(23);
-            let t42 = multiply21.lowest(7);
-            let multiply21__101 = t42.left(25).right(25);
-            let add5 = v.ints(16).add(v.ints(0));
-            let load6 = v.ints(word(words, 2, 8, false) as i32);
-            let t46 = v.ints(1).choose(ray0_sample_v_4, v.ints(0));
-            let table7 = v.table16(&N7, t46);
-            let t48 = table7.left(3);
-            let t49 = load6.add(t48);
-            let add9 = t49.lowest(8);
-            let t51 = add5.less(add9);
-            let t52 = add5.choose(t51, v.ints(0));
-            let t53 = v.quotient_single(t52, add9, 8);
-            let t54 = t53.mul(add9);
-            let t55 = t52.left(8).sub(t54);
-            let t56 = t55.less(v.ints(0));
-            let t57 = t53.sub(v.ints(1)).choose(t56, t53);
-            let t58 = add9.less(v.ints(1));
-            let divide10 = v.ints(255).choose(t58, t57);
-            let load13 = v.ints(word(words, 3, 10, true) as i32);
-            let t61 = table7.left(2);
-            let t62 = load13.add(t61);
-            let add14 = t62.left(22).right(22);
-            let t64 = divide10.mul(add14).right(8);
-            let multiply15 = t64.left(23).right(23);
-            let load17 = v.ints(word(words, 4, 8, true) as i32);
-            let t67 = v.ints(1).choose(ray0_sample_u_3, v.ints(0));
-            let table18 = v.table16(&N18, t67);
-            let t69 = load17.add(table18);
-            let add20 = t69.left(24).right(24);
-            let t71 = divide10.mul(add20).right(8);
-            let multiply21 = t71.left(25).right(25);
-            let t73 = v.ints(word(words, 5, 2, false) as i32);
-            let t74 = v.table16(&[0, 2, 3, 1, 0, 2, 3, 1, 0, 2, 3, 1, 0, 2, 3, 1], t2);
-            let ray1_sample_u_33 = t73.xor(t74);
-            let t76 = v.ints(word(words, 6, 2, false) as i32);
-            let t77 = v.table16(&[0, 2, 3, 1, 0, 2, 3, 1, 0, 2, 3, 1, 0, 2, 3, 1], t2);
-            let ray1_sample_v_34 = t76.xor(t77);
-            let t79 = multiply21__101.right(6);
-            let add35 = multiply21__101.sub(t79);
-            let load36 = v.ints(word(words, 7, 9, true) as i32);
-            let t82 = table7.left(3);
-            let t83 = load36.sub(t82);
-            let add37 = t83.left(23).right(23);
-            let t85 = divide10.mul(add37).right(8);
-            let multiply38 = t85.left(24).right(24);
-            let t87 = multiply38.right(6);
-            let add40 = multiply38.sub(t87);
-            let t89 = multiply15__100.right(6);
-            let add41 = multiply15__100.sub(t89);
-            let t91 = add35.lowest(7);
-            let ray1_origin_x_102 = t91.left(25).right(25);
-            let t93 = add40.lowest(8);
-            let ray1_origin_y_103 = t93.left(24).right(24);
-            let t95 = add41.lowest(9);
-            let ray1_origin_z_104 = t95.left(23).right(23);
-            let load36 = v.ints(word(words, 7, 9, true) as i32);
-            let t98 = table7.left(3);
-            let t99 = load36.sub(t98);
-            let add37 = t99.left(23).right(23);
-            let t101 = divide10.mul(add37).right(8);
-            let multiply38 = t101.left(24).right(24);
-            let add42 = v.ints(64).sub(ray1_origin_y_103);
-            let table43 = v.table16(&N43, ray1_sample_u_33);
-            let t105 = add42.right(1);
-            let t106 = t105.less(table43);
-            let t107 = add42.choose(t106, v.ints(0));
-            let t108 = v.quotient_single(t107, table43, 8);
-            let t109 = t108.mul(table43);
-            let t110 = t107.left(8).sub(t109);
-            let t111 = t110.less(v.ints(0));
-            let t112 = t108.sub(v.ints(1)).choose(t111, t108);
-            let t113 = table43.less(v.ints(1));
-            let divide45 = v.ints(511).choose(t113, t112);
-            let t115 = ray1_sample_u_33.has(1);
-            let t116 = v.ints(0).add(v.ints(1));
-            let t117 = t116.choose(t115, v.ints(0));
-            let t118 = ray1_sample_u_33.has(2);
-            let t119 = t117.add(v.ints(2));
-            let t120 = t119.choose(t118, t117);
-            let t121 = ray1_sample_v_34.has(1);
-            let t122 = t120.add(v.ints(4));
-            let t123 = t122.choose(t121, t120);
-            let t124 = ray1_sample_v_34.has(2);
-            let t125 = t123.add(v.ints(8));
-            let t126 = t125.choose(t124, t123);
-            let table48 = v.table16(&N48, t126);
-            let table52 = v.table16(&N52, t126);
-            let multiply50 = divide45.mul(table48).right(8);
-            let multiply54 = divide45.mul(table52).right(8);
-            let add56 = ray1_origin_z_104.add(multiply50);
-            let add57 = ray1_origin_x_102.add(multiply54);
-            let add58 = v.ints(177).add(add56);
-            let add59 = v.ints(113).sub(add56);
-            let t135 = add58.less(v.ints(0));
-            let t136 = t135.not();
-            let t137 = add59.less(v.ints(0));
-            let t138 = t137.not();
-            let and60 = t136.and(t138);
-            let add61 = v.ints(145).add(add57);
-            let add62 = v.ints(145).sub(add57);
-            let t142 = add61.less(v.ints(0));
-            let t143 = t142.not();
-            let t144 = add62.less(v.ints(0));
-            let t145 = t144.not();
-            let and63 = t143.and(t145);
-            let and64 = and60.and(and63);
-            let select66__105 = v.ints(1).choose(and64, v.ints(2));
-            let add42 = v.ints(64).sub(ray1_origin_y_103);
-            let table43 = v.table16(&N43, ray1_sample_u_33);
-            let t151 = add42.right(1);
-            let t152 = t151.less(table43);
-            let t153 = add42.choose(t152, v.ints(0));
-            let t154 = v.quotient_single(t153, table43, 8);
-            let t155 = t154.mul(table43);
-            let t156 = t153.left(8).sub(t155);
-            let t157 = t156.less(v.ints(0));
-            let t158 = t154.sub(v.ints(1)).choose(t157, t154);
-            let t159 = table43.less(v.ints(1));
-            let divide45 = v.ints(511).choose(t159, t158);
-            let t161 = ray1_sample_u_33.has(1);
-            let t162 = v.ints(0).add(v.ints(1));
-            let t163 = t162.choose(t161, v.ints(0));
-            let t164 = ray1_sample_u_33.has(2);
-            let t165 = t163.add(v.ints(2));
-            let t166 = t165.choose(t164, t163);
-            let t167 = ray1_sample_v_34.has(1);
-            let t168 = t166.add(v.ints(4));
-            let t169 = t168.choose(t167, t166);
-            let t170 = ray1_sample_v_34.has(2);
-            let t171 = t169.add(v.ints(8));
-            let t172 = t171.choose(t170, t169);
-            let table48 = v.table16(&N48, t172);
-            let table52 = v.table16(&N52, t172);
-            let multiply50 = divide45.mul(table48).right(8);
-            let multiply54 = divide45.mul(table52).right(8);
-            let add56 = ray1_origin_z_104.add(multiply50);
-            let add57 = ray1_origin_x_102.add(multiply54);
-            let add58 = v.ints(177).add(add56);
-            let add59 = v.ints(113).sub(add56);
-            let t181 = add58.less(v.ints(0));
-            let t182 = t181.not();
-            let t183 = add59.less(v.ints(0));
-            let t184 = t183.not();
-            let and60 = t182.and(t184);
-            let add61 = v.ints(145).add(add57);
-            let add62 = v.ints(145).sub(add57);
-            let t188 = add61.less(v.ints(0));
-            let t189 = t188.not();
-            let t190 = add62.less(v.ints(0));
-            let t191 = t190.not();
-            let and63 = t189.and(t191);
-            let and64 = and60.and(and63);
-            let colour_r_86 = v.table16(&N86, select66__105);
-            let table88 = v.table16(&N88, select66__105);
-            let colour_g_90 = v.marks(2, select66__105);
-            let table92 = v.table16(&N92, select66__105);
-            let colour_b_94 = v.table16(&N94, select66__105);
-            let table96 = v.table16(&N96, select66__105);
-            let t200 = table88.right(4);
-            let t201 = v.widen(t200);
-            let t202 = v.widen(colour_r_86);
-            let t203 = table92.right(4);
-            let t204 = v.widen(t203);
-            let t205 = v.ints(1).choose(colour_g_90, v.ints(0));
-            let t206 = t205.left(7);
-            let t207 = v.widen(t206);
-            let t208 = table96.right(4);
-            let t209 = v.widen(t208);
-            let t210 = v.widen(colour_b_94);
-            [[t201, t204, t209], [t202, t207, t210]]
+            let (add57, add59, t100) = {
+                let t1 = ids;
+                let t2 = v.narrow(t1);
+                let t3 = v.ints(word(words, 0, 1, false) as i32);
+                let t4 = v.table16(&[0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1], t2);
+                let t5 = t3.xor(t4);
+                let ray0_sample_u_3 = t5.has(1);
+                let t7 = v.ints(word(words, 1, 1, false) as i32);
+                let t8 = v.table16(&[0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0], t2);
+                let t9 = t7.xor(t8);
+                let ray0_sample_v_4 = t9.has(1);
+                let add5 = v.ints(16).add(v.ints(0));
+                let load6 = v.ints(word(words, 2, 8, false) as i32);
+                let t13 = v.ints(1).choose(ray0_sample_v_4, v.ints(0));
+                let table7 = v.table16(&N7, t13);
+                let t15 = table7.left(3);
+                let t16 = load6.add(t15);
+                let add9 = t16.lowest(8);
+                let t18 = add5.less(add9);
+                let t19 = add5.choose(t18, v.ints(0));
+                let t20 = v.quotient_single(t19, add9, 8);
+                let t21 = t20.mul(add9);
+                let t22 = t19.left(8).sub(t21);
+                let t23 = t22.less(v.ints(0));
+                let t24 = t20.sub(v.ints(1)).choose(t23, t20);
+                let t25 = add9.less(v.ints(1));
+                let divide10 = v.ints(255).choose(t25, t24);
+                let load13 = v.ints(word(words, 3, 10, true) as i32);
+                let t28 = table7.left(2);
+                let t29 = load13.add(t28);
+                let add14 = t29.left(22).right(22);
+                let t31 = divide10.mul(add14).right(8);
+                let multiply15 = t31.left(23).right(23);
+                let load17 = v.ints(word(words, 4, 8, true) as i32);
+                let t34 = v.ints(1).choose(ray0_sample_u_3, v.ints(0));
+                let table18 = v.table16(&N18, t34);
+                let t36 = load17.add(table18);
+                let add20 = t36.left(24).right(24);
+                let t38 = divide10.mul(add20).right(8);
+                let multiply21 = t38.left(25).right(25);
+                let t40 = multiply15.lowest(9);
+                let multiply15__100 = t40.left(23).right(23);
+                let t42 = multiply21.lowest(7);
+                let multiply21__101 = t42.left(25).right(25);
+                let t44 = v.ints(word(words, 5, 2, false) as i32);
+                let t45 = v.table16(&[0, 2, 3, 1, 0, 2, 3, 1, 0, 2, 3, 1, 0, 2, 3, 1], t2);
+                let ray1_sample_u_33 = t44.xor(t45);
+                let t47 = v.ints(word(words, 6, 2, false) as i32);
+                let t48 = v.table16(&[0, 2, 3, 1, 0, 2, 3, 1, 0, 2, 3, 1, 0, 2, 3, 1], t2);
+                let ray1_sample_v_34 = t47.xor(t48);
+                let t50 = multiply21__101.right(6);
+                let add35 = multiply21__101.sub(t50);
+                let load36 = v.ints(word(words, 7, 9, true) as i32);
+                let t53 = table7.left(3);
+                let t54 = load36.sub(t53);
+                let add37 = t54.left(23).right(23);
+                let t56 = divide10.mul(add37).right(8);
+                let multiply38 = t56.left(24).right(24);
+                let t58 = multiply38.right(6);
+                let add40 = multiply38.sub(t58);
+                let t60 = multiply15__100.right(6);
+                let add41 = multiply15__100.sub(t60);
+                let t62 = add35.lowest(7);
+                let ray1_origin_x_102 = t62.left(25).right(25);
+                let t64 = add40.lowest(8);
+                let ray1_origin_y_103 = t64.left(24).right(24);
+                let t66 = add41.lowest(9);
+                let ray1_origin_z_104 = t66.left(23).right(23);
+                let add42 = v.ints(64).sub(ray1_origin_y_103);
+                let table43 = v.table16(&N43, ray1_sample_u_33);
+                let t70 = add42.right(1);
+                let t71 = t70.less(table43);
+                let t72 = add42.choose(t71, v.ints(0));
+                let t73 = v.quotient_single(t72, table43, 8);
+                let t74 = t73.mul(table43);
+                let t75 = t72.left(8).sub(t74);
+                let t76 = t75.less(v.ints(0));
+                let t77 = t73.sub(v.ints(1)).choose(t76, t73);
+                let t78 = table43.less(v.ints(1));
+                let divide45 = v.ints(511).choose(t78, t77);
+                let t80 = ray1_sample_u_33.has(1);
+                let t81 = v.ints(0).add(v.ints(1));
+                let t82 = t81.choose(t80, v.ints(0));
+                let t83 = ray1_sample_u_33.has(2);
+                let t84 = t82.add(v.ints(2));
+                let t85 = t84.choose(t83, t82);
+                let t86 = ray1_sample_v_34.has(1);
+                let t87 = t85.add(v.ints(4));
+                let t88 = t87.choose(t86, t85);
+                let t89 = ray1_sample_v_34.has(2);
+                let t90 = t88.add(v.ints(8));
+                let t91 = t90.choose(t89, t88);
+                let table48 = v.table16(&N48, t91);
+                let table52 = v.table16(&N52, t91);
+                let multiply50 = divide45.mul(table48).right(8);
+                let multiply54 = divide45.mul(table52).right(8);
+                let add56 = ray1_origin_z_104.add(multiply50);
+                let add57 = ray1_origin_x_102.add(multiply54);
+                let add58 = v.ints(177).add(add56);
+                let add59 = v.ints(113).sub(add56);
+                let t100 = add58.less(v.ints(0));
+                (add57, add59, t100)
+            };
+            let (t121, t122, t124, t127, t129, t130) = {
+                let t101 = t100.not();
+                let t102 = add59.less(v.ints(0));
+                let t103 = t102.not();
+                let and60 = t101.and(t103);
+                let add61 = v.ints(145).add(add57);
+                let add62 = v.ints(145).sub(add57);
+                let t107 = add61.less(v.ints(0));
+                let t108 = t107.not();
+                let t109 = add62.less(v.ints(0));
+                let t110 = t109.not();
+                let and63 = t108.and(t110);
+                let and64 = and60.and(and63);
+                let select66__105 = v.ints(1).choose(and64, v.ints(2));
+                let colour_r_86 = v.table16(&N86, select66__105);
+                let table88 = v.table16(&N88, select66__105);
+                let colour_g_90 = v.marks(2, select66__105);
+                let table92 = v.table16(&N92, select66__105);
+                let colour_b_94 = v.table16(&N94, select66__105);
+                let table96 = v.table16(&N96, select66__105);
+                let t120 = table88.right(4);
+                let t121 = v.widen(t120);
+                let t122 = v.widen(colour_r_86);
+                let t123 = table92.right(4);
+                let t124 = v.widen(t123);
+                let t125 = v.ints(1).choose(colour_g_90, v.ints(0));
+                let t126 = t125.left(7);
+                let t127 = v.widen(t126);
+                let t128 = table96.right(4);
+                let t129 = v.widen(t128);
+                let t130 = v.widen(colour_b_94);
+                (t121, t122, t124, t127, t129, t130)
+            };
+
+            [[t121, t124, t129], [t122, t127, t130]]
         }
     }
 };

@@ -9,6 +9,7 @@ mod number;
 mod range;
 mod table;
 
+use super::lines::{self, Line};
 use super::names::Names;
 use number::Number;
 use qrt_core::circuit::{Bit, Op, Operand, Program, Register, RegisterId, Type, Word};
@@ -66,25 +67,34 @@ pub(super) fn write(out: &mut String, scene: &str, oracle: &Oracle, names: &Name
         }
     }
     let [counts, colours] = outputs;
+    let mut lines = coder.lines;
+    let body = lines.len();
+    // What is used last of all.
+    lines.push(Line {
+        text: format!("{counts} {colours}"),
+        ..Line::default()
+    });
+    let uses = lines::last_uses(&lines);
+    let needed = |name: &str, after: usize| uses.get(name).is_some_and(|&last| last > after);
+    let code = lines::blocks(&lines[..body], needed);
     let _ = writeln!(
         out,
         "{}
         impl NativeOracle for {scene} {{
             #[inline(always)]
             fn native<V: Vectors>(v: V, words: &[u64], ids: V::Longs) -> [[V::Longs; 3]; 2] {{
-                {}
+                {code}
                 [[{counts}], [{colours}]]
             }}
         }}",
         coder.statics,
-        coder.lines.join("\n"),
     );
 }
 
 struct Coder<'a> {
     program: &'a Program,
     names: &'a Names,
-    lines: Vec<String>,
+    lines: Vec<Line>,
     /// Tables.
     statics: String,
     variables: HashMap<RegisterId, Variable>,
@@ -96,7 +106,11 @@ impl Coder<'_> {
     fn bind(&mut self, value: &str) -> String {
         self.temporaries += 1;
         let name = format!("t{}", self.temporaries);
-        self.lines.push(format!("let {name} = {value};"));
+        self.lines.push(Line {
+            text: format!("let {name} = {value};"),
+            bound: vec![name.clone()],
+            taken: Vec::new(),
+        });
         name
     }
 
@@ -109,9 +123,10 @@ impl Coder<'_> {
         let name = self.names.of(id).to_owned();
         let old = format!("let {variable} = ");
         if let Some(line) = self.lines.last_mut()
-            && let Some(value) = line.strip_prefix(&old)
+            && let Some(value) = line.text.strip_prefix(&old)
         {
-            *line = format!("let {name} = {value}");
+            line.text = format!("let {name} = {value}");
+            line.bound = vec![name.clone()];
             *variable = name;
         }
     }

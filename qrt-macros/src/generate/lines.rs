@@ -1,0 +1,62 @@
+//! Long straight lines of code, in blocks.
+//!
+//! Each `let` opens a scope within the last one's, and compilers go through scopes recursively: a
+//! function of thousands of them overflows their stacks. A block's scopes end with it.
+
+use std::collections::HashMap;
+use std::fmt::Write as _;
+
+/// A statement.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Line {
+    pub(super) text: String,
+    /// Variables that it binds.
+    pub(super) bound: Vec<String>,
+    /// Variables that are no more after it.
+    pub(super) taken: Vec<String>,
+}
+
+/// Statements of a block.
+const LENGTH: usize = 100;
+
+/// The statements, in blocks that hand on what they bind and do not take, if `needed` after the
+/// statement of that number.
+pub(super) fn blocks(lines: &[Line], needed: impl Fn(&str, usize) -> bool) -> String {
+    let mut out = String::new();
+    for (number, block) in lines.chunks(LENGTH).enumerate() {
+        let last = number * LENGTH + block.len() - 1;
+        let mut live: Vec<&str> = Vec::new();
+        for line in block {
+            live.retain(|name| !line.taken.iter().any(|taken| taken == name));
+            live.extend(line.bound.iter().map(String::as_str));
+        }
+        live.retain(|name| needed(name, last));
+        // Tuples of one and none are the block's affair: a trailing comma suits all.
+        let live: String = live.iter().fold(String::new(), |mut all, name| {
+            let _ = write!(all, "{name}, ");
+            all
+        });
+        let _ = writeln!(out, "let ({live}) = {{");
+        for line in block {
+            out.push_str(&line.text);
+            out.push('\n');
+        }
+        let _ = writeln!(out, "({live})\n}};");
+    }
+    out
+}
+
+/// By variable: the number of the last statement that names it. Of several statements that bind a
+/// name, there is one.
+pub(super) fn last_uses(lines: &[Line]) -> HashMap<&str, usize> {
+    let mut uses = HashMap::new();
+    for (number, line) in lines.iter().enumerate() {
+        let words = line
+            .text
+            .split(|c: char| !c.is_ascii_alphanumeric() && c != '_');
+        for word in words.filter(|word| !word.is_empty()) {
+            uses.insert(word, number);
+        }
+    }
+    uses
+}
