@@ -47,6 +47,8 @@
 pub use qrt_core as core;
 #[doc = include_str!("scene_macro.md")]
 pub use qrt_macros::qrt;
+#[doc(hidden)]
+pub use qrt_macros::qrt_with_terms as __qrt_with_terms;
 pub use qrt_macros::reversible;
 pub use qrt_runtime as runtime;
 

@@ -16,12 +16,13 @@ mod problem;
 mod scope;
 mod signature;
 mod statement;
+pub(crate) mod term;
 #[cfg(test)]
 mod tests;
 mod track;
 mod value;
 
-use ir::Routine;
+use ir::{Routine, Signature};
 use problem::Problems;
 use proc_macro2::TokenStream;
 use qrt_core::codes;
@@ -30,9 +31,10 @@ use track::Tracker;
 
 /// What the attribute turns an item into.
 pub(crate) fn expand(arguments: &TokenStream, item: TokenStream) -> TokenStream {
+    let offer = term::offer(&item);
     let (tokens, problems) = expanded(arguments, item);
     let errors = problems.tokens();
-    quote::quote!(#errors #tokens)
+    quote::quote!(#errors #tokens #offer)
 }
 
 fn expanded(arguments: &TokenStream, item: TokenStream) -> (TokenStream, Problems) {
@@ -54,7 +56,18 @@ fn expanded(arguments: &TokenStream, item: TokenStream) -> (TokenStream, Problem
             return (item, problems);
         }
     };
-    let signature = signature::read(&function, &mut problems);
+    match understood(&function, problems) {
+        (Ok(routine), problems) => (emit::routine(&routine), problems),
+        (Err(signature), problems) => (emit::unfinished(&signature), problems),
+    }
+}
+
+/// The routine that a function is, or its signature alone if something is wrong with it.
+fn understood(
+    function: &syn::ItemFn,
+    mut problems: Problems,
+) -> (Result<Routine, Signature>, Problems) {
+    let signature = signature::read(function, &mut problems);
     let mut scope = Scope {
         routine: signature.name.clone(),
         registers: signature.parameters.clone(),
@@ -75,14 +88,14 @@ fn expanded(arguments: &TokenStream, item: TokenStream) -> (TokenStream, Problem
         Tracker::new(&mut problems).body(&body);
     }
     if problems.count() > 0 {
-        return (emit::unfinished(&signature), problems);
+        return (Err(signature), problems);
     }
     let routine = Routine {
         signature,
         body,
         demands,
     };
-    (emit::routine(&routine), problems)
+    (Ok(routine), problems)
 }
 
 /// The keyword that an item begins with, which is enough to be underlined.
