@@ -260,6 +260,11 @@ impl Reader {
 
     /// `fn my_term`, which stands for the expressions that the function computes.
     fn term(&mut self, path: &[Token], place: Span) -> Node {
+        // What another macro put in place of a variable.
+        let path = match path {
+            [only] => only.group(Delimiter::Parenthesis).unwrap_or(path),
+            path => path,
+        };
         let name: String = path.iter().map(Token::text).collect();
         let Some(channels) = self.terms.get(&name) else {
             let message = "behind `fn` stands the name of a reversible function";

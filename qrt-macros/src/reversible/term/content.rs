@@ -71,6 +71,28 @@ impl Content {
         });
     }
 
+    /// It, and where `path` leads, `other` in its stead.
+    pub(super) fn replaced(&self, other: &Self, path: &Path) -> Self {
+        let mut parts = other.within(path);
+        // Elsewhere: the first comparisons are as on the path, and the next is not.
+        for (at, (less, holds)) in path.iter().enumerate() {
+            let mut elsewhere = path[..at].to_vec();
+            elsewhere.push((less.clone(), !holds));
+            parts.extend(self.within(&elsewhere));
+        }
+        Self(merged(parts))
+    }
+
+    /// The parts that are there where `path` leads, as parts that are there alone.
+    fn within(&self, path: &Path) -> Vec<Part> {
+        let parts = self.0.iter().filter_map(|part| {
+            let mut part = part.seen_from(path)?;
+            part.path.splice(..0, path.iter().cloned());
+            Some(part)
+        });
+        parts.collect()
+    }
+
     /// The register's number, where `path` leads.
     pub(super) fn value(&self, path: &Path) -> Value {
         let parts = self.0.iter().filter_map(|part| part.seen_from(path));
@@ -102,6 +124,33 @@ impl Part {
             ..self.clone()
         }
     }
+}
+
+/// Parts that were added on both sides of a comparison become one.
+fn merged(mut parts: Vec<Part>) -> Vec<Part> {
+    let twin = |a: &Part, b: &Part| {
+        let both = || a.path.iter().zip(&b.path);
+        let differs = both().position(|(a, b)| a != b)?;
+        let opposite = both()
+            .enumerate()
+            .all(|(at, (a, b))| a.0 == b.0 && (at == differs) == (a.1 != b.1));
+        let same = a.subtracted == b.subtracted && a.value.expr == b.value.expr;
+        (same && opposite && a.path.len() == b.path.len()).then_some(differs)
+    };
+    let mut at = 0;
+    while at < parts.len() {
+        let mut others = parts.iter().enumerate().skip(at + 1);
+        let found = others.find_map(|(other, part)| Some((other, twin(&parts[at], part)?)));
+        match found {
+            Some((other, differs)) => {
+                parts.remove(other);
+                parts[at].path.remove(differs);
+                at = 0;
+            }
+            None => at += 1,
+        }
+    }
+    parts
 }
 
 /// The sum of parts: those that one comparison decides about become one `if_less`.
@@ -173,7 +222,7 @@ pub(super) fn added(a: &Value, b: &Value, subtracted: bool) -> Value {
 }
 
 /// `then` where the comparison holds, `otherwise` elsewhere.
-pub(super) fn choice(less: &Less, then: &Value, otherwise: &Value) -> Value {
+fn choice(less: &Less, then: &Value, otherwise: &Value) -> Value {
     Value {
         expr: less.0.if_less(&less.1, &then.expr, &otherwise.expr),
         error: then.error.hull(otherwise.error),

@@ -249,14 +249,10 @@ impl<'a> Meaning<'a> {
             self.registers.extend([(a, was_b), (b, was_a)]);
             return Some(());
         }
-        // Where the branches lead, each becomes the other.
-        let values = [was_a.value(&self.path), was_b.value(&self.path)];
-        let both = [(a, was_a, 0), (b, was_b, 1)];
-        for (name, mut content, own) in both {
-            content.add(values[1 - own].clone(), false, &self.path);
-            content.add(values[own].clone(), true, &self.path);
-            self.registers.insert(name, content);
-        }
+        self.registers.extend([
+            (a, was_a.replaced(&was_b, &self.path)),
+            (b, was_b.replaced(&was_a, &self.path)),
+        ]);
         Some(())
     }
 
