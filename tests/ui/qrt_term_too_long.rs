@@ -2,7 +2,7 @@ use qrt::prelude::*;
 
 #[reversible]
 fn glow(cos_i: &UFixed<1, 14>, out: &mut UFixed<2, 14>) {
-    for _ in 0..5000 {
+    for _ in 0..500 {
         out += cos_i >> 14;
     }
 }

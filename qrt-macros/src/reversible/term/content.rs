@@ -55,6 +55,11 @@ impl Content {
         Self(vec![part])
     }
 
+    /// How many numbers it is the sum of.
+    pub(super) fn parts(&self) -> usize {
+        self.0.len()
+    }
+
     /// Adds a number, where `path` leads, or subtracts it.
     pub(super) fn add(&mut self, value: Value, subtracted: bool, path: &Path) {
         let taken_back = self.0.iter().rposition(|part| {

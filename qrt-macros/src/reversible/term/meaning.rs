@@ -17,6 +17,9 @@ use syn::Ident;
 /// Statements that are read, those of every pass of a loop included.
 const MAX_STEPS: usize = 2000;
 
+/// Numbers that are added to one register.
+const MAX_PARTS: usize = 200;
+
 /// Registers, and where in the routine they are.
 pub(super) struct Meaning<'a> {
     pub(super) registers: BTreeMap<String, Content>,
@@ -27,6 +30,8 @@ pub(super) struct Meaning<'a> {
     pub(super) loops: Vec<(Ident, i64)>,
     name: Ident,
     steps: usize,
+    /// Is something too long, so that the rest would be, too?
+    ended: bool,
     problems: &'a mut Problems,
     /// Problems that are known, by what they say and where.
     said: BTreeSet<String>,
@@ -55,6 +60,7 @@ impl<'a> Meaning<'a> {
             loops: Vec::new(),
             name: signature.name.clone(),
             steps: 0,
+            ended: false,
             problems,
             said: BTreeSet::new(),
         })
@@ -92,8 +98,11 @@ impl<'a> Meaning<'a> {
         }
     }
 
-    /// Counts a statement or a pass; false if there are too many.
+    /// Counts a statement or a pass; false if there are too many, or one is too long.
     fn step(&mut self) -> bool {
+        if self.ended {
+            return false;
+        }
         self.steps += 1;
         if self.steps == MAX_STEPS + 1 {
             let message = format!("a term of more than {MAX_STEPS} statements, loops written out");
@@ -201,6 +210,9 @@ impl<'a> Meaning<'a> {
         for (subtracted, value) in values {
             content.add(value, subtracted, &self.path);
         }
+        if content.parts() > MAX_PARTS {
+            return self.too_long(&register.name, source);
+        }
         let value = content.value(&self.path);
         self.check(register, &value, source)
     }
@@ -212,10 +224,7 @@ impl<'a> Meaning<'a> {
         }
         let name = &register.name;
         if value.expr.written_nodes() > MAX_LENGTH as u64 {
-            let message = format!("`{name}` becomes too long an expression");
-            let help = "compute it from shorter sums, or in fewer branches";
-            self.say(codes::TERM_LENGTH, source, &message, help);
-            return None;
+            return self.too_long(name, source);
         }
         let room = bounds::of_format(&register.format)?;
         let domain = bounds::narrowed(&self.domain, &self.path)?;
@@ -239,6 +248,14 @@ impl<'a> Meaning<'a> {
             rounded(room.hi)
         );
         self.say(codes::TERM_RANGE, source, &message, &help);
+        None
+    }
+
+    fn too_long(&mut self, name: &Ident, source: &TokenStream) -> Option<()> {
+        let message = format!("`{name}` becomes too long an expression");
+        let help = "compute it from shorter sums, or in fewer branches";
+        self.say(codes::TERM_LENGTH, source, &message, help);
+        self.ended = true;
         None
     }
 
