@@ -40,7 +40,7 @@ fn whole<C: CompiledOracle>() -> Program {
     let mut recorder = C::OUTLINE.recorder();
     let id = C::OUTLINE.inputs(&mut recorder);
     C::within(&mut recorder, &id, |_, _| {});
-    recorder.finish()
+    C::OUTLINE.ordered(recorder.finish())
 }
 
 fn is_the_scene<C: CompiledOracle>() {
