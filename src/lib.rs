@@ -52,6 +52,8 @@ struct Readme;
 pub use qrt_core as core;
 #[doc = include_str!("scene_macro.md")]
 pub use qrt_macros::qrt;
+#[doc(hidden)]
+pub use qrt_macros::qrt_with_terms as __qrt_with_terms;
 #[doc = include_str!("reversible.md")]
 pub use qrt_macros::reversible;
 pub use qrt_runtime as runtime;

@@ -254,6 +254,16 @@ codes! {
         "Keep one of the two";
     MACRO_ATTRIBUTE = "QRT0724", "an attribute within a scene",
         "Put attributes before the scene; within it there are doc comments only";
+    MACRO_TERM = "QRT0725", "a term that is not the name of a reversible function",
+        "Write `value: fn name`, or an expression";
+    TERM_SIGNATURE = "QRT0726", "a function that cannot be a BSDF's term",
+        "Take the BSDF's variables by `&` and one `&mut` output, or three: `r`, `g` and `b`";
+    TERM_READING = "QRT0727", "something in a term that numbers have no meaning for",
+        "Write sums, products, constants, shifts, comparisons and scratch registers";
+    TERM_RANGE = "QRT0728", "a register of a term that could overflow",
+        "Give the register a wider format, or a signed one";
+    TERM_LENGTH = "QRT0729", "a term that is too long for an expression",
+        "Write fewer statements or passes of loops";
     REV_ASSIGNMENT = "QRT0801", "an assignment, which forgets what was there",
         "Write `+=`, `-=` or `^=`, which can be undone";
     REV_ALIAS = "QRT0802", "a statement that reads what it changes",

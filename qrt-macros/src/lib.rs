@@ -18,6 +18,13 @@ pub fn qrt(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
     expand::expand(input.into()).into()
 }
 
+/// As `qrt!`, with the functions that its scenes name; a part of what `qrt!` expands to.
+#[doc(hidden)]
+#[proc_macro]
+pub fn qrt_with_terms(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
+    expand::resume(input.into()).into()
+}
+
 /// Makes a function of registers reversible: generates it, its inverse and its program. The whole
 /// language, with examples, is described where the facade `qrt` shows this macro.
 #[proc_macro_attribute]

@@ -209,7 +209,8 @@ impl Interval {
         }
     }
 
-    pub(super) fn plus(self, other: Self) -> Self {
+    /// All sums.
+    pub fn plus(self, other: Self) -> Self {
         // Knuth's exact sum: what rounding lost of a + b.
         let sum = |a: f64, b: f64| {
             let sum = a + b;
@@ -222,7 +223,8 @@ impl Interval {
         }
     }
 
-    pub(super) fn times(self, other: Self) -> Self {
+    /// All products.
+    pub fn times(self, other: Self) -> Self {
         let product = |a: f64, b: f64| {
             // The bound 0 times the bound infinity is 0: infinity stands for large numbers.
             if a == 0.0 || b == 0.0 {

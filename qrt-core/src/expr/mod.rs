@@ -284,6 +284,19 @@ impl Expr {
         self.with(self, |a, _| Node::Function(f, a))
     }
 
+    /// An integer power of it.
+    pub fn powi(&self, power: i32) -> Self {
+        self.with(self, |a, _| Node::Powi(a, power))
+    }
+
+    /// `then` where it is less than `other`, `otherwise` elsewhere.
+    pub fn if_less(&self, other: &Self, then: &Self, otherwise: &Self) -> Self {
+        let mut arena = Arena::default();
+        let [a, b, x, y] = [self, other, then, otherwise].map(|operand| arena.import(operand));
+        let root = arena.push(Node::IfLess(a, b, x, y));
+        arena.finish(root)
+    }
+
     /// It, with `variable` replaced by `by`.
     pub fn substitute(&self, variable: Variable, by: &Self) -> Self {
         let mut arena = Arena::default();
@@ -313,6 +326,13 @@ impl From<i32> for Expr {
             nodes: vec![Node::Number(value.into())],
             root: Id(0),
         }
+    }
+}
+
+impl ops::Neg for &Expr {
+    type Output = Expr;
+    fn neg(self) -> Expr {
+        self.with(self, |a, _| Node::Neg(a))
     }
 }
 

@@ -4,11 +4,12 @@ use super::{Channel, Oracle};
 use crate::circuit::builder::NamedPlace;
 use crate::circuit::format::Format;
 use crate::circuit::{
-    Block, BlockId, Declaration, Machine, Operand, Parameter, Program, Recorded, Recorder,
+    Block, BlockId, Declaration, Machine, Op, Operand, Parameter, Program, Recorded, Recorder,
     RegisterId, Style, Type, Word,
 };
 use crate::sampling::{PathPoints, SamplingError};
 use crate::valid::ValidScene;
+use std::collections::HashMap;
 use std::fmt;
 use std::marker::PhantomData;
 
@@ -45,7 +46,8 @@ pub trait CompiledOracle: Sized + 'static {
         let outline = Self::OUTLINE;
         let mut recorder = outline.recorder();
         let id = outline.inputs(&mut recorder);
-        Self::within(&mut recorder, &id, |recorder, _| recorder.program().clone())
+        let program = Self::within(&mut recorder, &id, |recorder, _| recorder.program().clone());
+        outline.ordered(program)
     }
 
     /// The oracle of all three channels, without compiling the scene again.
@@ -90,6 +92,9 @@ pub struct Outline {
     pub registers: &'static [Declaration],
     /// All blocks.
     pub blocks: &'static [BlockDeclaration],
+    /// By operation, in the order of [`Program::ops`], its first target; empty where that is the
+    /// order in which they run first.
+    pub order: &'static [RegisterId],
     /// All classical words.
     pub parameters: &'static [Parameter],
     /// How operations that leave something behind are lowered.
@@ -115,6 +120,7 @@ impl Outline {
     pub const NONE: Self = Self {
         registers: &[],
         blocks: &[],
+        order: &[],
         parameters: &[],
         style: Style::Wide,
         channels: &[],
@@ -137,6 +143,32 @@ impl Outline {
         let blocks = self.blocks.iter().map(block).collect();
         let parameters = self.parameters.to_vec();
         Recorder::of(self.registers, blocks, parameters, self.style)
+    }
+
+    /// A recorded program with its operations in their order.
+    fn ordered(&self, mut program: Program) -> Program {
+        let places: HashMap<RegisterId, usize> = self
+            .order
+            .iter()
+            .enumerate()
+            .map(|(to, t)| (*t, to))
+            .collect();
+        let place = |op: &Op| op.targets().first().and_then(|t| places.get(t).copied());
+        let Some(moved) = program
+            .ops
+            .iter()
+            .map(place)
+            .collect::<Option<Vec<usize>>>()
+        else {
+            return program;
+        };
+        let mut ops: Vec<_> = moved.iter().copied().zip(program.ops).collect();
+        ops.sort_by_key(|(to, _)| *to);
+        program.ops = ops.into_iter().map(|(_, op)| op).collect();
+        for instruction in &mut program.instructions {
+            instruction.op = moved[instruction.op as usize] as u32;
+        }
+        program
     }
 
     /// Declares the inputs, and returns the id.

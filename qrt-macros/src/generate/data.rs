@@ -138,6 +138,21 @@ fn outline(out: &mut String, oracle: &Oracle) {
         | Op::Table { style, .. } => Some(*style),
         _ => None,
     });
+    let program = &oracle.program;
+    let mut seen = vec![false; program.ops.len()];
+    let mut first_runs = Vec::new();
+    for instruction in &program.instructions {
+        if !std::mem::replace(&mut seen[instruction.op as usize], true) {
+            first_runs.push(instruction.op as usize);
+        }
+    }
+    let in_order = first_runs.iter().copied().eq(0..program.ops.len());
+    let order: Vec<_> = program
+        .ops
+        .iter()
+        .filter_map(|op| op.targets().first().copied())
+        .filter(|_| !in_order)
+        .collect();
     out.push_str("const PARAMETERS: &[Parameter] = &[\n");
     for parameter in &oracle.program.parameters {
         // Its debug form is Rust.
@@ -170,6 +185,7 @@ fn outline(out: &mut String, oracle: &Oracle) {
         static OUTLINE: Outline = Outline {{
             registers: &R,
             blocks: BLOCKS,
+            order: &{order:?},
             parameters: PARAMETERS,
             style: Style::{:?},
             channels: CHANNELS,

@@ -824,6 +824,7 @@ const _: () = {
     static OUTLINE: Outline = Outline {
         registers: &R,
         blocks: BLOCKS,
+        order: &[],
         parameters: PARAMETERS,
         style: Style::Wide,
         channels: CHANNELS,

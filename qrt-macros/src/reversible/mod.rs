@@ -9,7 +9,6 @@ mod call;
 mod constant;
 mod dim;
 mod emit;
-mod expression;
 mod fit;
 mod ir;
 mod number;
@@ -17,6 +16,7 @@ mod problem;
 mod scope;
 mod signature;
 mod statement;
+pub(crate) mod term;
 #[cfg(test)]
 mod tests;
 mod track;
@@ -29,27 +29,12 @@ use qrt_core::codes;
 use scope::Scope;
 use track::Tracker;
 
-/// A function of registers as an expression of the scene's language: what it adds to its one
-/// `&mut` register, in the real numbers that its registers stand for.
-#[cfg_attr(
-    not(test),
-    expect(dead_code, reason = "the terms of scenes are read elsewhere")
-)]
-pub(crate) fn as_expression(function: &syn::ItemFn) -> Result<String, TokenStream> {
-    let mut problems = Problems::default();
-    let read = understood(function, &mut problems);
-    let text = match (read, problems.count()) {
-        (Some(routine), 0) => expression::read(&routine, &mut problems),
-        _ => None,
-    };
-    text.ok_or_else(|| problems.tokens())
-}
-
 /// What the attribute turns an item into.
 pub(crate) fn expand(arguments: &TokenStream, item: TokenStream) -> TokenStream {
+    let offer = term::offer(&item);
     let (tokens, problems) = expanded(arguments, item);
     let errors = problems.tokens();
-    quote::quote!(#errors #tokens)
+    quote::quote!(#errors #tokens #offer)
 }
 
 fn expanded(arguments: &TokenStream, item: TokenStream) -> (TokenStream, Problems) {

@@ -26,6 +26,12 @@ impl Expression {
         expression.add(tokens, names, faults).then_some(expression)
     }
 
+    /// A text, all of which stands at one place.
+    pub(crate) fn whole(text: String, place: Span) -> Self {
+        let pieces = vec![(0..text.len(), place)];
+        Self { text, pieces }
+    }
+
     fn add(&mut self, tokens: &[Token], names: &Names, faults: &mut Faults) -> bool {
         let mut sound = true;
         for token in tokens {

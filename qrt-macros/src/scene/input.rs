@@ -3,6 +3,7 @@
 use super::body::Body;
 use super::fault::{Faults, compile_error};
 use super::header::Header;
+use super::terms::{Asked, Terms};
 use super::tokens::{Kind, Table, Token, place_of};
 use super::values::{entry, scalar};
 use super::{Parsed, check, emit};
@@ -16,12 +17,16 @@ use std::path::Path;
 /// A scene that was read, checked if nothing is wrong with it.
 pub(crate) type Read = (Parsed, Option<ValidScene>);
 
-/// What `qrt!` expands to; files are relative to `root`.
-pub(crate) fn expand(input: TokenStream, root: &Path) -> TokenStream {
+/// What `qrt!` expands to, unless functions have to be asked for first; files are relative to
+/// `root`.
+pub(crate) fn expand(asked: Asked, root: &Path) -> TokenStream {
+    if let Some(question) = asked.next() {
+        return question;
+    }
     let mut table = Table::default();
     let mut faults = Faults::default();
-    let mut out = TokenStream::new();
-    for (parsed, valid) in read(input, root, &mut table, &mut faults) {
+    let (terms, mut out) = asked.terms();
+    for (parsed, valid) in read(asked.input, &terms, root, &mut table, &mut faults) {
         let generated = valid.and_then(|valid| match crate::generate::scene(&parsed, &valid) {
             Ok(code) => Some(emit::sound(&parsed, &valid, root, &code)),
             Err(problems) => {
@@ -37,9 +42,10 @@ pub(crate) fn expand(input: TokenStream, root: &Path) -> TokenStream {
     out
 }
 
-/// The scenes of `input`.
+/// The scenes of `input`, which may name these terms.
 pub(crate) fn read(
     input: TokenStream,
+    terms: &Terms,
     root: &Path,
     table: &mut Table,
     faults: &mut Faults,
@@ -54,6 +60,7 @@ pub(crate) fn read(
         trees: &trees,
         tokens: &tokens,
         at: 0,
+        terms,
         faults,
     };
     let mut scenes = Vec::new();
@@ -68,7 +75,7 @@ pub(crate) fn read(
 }
 
 /// Token trees without the invisible brackets of other macros' variables.
-fn flatten(stream: TokenStream, out: &mut Vec<TokenTree>) {
+pub(super) fn flatten(stream: TokenStream, out: &mut Vec<TokenTree>) {
     for tree in stream {
         match tree {
             TokenTree::Group(group) if group.delimiter() == Delimiter::None => {
@@ -90,6 +97,7 @@ struct Input<'t> {
     trees: &'t [TokenTree],
     tokens: &'t [Token],
     at: usize,
+    terms: &'t Terms,
     faults: &'t mut Faults,
 }
 
@@ -169,6 +177,7 @@ impl<'t> Input<'t> {
             Some(Rest::Body(tokens)) => {
                 let mut body = Body::default();
                 body.reader.later = constants(tokens);
+                body.reader.terms.clone_from(self.terms);
                 body.entries(tokens, false);
                 if let Some(precision) = precision {
                     add_precision(&mut body, precision);

@@ -77,6 +77,15 @@ impl Token {
         }
     }
 
+    /// The letters of a word or a sign.
+    pub(crate) fn text(&self) -> String {
+        match &self.kind {
+            Kind::Word(word) => word.clone(),
+            Kind::Sign(sign, _) => sign.to_string(),
+            _ => self.found(),
+        }
+    }
+
     /// What this is, for "expected a value, found ...".
     pub(crate) fn found(&self) -> String {
         match &self.kind {

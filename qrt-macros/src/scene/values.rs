@@ -3,6 +3,7 @@
 use super::expression::{Expression, number};
 use super::fault::Faults;
 use super::names::Names;
+use super::terms::Terms;
 use super::tokens::{Kind, Token, between_commas, join, place_of};
 use proc_macro2::Delimiter;
 use qrt_core::codes;
@@ -20,6 +21,8 @@ pub(crate) struct Reader {
     pub(crate) names: Names,
     /// Constants that are defined somewhere.
     pub(crate) later: Vec<String>,
+    /// Functions that stand for values.
+    pub(crate) terms: Terms,
     /// The expressions: a node of source `n` is number `n - 1`.
     pub(crate) expressions: Vec<Expression>,
     /// Records in which something could not be read: what they lack may be that.
@@ -232,19 +235,64 @@ impl Reader {
     }
 
     fn expression(&mut self, tokens: &[Token], place: Span) -> Node {
+        if tokens.first().is_some_and(|token| token.is_word("fn")) {
+            let message = "a reversible function stands for all of `value`";
+            self.faults
+                .add(codes::MACRO_TERM, place, message)
+                .help("write `value: fn my_term`, or an expression here");
+            return faulty(place);
+        }
         let Some(expression) = Expression::of(tokens, &self.names, &mut self.faults) else {
             return faulty(place);
         };
         if self.names.are_faulty(tokens) {
             return faulty(place);
         }
+        self.text_of(expression, place)
+    }
+
+    fn text_of(&mut self, expression: Expression, place: Span) -> Node {
         let text = expression.text.clone();
         self.expressions.push(expression);
         let source = u32::try_from(self.expressions.len()).unwrap_or(FAULTY);
         scalar(text, false, Span { source, ..place })
     }
 
+    /// `fn my_term`, which stands for the expressions that the function computes.
+    fn term(&mut self, path: &[Token], place: Span) -> Node {
+        // What another macro put in place of a variable.
+        let path = match path {
+            [only] => only.group(Delimiter::Parenthesis).unwrap_or(path),
+            path => path,
+        };
+        let name: String = path.iter().map(Token::text).collect();
+        let Some(channels) = self.terms.get(&name) else {
+            let message = "behind `fn` stands the name of a reversible function";
+            self.faults
+                .add(codes::MACRO_TERM, place, message)
+                .help("write `value: fn my_term`, or `value: fn my_module::my_term`");
+            return faulty(place);
+        };
+        // Of the errors of a term the compiler knows.
+        let Some(channels) = channels.clone() else {
+            return faulty(place);
+        };
+        let texts = channels.into_iter();
+        let nodes = texts.map(|text| self.text_of(Expression::whole(text, place), place));
+        let mut nodes: Vec<Node> = nodes.collect();
+        if nodes.len() == 1 {
+            return nodes.remove(0);
+        }
+        let value = Value::List(nodes);
+        Node { span: place, value }
+    }
+
     fn channels(&mut self, tokens: &[Token], place: Span) -> Node {
+        if let [keyword, path @ ..] = tokens
+            && keyword.is_word("fn")
+        {
+            return self.term(path, place);
+        }
         let inner = match tokens {
             [rgb, channels] if rgb.is_word("rgb") => {
                 channels.group(Delimiter::Parenthesis).map(between_commas)

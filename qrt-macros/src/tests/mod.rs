@@ -6,7 +6,7 @@ mod grammar;
 mod twins;
 mod writer;
 
-use crate::scene::{Faults, Read, Table, read};
+use crate::scene::{Faults, Read, Table, Terms, read};
 use std::path::Path;
 
 /// What `text` says, relative to `root`, and the errors: code, message and all.
@@ -16,7 +16,7 @@ fn read_text(text: &str, root: &Path) -> (Vec<Read>, Vec<String>) {
         .unwrap_or_else(|error| panic!("{error}: {text}"));
     let mut table = Table::default();
     let mut faults = Faults::default();
-    let scenes = read(stream, root, &mut table, &mut faults);
+    let scenes = read(stream, &Terms::new(), root, &mut table, &mut faults);
     let faults = faults.settle();
     let texts = faults.iter().map(|fault| fault.text(&table));
     (scenes, texts.collect())

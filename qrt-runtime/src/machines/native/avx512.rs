@@ -64,7 +64,7 @@ impl Integers<Masks> for Ints {
     #[inline(always)]
     fn lowest(self, bits: u32) -> Self {
         let f = self.0.avx512f;
-        let bits = f._mm512_set1_epi32((1_i32 << bits).wrapping_sub(1));
+        let bits = f._mm512_set1_epi32((u32::MAX >> (32 - bits)).cast_signed());
         Self(self.0, f._mm512_and_epi32(self.1, bits))
     }
     #[inline(always)]
@@ -130,7 +130,7 @@ impl Integers<Masks> for Longs {
     }
     #[inline(always)]
     fn lowest(self, bits: u32) -> Self {
-        let bits = Self::all(self.0, (1_i64 << bits).wrapping_sub(1));
+        let bits = Self::all(self.0, (u64::MAX >> (64 - bits)).cast_signed());
         halves!(self, bits, self.0.avx512f, _mm512_and_epi64)
     }
     #[inline(always)]

@@ -50,7 +50,7 @@ macro_rules! integers {
             }
             #[inline(always)]
             fn lowest(self, bits: u32) -> Self {
-                self & ((1 as $type) << bits).wrapping_sub(1)
+                self & (1 as Self).wrapping_shl(bits).wrapping_sub(1)
             }
             #[inline(always)]
             fn less(self, other: Self) -> bool {

@@ -1,0 +1,236 @@
+//! What a register holds: a sum of expressions, each where some comparisons hold.
+//!
+//! What is subtracted again leaves the sum, so that scratch that was uncomputed is 0.
+
+use qrt_core::expr::{Expr, Interval};
+
+/// `.0 < .1`
+#[derive(Clone, PartialEq)]
+pub(super) struct Less(pub(super) Expr, pub(super) Expr);
+
+/// Comparisons, and whether they hold: the branches that a statement stands in.
+pub(super) type Path = Vec<(Less, bool)>;
+
+/// A number that is computed.
+#[derive(Clone)]
+pub(super) struct Value {
+    /// Exactly.
+    pub(super) expr: Expr,
+    /// What rounding may have added.
+    pub(super) error: Interval,
+    /// What a machine's register may hold.
+    pub(super) run: Interval,
+}
+
+impl Value {
+    pub(super) fn constant(number: f64) -> Option<Self> {
+        Some(Self {
+            expr: Expr::number(number)?,
+            error: Interval::point(0.0),
+            run: Interval::point(number),
+        })
+    }
+}
+
+/// One of the numbers that were added.
+#[derive(Clone)]
+struct Part {
+    subtracted: bool,
+    path: Path,
+    value: Value,
+}
+
+/// What a register holds.
+#[derive(Clone, Default)]
+pub(super) struct Content(Vec<Part>);
+
+impl Content {
+    /// Of a register that was not zero before.
+    pub(super) fn of(value: Value) -> Self {
+        let part = Part {
+            subtracted: false,
+            path: Path::new(),
+            value,
+        };
+        Self(vec![part])
+    }
+
+    /// How many numbers it is the sum of.
+    pub(super) fn parts(&self) -> usize {
+        self.0.len()
+    }
+
+    /// Adds a number, where `path` leads, or subtracts it.
+    pub(super) fn add(&mut self, value: Value, subtracted: bool, path: &Path) {
+        let taken_back = self.0.iter().rposition(|part| {
+            part.subtracted != subtracted && part.path == *path && part.value.expr == value.expr
+        });
+        if let Some(taken_back) = taken_back {
+            self.0.remove(taken_back);
+            return;
+        }
+        self.0.push(Part {
+            subtracted,
+            path: path.clone(),
+            value,
+        });
+    }
+
+    /// It, and where `path` leads, `other` in its stead.
+    pub(super) fn replaced(&self, other: &Self, path: &Path) -> Self {
+        let mut parts = other.within(path);
+        // Elsewhere: the first comparisons are as on the path, and the next is not.
+        for (at, (less, holds)) in path.iter().enumerate() {
+            let mut elsewhere = path[..at].to_vec();
+            elsewhere.push((less.clone(), !holds));
+            parts.extend(self.within(&elsewhere));
+        }
+        Self(merged(parts))
+    }
+
+    /// The parts that are there where `path` leads, as parts that are there alone.
+    fn within(&self, path: &Path) -> Vec<Part> {
+        let parts = self.0.iter().filter_map(|part| {
+            let mut part = part.seen_from(path)?;
+            part.path.splice(..0, path.iter().cloned());
+            Some(part)
+        });
+        parts.collect()
+    }
+
+    /// The register's number, where `path` leads.
+    pub(super) fn value(&self, path: &Path) -> Value {
+        let parts = self.0.iter().filter_map(|part| part.seen_from(path));
+        sum(parts.collect())
+    }
+}
+
+impl Part {
+    /// It, where `path` leads; `None` if it was not added there.
+    fn seen_from(&self, path: &Path) -> Option<Self> {
+        let mut own = Path::new();
+        for (less, holds) in &self.path {
+            match path.iter().find(|(known, _)| known == less) {
+                Some((_, known)) if known == holds => {}
+                Some(_) => return None,
+                None => own.push((less.clone(), *holds)),
+            }
+        }
+        Some(Self {
+            path: own,
+            ..self.clone()
+        })
+    }
+
+    /// It, once its first comparison is known.
+    fn inner(&self) -> Self {
+        Self {
+            path: self.path[1..].to_vec(),
+            ..self.clone()
+        }
+    }
+}
+
+/// Parts that were added on both sides of a comparison become one.
+fn merged(mut parts: Vec<Part>) -> Vec<Part> {
+    let twin = |a: &Part, b: &Part| {
+        let both = || a.path.iter().zip(&b.path);
+        let differs = both().position(|(a, b)| a != b)?;
+        let opposite = both()
+            .enumerate()
+            .all(|(at, (a, b))| a.0 == b.0 && (at == differs) == (a.1 != b.1));
+        let same = a.subtracted == b.subtracted && a.value.expr == b.value.expr;
+        (same && opposite && a.path.len() == b.path.len()).then_some(differs)
+    };
+    let mut at = 0;
+    while at < parts.len() {
+        let mut others = parts.iter().enumerate().skip(at + 1);
+        let found = others.find_map(|(other, part)| Some((other, twin(&parts[at], part)?)));
+        match found {
+            Some((other, differs)) => {
+                parts.remove(other);
+                parts[at].path.remove(differs);
+                at = 0;
+            }
+            None => at += 1,
+        }
+    }
+    parts
+}
+
+/// The sum of parts: those that one comparison decides about become one `if_less`.
+fn sum(parts: Vec<Part>) -> Value {
+    let mut total: Option<Value> = None;
+    let mut rest = parts;
+    // The first that is added, so that the sum does not begin with a minus.
+    if let Some(first) = rest.iter().position(|part| !part.subtracted) {
+        rest[..=first].rotate_right(1);
+    }
+    while !rest.is_empty() {
+        let part = rest.remove(0);
+        let (value, subtracted) = match part.path.first() {
+            None => (part.value.clone(), part.subtracted),
+            Some((less, _)) => {
+                let less = less.clone();
+                let same = |other: &Part| other.path.first().is_some_and(|(own, _)| *own == less);
+                let (mut decided, others): (Vec<_>, Vec<_>) = rest.drain(..).partition(same);
+                rest = others;
+                decided.insert(0, part);
+                let side = |holds: bool| {
+                    let own = decided.iter().filter(|part| part.path[0].1 == holds);
+                    sum(own.map(Part::inner).collect())
+                };
+                (choice(&less, &side(true), &side(false)), false)
+            }
+        };
+        total = Some(match total {
+            None if subtracted => negative(&value),
+            None => value,
+            Some(total) => added(&total, &value, subtracted),
+        });
+    }
+    total.unwrap_or_else(|| Value {
+        expr: Expr::from(0),
+        error: Interval::point(0.0),
+        run: Interval::point(0.0),
+    })
+}
+
+pub(super) fn negative(value: &Value) -> Value {
+    let expr = match value
+        .expr
+        .constant()
+        .and_then(|number| Expr::number(-number))
+    {
+        Some(number) => number,
+        None => -&value.expr,
+    };
+    Value {
+        expr,
+        error: -value.error,
+        run: -value.run,
+    }
+}
+
+pub(super) fn added(a: &Value, b: &Value, subtracted: bool) -> Value {
+    let turned = if subtracted { negative(b) } else { b.clone() };
+    let expr = if subtracted {
+        &a.expr - &b.expr
+    } else {
+        &a.expr + &b.expr
+    };
+    Value {
+        expr,
+        error: a.error.plus(turned.error),
+        run: a.run.plus(turned.run),
+    }
+}
+
+/// `then` where the comparison holds, `otherwise` elsewhere.
+fn choice(less: &Less, then: &Value, otherwise: &Value) -> Value {
+    Value {
+        expr: less.0.if_less(&less.1, &then.expr, &otherwise.expr),
+        error: then.error.hull(otherwise.error),
+        run: then.run.hull(otherwise.run),
+    }
+}
