@@ -26,7 +26,7 @@ enum Variable {
 }
 
 /// Writes the trait's implementation.
-pub(super) fn write(out: &mut String, scene: &str, oracle: &Oracle, names: &Names) {
+pub(super) fn write(out: &mut String, oracle: &Oracle, names: &Names) {
     let mut coder = Coder {
         program: &oracle.program,
         names,
@@ -80,7 +80,7 @@ pub(super) fn write(out: &mut String, scene: &str, oracle: &Oracle, names: &Name
     let _ = writeln!(
         out,
         "{}
-        impl NativeOracle for {scene} {{
+        impl NativeOracle for __Scene {{
             #[inline(always)]
             fn native<V: Vectors>(v: V, words: &[u64], ids: V::Longs) -> [[V::Longs; 3]; 2] {{
                 {code}
@@ -118,11 +118,15 @@ impl Coder<'_> {
         &self.program.registers[id.index()]
     }
 
-    /// Calls the variable that was bound last by the register's name.
+    /// Calls the variable that was bound last by the register's name, unless it has one.
     fn christen(&mut self, id: RegisterId, variable: &mut String) {
         let name = self.names.of(id).to_owned();
         let old = format!("let {variable} = ");
-        if let Some(line) = self.lines.last_mut()
+        let temporary = variable
+            .strip_prefix('t')
+            .is_some_and(|number| number.parse::<usize>().is_ok());
+        if temporary
+            && let Some(line) = self.lines.last_mut()
             && let Some(value) = line.text.strip_prefix(&old)
         {
             line.text = format!("let {name} = {value}");
