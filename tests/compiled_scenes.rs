@@ -66,6 +66,7 @@ qrt! {
         depth primary { bits: (0, 0) },
     }
     /// The same on all paths.
+    #[allow(non_camel_case_types)]
     scene r#type {
         camera: orthographic { eye: (0, 0, 2), target: (0, 0, 0), height: 1 },
         film: 2 x 2,

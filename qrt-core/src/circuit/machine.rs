@@ -35,7 +35,8 @@ impl Declaration {
     /// # Panics
     /// If it has more than 64 bits; in a constant, that is an error of the compiler.
     pub const fn work(name: &'static str, ty: Type, width: u32) -> Self {
-        assert!(width <= 64, "a register has at most 64 bits");
+        let scratch = matches!(ty, Type::Scratch);
+        assert!(width <= 64 || scratch, "a register has at most 64 bits");
         Self {
             id: None,
             scratch: None,

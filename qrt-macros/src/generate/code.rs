@@ -16,14 +16,14 @@ struct Coder<'a> {
 }
 
 /// Writes the trait's implementation.
-pub(super) fn write(out: &mut String, scene: &str, oracle: &Oracle, names: &Names) {
+pub(super) fn write(out: &mut String, oracle: &Oracle, names: &Names) {
     let _ = writeln!(
         out,
         "impl CompiledOracle for __Scene {{
             const OUTLINE: &'static Outline = &OUTLINE;
 
             fn scene() -> &'static ::qrt::core::valid::ValidScene {{
-                {scene}::scene()
+                __Scene::scene()
             }}
 
             #[inline(always)]

@@ -92,7 +92,7 @@ fn text(
             }}"
         );
         data::write(&mut out, &oracle);
-        code::write(&mut out, scene, &oracle, &names);
+        code::write(&mut out, &oracle, &names);
         native::write(&mut out, &oracle, &names);
         out.push_str("};\n};\n");
     }

@@ -861,7 +861,7 @@ const _: () = {
             const OUTLINE: &'static Outline = &OUTLINE;
 
             fn scene() -> &'static ::qrt::core::valid::ValidScene {
-                LitFloor::scene()
+                __Scene::scene()
             }
 
             #[inline(always)]
