@@ -6,10 +6,13 @@
 //! ```
 //!
 //! writes `bsdf.png`, says what the scene's circuit costs, and runs the function on its own. What
-//! the compiler refuses is worth a try: `out: &mut UFixed<0, 14>`, or `out += square * square`, by
-//! which the cloth would shine by itself.
+//! the compiler refuses is worth a try: `slant_i += cos_i - 1`, which is below 0, or `out += 1`, by
+//! which the cloth would give more light than it gets.
 
 use qrt::prelude::*;
+
+/// The format of the function's numbers.
+type Number = UFixed<1, 14>;
 
 /// Cloth: a dull ground, and a sheen where it is seen or lit from the side.
 ///
@@ -41,7 +44,7 @@ qrt! {
             jacobian: auto,
             value: fn cloth,
         },
-        material lamp: emitter { radiance: rgb(9, 7, 5) },
+        material lamp: emitter { radiance: rgb(30, 24, 18) },
 
         for i in 0..2 {
             quad fall: velvet {
@@ -54,7 +57,7 @@ qrt! {
             },
         }
         quad floor: velvet { (-3, 0, 3), (3, 0, 3), (3, 0, 1), (-3, 0, 1) },
-        quad light: lamp { (-2, 3, -1.5), (-2, 3, 0.5), (2, 3, 0.5), (2, 3, -1.5) },
+        quad light: lamp { (-2, 3, -1.5), (2, 3, -1.5), (2, 3, 0.5), (-2, 3, 0.5) },
 
         sampling { path_bits: 8 },
         depth primary { bits: (8, 8) },
@@ -72,7 +75,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     );
 
     // The function on its own: its own gates, on every machine.
-    type Number = UFixed<1, 14>;
     let program = cloth_program(Style::Lean);
     let inputs = [(1.0, 1.0), (0.5, 0.5), (0.25, 0.125), (0.0, 0.0)];
     let states: Option<Vec<[u64; 3]>> = inputs

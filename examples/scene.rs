@@ -34,7 +34,7 @@ qrt! {
             },
         }
         quad wall: stone { (-WIDTH, 0, -1), (WIDTH, 0, -1), (WIDTH, 5, -1), (-WIDTH, 5, -1) },
-        quad light: lamp { (-1, 4, 0), (-1, 4, 2), (1, 4, 2), (1, 4, 0) },
+        quad light: lamp { (-1, 4, 0), (1, 4, 0), (1, 4, 2), (-1, 4, 2) },
 
         sampling { path_bits: 10 },
         depth primary { bits: (8, 8) },

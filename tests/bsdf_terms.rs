@@ -93,7 +93,11 @@ macro_rules! scene {
                 film: 6 x 4,
                 $(
                     material $material: bsdf {
-                        map: |u, v| (sqrt(u) * cos(2 * pi * v), sqrt(u) * sin(2 * pi * v), sqrt(1 - u)),
+                        map: |u, v| (
+                            sqrt(u) * cos(2 * pi * v),
+                            sqrt(u) * sin(2 * pi * v),
+                            sqrt(1 - u),
+                        ),
                         jacobian: auto,
                         value: $($value)*,
                     },
@@ -312,6 +316,7 @@ fn picture(scene: &ValidScene, name: &str) -> Vec<u8> {
         ..Options::default()
     };
     let rendered = render(scene, &exact).unwrap();
+    assert!(rendered.image.pixels.iter().flatten().any(|c| *c > 0.0));
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     let metadata = rendered.metadata(scene).unwrap();
     let encoding = Encoding::of(&path, None).unwrap();

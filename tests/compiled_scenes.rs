@@ -17,6 +17,22 @@ qrt! {
     scene Furnace from "scenes-yaml/furnace.yaml"
     scene Scoped from "tests/scenes/scoped.yaml"
     scene Lattice from "tests/scenes/lattice.yaml"
+
+    /// What `Floor` reads from its file.
+    scene Twin {
+        name: "floor-and-light",
+        camera: perspective { eye: (0.3, 1.5, -0.2), target: (0.3, 0, -0.2), up: (0, 0, 1), vfov: 60 },
+        film: 64 x 64,
+        material floor: lambertian { albedo: rgb(0.8, 0.5, 0.2) },
+        material lamp: emitter { radiance: rgb(10, 8, 6) },
+        quad floor: floor { (-4, 0, -4), (-4, 0, 4), (4, 0, 4), (4, 0, -4) },
+        quad lamp: lamp { (-0.5, 2, -0.5), (0.5, 2, -0.5), (0.5, 2, 0.5), (-0.5, 2, 0.5) },
+        sampling { path_bits: 14 },
+        depth primary { bits: (10, 10) },
+        depth secondary { bits: (10, 10) },
+        comparator { bits: 12 },
+        counting { phase_bits: 12 },
+    }
 }
 
 /// All that the code says to a recorder, from the first operation to the last inverse.
@@ -24,7 +40,7 @@ fn whole<C: CompiledOracle>() -> Program {
     let mut recorder = C::OUTLINE.recorder();
     let id = C::OUTLINE.inputs(&mut recorder);
     C::within(&mut recorder, &id, |_, _| {});
-    recorder.finish()
+    C::OUTLINE.ordered(recorder.finish())
 }
 
 fn is_the_scene<C: CompiledOracle>() {
@@ -155,6 +171,24 @@ fn the_layout_reads_rays_of_unit_length_inside_the_box() {
         state.clean().unwrap();
     }
     assert!(hits > 50, "{hits} hits");
+}
+
+/// The macro's tokens and the file's text are one scene, one program and one picture.
+#[test]
+fn a_scene_and_its_twin_are_one() {
+    assert_eq!(Twin::scene().scene(), Floor::scene().scene());
+    assert!(Twin::program() == Floor::program());
+    let options = Options {
+        model: Model::Fixed,
+        crop: Some([16, 30, 32, 2]),
+        ..Options::default()
+    };
+    let [twin, floor] = [
+        render_compiled::<Twin>(&options).unwrap(),
+        render_compiled::<Floor>(&options).unwrap(),
+    ];
+    assert_eq!(twin.image.pixels, floor.image.pixels);
+    assert_eq!(twin.good, floor.good);
 }
 
 #[test]

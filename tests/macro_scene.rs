@@ -34,7 +34,7 @@ qrt! {
         depth primary { bits: (6, 6) },
         depth secondary { bits: (6, 6), map: cosine_hemisphere },
         comparator { bits: 8 },
-        budget { qubits: 1_000_000 },
+        budget { qubits: 100_000_000 },
     }
 
     pub scene Knot from "scenes-yaml/knot.yaml"
@@ -59,7 +59,7 @@ geometry:
 sampling: { path_bits: 6, depths: [{ bits: [6, 6] }, { bits: [6, 6], map: cosine-hemisphere }] }
 precision: { fraction: 14 }
 comparator: { bits: 8 }
-budget: { qubits: 1000000 }
+budget: { qubits: 100000000 }
 "#;
 
 fn picture(scene: &ValidScene, name: &str) -> Vec<u8> {

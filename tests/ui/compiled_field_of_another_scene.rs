@@ -17,6 +17,6 @@ qrt! { scene Other from "scenes/lit.yaml" }
 fn main() {
     let (mut state, id) = State::path::<Room>(0, [4, 4], 3).unwrap();
     Room::within(&mut state, &id, |state, path| {
-        println!("{}", state.read(path.word(&Other::LAYOUT.ray0.distance)));
+        println!("{}", state.read(path.word(&Other::LAYOUT.ray0.sample_u)));
     });
 }

@@ -3,7 +3,6 @@ use qrt::prelude::*;
 #[reversible]
 fn glow(cos_a: &UFixed<1, 14>, u: &UInt<4>, out: &mut UFixed<2, 14>) {
     out += cos_a;
-    out += u;
 }
 
 qrt! {

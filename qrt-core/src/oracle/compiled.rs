@@ -146,7 +146,7 @@ impl Outline {
     }
 
     /// A recorded program with its operations in their order.
-    fn ordered(&self, mut program: Program) -> Program {
+    pub fn ordered(&self, mut program: Program) -> Program {
         let places: HashMap<RegisterId, usize> = self
             .order
             .iter()

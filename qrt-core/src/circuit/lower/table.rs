@@ -125,7 +125,7 @@ impl Truths {
         let length = columns.iter().map(|column| column.len()).max().unwrap_or(0);
         let length = length.clamp(1, all);
         let padded = length.next_multiple_of(1 << low);
-        let bits = |(index, column): (usize, &Box<[i64]>)| {
+        let bits = |index: usize, column: &[i64]| {
             let width = width(index);
             let mut bits = vec![vec![0_u64; padded.div_ceil(64)]; width];
             let last = column.last().copied().unwrap_or(0);
@@ -138,8 +138,10 @@ impl Truths {
             }
             bits
         };
+        let columns = columns.iter().enumerate();
+        let columns = columns.map(|(index, column)| bits(index, column));
         Self {
-            columns: columns.iter().enumerate().map(bits).collect(),
+            columns: columns.collect(),
             length,
         }
     }

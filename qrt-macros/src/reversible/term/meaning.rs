@@ -11,6 +11,7 @@ use crate::reversible::scope::{text, type_text};
 use proc_macro2::TokenStream;
 use qrt_core::codes;
 use qrt_core::expr::{Domain, Expr, Interval, MAX_LENGTH, Variable};
+use quote::ToTokens;
 use std::collections::{BTreeMap, BTreeSet};
 use syn::Ident;
 
@@ -127,9 +128,13 @@ impl<'a> Meaning<'a> {
                 return self.meaningless(source, &message, &help);
             }
             K::If(bit, holds, fails) => {
+                // Errors underline the condition alone.
+                let condition = syn::parse2::<syn::ExprIf>(source.clone());
+                let condition =
+                    condition.map_or_else(|_| source.clone(), |own| own.cond.to_token_stream());
                 let around = self.path.clone();
                 for (value, body) in [(true, holds), (false, fails)] {
-                    for path in self.paths(bit, value, source)? {
+                    for path in self.paths(bit, value, &condition)? {
                         self.path = path;
                         self.run(body);
                     }

@@ -23,7 +23,7 @@ pub(super) fn domain(signature: &Signature, problems: &mut Problems) -> Option<D
     for register in &signature.parameters {
         let name = &register.name;
         match variable(name) {
-            None if !register.mutable => unknown(name, problems),
+            None if !register.mutable => unknown(name, signature, problems),
             Some(known) if !register.format.fixed() => {
                 let shown = type_text(&register.ty);
                 let message = format!("`{name}` is a number with a point, and `{shown}` has none");
@@ -46,9 +46,10 @@ pub(super) fn domain(signature: &Signature, problems: &mut Problems) -> Option<D
     (problems.count() == before).then_some(domain)
 }
 
-fn unknown(name: &Ident, problems: &mut Problems) {
-    let names = Variable::ALL.map(Variable::name);
-    let near = nearest(&name.to_string(), names.into_iter());
+fn unknown(name: &Ident, signature: &Signature, problems: &mut Problems) {
+    let taken = |variable: &&str| signature.parameters.iter().any(|own| own.name == variable);
+    let names = Variable::ALL.map(Variable::name).into_iter();
+    let near = nearest(&name.to_string(), names.filter(|name| !taken(name)));
     let help = near.map_or_else(
         || "the variables are `cos_i`, `cos_o`, `cos_a`, `u` and `v`".to_owned(),
         |near| format!("did you mean `{near}`?"),
