@@ -233,11 +233,11 @@ fn vectors(name: &str, given: &[Value]) -> Value {
         ("widen", [Int(a)]) => Long((*a).into()),
         ("narrow", [Long(a)]) => Int(*a as i32),
         ("product_above", [Int(a), Int(b), Constant(drop @ 0..64)]) => {
-            Int((i64::from(*a) * i64::from(*b) >> drop) as i32)
+            Int(((i64::from(*a) * i64::from(*b)) >> drop) as i32)
         }
         ("product", [Int(a), Int(b)]) => Long(i64::from(*a) * i64::from(*b)),
         ("product_of_longs", [Long(a), Long(b), Constant(drop)]) => {
-            Long((i128::from(*a) * i128::from(*b) >> (*drop).min(127)) as i64)
+            Long(((i128::from(*a) * i128::from(*b)) >> (*drop).min(127)) as i64)
         }
         ("quotient_single", [Int(a), Int(b), Constant(up)]) => {
             assert!((0..1 << 24).contains(a) && (0..1 << 24).contains(b));

@@ -155,7 +155,7 @@ fn products_are_right<V: Vectors>(v: Lanes<V>) {
     );
     for drop in 0..64 {
         let above = |a, b| v.0.product_above(a, b, drop);
-        v.ints2(&pairs, above, |a, b| int((a * b >> drop).into()));
+        v.ints2(&pairs, above, |a, b| int(((a * b) >> drop).into()));
     }
     let pairs = samples(LONGS, LONGS);
     for drop in 0..127 {
