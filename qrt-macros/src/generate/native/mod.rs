@@ -8,6 +8,8 @@ mod divide;
 mod number;
 mod range;
 mod table;
+#[cfg(test)]
+mod tests;
 
 use super::lines::{self, Line};
 use super::names::Names;
@@ -118,15 +120,14 @@ impl Coder<'_> {
         &self.program.registers[id.index()]
     }
 
-    /// Calls the variable that was bound last by the register's name, unless it has one.
+    /// Calls the variable that was bound last by the register's name, unless it has a name.
     fn christen(&mut self, id: RegisterId, variable: &mut String) {
+        if *variable != format!("t{}", self.temporaries) {
+            return;
+        }
         let name = self.names.of(id).to_owned();
         let old = format!("let {variable} = ");
-        let temporary = variable
-            .strip_prefix('t')
-            .is_some_and(|number| number.parse::<usize>().is_ok());
-        if temporary
-            && let Some(line) = self.lines.last_mut()
+        if let Some(line) = self.lines.last_mut()
             && let Some(value) = line.text.strip_prefix(&old)
         {
             line.text = format!("let {name} = {value}");

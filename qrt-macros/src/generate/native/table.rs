@@ -23,7 +23,7 @@ impl Coder<'_> {
     }
 
     /// The XOR of the columns whose place is a bit that is set in the source, and of a word of the
-    /// pixel: four columns at a time, by a table of their sums.
+    /// pixel.
     pub(super) fn parity(
         &mut self,
         source: RegisterId,
@@ -31,12 +31,43 @@ impl Coder<'_> {
         parameter: Option<u32>,
         target: RegisterId,
     ) {
-        let range = Range::of(self.register(target).width, false);
+        let width = self.register(target).width;
         let source = self.content(source);
-        let mut sum = match parameter {
-            Some(parameter) => self.classical(parameter, target).text,
-            None => "v.ints(0)".to_owned(),
+        let shift = parameter.map(|parameter| self.classical(parameter, target));
+        let low = self.image(&source, columns);
+        let mut sum = Number {
+            text: low,
+            range: Range::INTS,
         };
+        if width > 32 {
+            let high: Vec<u64> = columns.iter().map(|column| column >> 32).collect();
+            let high = self.image(&source, &high);
+            let low = self.cut(sum, 32, false);
+            let low = self.longs(&low);
+            let both = format!("v.widen({high}).left(32).xor({low})");
+            sum = self.of_longs(Range::ALL, both);
+        }
+        if let Some(shift) = shift {
+            let (range, [sum_lanes, shift]) = if width > 32 {
+                (Range::ALL, [self.longs(&sum), self.longs(&shift)])
+            } else {
+                (Range::INTS, [self.ints(&sum), self.ints(&shift)])
+            };
+            let text = self.bind(&format!("{sum_lanes}.xor({shift})"));
+            sum = Number { text, range };
+        }
+        let fits = columns.iter().all(|column| column >> (width - 1) <= 1);
+        let unsigned = Range::of(width, false);
+        if fits && unsigned.narrow() && !signed(self.register(target).ty) {
+            sum.range = unsigned;
+        }
+        self.set(target, sum);
+    }
+
+    /// The lowest 32 bits of the XOR of the columns whose place is a bit that is set: four columns
+    /// at a time, by a table of their sums.
+    fn image(&mut self, source: &Number, columns: &[u64]) -> String {
+        let mut sum: Option<String> = None;
         for (digit, four) in columns.chunks(4).enumerate() {
             let sums = (0..16_usize).map(|bits| {
                 let places = four.iter().enumerate();
@@ -47,9 +78,12 @@ impl Coder<'_> {
             let bits = self.right(source.clone(), 4 * digit as u32);
             let bits = self.ints(&bits);
             let part = self.bind(&format!("v.table16(&{sums:?}, {bits})"));
-            sum = self.bind(&format!("{sum}.xor({part})"));
+            sum = Some(match sum {
+                Some(sum) => self.bind(&format!("{sum}.xor({part})")),
+                None => part,
+            });
         }
-        self.set(target, Number { text: sum, range });
+        sum.unwrap_or_else(|| "v.ints(0)".to_owned())
     }
 
     pub(super) fn table(

@@ -1,28 +1,25 @@
-//! Programs of chance, and their comparison with the definition.
+//! Programs of chance.
 
-use crate::machines::fixed::compile::negative;
-use crate::machines::fixed::contents;
-use crate::machines::{Fixed, InstructionSet, Span};
 use qrt_core::circuit::{
     Bit, BlockId, Instruction, Op, Operand, Parameter, Program, Register, RegisterId, Role, Style,
     Type, When, Word,
 };
 
 /// Choices keyed by a seed.
-pub(super) struct Dice(pub(super) u64);
+pub(crate) struct Dice(pub(crate) u64);
 
 impl Dice {
-    pub(super) fn word(&mut self) -> u64 {
+    pub(crate) fn word(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
         let mut z = self.0;
         z = (z ^ z >> 30).wrapping_mul(0xBF58_476D_1CE4_E5B9);
         z = (z ^ z >> 27).wrapping_mul(0x94D0_49BB_1331_11EB);
         z ^ z >> 31
     }
-    pub(super) fn below(&mut self, bound: u32) -> u32 {
+    pub(crate) fn below(&mut self, bound: u32) -> u32 {
         (((self.word() >> 32) * u64::from(bound)) >> 32) as u32
     }
-    pub(super) fn between(&mut self, low: u32, high: u32) -> u32 {
+    pub(crate) fn between(&mut self, low: u32, high: u32) -> u32 {
         low + self.below(high - low + 1)
     }
     fn coin(&mut self) -> bool {
@@ -31,18 +28,18 @@ impl Dice {
 }
 
 /// A program of operations of one's choice, on operands of chance.
-pub(super) struct Maker {
-    pub(super) dice: Dice,
-    pub(super) program: Program,
+pub(crate) struct Maker {
+    pub(crate) dice: Dice,
+    pub(crate) program: Program,
     /// Widest register.
-    widest: u32,
+    pub(crate) widest: u32,
 }
 
-pub(super) const PARAMETERS: usize = 3;
+pub(crate) const PARAMETERS: usize = 3;
 
 impl Maker {
     /// With registers of up to `widest` bits, the first of them the path's id.
-    pub(super) fn new(seed: u64, id: u32, widest: u32) -> Self {
+    pub(crate) fn new(seed: u64, id: u32, widest: u32) -> Self {
         let mut maker = Self {
             dice: Dice(seed),
             program: Program::default(),
@@ -67,7 +64,7 @@ impl Maker {
         maker
     }
 
-    pub(super) fn register(&mut self, width: u32, signed: bool) -> RegisterId {
+    pub(crate) fn register(&mut self, width: u32, signed: bool) -> RegisterId {
         let id = RegisterId(self.program.registers.len() as u32);
         self.program.registers.push(Register {
             name: format!("r{}", id.0),
@@ -86,11 +83,11 @@ impl Maker {
         self.register(width, signed)
     }
 
-    pub(super) fn truth(&mut self) -> RegisterId {
+    pub(crate) fn truth(&mut self) -> RegisterId {
         self.register(1, false)
     }
 
-    pub(super) fn push(&mut self, op: Op) {
+    pub(crate) fn push(&mut self, op: Op) {
         self.program.instructions.push(Instruction {
             op: self.program.ops.len() as u32,
             inverse: false,
@@ -152,7 +149,7 @@ impl Maker {
     }
 
     /// Operation `kind` of 19.
-    pub(super) fn op(&mut self, kind: u32) {
+    pub(crate) fn op(&mut self, kind: u32) {
         let style = Style::Wide;
         let scratch = self.register(1, false);
         let drop = if self.dice.coin() {
@@ -332,75 +329,13 @@ impl Maker {
         };
         self.push(op);
     }
-
-    /// Compares registers' contents with their definition, in every instruction set.
-    pub(super) fn check(self, states: &[u64], others: &[u64]) {
-        let all = 0..self.program.registers.len() as u32;
-        let all: Vec<RegisterId> = all.map(RegisterId).collect();
-        self.check_only(states, others, &all);
-    }
-
-    /// As [`Maker::check`], of some registers.
-    pub(super) fn check_only(self, states: &[u64], others: &[u64], registers: &[RegisterId]) {
-        let program = self.program;
-        let mut dice = self.dice;
-        let whole = |register: &RegisterId| Word {
-            register: *register,
-            offset: 0,
-            width: program.width(*register),
-            signed: negative(program.registers[register.index()].ty),
-            shift: 0,
-        };
-        let outputs: Vec<Word> = registers.iter().map(whole).collect();
-        let bits = self.widest.min(40);
-        let pixels: Vec<[u64; PARAMETERS]> = (0..2)
-            .map(|_| std::array::from_fn(|_| dice.word() >> (64 - bits)))
-            .collect();
-        let half = states.len() / 2;
-        let spans = [(half, &pixels[0]), (states.len() - half, &pixels[1])];
-        let spans = spans.map(|(lanes, parameters)| Span { lanes, parameters });
-        let expected = states.iter().zip(others).enumerate();
-        let expected: Vec<_> = expected
-            .map(|(lane, (id, other))| {
-                contents(&program, &[*id, *other], &pixels[usize::from(lane >= half)])
-            })
-            .collect();
-        // All registers; and few of them, so that steps are left out, joined and given used slots.
-        let few: Vec<Word> = outputs
-            .iter()
-            .copied()
-            .filter(|_| dice.below(6) == 0)
-            .collect();
-        let sets = InstructionSet::available().into_iter();
-        for (set, outputs) in sets.flat_map(|set| [(set, &outputs), (set, &few)]) {
-            let machine = Fixed::new(&program, outputs).with_instructions(set);
-            let mut lanes = machine.lanes();
-            let mut values = vec![vec![0; states.len()]; outputs.len()];
-            let mut slices: Vec<&mut [i64]> = values.iter_mut().map(Vec::as_mut_slice).collect();
-            machine.run(&mut lanes, &[states, others], &spans, &mut slices);
-            let mut signs = vec![false; states.len()];
-            machine.signs(&mut lanes, &[states, others], &spans, &mut signs);
-            for (lane, expected) in expected.iter().enumerate() {
-                for (output, values) in outputs.iter().zip(&values) {
-                    let register = output.register.index();
-                    assert_eq!(
-                        values[lane],
-                        output.read(expected.registers[register]),
-                        "r{register} in lane {lane}, {set:?}: {:?}",
-                        program.ops
-                    );
-                }
-                assert_eq!(signs[lane], expected.negative, "lane {lane}, {set:?}");
-            }
-        }
-    }
 }
 
 /// Operations that [`Maker::op`] knows.
-pub(super) const KINDS: u32 = 19;
+pub(crate) const KINDS: u32 = 19;
 
 /// Contents of `width` bits that are likely to matter: any, and those near the ends.
-pub(super) fn contents_of(dice: &mut Dice, width: u32, many: usize) -> Vec<u64> {
+pub(crate) fn contents_of(dice: &mut Dice, width: u32, many: usize) -> Vec<u64> {
     let any = |dice: &mut Dice| match dice.below(4) {
         0 => u64::from(dice.below(3)),
         1 => !u64::from(dice.below(3)),

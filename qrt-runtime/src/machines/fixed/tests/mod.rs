@@ -1,3 +1,4 @@
+mod check;
 mod maker;
 
 use super::*;

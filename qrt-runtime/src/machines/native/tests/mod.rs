@@ -52,7 +52,9 @@ fn ints_are_right<V: Vectors>(v: Lanes<V>) {
     for bits in 0..32 {
         v.ints1(&pairs, |a| a.left(bits), |a| int(i128::from(a) << bits));
         v.ints1(&pairs, |a| a.right(bits), |a| a >> bits);
-        v.ints1(&pairs, |a| a.lowest(bits), |a| a & ((1 << bits) - 1));
+        if bits > 0 {
+            v.ints1(&pairs, |a| a.lowest(bits), |a| a & ((1 << bits) - 1));
+        }
         let bit = 1_i64 << bits;
         v.ints1(&pairs, |a| v.digit(a.has(bit)), |a| a >> bits & 1);
     }
@@ -81,7 +83,9 @@ fn longs_are_right<V: Vectors>(v: Lanes<V>) {
         v.longs1(&pairs, |a| a.left(bits), |a| a << bits);
         v.longs1(&pairs, |a| a.right(bits), |a| a >> bits);
         let kept = (1_u64 << bits).wrapping_sub(1).cast_signed();
-        v.longs1(&pairs, |a| a.lowest(bits), |a| a & kept);
+        if bits > 0 {
+            v.longs1(&pairs, |a| a.lowest(bits), |a| a & kept);
+        }
         let bit = 1_i64 << bits;
         v.longs1(
             &pairs,
