@@ -89,7 +89,10 @@ impl Declaration {
     }
 }
 
-/// What reversible code runs on: see [the module](self).
+/// What reversible code runs on.
+///
+/// Code that the macros generate is a straight line of calls of it: over a [`super::Recorder`] it
+/// yields a program, over a machine that holds numbers it computes with them.
 ///
 /// Each method is an [`super::Op`], whose documentation says what it computes; `t` declares its
 /// target. What an operation leaves behind (its scratch) is the machine's own affair. Operations
