@@ -80,7 +80,8 @@ impl User {
         std::fs::create_dir_all(folder.join("src")).expect("a folder");
         let manifest = format!(
             "[package]\nname = \"author\"\nversion = \"0.1.0\"\nedition = \"2024\"\n\n\
-             [dependencies]\nqrt = {{ path = {root:?} }}\n\n[workspace]\n"
+             [dependencies]\nqrt = {{ path = '{}' }}\n\n[workspace]\n",
+            root.display()
         );
         std::fs::write(folder.join("Cargo.toml"), manifest).expect("a file");
         std::fs::write(folder.join("src/main.rs"), PROGRAM).expect("a file");

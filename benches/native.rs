@@ -5,7 +5,7 @@
 //! many times as fast the code is. Both compute all three channels of every path, and the same bits.
 //!
 //! It fails where a promise is broken: on the Cornell box, on a processor with AVX-512, the code is
-//! faster than the interpreted program.
+//! at least 1.5 times as fast as the interpreted program.
 
 // A bench that cannot run has nothing to report.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
@@ -25,8 +25,9 @@ qrt! {
 /// Best of so many runs, in turn, so that what slows the machine slows both.
 const RUNS: usize = 40;
 
-/// How many times as fast as the interpreted program; the aim is 2.
-const BAR: f64 = 1.0;
+/// How many times as fast as the interpreted program. It is twice as fast on a quiet machine; the
+/// rest is for others at work.
+const BAR: f64 = 1.5;
 
 const PIXELS: [[u32; 2]; 4] = [[19, 37], [32, 16], [25, 50], [44, 44]];
 
@@ -44,9 +45,9 @@ fn main() -> ExitCode {
         println!("\nno AVX-512 here: the fixed machine takes the place of the code");
         return ExitCode::SUCCESS;
     }
-    let kept = of_box > BAR;
+    let kept = of_box >= BAR;
     println!(
-        "\n{} box: the code {of_box:.2} times as fast as the interpreted program, more than {BAR}",
+        "\n{} box: the code {of_box:.2} times as fast as the interpreted program, at least {BAR}",
         if kept { "kept  " } else { "BROKEN" }
     );
     if kept {

@@ -61,7 +61,7 @@ pub use qrt_runtime as runtime;
 /// What it takes to load a scene, render it and save the picture.
 pub mod prelude {
     pub use qrt_core::circuit::format::{Bool, Fixed, Format, Int, Reg, UFixed, UInt};
-    pub use qrt_core::circuit::{Machine, Program, Recorder, Style};
+    pub use qrt_core::circuit::{Bit, Machine, Operand, Program, Recorder, Style, When, Word};
     pub use qrt_core::diagnostics::Report;
     pub use qrt_core::front::{Loaded, load, parse};
     pub use qrt_core::oracle::compiled::CompiledOracle;
@@ -69,7 +69,7 @@ pub mod prelude {
     pub use qrt_core::valid::{ValidScene, validate};
     pub use qrt_macros::{qrt, reversible};
     pub use qrt_runtime::image::{Encoding, Image, ImageError, Metadata, save, write_counts};
-    pub use qrt_runtime::machines::{State, run};
+    pub use qrt_runtime::machines::{NativeOracle, State, run};
     pub use qrt_runtime::render::{
         Model, Options, Progress, RenderError, Rendered, render, render_compiled,
     };

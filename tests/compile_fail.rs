@@ -30,6 +30,15 @@ fn every_code_of_the_macros_is_shown_by_some_program() {
             all += &std::fs::read_to_string(path).unwrap();
         }
     }
+    // None is left of a program that is gone.
+    for entry in std::fs::read_dir("tests/ui").unwrap() {
+        let path = entry.unwrap().path();
+        assert!(
+            path.is_dir() || path.with_extension("rs").exists(),
+            "{}",
+            path.display()
+        );
+    }
     let unseen: Vec<_> = codes::TABLE
         .iter()
         .filter(|row| is_of_macros(row.code) && !all.contains(&format!("[{}]", row.code)))

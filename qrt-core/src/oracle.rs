@@ -146,7 +146,8 @@ impl Oracle {
     }
 
     /// The oracles of all channels, each as [`Oracle::new`] makes it but for the numbers of its
-    /// registers, and the one of all three together: traced once.
+    /// registers and [`Oracle::sharing`], which is that of all; and the one of all three together:
+    /// traced once.
     ///
     /// # Errors
     /// As [`Oracle::new`].

@@ -12,8 +12,6 @@ qrt! {
     }
 }
 
-use qrt::core::circuit::{Operand, When};
-
 fn main() {
     let (mut state, id) = State::path::<Room>(0, [4, 4], 3).unwrap();
     Room::within(&mut state, &id, |state, path| {

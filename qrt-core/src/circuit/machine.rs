@@ -31,7 +31,12 @@ pub struct Declaration {
 
 impl Declaration {
     /// A work register of one's own.
+    ///
+    /// # Panics
+    /// If it has more than 64 bits; in a constant, that is an error of the compiler.
     pub const fn work(name: &'static str, ty: Type, width: u32) -> Self {
+        let scratch = matches!(ty, Type::Scratch);
+        assert!(width <= 64 || scratch, "a register has at most 64 bits");
         Self {
             id: None,
             scratch: None,
@@ -206,7 +211,7 @@ pub trait Machine {
     /// [`super::Op::SquareRoot`]
     fn square_root(&mut self, t: &Declaration, a: Word<&Self::Register>) -> Self::Register;
     /// [`super::Op::Table`], of which the `low` lowest address bits select among words read
-    /// together where the scratch for that is there.
+    /// together where the scratch for that is there. An address beyond the columns may not occur.
     fn table<const N: usize>(
         &mut self,
         targets: [&Declaration; N],
@@ -215,7 +220,7 @@ pub trait Machine {
         low: u32,
     ) -> [Self::Register; N];
     /// The inverse of the operation that computed these registers, all of them and no others, in
-    /// its order.
+    /// its order. Registers that no operation computed have none, and nothing happens.
     fn undo<const N: usize>(&mut self, computed: [Self::Register; N]);
 
     /// [`super::Op::XorInto`]

@@ -203,7 +203,8 @@ impl<S, T> Clone for Field<S, T> {
 impl<S, T> Copy for Field<S, T> {}
 
 impl<S: CompiledOracle, T: Format> Field<S, T> {
-    /// What `word` reads. `place` is its place in [`Outline::places`].
+    /// What `word` reads, for generated code. `place` is its place in [`Outline::places`].
+    #[doc(hidden)]
     pub const fn new(place: usize, word: Word) -> Self {
         Self {
             place,

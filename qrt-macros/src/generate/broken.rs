@@ -1,5 +1,5 @@
 //! What stands beside a scene with errors, so that the rest of a program is understood, and the
-//! compiler speaks of the scene's errors alone.
+//! compiler speaks of little but the scene's errors.
 
 use proc_macro2::TokenStream;
 
@@ -25,8 +25,8 @@ const NUMBERS: [&str; 14] = [
     "direction_z",
 ];
 
-/// Its figures are 0, its functions never return, and its layout has all that any can have.
-pub(crate) fn broken(name: &str, visibility: &str) -> TokenStream {
+/// Its figures are 1, its functions never return, and its layout has all that any can have.
+pub(crate) fn broken(name: &str, visibility: &str, conditions: &str) -> TokenStream {
     let never = "::core::unreachable!(\"this scene has errors\")";
     let field =
         format!("::qrt::core::oracle::compiled::Field<{name}, ::qrt::core::circuit::format::Bool>");
@@ -62,28 +62,32 @@ pub(crate) fn broken(name: &str, visibility: &str) -> TokenStream {
     };
     let (all, each_is) = (rays(&format!("{name}Ray")), rays("RAY"));
     let text = format!(
-        "#[allow(missing_docs, dead_code)]
+        "{conditions}
+        #[allow(missing_docs, dead_code)]
         #[derive(Clone, Copy, Debug)]
         {visibility} struct {name}Ray {{ {fields} }}
+        {conditions}
         #[allow(missing_docs, dead_code)]
         #[derive(Clone, Copy, Debug)]
         {visibility} struct {name}Layout {{ {all} }}
+        {conditions}
         #[allow(missing_docs, dead_code)]
         impl {name} {{
-            pub const QUBITS: u64 = 0;
-            pub const TOFFOLI: u64 = 0;
-            pub const PATH_BITS: u32 = 0;
-            pub const COMPARATOR_BITS: u32 = 0;
-            pub const FRACTION_BITS: u32 = 0;
-            pub const DEPTH: usize = 0;
-            pub const FILM: [u32; 2] = [0; 2];
-            pub const SCALE: [f64; 3] = [0.0; 3];
-            pub const OPERATIONS: usize = 0;
+            pub const QUBITS: u64 = 1;
+            pub const TOFFOLI: u64 = 1;
+            pub const PATH_BITS: u32 = 1;
+            pub const COMPARATOR_BITS: u32 = 1;
+            pub const FRACTION_BITS: u32 = 1;
+            pub const DEPTH: usize = 1;
+            pub const FILM: [u32; 2] = [1; 2];
+            pub const SCALE: [f64; 3] = [1.0; 3];
+            pub const OPERATIONS: usize = 1;
             {visibility} const LAYOUT: {name}Layout = {{
                 const RAY: {name}Ray = {name}Ray {{ {places} }};
                 {name}Layout {{ {each_is} }}
             }};
         }}
+        {conditions}
         impl ::qrt::core::oracle::compiled::CompiledOracle for {name} {{
             const OUTLINE: &'static ::qrt::core::oracle::compiled::Outline =
                 &::qrt::core::oracle::compiled::Outline::NONE;
@@ -97,6 +101,7 @@ pub(crate) fn broken(name: &str, visibility: &str) -> TokenStream {
                 ) -> T,
             ) -> T {{ {never} }}
         }}
+        {conditions}
         impl ::qrt::runtime::machines::NativeOracle for {name} {{
             fn native<V: ::qrt::runtime::machines::native::Vectors>(
                 _: V,
@@ -105,5 +110,5 @@ pub(crate) fn broken(name: &str, visibility: &str) -> TokenStream {
             ) -> [[V::Longs; 3]; 2] {{ {never} }}
         }}"
     );
-    text.parse().unwrap_or_default()
+    super::parsed_text(&text)
 }

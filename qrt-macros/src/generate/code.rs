@@ -2,7 +2,7 @@
 
 use super::lines::{self, Line};
 use super::names::Names;
-use qrt_core::circuit::{Bit, BlockId, Instruction, Op, Operand, Program, RegisterId, When, Word};
+use qrt_core::circuit::{Bit, BlockId, Instruction, Op, Operand, Program, RegisterId, Word};
 use qrt_core::oracle::{Channel, Oracle};
 use std::fmt::Write as _;
 
@@ -16,14 +16,14 @@ struct Coder<'a> {
 }
 
 /// Writes the trait's implementation.
-pub(super) fn write(out: &mut String, scene: &str, oracle: &Oracle, names: &Names) {
+pub(super) fn write(out: &mut String, oracle: &Oracle, names: &Names) {
     let _ = writeln!(
         out,
-        "impl CompiledOracle for {scene} {{
+        "impl CompiledOracle for __Scene {{
             const OUTLINE: &'static Outline = &OUTLINE;
 
             fn scene() -> &'static ::qrt::core::valid::ValidScene {{
-                {scene}::scene()
+                __Scene::scene()
             }}
 
             #[inline(always)]
@@ -109,18 +109,6 @@ impl Coder<'_> {
         format!("Bit::at({register}, {}){negated}", bit.index)
     }
 
-    fn when(&self, when: When) -> String {
-        match when {
-            When::Always => "When::Always".to_owned(),
-            When::If(bit) => format!("When::If({})", self.bit(bit)),
-            When::Reversed(bit) => format!("When::Reversed({})", self.bit(bit)),
-        }
-    }
-
-    fn maybe(&self, when: Option<Bit>) -> String {
-        when.map_or("None".to_owned(), |bit| format!("Some({})", self.bit(bit)))
-    }
-
     fn targets(&self, op: &Op) -> Vec<&str> {
         let targets = op.targets().into_iter();
         targets.map(|target| self.names.of(target)).collect()
@@ -137,9 +125,7 @@ impl Coder<'_> {
         let targets = self.targets(op);
         let own = || targets.iter().map(|&name| name.to_owned()).collect();
         let (mut bound, mut taken) = (Vec::new(), Vec::new());
-        let text = if targets.is_empty() {
-            format!("m.{};", self.in_place(op, instruction.inverse))
-        } else if instruction.inverse {
+        let text = if instruction.inverse {
             taken = own();
             format!("m.undo([{}]);", targets.join(", "))
         } else {
@@ -260,41 +246,10 @@ impl Coder<'_> {
                     list(targets.iter().map(column).collect()),
                 )
             }
+            // Compute has none of them: what is left in place could not be undone by a copy.
             Op::XorInto { .. } | Op::AddInto { .. } | Op::Swap { .. } | Op::Phase { .. } => {
-                self.in_place(op, false)
+                String::new()
             }
-        }
-    }
-
-    /// An operation in place. Phases have no place in compute.
-    fn in_place(&self, op: &Op, inverse: bool) -> String {
-        let changed = |register: &RegisterId| format!("&mut {}", self.names.of(*register));
-        match op {
-            Op::XorInto { a, when, target } => format!(
-                "xor_into({}, {}, {})",
-                changed(target),
-                self.operand(*a),
-                self.maybe(*when)
-            ),
-            Op::AddInto {
-                a,
-                subtract,
-                when,
-                target,
-            } => format!(
-                "add_into({}, {}, {}, {})",
-                changed(target),
-                self.operand(*a),
-                *subtract != inverse,
-                self.when(*when)
-            ),
-            Op::Swap { a, b, when } => format!(
-                "swap({}, {}, {})",
-                changed(a),
-                changed(b),
-                self.maybe(*when)
-            ),
-            _ => String::new(),
         }
     }
 }

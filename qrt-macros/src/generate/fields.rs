@@ -18,19 +18,26 @@ struct Quantity {
 }
 
 /// Writes a struct for each ray, and one of all; returns the latter's value.
-pub(super) fn write(out: &mut String, scene: &str, public: &str, oracle: &Oracle) -> String {
+pub(super) fn write(
+    out: &mut String,
+    scene: &str,
+    public: &str,
+    conditions: &str,
+    oracle: &Oracle,
+) -> String {
     let depths = oracle.points.depths();
     let mut fields = String::new();
     let mut values = String::new();
     for depth in 0..depths {
-        let quantities = quantities(scene, oracle, depth);
+        let quantities = quantities(oracle, depth);
         let what = match depth {
             0 => "the primary ray".to_owned(),
             depth => format!("ray {depth}"),
         };
         let _ = writeln!(
             out,
-            "/// Numbers of {what} of [`{scene}`] that are in registers.
+            "{conditions}
+            /// Numbers of {what} of [`{scene}`] that are in registers.
             #[derive(Clone, Copy, Debug)]
             #[allow(dead_code)]
             {public} struct {scene}Ray{depth} {{"
@@ -45,7 +52,8 @@ pub(super) fn write(out: &mut String, scene: &str, public: &str, oracle: &Oracle
     }
     let _ = writeln!(
         out,
-        "/// Where the numbers of a path of [`{scene}`] are among its registers.
+        "{conditions}
+        /// Where the numbers of a path of [`{scene}`] are among its registers.
         #[derive(Clone, Copy, Debug)]
         #[allow(dead_code)]
         {public} struct {scene}Layout {{ {fields} }}"
@@ -53,7 +61,7 @@ pub(super) fn write(out: &mut String, scene: &str, public: &str, oracle: &Oracle
     format!("{scene}Layout {{ {values} }}")
 }
 
-fn quantities(scene: &str, oracle: &Oracle, depth: usize) -> Vec<Quantity> {
+fn quantities(oracle: &Oracle, depth: usize) -> Vec<Quantity> {
     let mut quantities: Vec<Quantity> = Vec::new();
     for (place, named) in oracle.places.iter().enumerate() {
         if named.name.depth != depth {
@@ -67,14 +75,14 @@ fn quantities(scene: &str, oracle: &Oracle, depth: usize) -> Vec<Quantity> {
             });
         }
         if let Some(last) = quantities.last_mut() {
-            last.components.push(component(scene, oracle, place, named));
+            last.components.push(component(oracle, place, named));
         }
     }
     quantities
 }
 
 /// A number's format and its field.
-fn component(scene: &str, oracle: &Oracle, place: usize, named: &NamedPlace) -> Component {
+fn component(oracle: &Oracle, place: usize, named: &NamedPlace) -> Component {
     let (word, negated, offset) = match named.place {
         Place::Number {
             word,
@@ -103,9 +111,9 @@ fn component(scene: &str, oracle: &Oracle, place: usize, named: &NamedPlace) -> 
         word.register, word.offset, word.width
     );
     let mut value = match word.shift {
-        0 => format!("Field::<{scene}, {ty}>::new({place}, {bits})"),
+        0 => format!("Field::<__Scene, {ty}>::new({place}, {bits})"),
         shift => {
-            format!("Field::<{scene}, {ty}>::new({place}, Word {{ shift: {shift}, ..{bits} }})")
+            format!("Field::<__Scene, {ty}>::new({place}, Word {{ shift: {shift}, ..{bits} }})")
         }
     };
     if negated {

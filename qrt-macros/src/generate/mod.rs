@@ -35,24 +35,40 @@ const MOST: usize = 20_000;
 pub(crate) fn scene(parsed: &Parsed, valid: &ValidScene) -> Result<TokenStream, Vec<Problem>> {
     let name = parsed.header.name.to_string();
     let public = parsed.header.visibility.to_token_stream().to_string();
-    let text = text(&name, &public, valid)?;
-    // Text that this module wrote, and that its tests read.
-    Ok(text.parse().unwrap_or_default())
+    let conditions = parsed.header.conditions().to_string();
+    Ok(parsed_text(&text(&name, &public, &conditions, valid)?))
+}
+
+/// Text that this module wrote.
+fn parsed_text(text: &str) -> TokenStream {
+    // Its tests read all kinds of it; what they miss must not vanish.
+    let unread = || quote::quote!(::core::compile_error! { "the circuit's code cannot be read" });
+    text.parse().unwrap_or_else(|_| unread())
 }
 
 /// The same as text.
-fn text(scene: &str, public: &str, valid: &ValidScene) -> Result<String, Vec<Problem>> {
+fn text(
+    scene: &str,
+    public: &str,
+    conditions: &str,
+    valid: &ValidScene,
+) -> Result<String, Vec<Problem>> {
     let (channels, oracle) = Oracle::all(valid).map_err(|error| vec![error.problem()])?;
     let spent = spent(&channels);
     check_budget(valid, spent)?;
-    let mut out = figures(scene, public, valid, &oracle, spent);
+    let mut out = format!("{conditions}\n");
+    out.push_str(&figures(scene, public, valid, &oracle, spent));
     if oracle.program.ops.len() <= MOST {
         let names = Names::new(&oracle);
-        let layout = fields::write(&mut out, scene, public, &oracle);
+        let layout = fields::write(&mut out, scene, public, conditions, &oracle);
         let _ = writeln!(
             out,
             "
+            {conditions}
             #[allow(warnings, clippy::all, clippy::pedantic)]
+            const _: () = {{
+            // A name that nothing of what is imported below has.
+            type __Scene = {scene};
             const _: () = {{
             use ::qrt::core::circuit::builder::{{NamedPlace, Place}};
             use ::qrt::core::circuit::{{
@@ -70,15 +86,15 @@ fn text(scene: &str, public: &str, valid: &ValidScene) -> Result<String, Vec<Pro
         );
         let _ = writeln!(
             out,
-            "impl {scene} {{
+            "impl __Scene {{
                 /// Where the numbers of a path are among its registers, ray by ray.
                 {public} const LAYOUT: {scene}Layout = {layout};
             }}"
         );
         data::write(&mut out, &oracle);
-        code::write(&mut out, scene, &oracle, &names);
-        native::write(&mut out, scene, &oracle, &names);
-        out.push_str("};\n");
+        code::write(&mut out, &oracle, &names);
+        native::write(&mut out, &oracle, &names);
+        out.push_str("};\n};\n");
     }
     Ok(out)
 }

@@ -52,7 +52,7 @@ fn the_code_of_a_small_scene_is_as_it_was() {
         ("small.rs", ""),
         ("small_scoped.rs", "circuit: { uncompute: scoped }"),
     ] {
-        let code = formatted(&text("LitFloor", "pub", &small(more)).unwrap());
+        let code = formatted(&text("LitFloor", "pub", "", &small(more)).unwrap());
         let path = format!("{}/src/generate/{file}", env!("CARGO_MANIFEST_DIR"));
         if std::env::var_os("QRT_BLESS").is_some() {
             std::fs::write(&path, &code).unwrap();
@@ -70,6 +70,7 @@ fn a_budget_is_held_when_the_scene_is_compiled() {
     let problems = text(
         "LitFloor",
         "pub",
+        "",
         &small("budget: { toffoli: 10, qubits: 5 }"),
     );
     let problems = problems.unwrap_err();

@@ -19,6 +19,7 @@ pub(crate) fn sound(
         name,
         ..
     } = &parsed.header;
+    let conditions = parsed.header.conditions();
     let text = Literal::string(&valid.scene().to_yaml());
     let folder = match &parsed.source {
         Source::File(loaded) => Path::new(&loaded.source.name).parent(),
@@ -35,7 +36,7 @@ pub(crate) fn sound(
     let watched = match &parsed.source {
         Source::File(loaded) => {
             let bytes = bytes(Path::new(&loaded.source.name), root);
-            quote!(const _: &[u8] = #bytes;)
+            quote!(#conditions const _: &[u8] = #bytes;)
         }
         _ => TokenStream::new(),
     };
@@ -47,6 +48,7 @@ pub(crate) fn sound(
         #[doc = #about]
         #visibility struct #name;
 
+        #conditions
         impl #name {
             /// The scene, checked.
             #visibility fn scene() -> &'static ::qrt::core::valid::ValidScene {
@@ -78,13 +80,19 @@ pub(crate) fn broken(header: &Header) -> TokenStream {
         name,
         ..
     } = header;
-    let figures = crate::generate::broken(&name.to_string(), &quote!(#visibility).to_string());
+    let conditions = header.conditions();
+    let figures = crate::generate::broken(
+        &name.to_string(),
+        &quote!(#visibility).to_string(),
+        &conditions.to_string(),
+    );
     quote! {
         #attributes
         #visibility struct #name;
 
         #figures
 
+        #conditions
         impl #name {
             /// The scene, once its errors are corrected.
             #visibility fn scene() -> &'static ::qrt::core::valid::ValidScene {

@@ -5,6 +5,7 @@ use proc_macro2::{Ident, TokenStream};
 use qrt_core::codes;
 use qrt_core::diagnostics::Report;
 use qrt_core::front::tree::Span;
+use syn::parse::Parser as _;
 
 /// What a scene is called, and what stands before that.
 #[derive(Debug)]
@@ -20,6 +21,14 @@ pub(crate) struct Header {
 }
 
 impl Header {
+    /// Of its attributes, those that all of what it expands to must have.
+    pub(crate) fn conditions(&self) -> TokenStream {
+        let attributes = syn::Attribute::parse_outer.parse2(self.attributes.clone());
+        let attributes = attributes.unwrap_or_default().into_iter();
+        let conditions = attributes.filter(|attribute| attribute.path().is_ident("cfg"));
+        conditions.map(quote::ToTokens::into_token_stream).collect()
+    }
+
     /// The scene's name, unless it says another: `cornell-box` for `CornellBox`.
     pub(crate) fn scene_name(&self) -> String {
         let text = self.name.to_string();

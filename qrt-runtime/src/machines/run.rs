@@ -21,7 +21,7 @@
 //! # Ok::<(), run::RunError>(())
 //! ```
 
-use super::{Fixed, Gates};
+use super::{Fixed, Gates, InvalidGate};
 use qrt_core::circuit::{
     Contents, Instruction, Op, Operand, Program, Qubit, RegisterId, Word, lower,
 };
@@ -46,6 +46,8 @@ pub enum RunError {
     },
     /// A program with classical words, which only a scene's pixels decide.
     Parameters,
+    /// The lowering made a list of gates that is no circuit: a defect of qrt.
+    Gate(InvalidGate),
     /// A register is not given back.
     Kept {
         /// The register's name.
@@ -73,6 +75,7 @@ impl fmt::Display for RunError {
                 write!(f, "state {state} holds more than fits into `{register}`")
             }
             Self::Parameters => f.write_str("the program has classical words"),
+            Self::Gate(gate) => gate.fmt(f),
             Self::Kept { register } => write!(f, "`{register}` is never given back"),
             Self::Dirty { state, register } => {
                 write!(
@@ -192,10 +195,7 @@ pub fn on_gates(
 ) -> Result<Vec<Vec<u64>>, RunError> {
     check(program, states)?;
     let circuit = lower::circuit(program);
-    // The lowering makes no invalid gates.
-    let Ok(machine) = Gates::new(&[&circuit]) else {
-        return Err(RunError::Parameters);
-    };
+    let machine = Gates::new(&[&circuit]).map_err(RunError::Gate)?;
     let qubits = |id: &RegisterId| -> &[Qubit] {
         let mut held = circuit.inputs.iter();
         held.find(|(held, _)| held == id)

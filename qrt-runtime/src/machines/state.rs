@@ -71,7 +71,8 @@ impl State {
         state
     }
 
-    /// For the path `path` of pixel (column, row) of a compiled oracle, and the register of its id.
+    /// For the path of pixel (column, row) of a compiled oracle that the lowest bits of `path` name, and the register of
+    /// its id.
     ///
     /// # Errors
     /// A sequence that cannot be made; a checked scene's can.
@@ -87,15 +88,16 @@ impl State {
         let mut recorder = outline.recorder();
         let id = outline.inputs(&mut recorder);
         let mut state = Self::of(recorder, words.collect());
-        state.contents.registers[id.id().index()] = path;
+        let width = outline.registers[outline.id.index()].width;
+        state.contents.registers[id.id().index()] = lowest(path, width);
         Ok((state, id))
     }
 
-    /// A register that holds `bits` from the start.
+    /// A register that holds the lowest of `bits` from the start.
     pub fn input(&mut self, t: &Declaration, bits: u64) -> Recorded {
         let register = self.recorder.input(t);
         self.declared();
-        self.contents.registers[register.id().index()] = bits & (u64::MAX >> (64 - t.width));
+        self.contents.registers[register.id().index()] = lowest(bits, t.width);
         register
     }
 
@@ -167,6 +169,11 @@ impl State {
             }
         }
     }
+}
+
+/// The lowest `width` bits.
+fn lowest(bits: u64, width: u32) -> u64 {
+    bits & u64::MAX.checked_shr(64 - width.min(64)).unwrap_or(0)
 }
 
 impl Default for State {

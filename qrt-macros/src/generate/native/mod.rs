@@ -28,7 +28,7 @@ enum Variable {
 }
 
 /// Writes the trait's implementation.
-pub(super) fn write(out: &mut String, scene: &str, oracle: &Oracle, names: &Names) {
+pub(super) fn write(out: &mut String, oracle: &Oracle, names: &Names) {
     let mut coder = Coder {
         program: &oracle.program,
         names,
@@ -82,7 +82,7 @@ pub(super) fn write(out: &mut String, scene: &str, oracle: &Oracle, names: &Name
     let _ = writeln!(
         out,
         "{}
-        impl NativeOracle for {scene} {{
+        impl NativeOracle for __Scene {{
             #[inline(always)]
             fn native<V: Vectors>(v: V, words: &[u64], ids: V::Longs) -> [[V::Longs; 3]; 2] {{
                 {code}

@@ -33,8 +33,9 @@ impl<K: Lane> Wrap<K> {
             return Self::none();
         }
         Self {
-            mask: K::cut((u64::MAX >> (64 - width)).cast_signed()),
-            half: K::cut(i64::from(signed) << (width - 1)),
+            // A register of no bits holds 0: the id of a pixel's only path.
+            mask: K::cut(u64::MAX.checked_shr(64 - width).unwrap_or(0).cast_signed()),
+            half: K::cut(i64::from(signed && width > 0) << width.saturating_sub(1)),
         }
     }
 

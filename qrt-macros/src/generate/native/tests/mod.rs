@@ -69,7 +69,7 @@ fn check(mut maker: Maker, id: u32) {
     let read = [last(0), last(1), last(2), any[0], any[1], any[2]];
     let oracle = oracle(&maker.program, id, read);
     let mut text = String::new();
-    write(&mut text, "Chance", &oracle, &Names::new(&oracle));
+    write(&mut text, &oracle, &Names::new(&oracle));
     let code = syn::parse_str(&text).unwrap_or_else(|error| panic!("{error}:\n{text}"));
     for path in contents_of(dice, id, 12) {
         let bits = 64 - dice.below(64);
