@@ -69,10 +69,21 @@ pub struct Finished<'a> {
 impl OracleMachine {
     /// The fixed machine. `colours` says whether they are wanted beside the counts.
     pub fn fixed(oracle: Arc<Oracle>, seed: u64, colours: bool) -> Self {
+        Self::fixed_on(InstructionSet::widest(), oracle, seed, colours)
+    }
+
+    /// The fixed machine, with the instruction set that is given.
+    pub fn fixed_on(
+        instructions: InstructionSet,
+        oracle: Arc<Oracle>,
+        seed: u64,
+        colours: bool,
+    ) -> Self {
         let outputs = outputs(&oracle, colours);
         let words: Vec<Word> = outputs.iter().filter_map(|o| word_of(*o)).collect();
+        let fixed = Fixed::new(&oracle.program, &words).with_instructions(instructions);
         let machine = Machine::Fixed {
-            fixed: Box::new(Fixed::new(&oracle.program, &words)),
+            fixed: Box::new(fixed),
             lanes: Mutex::new(Vec::new()),
         };
         Self {
@@ -84,19 +95,19 @@ impl OracleMachine {
     }
 
     /// The native machine: the oracle's program as code, `C`, which gives the same bits as the fixed
-    /// machine. On processors without AVX-512 this is the fixed machine itself, which is faster
-    /// there.
+    /// machine. Where there are no vectors for it (there are for AVX-512 and AVX2) but the fixed
+    /// machine has some, such as NEON, this is the fixed machine itself.
     pub fn native<C: NativeOracle>(oracle: Arc<Oracle>, seed: u64, colours: bool) -> Self {
         let widest = InstructionSet::widest();
-        if widest == InstructionSet::Avx512 {
-            Self::native_on::<C>(widest, oracle, seed, colours)
-        } else {
+        if widest == InstructionSet::Neon {
             Self::fixed(oracle, seed, colours)
+        } else {
+            Self::native_on::<C>(widest, oracle, seed, colours)
         }
     }
 
-    /// The native machine, with the instruction set that is given: there is code for AVX-512, and
-    /// code for a path at a time, which takes the place of all others.
+    /// The native machine, with the instruction set that is given: there is code for AVX-512, for
+    /// AVX2, and for a path at a time, which takes the place of all others.
     pub fn native_on<C: NativeOracle>(
         instructions: InstructionSet,
         oracle: Arc<Oracle>,

@@ -219,8 +219,8 @@ pub fn render(scene: &ValidScene, options: &Options<'_>) -> Result<Rendered, Ren
 }
 
 /// Renders a scene of `qrt!` by the circuit that was compiled with it: the same picture as
-/// [`render`]'s, without building its circuit again, and under [`Model::Fixed`] by native code where
-/// the processor has AVX-512.
+/// [`render`]'s, without building its circuit again, and under [`Model::Fixed`] by native code: see
+/// [`OracleMachine::native`].
 ///
 /// # Errors
 /// As [`render`].

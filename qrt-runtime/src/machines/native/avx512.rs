@@ -177,8 +177,11 @@ macro_rules! lane_by_lane {
 /// Entries of a table, lane by lane. Called, not inlined: it is long, and its loads wait for nothing
 /// of what is around it.
 #[inline(never)]
-fn entries<K: Copy + Default, const L: usize>(table: &[K; L], index: [u32; 16]) -> [K; 16] {
-    let mut found = [K::default(); 16];
+pub(super) fn entries<K: Copy + Default, const L: usize, const N: usize>(
+    table: &[K; L],
+    index: [u32; N],
+) -> [K; N] {
+    let mut found = [K::default(); N];
     for (found, index) in found.iter_mut().zip(index) {
         *found = table[index as usize & (L - 1)];
     }
@@ -315,11 +318,17 @@ impl Vectors for V4 {
     }
     #[inline(always)]
     fn table<const L: usize>(self, table: &[i32; L], index: Ints) -> Ints {
-        Ints(self, pulp::cast(entries(table, pulp::cast(index.1))))
+        Ints(
+            self,
+            pulp::cast(entries::<_, L, 16>(table, pulp::cast(index.1))),
+        )
     }
     #[inline(always)]
     fn wide_table<const L: usize>(self, table: &[i64; L], index: Ints) -> Longs {
-        Longs(self, pulp::cast(entries(table, pulp::cast(index.1))))
+        Longs(
+            self,
+            pulp::cast(entries::<_, L, 16>(table, pulp::cast(index.1))),
+        )
     }
     #[inline(always)]
     fn marks(self, table: u32, index: Ints) -> Masks {

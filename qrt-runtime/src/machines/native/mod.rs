@@ -9,6 +9,8 @@
 //! Nothing is undone: values are computed once, and forgotten.
 
 #[cfg(target_arch = "x86_64")]
+mod avx2;
+#[cfg(target_arch = "x86_64")]
 mod avx512;
 mod scalar;
 #[cfg(test)]
@@ -50,6 +52,12 @@ pub(super) fn run<C: NativeOracle>(set: InstructionSet, runs: &[Run<'_>], values
     #[cfg(target_arch = "x86_64")]
     if set == InstructionSet::Avx512
         && let Some(simd) = pulp::x86::V4::try_new()
+    {
+        return simd.vectorize(Block::<C, _>::new(simd, runs, values));
+    }
+    #[cfg(target_arch = "x86_64")]
+    if set == InstructionSet::Avx2
+        && let Some(simd) = pulp::x86::V3::try_new()
     {
         return simd.vectorize(Block::<C, _>::new(simd, runs, values));
     }

@@ -18,6 +18,10 @@ macro_rules! every_set {
         if let Some(simd) = pulp::x86::V4::try_new() {
             $check($crate::machines::native::tests::lanes::Lanes(simd));
         }
+        #[cfg(target_arch = "x86_64")]
+        if let Some(simd) = pulp::x86::V3::try_new() {
+            $check($crate::machines::native::tests::lanes::Lanes(simd));
+        }
     }};
 }
 

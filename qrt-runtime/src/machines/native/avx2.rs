@@ -1,0 +1,410 @@
+//! Vectors of x86-64-v3: eight lanes in registers of 256 bits, truths as lanes of ones or zeros.
+
+use super::avx512::entries;
+use super::scalar;
+use super::vectors::{Integers, Truths, Vectors};
+use pulp::x86::V3;
+use std::arch::x86_64::{__m256d, __m256i};
+
+/// 32 bits a lane: all of them or none.
+#[derive(Clone, Copy)]
+pub struct Masks(V3, __m256i);
+
+/// 32 bits a lane.
+#[derive(Clone, Copy)]
+pub struct Ints(V3, __m256i);
+
+/// 64 bits a lane: the first four lanes and the last.
+#[derive(Clone, Copy)]
+pub struct Longs(V3, [__m256i; 2]);
+
+impl Truths for Masks {
+    #[inline(always)]
+    fn and(self, other: Self) -> Self {
+        Self(self.0, self.0.avx2._mm256_and_si256(self.1, other.1))
+    }
+    #[inline(always)]
+    fn xor(self, other: Self) -> Self {
+        Self(self.0, self.0.avx2._mm256_xor_si256(self.1, other.1))
+    }
+    #[inline(always)]
+    fn not(self) -> Self {
+        let all = self.0.avx._mm256_set1_epi32(-1);
+        Self(self.0, self.0.avx2._mm256_xor_si256(self.1, all))
+    }
+}
+
+impl Ints {
+    #[inline(always)]
+    fn all(simd: V3, value: i32) -> Self {
+        Self(simd, simd.avx._mm256_set1_epi32(value))
+    }
+}
+
+impl Integers<Masks> for Ints {
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        Self(self.0, self.0.avx2._mm256_add_epi32(self.1, other.1))
+    }
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        Self(self.0, self.0.avx2._mm256_sub_epi32(self.1, other.1))
+    }
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        Self(self.0, self.0.avx2._mm256_mullo_epi32(self.1, other.1))
+    }
+    #[inline(always)]
+    fn xor(self, other: Self) -> Self {
+        Self(self.0, self.0.avx2._mm256_xor_si256(self.1, other.1))
+    }
+    #[inline(always)]
+    fn left(self, by: u32) -> Self {
+        let by = Self::all(self.0, by.cast_signed());
+        Self(self.0, self.0.avx2._mm256_sllv_epi32(self.1, by.1))
+    }
+    #[inline(always)]
+    fn right(self, by: u32) -> Self {
+        let by = Self::all(self.0, by.cast_signed());
+        Self(self.0, self.0.avx2._mm256_srav_epi32(self.1, by.1))
+    }
+    #[inline(always)]
+    fn lowest(self, bits: u32) -> Self {
+        let bits = Self::all(self.0, (u32::MAX >> (32 - bits)).cast_signed());
+        Self(self.0, self.0.avx2._mm256_and_si256(self.1, bits.1))
+    }
+    #[inline(always)]
+    fn less(self, other: Self) -> Masks {
+        Masks(self.0, self.0.avx2._mm256_cmpgt_epi32(other.1, self.1))
+    }
+    #[inline(always)]
+    fn has(self, bits: i64) -> Masks {
+        let avx2 = self.0.avx2;
+        let mask = Self::all(self.0, bits as i32);
+        let set = avx2._mm256_and_si256(self.1, mask.1);
+        if (bits as u32).is_power_of_two() {
+            return Masks(self.0, avx2._mm256_cmpeq_epi32(set, mask.1));
+        }
+        let none = Self::all(self.0, 0);
+        Masks(self.0, avx2._mm256_cmpeq_epi32(set, none.1)).not()
+    }
+    #[inline(always)]
+    fn choose(self, when: Masks, other: Self) -> Self {
+        let avx2 = self.0.avx2;
+        Self(self.0, avx2._mm256_blendv_epi8(other.1, self.1, when.1))
+    }
+}
+
+/// An operation of both halves. A macro and not a function of a closure: a closure is compiled
+/// without the instruction set until it is inlined, which is left to chance.
+macro_rules! halves {
+    ($a:ident, $b:ident, $operation:ident) => {{
+        let avx2 = $a.0.avx2;
+        let low = avx2.$operation($a.1[0], $b.1[0]);
+        let high = avx2.$operation($a.1[1], $b.1[1]);
+        Self($a.0, [low, high])
+    }};
+}
+
+impl Longs {
+    #[inline(always)]
+    fn all(simd: V3, value: i64) -> Self {
+        Self(simd, [simd.avx._mm256_set1_epi64x(value); 2])
+    }
+
+    /// With zeros.
+    #[inline(always)]
+    fn right_unsigned(self, by: u32) -> Self {
+        let by = Self::all(self.0, by.into());
+        halves!(self, by, _mm256_srlv_epi64)
+    }
+
+    /// Products of the lower halves of lanes, unsigned.
+    #[inline(always)]
+    fn mul_low(self, other: Self) -> Self {
+        halves!(self, other, _mm256_mul_epu32)
+    }
+
+    #[inline(always)]
+    fn equal(self, other: Self) -> Masks {
+        halves!(self, other, _mm256_cmpeq_epi64).masks()
+    }
+
+    /// Lanes of ones or zeros, narrowed.
+    #[inline(always)]
+    fn masks(self) -> Masks {
+        Masks(self.0, self.0.narrow(self).1)
+    }
+
+    #[inline(always)]
+    fn doubles(self) -> [__m256d; 2] {
+        // Exponents are put around integers, and the bit that stands for them is subtracted.
+        let (avx, power) = (self.0.avx, Self::all(self.0, POWER));
+        let Self(_, [low, high]) = self.xor(power);
+        let power = avx._mm256_castsi256_pd(power.1[0]);
+        [
+            avx._mm256_sub_pd(avx._mm256_castsi256_pd(low), power),
+            avx._mm256_sub_pd(avx._mm256_castsi256_pd(high), power),
+        ]
+    }
+
+    /// The floors of numbers in 0 .. 2^52.
+    #[inline(always)]
+    fn floors(simd: V3, [low, high]: [__m256d; 2]) -> Self {
+        let (avx, power) = (simd.avx, Self::all(simd, POWER));
+        let one = avx._mm256_castsi256_pd(power.1[0]);
+        let low = avx._mm256_add_pd(avx._mm256_floor_pd(low), one);
+        let high = avx._mm256_add_pd(avx._mm256_floor_pd(high), one);
+        let both = [avx._mm256_castpd_si256(low), avx._mm256_castpd_si256(high)];
+        Self(simd, both).xor(power)
+    }
+}
+
+/// 2^52, as an `f64`'s bits: what added to a smaller integer leaves this in the lowest bits.
+const POWER: i64 = 0x4330_0000_0000_0000;
+
+impl Integers<Masks> for Longs {
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        halves!(self, other, _mm256_add_epi64)
+    }
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        halves!(self, other, _mm256_sub_epi64)
+    }
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        let crossed = self.right_unsigned(32).mul_low(other);
+        let crossed = crossed.add(self.mul_low(other.right_unsigned(32)));
+        self.mul_low(other).add(crossed.left(32))
+    }
+    #[inline(always)]
+    fn xor(self, other: Self) -> Self {
+        halves!(self, other, _mm256_xor_si256)
+    }
+    #[inline(always)]
+    fn left(self, by: u32) -> Self {
+        let by = Self::all(self.0, by.into());
+        halves!(self, by, _mm256_sllv_epi64)
+    }
+    #[inline(always)]
+    fn right(self, by: u32) -> Self {
+        // No instruction copies the sign: what it is worth where it has come to is subtracted.
+        let sign = Self::all(self.0, (1_u64 << (63 - by)).cast_signed());
+        self.right_unsigned(by).xor(sign).sub(sign)
+    }
+    #[inline(always)]
+    fn lowest(self, bits: u32) -> Self {
+        let bits = Self::all(self.0, (u64::MAX >> (64 - bits)).cast_signed());
+        halves!(self, bits, _mm256_and_si256)
+    }
+    #[inline(always)]
+    fn less(self, other: Self) -> Masks {
+        halves!(other, self, _mm256_cmpgt_epi64).masks()
+    }
+    #[inline(always)]
+    fn has(self, bits: i64) -> Masks {
+        let mask = Self::all(self.0, bits);
+        let set = halves!(self, mask, _mm256_and_si256);
+        if bits.cast_unsigned().is_power_of_two() {
+            return set.equal(mask);
+        }
+        set.equal(Self::all(self.0, 0)).not()
+    }
+    #[inline(always)]
+    fn choose(self, when: Masks, other: Self) -> Self {
+        let avx2 = self.0.avx2;
+        let Self(_, when) = self.0.widen(Ints(when.0, when.1));
+        let low = avx2._mm256_blendv_epi8(other.1[0], self.1[0], when[0]);
+        let high = avx2._mm256_blendv_epi8(other.1[1], self.1[1], when[1]);
+        Self(self.0, [low, high])
+    }
+}
+
+/// The odd lanes, in the even ones' places.
+const ODD: i32 = 0b11_11_01_01;
+
+/// Both halves' lanes, changed one by one beside those of another vector: for what no instruction
+/// does.
+macro_rules! lane_by_lane {
+    ($simd:expr, $a:expr, $b:expr, $change:ident $(, $more:expr)?) => {{
+        let mut lanes: [i64; 8] = pulp::cast($a.1);
+        let beside: [i64; 8] = pulp::cast($b.1);
+        scalar::$change(&mut lanes, &beside $(, $more)?);
+        Longs($simd, pulp::cast(lanes))
+    }};
+}
+
+/// Eight entries, by the index's lowest 3 bits.
+#[inline(always)]
+fn eight(table: &[i32; 8], index: Ints) -> Ints {
+    let avx2 = index.0.avx2;
+    let table = pulp::cast(*table);
+    Ints(index.0, avx2._mm256_permutevar8x32_epi32(table, index.1))
+}
+
+/// One of two, by a bit of the index.
+#[inline(always)]
+fn either(low: Ints, high: Ints, index: Ints, bit: u32) -> Ints {
+    // The choice looks at signs alone.
+    let avx = index.0.avx;
+    let [low, high] = [
+        avx._mm256_castsi256_ps(low.1),
+        avx._mm256_castsi256_ps(high.1),
+    ];
+    let by = avx._mm256_castsi256_ps(index.left(31 - bit).1);
+    let chosen = avx._mm256_blendv_ps(low, high, by);
+    Ints(index.0, avx._mm256_castps_si256(chosen))
+}
+
+impl Vectors for V3 {
+    const LANES: usize = 8;
+    type Truths = Masks;
+    type Ints = Ints;
+    type Longs = Longs;
+
+    #[inline(always)]
+    fn truths(self, all: bool) -> Masks {
+        Masks(self, Ints::all(self, -i32::from(all)).1)
+    }
+    #[inline(always)]
+    fn ints(self, all: i32) -> Ints {
+        Ints::all(self, all)
+    }
+    #[inline(always)]
+    fn longs(self, all: i64) -> Longs {
+        Longs::all(self, all)
+    }
+    #[inline(always)]
+    fn from(self, first: u64) -> Longs {
+        let all = Longs::all(self, first.cast_signed());
+        let places: [i64; 8] = [0, 1, 2, 3, 4, 5, 6, 7];
+        all.add(Longs(self, pulp::cast(places)))
+    }
+
+    #[inline(always)]
+    fn widen(self, a: Ints) -> Longs {
+        let low = self.avx._mm256_castsi256_si128(a.1);
+        let high = self.avx2._mm256_extracti128_si256::<1>(a.1);
+        let low = self.avx2._mm256_cvtepi32_epi64(low);
+        Longs(self, [low, self.avx2._mm256_cvtepi32_epi64(high)])
+    }
+    #[inline(always)]
+    fn narrow(self, a: Longs) -> Ints {
+        let avx = self.avx;
+        // The even lanes of both, quarter by quarter; then the quarters in order.
+        let low = avx._mm256_castsi256_ps(a.1[0]);
+        let high = avx._mm256_castsi256_ps(a.1[1]);
+        let even = avx._mm256_shuffle_ps::<0b10_00_10_00>(low, high);
+        let even = avx._mm256_castps_si256(even);
+        Ints(
+            self,
+            self.avx2._mm256_permute4x64_epi64::<0b11_01_10_00>(even),
+        )
+    }
+
+    #[inline(always)]
+    fn product_above(self, a: Ints, b: Ints, drop: u32) -> Ints {
+        let avx2 = self.avx2;
+        let even = avx2._mm256_mul_epi32(a.1, b.1);
+        let a = avx2._mm256_shuffle_epi32::<ODD>(a.1);
+        let b = avx2._mm256_shuffle_epi32::<ODD>(b.1);
+        let odd = avx2._mm256_mul_epi32(a, b);
+        // Into the lower half of each pair of lanes, and into the upper.
+        let (even, odd) = if drop < 32 {
+            let up = self.avx._mm256_set1_epi64x((32 - drop).into());
+            let down = self.avx._mm256_set1_epi64x(drop.into());
+            (
+                avx2._mm256_srlv_epi64(even, down),
+                avx2._mm256_sllv_epi64(odd, up),
+            )
+        } else {
+            let upper = Ints(self, avx2._mm256_shuffle_epi32::<ODD>(even));
+            let rest = drop - 32;
+            (upper.right(rest).1, Ints(self, odd).right(rest).1)
+        };
+        Ints(self, avx2._mm256_blend_epi32::<0b1010_1010>(even, odd))
+    }
+    #[inline(always)]
+    fn product(self, a: Ints, b: Ints) -> Longs {
+        let (Longs(_, a), Longs(_, b)) = (self.widen(a), self.widen(b));
+        let low = self.avx2._mm256_mul_epi32(a[0], b[0]);
+        Longs(self, [low, self.avx2._mm256_mul_epi32(a[1], b[1])])
+    }
+
+    #[inline(always)]
+    fn product_of_longs(self, a: Longs, b: Longs, drop: u32) -> Longs {
+        lane_by_lane!(self, a, b, products, drop)
+    }
+
+    #[inline(always)]
+    fn quotient_single(self, a: Ints, b: Ints, up: u32) -> Ints {
+        let avx = self.avx;
+        let power = avx._mm256_set1_ps(f32::from_bits((127 + up) << 23));
+        let a = avx._mm256_mul_ps(avx._mm256_cvtepi32_ps(a.1), power);
+        let quotient = avx._mm256_div_ps(a, avx._mm256_cvtepi32_ps(b.1));
+        Ints(self, avx._mm256_cvttps_epi32(quotient))
+    }
+    #[inline(always)]
+    fn quotient_double(self, a: Longs, b: Longs) -> Longs {
+        let ([low, high], [by_low, by_high]) = (a.doubles(), b.doubles());
+        let low = self.avx._mm256_div_pd(low, by_low);
+        Longs::floors(self, [low, self.avx._mm256_div_pd(high, by_high)])
+    }
+    #[inline(always)]
+    fn quotient_of_longs(self, a: Longs, b: Longs) -> Longs {
+        lane_by_lane!(self, a, b, quotients)
+    }
+    #[inline(always)]
+    fn root_single(self, a: Ints) -> Ints {
+        let avx = self.avx;
+        let root = avx._mm256_sqrt_ps(avx._mm256_cvtepi32_ps(a.1));
+        Ints(self, avx._mm256_cvttps_epi32(root))
+    }
+    #[inline(always)]
+    fn root_double(self, a: Longs) -> Longs {
+        let [low, high] = a.doubles();
+        let low = self.avx._mm256_sqrt_pd(low);
+        Longs::floors(self, [low, self.avx._mm256_sqrt_pd(high)])
+    }
+    #[inline(always)]
+    fn root_of_longs(self, a: Longs) -> Longs {
+        lane_by_lane!(self, a, a, roots)
+    }
+
+    #[inline(always)]
+    fn table16(self, table: &[i32; 16], index: Ints) -> Ints {
+        let [low, high]: [[i32; 8]; 2] = pulp::cast(*table);
+        either(eight(&low, index), eight(&high, index), index, 3)
+    }
+    #[inline(always)]
+    fn table32(self, table: &[i32; 32], index: Ints) -> Ints {
+        let [low, high]: [[i32; 16]; 2] = pulp::cast(*table);
+        let (low, high) = (self.table16(&low, index), self.table16(&high, index));
+        either(low, high, index, 4)
+    }
+    #[inline(always)]
+    fn table<const L: usize>(self, table: &[i32; L], index: Ints) -> Ints {
+        let index: [u32; 8] = pulp::cast(index.1);
+        Ints(self, pulp::cast(entries(table, index)))
+    }
+    #[inline(always)]
+    fn wide_table<const L: usize>(self, table: &[i64; L], index: Ints) -> Longs {
+        let index: [u32; 8] = pulp::cast(index.1);
+        Longs(self, pulp::cast(entries(table, index)))
+    }
+    #[inline(always)]
+    fn marks(self, table: u32, index: Ints) -> Masks {
+        let table = Ints::all(self, table.cast_signed());
+        Ints(self, self.avx2._mm256_srlv_epi32(table.1, index.1)).has(1)
+    }
+
+    #[inline(always)]
+    fn store(self, a: Longs, lanes: &mut [i64]) {
+        let all: [i64; 8] = pulp::cast(a.1);
+        match lanes.first_chunk_mut::<8>() {
+            Some(lanes) => *lanes = all,
+            None => lanes.copy_from_slice(&all[..lanes.len()]),
+        }
+    }
+}
