@@ -92,6 +92,7 @@ impl Scope {
         }
     }
 
+    #[cfg_attr(test, track_caller)]
     fn not_a_bit(&mut self, expression: &Expr) -> Option<Bit> {
         // What is wrong within the expression is more to the point.
         let before = self.problems.count();

@@ -220,7 +220,7 @@ impl Scope {
         }
         self.something_left(&aligned, &number)?;
         if !number.is_product() {
-            self.operand(&number)?;
+            self.check_operand(&number)?;
         }
         Some(cut(number, &below, asked.wrapping.then_some(width)))
     }

@@ -140,12 +140,12 @@ impl Scope {
             }
             BinOp::Shl(_) => {
                 let number = self.number(&binary.left)?;
-                let by = self.constant(&binary.right, "how far is shifted")?;
+                let by = self.must_be_known(&binary.right, "how far is shifted")?;
                 Some(shifted(number, by, source))
             }
             BinOp::Shr(_) => {
                 let number = self.number(&binary.left)?;
-                let by = self.constant(&binary.right, "how far is shifted")?;
+                let by = self.must_be_known(&binary.right, "how far is shifted")?;
                 self.shifted_down(number, by, source)
             }
             operator => {
@@ -209,8 +209,8 @@ impl Scope {
         } else {
             (a, b)
         };
-        self.operand(&a)?;
-        self.operand(&b)?;
+        self.check_operand(&a)?;
+        self.check_operand(&b)?;
         if let Constant(factor) = a.kind {
             return self.multiple(factor, &a, b, source);
         }
@@ -388,10 +388,12 @@ impl Scope {
     }
 
     /// Complains about what is too long to be read by an operation.
-    pub(super) fn operand(&mut self, number: &Number) -> Option<()> {
+    #[cfg_attr(test, track_caller)]
+    pub(super) fn check_operand(&mut self, number: &Number) -> Option<()> {
         self.check_bits(&number.size.width.clone(), &number.source)
     }
 
+    #[cfg_attr(test, track_caller)]
     pub(super) fn check_bits(&mut self, width: &Dim, source: &TokenStream) -> Option<()> {
         let message = "QRT0829: a number of more than 63 bits";
         let fits = |part: &Linear| Linear::from(63).minus(part);

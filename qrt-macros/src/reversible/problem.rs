@@ -12,13 +12,19 @@ pub(super) struct Problems {
 
 impl Problems {
     /// Adds one. `place` is underlined.
+    #[cfg_attr(test, track_caller)]
     pub(super) fn add(&mut self, code: &str, place: impl ToTokens, message: &str, help: &str) {
+        #[cfg(test)]
+        crate::tests::checks::reached(std::panic::Location::caller(), code, message);
         let message = format!("{message} [{code}]\n  = help: {help}");
         self.found.push(syn::Error::new_spanned(place, message));
     }
 
     /// Adds an error of the parser's.
+    #[cfg_attr(test, track_caller)]
     pub(super) fn raw(&mut self, error: syn::Error) {
+        #[cfg(test)]
+        crate::tests::checks::reached(std::panic::Location::caller(), "", &error.to_string());
         self.found.push(error);
     }
 

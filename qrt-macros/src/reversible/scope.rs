@@ -62,7 +62,8 @@ impl Scope {
     }
 
     /// Complains if a name can't be given to something new.
-    pub(super) fn take(&mut self, name: &Ident) {
+    #[cfg_attr(test, track_caller)]
+    pub(super) fn check_free(&mut self, name: &Ident) {
         if self.is_number(name) || self.registers.iter().any(|register| register.name == *name) {
             let message = format!("the name `{name}` is taken");
             let help =
@@ -98,7 +99,8 @@ impl Scope {
     }
 
     /// As [`Scope::linear`], and if it is none, says that `what` must be one.
-    pub(super) fn constant(&mut self, expression: &Expr, what: &str) -> Option<Linear> {
+    #[cfg_attr(test, track_caller)]
+    pub(super) fn must_be_known(&mut self, expression: &Expr, what: &str) -> Option<Linear> {
         let read = self.linear(expression);
         if read.is_none() {
             let message = format!("{what} must be known where the routine is compiled");
@@ -117,11 +119,11 @@ impl Scope {
     ) -> Option<[Linear; 2]> {
         let what = "the bounds of a range";
         let first = match &range.start {
-            Some(start) => self.constant(start, what)?,
+            Some(start) => self.must_be_known(start, what)?,
             None => 0.into(),
         };
         let last = match &range.end {
-            Some(end) => self.constant(end, what)?,
+            Some(end) => self.must_be_known(end, what)?,
             None => return Some([first, end?.clone()]),
         };
         Some(match range.limits {
@@ -227,7 +229,7 @@ impl Scope {
         let [first, end] = if let Expr::Range(range) = index {
             self.range(range, Some(width))?
         } else {
-            let bit = self.constant(index, "the place of a bit")?;
+            let bit = self.must_be_known(index, "the place of a bit")?;
             let end = bit.plus(&1.into());
             [bit, end]
         };

@@ -174,21 +174,11 @@ fn parameter(input: &FnArg, constants: &[Ident], problems: &mut Problems) -> Opt
 
 /// The format that a type is.
 pub(super) fn format(ty: &Type, constants: &[Ident], problems: &mut Problems) -> Option<Format> {
-    let unknown = |problems: &mut Problems| {
-        let shown = type_text(ty);
-        problems.add(
-            codes::REV_FORMAT_NAME,
-            ty,
-            &format!("`{shown}` is not the format of a register"),
-            "choose `UInt<W>`, `Int<W>`, `Fixed<I, F>`, `UFixed<I, F>` or `Bool`",
-        );
-        None
-    };
     let Type::Path(path) = ty else {
-        return unknown(problems);
+        return no_format(ty, problems);
     };
     let Some(last) = path.path.segments.last() else {
-        return unknown(problems);
+        return no_format(ty, problems);
     };
     let sizes: Vec<&GenericArgument> = match &last.arguments {
         PathArguments::AngleBracketed(arguments) => arguments.args.iter().collect(),
@@ -210,7 +200,7 @@ pub(super) fn format(ty: &Type, constants: &[Ident], problems: &mut Problems) ->
         ("Int", [width]) => (Kind::Int, width.clone(), 0.into()),
         ("UFixed", [whole, part]) => (Kind::UFixed, whole.plus(part), part.clone()),
         ("Fixed", [whole, part]) => (Kind::Fixed, whole.plus(part), part.clone()),
-        _ => return unknown(problems),
+        _ => return no_format(ty, problems),
     };
     if width
         .known()
@@ -225,6 +215,19 @@ pub(super) fn format(ty: &Type, constants: &[Ident], problems: &mut Problems) ->
         width,
         fraction,
     })
+}
+
+/// Complains about a type.
+#[cfg_attr(test, track_caller)]
+fn no_format<T>(ty: &Type, problems: &mut Problems) -> Option<T> {
+    let shown = type_text(ty);
+    problems.add(
+        codes::REV_FORMAT_NAME,
+        ty,
+        &format!("`{shown}` is not the format of a register"),
+        "choose `UInt<W>`, `Int<W>`, `Fixed<I, F>`, `UFixed<I, F>` or `Bool`",
+    );
+    None
 }
 
 fn bits(size: &GenericArgument, constants: &[Ident]) -> Option<Linear> {

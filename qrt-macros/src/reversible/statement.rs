@@ -55,40 +55,29 @@ impl Scope {
     }
 
     fn scratch(&mut self, local: &Local) -> Option<Register> {
-        let help = "write `let mut t: UInt<8> = 0;`";
-        let mut wrong = |place: TokenStream, message: &str| {
-            self.problems.add(codes::REV_SCRATCH, place, message, help);
-            None
-        };
         let Pat::Type(typed) = &local.pat else {
-            return wrong(
-                local.pat.to_token_stream(),
-                "a scratch register needs a format",
-            );
+            return self.no_scratch(&local.pat, "a scratch register needs a format");
         };
         let Pat::Ident(name) = &*typed.pat else {
-            return wrong(
-                typed.pat.to_token_stream(),
-                "a scratch register needs a name",
-            );
+            return self.no_scratch(&typed.pat, "a scratch register needs a name");
         };
         let Some(init) = &local.init else {
-            return wrong(quote!(#local), "a scratch register begins as 0");
+            return self.no_scratch(local, "a scratch register begins as 0");
         };
         let value = &init.expr;
         let zero = super::scope::integer(value) == Some(0)
             || matches!(&**value, Expr::Lit(lit) if quote!(#lit).to_string() == "false");
         if !zero || init.diverge.is_some() {
-            return wrong(quote!(#value), "a scratch register begins as 0");
+            return self.no_scratch(value, "a scratch register begins as 0");
         }
         if name.mutability.is_none() {
-            return wrong(quote!(#name), "a scratch register is there to be changed");
+            return self.no_scratch(name, "a scratch register is there to be changed");
         }
         let name = name.ident.clone();
         if let Some(attribute) = local.attrs.first() {
             self.no_attribute(attribute);
         }
-        self.take(&name);
+        self.check_free(&name);
         let constants = self.constants.clone();
         let format = signature::format(&typed.ty, &constants, &mut self.problems)?;
         Some(Register {
@@ -98,6 +87,14 @@ impl Scope {
             parameter: false,
             mutable: true,
         })
+    }
+
+    /// Complains about a declaration.
+    #[cfg_attr(test, track_caller)]
+    fn no_scratch<T>(&mut self, place: impl ToTokens, message: &str) -> Option<T> {
+        let help = "write `let mut t: UInt<8> = 0;`";
+        self.problems.add(codes::REV_SCRATCH, place, message, help);
+        None
     }
 
     /// `within! { .. } apply! { .. }`, and how many of the statements after the first it takes.
@@ -171,6 +168,7 @@ impl Scope {
         Some(Statement { kind, source })
     }
 
+    #[cfg_attr(test, track_caller)]
     fn no_attribute(&mut self, attribute: impl ToTokens) {
         let message = "an attribute of a statement";
         let help = "put attributes on the function";
@@ -311,6 +309,7 @@ impl Scope {
             .add(codes::REV_OPERATOR, operator, &message, &help);
     }
 
+    #[cfg_attr(test, track_caller)]
     pub(super) fn may_change(&mut self, target: &Place, source: impl ToTokens) {
         if !target.register.mutable {
             let name = &target.register.name;
@@ -389,7 +388,7 @@ impl Scope {
             return None;
         };
         if variable != "_" {
-            self.take(&variable);
+            self.check_free(&variable);
         }
         self.loops.push((variable.clone(), bounds.clone()));
         let body = self.block(&turns.body);

@@ -257,6 +257,7 @@ impl Body {
     }
 
     /// Reports that an entry is not in its form.
+    #[cfg_attr(test, track_caller)]
     pub(super) fn form(&mut self, place: Span, message: impl Into<String>, key: &str) {
         let fault = self.reader.faults.add(codes::MACRO_FORM, place, message);
         fault.help(format!("write `{}`", example(key).unwrap_or(key)));

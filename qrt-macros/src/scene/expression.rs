@@ -114,6 +114,7 @@ impl Expression {
 }
 
 /// Whether a number is without a suffix; reports one.
+#[cfg_attr(test, track_caller)]
 fn is_bare(token: &Token, digits: &str, suffix: &str, faults: &mut Faults) -> bool {
     if suffix.is_empty() {
         return true;

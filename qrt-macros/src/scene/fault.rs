@@ -92,17 +92,21 @@ pub(crate) struct Faults(Vec<Fault>);
 
 impl Faults {
     /// Adds one, to be described further.
+    #[cfg_attr(test, track_caller)]
     pub(crate) fn add(
         &mut self,
         code: &'static str,
         place: tree::Span,
         message: impl Into<String>,
     ) -> &mut Fault {
+        let message = message.into();
+        #[cfg(test)]
+        crate::tests::checks::reached(std::panic::Location::caller(), code, &message);
         let index = self.0.len();
         self.0.push(Fault {
             code,
             place,
-            message: message.into(),
+            message,
             notes: Vec::new(),
             also: None,
             help: None,

@@ -112,6 +112,7 @@ impl<'t> Input<'t> {
     }
 
     /// Reports what stands here in place of `expected`, and goes on behind the next braces.
+    #[cfg_attr(test, track_caller)]
     fn fail<T>(&mut self, code: &'static str, expected: &str) -> Option<T> {
         let last = self.tokens.last().map(Token::place).unwrap_or_default();
         let (place, found) = match self.peek() {

@@ -5,6 +5,7 @@ use super::expression::value;
 use super::tokens::{Kind, Token, place_of};
 use proc_macro2::Delimiter;
 use qrt_core::codes;
+use qrt_core::front::tree::Span;
 
 /// Passes that all loops of a scene take together.
 pub(crate) const MAX_PASSES: usize = 100_000;
@@ -24,12 +25,6 @@ impl Body {
         let own = &tokens[at..end];
         let place = place_of(own).unwrap_or_default();
         let ender = tokens.get(end);
-        let mut wrong = |place, message: String, help: &str| {
-            self.reader
-                .faults
-                .add(codes::MACRO_CONSTANT, place, message)
-                .help(help);
-        };
         let name = own.get(1).filter(|token| token.word().is_some());
         let mut number = None;
         match own {
@@ -43,7 +38,7 @@ impl Body {
                 if ender.is_none_or(|ender| !ender.is_sign(';')) {
                     let last = ender.filter(|token| stop(token)).or(tokens.last());
                     let last = last.map_or(place, Token::place);
-                    wrong(last, "a constant ends in `;`".to_owned(), "write `;` here");
+                    self.not_a_constant(last, "a constant ends in `;`", "write `;` here");
                 }
                 let reader = &mut self.reader;
                 number = value(tokens, &reader.names, &reader.later, &mut reader.faults);
@@ -52,20 +47,20 @@ impl Body {
                 if name.word().is_some() && colon.is_sign(':') && !kind.is_word("f64") =>
             {
                 let message = format!("a constant is an `f64`, not {}", kind.found());
-                wrong(kind.place(), message, "all numbers of a scene are `f64`");
+                self.not_a_constant(kind.place(), message, "all numbers of a scene are `f64`");
             }
             [_, name, equals, ..] if name.word().is_some() && equals.is_sign('=') => {
                 let text = name.word().unwrap_or_default();
                 let message = format!("the constant `{text}` has no type");
-                wrong(
+                self.not_a_constant(
                     name.place(),
                     message,
                     &format!("write `const {text}: f64 = ...;`"),
                 );
             }
-            _ => wrong(
+            _ => self.not_a_constant(
                 place,
-                "this is not a constant".to_owned(),
+                "this is not a constant",
                 "write `const NAME: f64 = 1.0;`",
             ),
         }
@@ -74,6 +69,14 @@ impl Body {
             reader.names.define(name, number, false, &mut reader.faults);
         }
         end + usize::from(ender.is_some_and(stop))
+    }
+
+    #[cfg_attr(test, track_caller)]
+    fn not_a_constant(&mut self, place: Span, message: impl Into<String>, help: &str) {
+        self.reader
+            .faults
+            .add(codes::MACRO_CONSTANT, place, message)
+            .help(help);
     }
 
     /// `for i in 0..4 { ... }`, from the token `at`; where it ends.
@@ -100,6 +103,7 @@ impl Body {
         end + 1
     }
 
+    #[cfg_attr(test, track_caller)]
     fn not_a_loop(&mut self, header: &[Token], message: &str) {
         let place = place_of(header).unwrap_or_default();
         self.reader

@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::format_push_string)]
 
+pub(crate) mod checks;
 mod grammar;
 mod twins;
 mod writer;

@@ -188,7 +188,7 @@ impl<'a> Meaning<'a> {
     ) -> Option<()> {
         let register = &place.register;
         if place.part.is_some() || register.format.kind == Kind::Bool {
-            return self.bits(source);
+            return self.no_number(source);
         }
         let mut values = Vec::new();
         for (update, term) in terms {
@@ -199,7 +199,7 @@ impl<'a> Meaning<'a> {
                 return self.meaningless(source, &message, &help);
             }
             let Term::Number(number) = term else {
-                return self.bits(source);
+                return self.no_number(source);
             };
             let value = self.number(number)?;
             if value.error != Interval::point(0.0) && !register.format.fixed() {
@@ -256,6 +256,7 @@ impl<'a> Meaning<'a> {
         None
     }
 
+    #[cfg_attr(test, track_caller)]
     fn too_long(&mut self, name: &Ident, source: &TokenStream) -> Option<()> {
         let message = format!("`{name}` becomes too long an expression");
         let help = "compute it from shorter sums, or in fewer branches";
@@ -279,6 +280,7 @@ impl<'a> Meaning<'a> {
     }
 
     /// Complains about what has no meaning for numbers.
+    #[cfg_attr(test, track_caller)]
     pub(super) fn meaningless<T>(
         &mut self,
         source: &TokenStream,
@@ -290,6 +292,7 @@ impl<'a> Meaning<'a> {
     }
 
     /// Adds a problem, unless another pass or branch has.
+    #[cfg_attr(test, track_caller)]
     fn say(&mut self, code: &str, source: &TokenStream, message: &str, help: &str) {
         if self.said.insert(format!("{code} {source} {message}")) {
             self.problems.add(code, source, message, help);

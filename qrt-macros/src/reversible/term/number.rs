@@ -26,7 +26,7 @@ impl Meaning<'_> {
                 let width = number.size.width.known();
                 let whole = first.is_zero() && width == register.format.width.known();
                 if !whole || register.format.kind == Kind::Bool {
-                    return self.bits(&number.source);
+                    return self.no_number(&number.source);
                 }
                 self.word(register)
             }
@@ -153,7 +153,7 @@ impl Meaning<'_> {
                 paths.extend(self.both((a, false), (b, holds), source)?);
                 paths
             }
-            Bit::At(..) => return self.bits(source),
+            Bit::At(..) => return self.no_number(source),
             Bit::Equal(..) => {
                 let shown = text(source);
                 let message = format!("`{shown}`: numbers are equal in single points only");
@@ -185,7 +185,8 @@ impl Meaning<'_> {
     }
 
     /// Complains about bits.
-    pub(super) fn bits<T>(&mut self, source: &TokenStream) -> Option<T> {
+    #[cfg_attr(test, track_caller)]
+    pub(super) fn no_number<T>(&mut self, source: &TokenStream) -> Option<T> {
         let shown = text(source);
         let message = format!("`{shown}` is read or changed as bits, which are no numbers");
         let help = "compare numbers, as in `cos_i < 0.5`, and add and multiply whole registers";
