@@ -24,7 +24,7 @@ mod value;
 
 use ir::Routine;
 use problem::Problems;
-use proc_macro2::{Span, TokenStream};
+use proc_macro2::{Delimiter, Group, Span, TokenStream, TokenTree};
 use qrt_core::codes;
 use scope::Scope;
 use track::Tracker;
@@ -53,11 +53,12 @@ fn expanded(arguments: &TokenStream, item: TokenStream) -> (TokenStream, Problem
         }
         Err(error) => {
             problems.raw(error);
-            return (item, problems);
+            return (without_body(item), problems);
         }
     };
     let tokens = match understood(&function, &mut problems) {
         Some(routine) => emit::routine(&routine),
+        None if function.sig.receiver().is_some() => without_body(item),
         None => emit::unfinished(&signature::read(&function, &mut Problems::default())),
     };
     (tokens, problems)
@@ -90,9 +91,20 @@ fn understood(function: &syn::ItemFn, problems: &mut Problems) -> Option<Routine
     })
 }
 
+/// A function as it was written, but for its body: whoever calls it sees no more errors.
+fn without_body(item: TokenStream) -> TokenStream {
+    let mut trees: Vec<TokenTree> = item.into_iter().collect();
+    if let Some(TokenTree::Group(body)) = trees.last_mut()
+        && body.delimiter() == Delimiter::Brace
+    {
+        *body = Group::new(Delimiter::Brace, quote::quote!(::core::unreachable!()));
+    }
+    quote::quote!(#[allow(unused, reason = "its body is wrong")] #(#trees)*)
+}
+
 /// The keyword that an item begins with, which is enough to be underlined.
 fn first(item: &syn::Item) -> TokenStream {
     let tokens = quote::quote!(#item).into_iter();
-    let keyword = tokens.skip_while(|token| !matches!(token, proc_macro2::TokenTree::Ident(_)));
+    let keyword = tokens.skip_while(|token| !matches!(token, TokenTree::Ident(_)));
     keyword.take(1).collect()
 }

@@ -140,12 +140,12 @@ impl Scope {
             }
             BinOp::Shl(_) => {
                 let number = self.number(&binary.left)?;
-                let by = self.must_be_known(&binary.right, "how far is shifted")?;
+                let by = self.must_be_known(&binary.right, "the distance of a shift")?;
                 Some(shifted(number, by, source))
             }
             BinOp::Shr(_) => {
                 let number = self.number(&binary.left)?;
-                let by = self.must_be_known(&binary.right, "how far is shifted")?;
+                let by = self.must_be_known(&binary.right, "the distance of a shift")?;
                 self.shifted_down(number, by, source)
             }
             operator => {
@@ -199,7 +199,10 @@ impl Scope {
         if let (Constant(x), Constant(y)) = (&a.kind, &b.kind) {
             let fraction = a.size.fraction.plus(&b.size.fraction).known();
             let (Some(units), Some(fraction)) = (x.checked_mul(*y), fraction) else {
-                self.check_bits(&64.into(), &source);
+                let message = format!("`{}` has more bits than a register can", text(&source));
+                let help = "write smaller constants";
+                self.problems
+                    .add(codes::REV_CONSTANT, &source, &message, help);
                 return None;
             };
             return Some(constant(units, fraction as u32, source));
@@ -253,7 +256,7 @@ impl Scope {
                 ..positive
             };
             if factor == 0 {
-                let message = "a product with 0 is nothing";
+                let message = "a product with 0 is always 0";
                 self.problems
                     .add(codes::REV_CONSTANT, &source, message, "remove it");
                 return None;
@@ -381,8 +384,8 @@ impl Scope {
             self.holds(&holding.minus(held), message);
             return Some(holding.clone());
         }
-        let message = format!("whether {a} or {b} fraction bits are more is not known here");
-        let help = "give the two one number of fraction bits";
+        let message = format!("whether `{a}` or `{b}` fraction bits are more is not known here");
+        let help = "give both as many fraction bits, by one constant";
         self.problems.add(codes::REV_FORMAT, source, &message, help);
         None
     }

@@ -198,8 +198,8 @@ impl Scope {
             Expr::Index(index) => {
                 let whole = self.place(&index.expr)?;
                 if whole.part.is_some() {
-                    let message = "bits of bits";
-                    let help = "name the register's bits at once";
+                    let message = "these are bits of bits";
+                    let help = "count from the register's first bit, in one pair of brackets";
                     self.problems
                         .add(codes::REV_INDEX, &index.index, message, help);
                     return None;

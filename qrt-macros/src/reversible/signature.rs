@@ -71,6 +71,8 @@ pub(super) fn read(function: &ItemFn, problems: &mut Problems) -> Signature {
                 &message,
                 "choose another name",
             );
+            broken.push(register.name);
+            continue;
         }
         // Two parameters of one name are rustc's to report.
         parameters.push(Rc::new(register));
@@ -147,7 +149,11 @@ fn parameter(input: &FnArg, constants: &[Ident], problems: &mut Problems) -> Opt
         && let Some(mutability) = &pattern.mutability
     {
         let message = "whether a register may be changed is said in its type";
-        let help = format!("write `{name}: &mut ..`");
+        let shown = match &*input.ty {
+            Type::Reference(reference) => type_text(&reference.elem),
+            ty => type_text(ty),
+        };
+        let help = format!("write `{name}: &mut {shown}`");
         problems.add(codes::REV_PARAMETER, mutability, message, &help);
     }
     let Type::Reference(reference) = &*input.ty else {
@@ -174,10 +180,11 @@ fn parameter(input: &FnArg, constants: &[Ident], problems: &mut Problems) -> Opt
 
 /// The format that a type is.
 pub(super) fn format(ty: &Type, constants: &[Ident], problems: &mut Problems) -> Option<Format> {
-    let Type::Path(path) = ty else {
-        return no_format(ty, problems);
+    let last = match ty {
+        Type::Path(path) => path.path.segments.last(),
+        _ => None,
     };
-    let Some(last) = path.path.segments.last() else {
+    let Some(last) = last else {
         return no_format(ty, problems);
     };
     let sizes: Vec<&GenericArgument> = match &last.arguments {

@@ -43,7 +43,7 @@ impl Scope {
                     done.extend(paired);
                 }
                 Stmt::Item(item) => {
-                    let message = "an item inside a reversible function";
+                    let message = "an item cannot stand inside a reversible function";
                     let help = "write it outside";
                     self.problems.add(codes::REV_STATEMENT, item, message, help);
                 }
@@ -170,7 +170,7 @@ impl Scope {
 
     #[cfg_attr(test, track_caller)]
     fn no_attribute(&mut self, attribute: impl ToTokens) {
-        let message = "an attribute of a statement";
+        let message = "a reversible function's statements take no attributes";
         let help = "put attributes on the function";
         self.problems
             .add(codes::REV_STATEMENT, attribute, message, help);

@@ -4,7 +4,7 @@ use super::body::Body;
 use super::fault::{Faults, compile_error};
 use super::header::Header;
 use super::terms::{Asked, Terms};
-use super::tokens::{Kind, Table, Token, place_of};
+use super::tokens::{self, Kind, Table, Token, place_of};
 use super::values::{entry, scalar};
 use super::{Parsed, check, emit};
 use proc_macro2::{Delimiter, Ident, TokenStream, TokenTree};
@@ -116,7 +116,8 @@ impl<'t> Input<'t> {
     fn fail<T>(&mut self, code: &'static str, expected: &str) -> Option<T> {
         let last = self.tokens.last().map(Token::place).unwrap_or_default();
         let (place, found) = match self.peek() {
-            Some(token) => (token.place(), token.found()),
+            // Of a block, its opening bracket is enough.
+            Some(token) => (tokens::place(token.first, token.first), token.found()),
             None => (last, "the end".to_owned()),
         };
         let help = match code {

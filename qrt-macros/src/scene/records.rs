@@ -2,7 +2,7 @@
 
 use super::fault::Faults;
 use super::tokens::{Kind, Token, join, place_of};
-use super::values::{Reader, entry};
+use super::values::{Reader, entry, text};
 use qrt_core::codes;
 use qrt_core::front::tree::{Entry, Node, Span, Value};
 
@@ -24,6 +24,10 @@ impl Reader {
                         "the material stands before the braces",
                     )
                     .help("write `mesh: white { obj: \"mesh.obj\" }`");
+                if let Some(name) = rest.first().filter(|name| name.name().is_some()) {
+                    let material = text(name.name().unwrap_or_default(), name.place());
+                    entries.push(entry(key, at, material));
+                }
                 continue;
             }
             let value = self.value(name, key, at, rest);
@@ -98,7 +102,9 @@ impl Reader {
 /// The entries of a record; where two stand together, the missing comma is reported.
 fn fields<'t>(tokens: &'t [Token], faults: &mut Faults) -> Vec<&'t [Token]> {
     let mut fields = Vec::new();
+    let mut end = 0;
     for mut part in split_fields(tokens) {
+        end += part.len() + 1;
         // A colon behind the first belongs to another key.
         while let Some(at) = (2..part.len().saturating_sub(1)).find(|&at| {
             part[at].word().is_some()
@@ -120,14 +126,11 @@ fn fields<'t>(tokens: &'t [Token], faults: &mut Faults) -> Vec<&'t [Token]> {
             part = rest;
         }
         if part.is_empty() {
-            if let Some(place) = place_of(tokens) {
+            if let Some(comma) = tokens.get(end - 1) {
+                let message = "nothing stands before this comma";
                 faults
-                    .add(
-                        codes::MACRO_VALUE,
-                        place,
-                        "nothing stands between two commas",
-                    )
-                    .help("take one of the commas away");
+                    .add(codes::MACRO_COMMA, comma.place(), message)
+                    .help("take it away");
             }
             continue;
         }

@@ -58,26 +58,25 @@ impl Source {
         self.tokens.get(at).map_or("", |(text, _)| text)
     }
 
+    /// The tokens behind the first `from`.
+    fn texts(&self, from: usize) -> impl Iterator<Item = &str> {
+        self.tokens[from..].iter().map(|(text, _)| text.as_str())
+    }
+
     /// The functions whose reports are their callers': the name, where it stands, and where the
     /// body ends.
     fn reporters(&self) -> Vec<(&str, usize, usize)> {
-        let length = HANDED_ON.split(' ').count();
-        let marked = |at: &usize| {
-            HANDED_ON
-                .split(' ')
-                .zip(*at..)
-                .all(|(t, at)| self.token(at) == t)
-        };
+        let mark: Vec<&str> = HANDED_ON.split(' ').collect();
+        let marked = |at: &usize| self.texts(*at).take(mark.len()).eq(mark.iter().copied());
         let mut reporters = Vec::new();
         for at in (0..self.tokens.len()).filter(marked) {
-            let name = 1 + (at + length..).find(|&at| self.token(at) == "fn").unwrap();
+            let name = at + 1 + self.texts(at).position(|text| text == "fn").unwrap();
             let mut depth = 0;
-            let ends = |at: &usize| {
-                depth += i32::from(self.token(*at) == "{") - i32::from(self.token(*at) == "}");
-                depth == 0 && self.token(*at) == "}"
-            };
-            let end = (name..self.tokens.len()).find(ends).unwrap();
-            reporters.push((self.token(name), name, end));
+            let length = self.texts(name).position(|text| {
+                depth += i32::from(text == "{") - i32::from(text == "}");
+                depth == 0 && text == "}"
+            });
+            reporters.push((self.token(name), name, name + length.unwrap()));
         }
         reporters
     }

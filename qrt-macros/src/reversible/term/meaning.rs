@@ -4,7 +4,7 @@ use super::bounds;
 use super::content::{Content, Path, Value};
 use super::signature;
 use crate::reversible::ir::{
-    Kind, Place, Register, Signature, Statement, StatementKind as K, Term, Update, inverse,
+    Place, Register, Signature, Statement, StatementKind as K, Term, Update, inverse,
 };
 use crate::reversible::problem::Problems;
 use crate::reversible::scope::{text, type_text};
@@ -106,7 +106,8 @@ impl<'a> Meaning<'a> {
         }
         self.steps += 1;
         if self.steps == MAX_STEPS + 1 {
-            let message = format!("a term of more than {MAX_STEPS} statements, loops written out");
+            let message =
+                format!("this term has more than {MAX_STEPS} statements, loops written out");
             let help = "write fewer passes";
             self.problems
                 .add(codes::TERM_LENGTH, &self.name, &message, help);
@@ -187,20 +188,21 @@ impl<'a> Meaning<'a> {
         source: &TokenStream,
     ) -> Option<()> {
         let register = &place.register;
-        if place.part.is_some() || register.format.kind == Kind::Bool {
+        let numbers = terms.iter().map(|(update, term)| match term {
+            Term::Number(number) => Some((update, number)),
+            Term::Bit(..) => None,
+        });
+        let (None, Some(numbers)) = (&place.part, numbers.collect::<Option<Vec<_>>>()) else {
             return self.no_number(source);
-        }
+        };
         let mut values = Vec::new();
-        for (update, term) in terms {
+        for (update, number) in numbers {
             if *update == Update::Xor {
                 let shown = text(source);
                 let message = format!("`{shown}`: exclusive or has no meaning for numbers");
                 let help = format!("write `{} += ..`", register.name);
                 return self.meaningless(source, &message, &help);
             }
-            let Term::Number(number) = term else {
-                return self.no_number(source);
-            };
             let value = self.number(number)?;
             if value.error != Interval::point(0.0) && !register.format.fixed() {
                 let shown = text(&number.source);

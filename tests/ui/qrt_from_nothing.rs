@@ -1,0 +1,9 @@
+use qrt::prelude::*;
+
+qrt! {
+    pub scene Room from
+}
+
+fn main() {
+    Room::scene();
+}

@@ -1,0 +1,36 @@
+use qrt::prelude::*;
+
+#[reversible]
+fn glow(cos_i: &UFixed<1, 14>, out: &mut UFixed<4, 14>) {
+    let mut t: UFixed<0, 14> = 0;
+    within! {
+        for _ in 0..100 {
+            t += cos_i >> 7;
+        }
+    }
+    apply! {
+        for _ in 0..6 {
+            if cos_i < 0.5 {
+                out += t * cos_i;
+            } else {
+                out += t;
+            }
+        }
+    }
+}
+
+qrt! {
+    pub scene Room {
+        camera: perspective { eye: (0, 1, 5), target: (0, 1, 0), vfov: 40 },
+        film: 8 x 8,
+        material cloth: bsdf {
+            map: |u, v| (sqrt(u) * cos(2 * pi * v), sqrt(u) * sin(2 * pi * v), sqrt(1 - u)),
+            jacobian: auto,
+            value: fn glow,
+        },
+    }
+}
+
+fn main() {
+    Room::scene();
+}

@@ -1,0 +1,8 @@
+use qrt::prelude::*;
+
+#[reversible]
+fn exchange(a: &mut UInt<4>) {
+    swap(a);
+}
+
+fn main() {}
