@@ -172,7 +172,7 @@ impl Scope {
             ),
         };
         let name = match &target.part {
-            None => type_text(&target.register.ty),
+            None => format!("`{}`", type_text(&target.register.ty)),
             Some([_, bits]) => format!("{bits} bits of `{}`", target.register.name),
         };
         let Number { size, source, kind } = &number;

@@ -243,10 +243,8 @@ impl Scope {
             } else {
                 "an empty range of bits".to_owned()
             };
-            let help = match width.known() {
-                Some(width) => format!("its bits are {name}[0] to {name}[{}]", width - 1),
-                None => "count bits from 0".to_owned(),
-            };
+            let last = width.minus(&1.into());
+            let help = format!("its bits are `{name}[0]` to `{name}[{last}]`");
             self.problems.add(codes::REV_INDEX, index, &shown, &help);
             return None;
         }
@@ -298,13 +296,18 @@ pub(super) fn text(source: impl ToTokens) -> String {
         (" :: ", "::"),
         ("& ", "&"),
         ("- (", "-("),
+        ("* - ", "* -"),
+        ("(- ", "(-"),
         ("*(", "* ("),
         ("+(", "+ ("),
         ("-(", "- ("),
     ] {
         text = text.replace(from, to);
     }
-    text
+    match text.strip_prefix("- ") {
+        Some(number) => format!("-{number}"),
+        None => text,
+    }
 }
 
 /// A type, as it is usually written.

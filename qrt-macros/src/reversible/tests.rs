@@ -171,3 +171,113 @@ fn a_condition_may_read_bits_beside_those_that_change() {
         ["QRT0809"]
     );
 }
+
+#[test]
+fn what_constants_must_fulfil_is_asked_of_them() {
+    for (condition, message, item) in [
+        (
+            "V <= W",
+            "QRT0806: `a` has more bits than its target",
+            quote!(
+                fn f<const V: u32, const W: u32>(a: &UInt<V>, b: &mut UInt<W>) {
+                    b += a;
+                }
+            ),
+        ),
+        (
+            "21 <= F",
+            "QRT0806: nothing is left of a number that is rounded down",
+            quote!(
+                fn f<const F: u32>(a: &UFixed<0, F>, b: &mut UFixed<0, F>) {
+                    b += a >> 20;
+                }
+            ),
+        ),
+        (
+            "4 <= W",
+            "QRT0806: everything is shifted out",
+            quote!(
+                fn f<const W: u32>(a: &UInt<W>, b: &mut UInt<W>) {
+                    b += a >> 3;
+                }
+            ),
+        ),
+        (
+            "V <= W",
+            "QRT0807: registers of different formats are swapped",
+            quote!(
+                fn f<const V: u32, const W: u32>(a: &mut UInt<V>, b: &mut UInt<W>) {
+                    swap(a, b);
+                }
+            ),
+        ),
+        (
+            "W <= V",
+            "QRT0807: registers of different formats are swapped",
+            quote!(
+                fn f<const V: u32, const W: u32>(a: &mut UInt<V>, b: &mut UInt<W>) {
+                    swap(a, b);
+                }
+            ),
+        ),
+        (
+            "2 <= F",
+            "QRT0808: a constant has more fraction bits than its target",
+            quote!(
+                fn f<const F: u32>(a: &mut UFixed<1, F>) {
+                    a += 0.25;
+                }
+            ),
+        ),
+        (
+            "2 <= F",
+            "QRT0808: a constant has more fraction bits than what it is added to",
+            quote!(
+                fn f<const F: u32>(a: &UFixed<1, F>, b: &mut Bool) {
+                    b ^= a < 0.25;
+                }
+            ),
+        ),
+        (
+            "8 <= W",
+            "QRT0819: bits beyond the last of `a`",
+            quote!(
+                fn f<const W: u32>(a: &UInt<W>, b: &mut Bool) {
+                    b ^= a[7];
+                }
+            ),
+        ),
+        (
+            "V <= W",
+            "QRT0819: bits beyond the last of `a`",
+            quote!(
+                fn f<const V: u32, const W: u32>(a: &UInt<W>, b: &mut Bool) {
+                    b ^= a[W - V];
+                }
+            ),
+        ),
+        (
+            "3 <= W",
+            "QRT0819: an empty range of bits",
+            quote!(
+                fn f<const W: u32>(a: &UInt<W>, b: &mut UInt<W>) {
+                    b += a[2..W];
+                }
+            ),
+        ),
+        (
+            "W <= 43",
+            "QRT0829: a number of more than 63 bits",
+            quote!(
+                fn f<const W: u32>(a: &UInt<W>, b: &mut UInt<W>) {
+                    b += wrapping(a << 20);
+                }
+            ),
+        ),
+    ] {
+        let (tokens, problems) = expanded(&TokenStream::new(), item);
+        assert_eq!(problems.messages(), [""; 0]);
+        let demand = format!("const {{ :: core :: assert ! ({condition} , {message:?}) }}");
+        assert!(tokens.to_string().contains(&demand), "{demand}: {tokens}");
+    }
+}

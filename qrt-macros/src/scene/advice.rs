@@ -111,7 +111,15 @@ pub(crate) fn help(problem: &Problem) -> String {
             }
         }
         codes::UNKNOWN_MATERIAL if problem.help.as_deref().is_some_and(|h| h.contains("under")) => {
-            return format!("define it: `{}`", example("material").unwrap_or_default());
+            let name = message.split('`').nth(1).unwrap_or_default();
+            let is_word = syn::parse_str::<syn::Ident>(name).is_ok();
+            let name = if is_word {
+                name.to_owned()
+            } else {
+                format!("{name:?}")
+            };
+            let material = example("material").unwrap_or_default();
+            return format!("define it: `{}`", material.replace("white", &name));
         }
         codes::OBJ_UNREADABLE => {
             return "relative paths start at the folder of Cargo.toml".to_owned();

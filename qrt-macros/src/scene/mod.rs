@@ -28,6 +28,7 @@ pub(crate) use {input::Read, input::read, terms::Terms, tokens::Table};
 
 use body::Body;
 use header::Header;
+use qrt_core::codes;
 use qrt_core::front::tree::{Node, Span, Value};
 use qrt_core::front::{Files, Loaded, of_tree};
 use qrt_core::report::{Path, Problem, Step};
@@ -104,7 +105,7 @@ impl Parsed {
         let Written { tree, body } = written;
         let found = tree.resolve(&problem.path);
         let reader = &body.reader;
-        let is_missing = problem.code == qrt_core::codes::MISSING_KEY;
+        let is_missing = problem.code == codes::MISSING_KEY;
         if follows(tree, &problem.path)
             || is_missing && reader.incomplete.contains(&found.node.span)
         {
@@ -129,7 +130,10 @@ impl Parsed {
             _ => None,
         };
         let fault = faults.add(problem.code, found.span, advice::message(&problem));
-        if !problem.label.is_empty() && !is_missing {
+        // What is expected has been said.
+        let says_more =
+            !matches!(problem.code, codes::WRONG_TYPE | codes::WRONG_LENGTH) && !is_missing;
+        if !problem.label.is_empty() && says_more {
             fault.note(problem.label.clone());
         }
         if let Some((path, why)) = &problem.also {

@@ -141,7 +141,7 @@ impl Names {
             } else if let Some(near) = self.nearest(text).or_else(|| nearest(text, &functions)) {
                 format!("did you mean `{near}`?")
             } else {
-                format!("define it before: `const {}: f64 = 1.0;`", other(text))
+                format!("define it before: `const {text}: f64 = 1.0;`")
             };
             let place = place_of(std::slice::from_ref(token)).unwrap_or_default();
             faults

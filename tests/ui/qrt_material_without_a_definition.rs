@@ -1,0 +1,13 @@
+use qrt::prelude::*;
+
+qrt! {
+    pub scene Room {
+        camera: perspective { eye: (0, 1, 5), target: (0, 1, 0), vfov: 40 },
+        film: 8 x 8,
+        quad floor: velvet { (-1, 0, -1), (-1, 0, 1), (1, 0, 1), (1, 0, -1) },
+    }
+}
+
+fn main() {
+    Room::scene();
+}

@@ -1,0 +1,8 @@
+use qrt::prelude::*;
+
+#[reversible]
+fn twice(a: &UInt<4>, b: &mut UInt<8>) {
+    b += || a;
+}
+
+fn main() {}

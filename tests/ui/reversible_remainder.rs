@@ -1,0 +1,8 @@
+use qrt::prelude::*;
+
+#[reversible]
+fn remain(a: &UInt<4>, b: &mut UInt<4>) {
+    b += a % 4;
+}
+
+fn main() {}

@@ -1,0 +1,8 @@
+use qrt::prelude::*;
+
+#[reversible]
+fn double(a: &mut UInt<4>) {
+    a <<= 1;
+}
+
+fn main() {}
