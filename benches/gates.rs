@@ -17,7 +17,7 @@
 
 #[path = "common/knot.rs"]
 mod knot;
-#[allow(dead_code)] // No meshes here.
+#[allow(dead_code, reason = "no meshes here")]
 #[path = "common/mesh.rs"]
 mod mesh;
 #[path = "common/programs.rs"]

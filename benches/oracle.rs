@@ -20,7 +20,7 @@
 mod growth;
 #[path = "common/knot.rs"]
 mod knot;
-#[allow(dead_code)] // Of meshes only the small ones.
+#[allow(dead_code, reason = "of meshes only the small ones")]
 #[path = "common/mesh.rs"]
 mod mesh;
 #[path = "common/scenes.rs"]

@@ -26,8 +26,7 @@ macro_rules! record {
                 decoder: &mut $crate::scene::decode::Decoder,
             ) -> Self {
                 use $crate::scene::decode::Field;
-                // A record whose fields are all words may need only one of them.
-                #[allow(unused_imports)]
+                #[allow(unused_imports, reason = "a record of words alone needs one of them")]
                 use $crate::scene::shape::{Part as _, Shape as _};
                 const FIELDS: &[Field] = &[$(Field {
                     name: stringify!($field),

@@ -39,7 +39,7 @@ pub(super) fn write(
             "{conditions}
             /// Numbers of {what} of [`{scene}`] that are in registers.
             #[derive(Clone, Copy, Debug)]
-            #[allow(dead_code)]
+            #[allow(dead_code, reason = \"an author reads some of them only\")]
             {public} struct {scene}Ray{depth} {{"
         );
         let mut value = String::new();
@@ -55,7 +55,7 @@ pub(super) fn write(
         "{conditions}
         /// Where the numbers of a path of [`{scene}`] are among its registers.
         #[derive(Clone, Copy, Debug)]
-        #[allow(dead_code)]
+        #[allow(dead_code, reason = \"an author reads some of them only\")]
         {public} struct {scene}Layout {{ {fields} }}"
     );
     format!("{scene}Layout {{ {values} }}")

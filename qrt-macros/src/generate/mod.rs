@@ -70,7 +70,7 @@ fn text(
             out,
             "
             {conditions}
-            #[allow(warnings, clippy::all, clippy::pedantic)]
+            #[allow(warnings, clippy::all, clippy::pedantic, reason = \"written by `qrt!`\")]
             const _: () = {{
             // A name that nothing of what is imported below has.
             type __Scene = {scene};
@@ -118,7 +118,7 @@ fn figures(scene: &str, public: &str, valid: &ValidScene, oracle: &Oracle, spent
         scale[channel.number] = channel.scale;
     }
     format!(
-        "#[allow(dead_code)]
+        "#[allow(dead_code, reason = \"an author asks for some of them only\")]
         impl {scene} {{
             /// The most qubits in use at any time during a call of the oracle of the channel that
             /// has the most Toffolis.

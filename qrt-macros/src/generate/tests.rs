@@ -53,7 +53,10 @@ fn the_code_of_a_small_scene_is_as_it_was() {
         ("small_scoped.rs", "circuit: { uncompute: scoped }"),
     ] {
         let code = formatted(&text("LitFloor", "pub", "", &small(more)).unwrap());
-        let path = format!("{}/src/generate/{file}", env!("CARGO_MANIFEST_DIR"));
+        let path = format!(
+            "{}/src/generate/snapshots/{file}",
+            env!("CARGO_MANIFEST_DIR")
+        );
         if std::env::var_os("QRT_BLESS").is_some() {
             std::fs::write(&path, &code).unwrap();
         }

@@ -107,14 +107,14 @@ fn functions(signature: &Signature, forward: &TokenStream, backward: &TokenStrea
         #[doc = #inverse_doc]
         #(#other)*
         #many
-        #[allow(dead_code)]
+        #[allow(dead_code, reason = "not every author needs it")]
         #visibility fn #inverse_name #generics (#machine: &mut #kind, #(#named),*) {
             #backward
         }
 
         #[doc = #program_doc]
         #(#other)*
-        #[allow(dead_code)]
+        #[allow(dead_code, reason = "not every author needs it")]
         #[must_use]
         #visibility fn #program_name #some (
             #style: ::qrt::core::circuit::Style,

@@ -38,7 +38,7 @@ fn parabola<const F: u32, M: ::qrt::core::circuit::Machine>(
         );
 }
 /// The inverse of [`parabola`]: undoes what it has done.
-#[allow(dead_code)]
+#[allow(dead_code, reason = "not every author needs it")]
 fn parabola_inverse<const F: u32, M: ::qrt::core::circuit::Machine>(
     machine: &mut M,
     x: &::qrt::core::circuit::format::Reg<M::Register, Fixed<2, F>>,
@@ -71,7 +71,7 @@ fn parabola_inverse<const F: u32, M: ::qrt::core::circuit::Machine>(
     machine.add_into(y.register_mut(), x.word().into(), true, When::Always);
 }
 /// [`parabola`] as a program, whose inputs are its registers in their order.
-#[allow(dead_code)]
+#[allow(dead_code, reason = "not every author needs it")]
 #[must_use]
 fn parabola_program<const F: u32>(
     style: ::qrt::core::circuit::Style,

@@ -53,7 +53,7 @@ pub fn polynomial<M: ::qrt::core::circuit::Machine>(
     square.free(machine);
 }
 /// The inverse of [`polynomial`]: undoes what it has done.
-#[allow(dead_code)]
+#[allow(dead_code, reason = "not every author needs it")]
 pub fn polynomial_inverse<M: ::qrt::core::circuit::Machine>(
     machine: &mut M,
     x: &::qrt::core::circuit::format::Reg<M::Register, UInt<4>>,
@@ -106,7 +106,7 @@ pub fn polynomial_inverse<M: ::qrt::core::circuit::Machine>(
     square.free(machine);
 }
 /// [`polynomial`] as a program, whose inputs are its registers in their order.
-#[allow(dead_code)]
+#[allow(dead_code, reason = "not every author needs it")]
 #[must_use]
 pub fn polynomial_program(
     style: ::qrt::core::circuit::Style,

@@ -70,7 +70,7 @@ fn rotate_where<const W: u32, M: ::qrt::core::circuit::Machine>(
 }
 /// The inverse of [`rotate_where`]: undoes what it has done.
 #[inline]
-#[allow(dead_code)]
+#[allow(dead_code, reason = "not every author needs it")]
 fn rotate_where_inverse<const W: u32, M: ::qrt::core::circuit::Machine>(
     machine: &mut M,
     flag: &::qrt::core::circuit::format::Reg<M::Register, Bool>,
@@ -139,7 +139,7 @@ fn rotate_where_inverse<const W: u32, M: ::qrt::core::circuit::Machine>(
 }
 /// [`rotate_where`] as a program, whose inputs are its registers in their order.
 #[inline]
-#[allow(dead_code)]
+#[allow(dead_code, reason = "not every author needs it")]
 #[must_use]
 fn rotate_where_program<const W: u32>(
     style: ::qrt::core::circuit::Style,

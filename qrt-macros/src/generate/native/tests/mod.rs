@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod evaluate;
-#[allow(dead_code)] // Compute has no operations in place.
+#[allow(dead_code, reason = "compute has no operations in place")]
 #[path = "../../../../../qrt-runtime/src/machines/fixed/tests/maker.rs"]
 mod maker;
 

@@ -1,4 +1,4 @@
-#[allow(dead_code)]
+#[allow(dead_code, reason = "an author asks for some of them only")]
 impl LitFloor {
     /// The most qubits in use at any time during a call of the oracle of the channel that
     /// has the most Toffolis.
@@ -23,7 +23,7 @@ impl LitFloor {
 
 /// Numbers of the primary ray of [`LitFloor`] that are in registers.
 #[derive(Clone, Copy, Debug)]
-#[allow(dead_code)]
+#[allow(dead_code, reason = "an author reads some of them only")]
 pub struct LitFloorRay0 {
     /// Where it goes; the camera's are of no particular length.
     pub direction_y:
@@ -44,7 +44,7 @@ pub struct LitFloorRay0 {
 
 /// Numbers of ray 1 of [`LitFloor`] that are in registers.
 #[derive(Clone, Copy, Debug)]
-#[allow(dead_code)]
+#[allow(dead_code, reason = "an author reads some of them only")]
 pub struct LitFloorRay1 {
     /// Where it starts, in the scene's frame as the circuit scales it.
     pub origin: ::qrt::core::oracle::compiled::Vector<
@@ -63,7 +63,7 @@ pub struct LitFloorRay1 {
 
 /// Where the numbers of a path of [`LitFloor`] are among its registers.
 #[derive(Clone, Copy, Debug)]
-#[allow(dead_code)]
+#[allow(dead_code, reason = "an author reads some of them only")]
 pub struct LitFloorLayout {
     /// Of the primary ray.
     pub ray0: LitFloorRay0,
@@ -71,7 +71,7 @@ pub struct LitFloorLayout {
     pub ray1: LitFloorRay1,
 }
 
-#[allow(warnings, clippy::all, clippy::pedantic)]
+#[allow(warnings, clippy::all, clippy::pedantic, reason = "written by `qrt!`")]
 const _: () = {
     // A name that nothing of what is imported below has.
     type __Scene = LitFloor;

@@ -1,0 +1,98 @@
+//! No check of the macros can be taken away unnoticed: each place in the source that reports an
+//! error is reached by a program of `tests/ui`, and the errors that a program is told are those
+//! beside it, which the compiler must show.
+
+mod program;
+mod source;
+
+use program::Program;
+use source::places;
+use std::cell::RefCell;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::panic::Location;
+use std::path::{Path, PathBuf};
+
+/// A file below `src`, and a line of it.
+type Place = (String, usize);
+
+/// An error: where in the source it was reported, its code if it has one, and its words.
+struct Report {
+    place: Place,
+    code: String,
+    message: String,
+}
+
+thread_local! {
+    /// Of this test alone: others run in threads of their own.
+    static REPORTS: RefCell<Vec<Report>> = const { RefCell::new(Vec::new()) };
+}
+
+/// Takes note of a report.
+pub(crate) fn reached(place: &Location<'_>, code: &str, message: &str) {
+    let (_, file) = place.file().rsplit_once("src/").unwrap();
+    let report = Report {
+        place: (file.to_owned(), place.line() as usize),
+        code: code.to_owned(),
+        message: message.to_owned(),
+    };
+    REPORTS.with_borrow_mut(|reports| reports.push(report));
+}
+
+/// The Rust files of a folder, and of those within.
+fn rust_files(folder: &Path, found: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            rust_files(&path, found);
+        } else if path.extension().is_some_and(|end| end == "rs") {
+            found.push(path);
+        }
+    }
+}
+
+#[test]
+fn every_check_is_failed_by_some_program() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/ui");
+    let mut programs = Vec::new();
+    rust_files(&folder, &mut programs);
+    let mut missed = places();
+    assert!(missed.len() > 150, "{} places", missed.len());
+    let mut wrong = Vec::new();
+    for path in &programs {
+        REPORTS.take();
+        let mut program = Program {
+            folder: &folder,
+            functions: BTreeMap::new(),
+        };
+        program.run(fs::read_to_string(path).unwrap().parse().unwrap());
+        let shown = fs::read_to_string(path.with_extension("stderr")).unwrap();
+        let mut said = BTreeSet::new();
+        for report in REPORTS.take() {
+            let Report {
+                place,
+                code,
+                message,
+            } = report;
+            missed.remove(&place);
+            // Where a file is wrong, the codes stand in its own report.
+            let is_shown = match code.as_str() {
+                "" => shown.contains(&message),
+                code if shown.contains(&format!("error[{code}]")) => shown.contains(&message),
+                code => shown.contains(&format!("{message} [{code}]")),
+            };
+            if !is_shown {
+                wrong.push(format!("{} lacks: {message} [{code}]", path.display()));
+            }
+            said.insert(format!("{message} [{code}]"));
+        }
+        let errors = shown
+            .lines()
+            .filter_map(|line| line.strip_prefix("error: "));
+        for error in errors.filter(|error| error.contains(" [QRT") && !said.contains(*error)) {
+            wrong.push(format!("{} is not told: {error}", path.display()));
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+    assert!(missed.is_empty(), "no program reaches {missed:#?}");
+}
