@@ -8,8 +8,14 @@ use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use qrt_core::scene::{Comparator, ComparatorAt, Counting, Estimator, Window};
-use qrt_runtime::counting::{Comparators, PhaseDistribution, estimate};
+use qrt_runtime::counting::{Comparators, PhaseDistribution};
+use qrt_runtime::estimators::{Problem, estimate};
 use qrt_runtime::random::Stream;
+
+const PROBLEM: Problem = Problem {
+    good: 1_234_567,
+    total: 1 << 22,
+};
 
 fn draws(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("draw");
@@ -41,7 +47,7 @@ fn estimates(criterion: &mut Criterion) {
             let mut stream = Stream::new(1, 0, 0, 0);
             let label = format!("t={phase_bits} B={repetitions}");
             group.bench_function(BenchmarkId::new(format!("{name:?}"), label), |b| {
-                b.iter(|| black_box(estimate(name, &counting, 1_234_567, 1 << 22, &mut stream)));
+                b.iter(|| black_box(estimate(name, &counting, PROBLEM, &mut stream)));
             });
         }
     }
@@ -68,7 +74,11 @@ fn pictures(criterion: &mut Criterion) {
                         for channel in 0..3 {
                             let mut stream = Stream::new(1, pixel % 64, pixel / 64, channel);
                             let good = u64::from(pixel) * 341 * (1 + u64::from(channel));
-                            let found = estimate(name, &counting, good, 1 << 22, &mut stream);
+                            let problem = Problem {
+                                good,
+                                total: 1 << 22,
+                            };
+                            let found = estimate(name, &counting, problem, &mut stream);
                             sum += found.map_or(0.0, |found| found.amplitude);
                         }
                     }

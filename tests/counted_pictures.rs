@@ -115,7 +115,7 @@ fn every_estimator_works_or_says_that_it_is_not_there() {
                     message.contains(&format!("no estimator `{estimator}`")),
                     "{message}"
                 );
-                for available in qrt::runtime::counting::AVAILABLE {
+                for available in qrt::runtime::estimators::AVAILABLE {
                     assert!(message.contains(&format!("`{available}`")), "{message}");
                 }
             }

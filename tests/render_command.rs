@@ -172,7 +172,11 @@ fn pictures_say_how_they_were_made() {
         ];
         if estimator == "paper" {
             expected.extend([("comparator_bits", "10"), ("comparator_at", "midpoints")]);
-            expected.extend([("phase_bits", "7"), ("repetitions", "1")]);
+            expected.extend([
+                ("phase_bits", "7"),
+                ("repetitions", "1"),
+                ("noise", "depolarising=0,readout=0"),
+            ]);
         }
         if name == "p.png" {
             expected.push(("exposure", "0"));

@@ -1,6 +1,7 @@
 //! Machines, quantum counting and rendering.
 pub mod checkpoint;
 pub mod counting;
+pub mod estimators;
 pub mod image;
 pub mod machines;
 pub mod peak_memory;

@@ -6,10 +6,8 @@ use std::io::{self, Write};
 use super::failure::Failure;
 use clap::{Args, ValueEnum};
 use qrt_core::scene::Window;
-use qrt_runtime::counting::{
-    CountingError, Estimate, MAX_REPETITIONS, PhaseDistribution, Problem, WindowedCounting,
-    posterior,
-};
+use qrt_runtime::counting::{CountingError, MAX_REPETITIONS, PhaseDistribution, posterior};
+use qrt_runtime::estimators::{Device, Estimate, EstimatorError, Noise, Problem, WindowedCounting};
 use qrt_runtime::random::Stream;
 use serde_json::{Value, json};
 
@@ -141,12 +139,12 @@ pub(crate) fn run(args: &CountArgs) -> Result<(), Failure> {
 }
 
 impl<'a> Answer<'a> {
-    fn new(args: &'a CountArgs) -> Result<Self, CountingError> {
+    fn new(args: &'a CountArgs) -> Result<Self, EstimatorError> {
         let window = args.window.into();
         let distribution = PhaseDistribution::new(args.good, args.total, args.phase_bits, window)?;
         let largest = distribution.largest_outcome();
         if let Some(&outcome) = args.outcomes.iter().find(|&&y| y > largest) {
-            return Err(CountingError::OutcomeOutOfRange { outcome, largest });
+            return Err(CountingError::OutcomeOutOfRange { outcome, largest }.into());
         }
         let (shown, outcomes) = if !args.outcomes.is_empty() {
             (Shown::Asked, args.outcomes.clone())
@@ -296,7 +294,7 @@ impl<'a> Answer<'a> {
 }
 
 impl Drawn {
-    fn new(args: &CountArgs, shots: u32) -> Result<Self, CountingError> {
+    fn new(args: &CountArgs, shots: u32) -> Result<Self, EstimatorError> {
         let window = args.window.into();
         let run = WindowedCounting {
             phase_bits: args.phase_bits,
@@ -304,13 +302,12 @@ impl Drawn {
             window,
         };
         let mut stream = Stream::new(args.seed, 0, 0, 0);
-        let outcomes = run.outcomes(
-            Problem {
-                good: args.good,
-                total: args.total,
-            },
-            &mut stream,
-        )?;
+        let problem = Problem {
+            good: args.good,
+            total: args.total,
+        };
+        let mut device = Device::new(problem, Noise::NONE, &mut stream)?;
+        let outcomes = device.phases(args.phase_bits, window, shots)?;
         let mut counts = BTreeMap::new();
         for &y in &outcomes {
             *counts.entry(y).or_insert(0) += 1;

@@ -2,6 +2,7 @@
 
 use qrt_core::diagnostics::Report;
 use qrt_runtime::counting::CountingError;
+use qrt_runtime::estimators::EstimatorError;
 use qrt_runtime::image::ImageError;
 use qrt_runtime::render::RenderError;
 use std::path::Path;
@@ -51,6 +52,12 @@ impl From<Report> for Failure {
 
 impl From<CountingError> for Failure {
     fn from(error: CountingError) -> Self {
+        Self::Usage(error.to_string())
+    }
+}
+
+impl From<EstimatorError> for Failure {
+    fn from(error: EstimatorError) -> Self {
         Self::Usage(error.to_string())
     }
 }

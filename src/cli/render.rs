@@ -9,7 +9,7 @@ use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueEnum};
 use qrt_core::front;
 use qrt_core::scene::Estimator;
-use qrt_runtime::counting::AVAILABLE;
+use qrt_runtime::estimators::{AVAILABLE, Noise, NoiseError};
 use qrt_runtime::image::{self, Encoding, Metadata};
 use qrt_runtime::render::{self, Options, Progress, RenderError, Rendered, render};
 use std::fs;
@@ -49,6 +49,10 @@ pub(crate) struct RenderArgs {
     /// How the good ids are counted; exact takes them all, without noise [default: the scene's]
     #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(estimators()))]
     estimator: Option<String>,
+    /// Noise of the device that counts: the probability that a query destroys the state, and that a
+    /// measured bit is wrong; either may be left out
+    #[arg(long, value_name = "depolarising=P,readout=P", value_parser = noise)]
+    noise: Option<Noise>,
     /// Another seed gives other noise
     #[arg(long, value_name = "S", default_value_t = 0)]
     seed: u64,
@@ -107,6 +111,10 @@ fn estimators() -> [&'static str; AVAILABLE.len()] {
     AVAILABLE.map(Estimator::name)
 }
 
+fn noise(text: &str) -> Result<Noise, String> {
+    text.parse().map_err(|error: NoiseError| error.to_string())
+}
+
 fn crop(text: &str) -> Result<[u32; 4], String> {
     let numbers: Result<Vec<u32>, _> = text.split(',').map(|n| n.trim().parse()).collect();
     numbers
@@ -153,6 +161,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
         crop: args.crop,
         model: args.model.into(),
         estimator: args.estimator.as_deref().and_then(Estimator::from_name),
+        noise: args.noise.unwrap_or_default(),
         threads: args.threads.and_then(|n| NonZeroUsize::new(n as usize)),
         checkpoint: checkpoint.clone(),
         resume: args.resume,

@@ -13,13 +13,19 @@ use crate::random::Stream;
 /// Draws the number of good ids among `trials` drawn with replacement from `total`, of which
 /// `good` are good. `good <= total`, `total > 0`.
 pub(crate) fn draw(trials: u64, good: u64, total: u64, stream: &mut Stream) -> u64 {
-    if good > total - good {
-        return trials - draw(trials, total - good, total, stream);
+    let share = |part: u64| part as f64 / total as f64;
+    draw_with(trials, share(good), share(total - good), stream)
+}
+
+/// Draws the number of successes among `trials` with probability `p` each, where `q = 1 - p` is
+/// given for its own sake: the smaller of the two decides.
+pub(crate) fn draw_with(trials: u64, p: f64, q: f64, stream: &mut Stream) -> u64 {
+    if p > q {
+        return trials - draw_with(trials, q, p, stream);
     }
-    if good == 0 || trials == 0 {
+    if p <= 0.0 || trials == 0 {
         return 0;
     }
-    let p = good as f64 / total as f64;
     if trials as f64 * p < 10.0 {
         by_inversion(trials, p, stream)
     } else {

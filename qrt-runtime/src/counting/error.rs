@@ -2,8 +2,6 @@
 
 use std::fmt;
 
-use qrt_core::scene::Estimator;
-
 /// The largest counting register.
 pub const MAX_PHASE_BITS: u32 = 40;
 /// The most repetitions of one estimate.
@@ -50,28 +48,6 @@ pub enum CountingError {
     ComparatorBitsOutOfRange(u32),
     /// A colour scale that is negative, not finite, or too small for its comparators.
     ScaleOutOfRange(f64),
-    /// An estimator that this version does not have.
-    UnavailableEstimator(Estimator),
-}
-
-/// An estimator's name in scenes and on the command line.
-pub fn estimator_name(estimator: Estimator) -> &'static str {
-    match estimator {
-        Estimator::Exact => "exact",
-        Estimator::MonteCarlo => "monte-carlo",
-        Estimator::Paper => "paper",
-        Estimator::PosteriorMean => "posterior-mean",
-        Estimator::Sine => "sine",
-        Estimator::AdaptiveBayes => "adaptive-bayes",
-        Estimator::RandomDepth => "random-depth",
-        Estimator::Mlae => "mlae",
-        Estimator::Iqae => "iqae",
-        Estimator::Miqae => "miqae",
-        Estimator::Chebyshev => "chebyshev",
-        Estimator::Qss => "qss",
-        Estimator::Qcoin => "qcoin",
-        Estimator::AbramsWilliams => "abrams-williams",
-    }
 }
 
 impl fmt::Display for CountingError {
@@ -116,18 +92,6 @@ impl fmt::Display for CountingError {
                 "a colour scale of {scale} is negative, not finite, or too small to be divided \
                  among its comparators"
             ),
-            Self::UnavailableEstimator(estimator) => {
-                write!(
-                    f,
-                    "no estimator `{}` in this version; there are ",
-                    estimator_name(estimator)
-                )?;
-                for (index, &available) in super::AVAILABLE.iter().enumerate() {
-                    let separator = if index == 0 { "" } else { ", " };
-                    write!(f, "{separator}`{}`", estimator_name(available))?;
-                }
-                Ok(())
-            }
         }
     }
 }

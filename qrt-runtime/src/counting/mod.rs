@@ -8,27 +8,23 @@
 //!
 //! * [`PhaseDistribution`]: `P(theta~ | theta)`, rectangular and sine window, and draws from it;
 //! * [`maximum_likelihood`]: the paper's inference, over every S in `0 ..= N`;
-//! * [`estimate`]: the estimators by name, in one unit (queries) and with one result;
 //! * [`Comparators`]: from colours to good ids, and from amplitudes to pixels.
 
-mod binomial;
+mod angle;
+pub(crate) mod binomial;
 mod comparator;
 mod distribution;
 mod double;
 mod draw;
 mod error;
-mod estimate;
 mod kernel;
 mod likelihood;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 
+pub(crate) use angle::Angle;
 pub use comparator::{Comparators, MAX_COMPARATOR_BITS};
 pub use distribution::PhaseDistribution;
 pub use draw::Sampler;
-pub use error::{CountingError, MAX_PHASE_BITS, MAX_REPETITIONS, estimator_name};
-pub use estimate::{
-    AVAILABLE, AmplitudeEstimator, Estimate, Exact, MonteCarlo, Problem, WindowedCounting,
-    estimate, estimator,
-};
+pub use error::{CountingError, MAX_PHASE_BITS, MAX_REPETITIONS};
 pub use likelihood::{MaximumLikelihood, ln_likelihood, maximum_likelihood, posterior};

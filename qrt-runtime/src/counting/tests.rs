@@ -1,8 +1,8 @@
 //! What counting promises.
 
 mod draws;
-mod estimates;
 mod high_precision;
+mod inference;
 
 /// Pearson's statistic over bins of at least ten expected draws, within five standard deviations
 /// of its mean (a normal deviate by Wilson and Hilferty).

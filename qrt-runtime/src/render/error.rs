@@ -2,6 +2,7 @@
 
 use crate::checkpoint::CheckpointError;
 use crate::counting::CountingError;
+use crate::estimators::EstimatorError;
 use std::fmt;
 use std::path::PathBuf;
 
@@ -46,6 +47,8 @@ pub enum RenderError {
     Defect(crate::machines::Defect),
     /// The pixels can't be counted as asked.
     Counting(CountingError),
+    /// The estimator can't do what it is asked.
+    Estimator(EstimatorError),
     /// The threads can't be started.
     Threads(String),
     /// The checkpoint can't be used.
@@ -86,7 +89,8 @@ impl RenderError {
             | Self::Bound { .. }
             | Self::Sampling(_)
             | Self::Oracle(_)
-            | Self::Counting(_) => true,
+            | Self::Counting(_)
+            | Self::Estimator(_) => true,
             Self::Checkpoint(error) => matches!(error, CheckpointError::Differs { .. }),
             Self::Memory { .. }
             | Self::Threads(_)
@@ -146,6 +150,7 @@ impl fmt::Display for RenderError {
                 f,
                 "{error}: a defect of qrt; the picture would prove nothing, so there is none"
             ),
+            Self::Estimator(error) => error.fmt(f),
             Self::Counting(error) => error.fmt(f),
             Self::Threads(reason) => write!(f, "the threads cannot be started: {reason}"),
             Self::Checkpoint(error) => error.fmt(f),
@@ -182,6 +187,7 @@ impl std::error::Error for RenderError {
             Self::Sampling(error) => Some(error),
             Self::Oracle(error) => Some(error),
             Self::Defect(error) => Some(error),
+            Self::Estimator(error) => Some(error),
             Self::Counting(error) => Some(error),
             Self::Checkpoint(error) => Some(error),
             _ => None,
@@ -204,6 +210,12 @@ impl From<qrt_core::oracle::OracleError> for RenderError {
 impl From<crate::machines::Defect> for RenderError {
     fn from(error: crate::machines::Defect) -> Self {
         Self::Defect(error)
+    }
+}
+
+impl From<EstimatorError> for RenderError {
+    fn from(error: EstimatorError) -> Self {
+        Self::Estimator(error)
     }
 }
 

@@ -51,6 +51,7 @@ mod tiles;
 pub use error::RenderError;
 
 use crate::checkpoint::{Checkpoint, Header, Tile};
+use crate::estimators::Noise;
 use crate::image::{Count, Image};
 use crate::machines::{NativeOracle, OracleMachine, Real, Simd};
 use pixel::{Pixels, Source, Totals};
@@ -103,6 +104,8 @@ pub struct Options<'a> {
     pub model: Model,
     /// The estimator, in place of the scene's.
     pub estimator: Option<Estimator>,
+    /// Noise of the device that counts; none unless set.
+    pub noise: Noise,
     /// Threads; as many as the machine has cores unless set.
     pub threads: Option<NonZeroUsize>,
     /// Lanes to trace on.
@@ -151,6 +154,8 @@ pub struct Rendered {
     pub crop: [u32; 4],
     /// The estimator.
     pub estimator: Estimator,
+    /// Noise of the device that counted.
+    pub noise: Noise,
     /// The seed.
     pub seed: u64,
     /// The proven bound on a path's colour per channel: the radiance of S = N.
@@ -264,7 +269,7 @@ fn render_by(
         }
         model @ (Model::Fixed | Model::Gates) => Source::Oracle(machine(model)?),
     };
-    let pixels = Pixels::new(source, written, estimator, options.seed)?;
+    let pixels = Pixels::new(source, written, estimator, options.noise, options.seed)?;
     let threads = options.threads.map_or(0, NonZeroUsize::get);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
     let pool = pool.map_err(|error| RenderError::Threads(error.to_string()))?;
@@ -304,6 +309,7 @@ fn render_by(
             model: options.model,
             crop,
             estimator,
+            noise: options.noise,
             seed: options.seed,
             bound,
             ids: paths << written.comparator.bits,
@@ -336,16 +342,15 @@ fn check_crop(crop: [u32; 4], film: [u32; 2]) -> Result<(), RenderError> {
 /// What decides a pixel.
 fn header(scene: &ValidScene, asked: &Options<'_>, estimator: Estimator, crop: [u32; 4]) -> Header {
     let options = [
-        ("model", asked.model.name()),
-        ("estimator", estimator.name()),
-        ("version", env!("CARGO_PKG_VERSION")),
+        ("model", asked.model.name().to_owned()),
+        ("estimator", estimator.name().to_owned()),
+        ("noise", asked.noise.to_string()),
+        ("version", env!("CARGO_PKG_VERSION").to_owned()),
     ];
     Header {
         scene_hash: scene.fingerprint().to_string(),
         seed: asked.seed,
-        options: options
-            .map(|(key, value)| (key.to_owned(), value.to_owned()))
-            .into(),
+        options: options.map(|(key, value)| (key.to_owned(), value)).into(),
         width: scene.scene().film.width,
         height: scene.scene().film.height,
         crop,

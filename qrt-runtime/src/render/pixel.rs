@@ -2,7 +2,8 @@
 
 use super::RenderError;
 use super::sum::Sum;
-use crate::counting::{AmplitudeEstimator, Comparators, Problem, estimator};
+use crate::counting::Comparators;
+use crate::estimators::{AmplitudeEstimator, Device, Noise, Problem, Settings, estimator};
 use crate::machines::{Block, Defect, OracleMachine, Real};
 use crate::random::Stream;
 use qrt_core::scene::{Estimator, Scene};
@@ -59,6 +60,7 @@ pub(super) struct Pixels {
 struct Counter {
     comparators: [Comparators; 3],
     estimator: Box<dyn AmplitudeEstimator + Send + Sync>,
+    noise: Noise,
 }
 
 impl Pixels {
@@ -66,6 +68,7 @@ impl Pixels {
         source: Source,
         scene: &Scene,
         estimate: Estimator,
+        noise: Noise,
         seed: u64,
     ) -> Result<Self, RenderError> {
         let (bound, paths) = match &source {
@@ -89,7 +92,8 @@ impl Pixels {
             let [r, g, b] = bound.map(|scale| Comparators::new(scale, scene.comparator));
             Some(Counter {
                 comparators: [r?, g?, b?],
-                estimator: estimator(estimate, &scene.counting)?,
+                estimator: estimator(estimate, &Settings::of(&scene.counting)?)?,
+                noise,
             })
         };
         Ok(Self {
@@ -249,7 +253,8 @@ impl Pixels {
                     };
                     let [x, y] = pixel;
                     let mut stream = Stream::new(self.seed, x, y, channel as u8);
-                    let estimate = counter.estimator.estimate(problem, &mut stream)?;
+                    let mut device = Device::new(problem, counter.noise, &mut stream)?;
+                    let estimate = counter.estimator.estimate(&mut device)?;
                     // At most 3 * 2^40 * 10^6, below 2^62.
                     finished.queries += estimate.queries;
                     comparators.pixel_of_amplitude(estimate.amplitude)
@@ -296,7 +301,7 @@ sampling: { path_bits: 5 }
     fn wall(estimator: Estimator) -> Pixels {
         let scene = parse(WALL, "wall.yaml", &[], "".as_ref()).unwrap().valid;
         let real = Source::Real(Box::new(Real::new(&scene, 0).unwrap()));
-        Pixels::new(real, scene.scene(), estimator, 0).unwrap()
+        Pixels::new(real, scene.scene(), estimator, Noise::NONE, 0).unwrap()
     }
 
     #[test]

@@ -1,23 +1,27 @@
-//! What the estimators promise: the true maximum, the stated coverage, the stated cost.
+//! What inference promises: the true maximum, and the bounds of the literature.
 
 use std::f64::consts::PI;
 
 use proptest::prelude::*;
-use qrt_core::scene::{Counting, Estimator, Window};
+use qrt_core::scene::Window;
 
 use crate::counting::{
-    AVAILABLE, CountingError, PhaseDistribution, Problem, WindowedCounting, estimate,
-    estimator_name, ln_likelihood, maximum_likelihood, posterior,
+    CountingError, PhaseDistribution, ln_likelihood, maximum_likelihood, posterior,
 };
 use crate::random::Stream;
 
-fn counting(phase_bits: u32, repetitions: u32) -> Counting {
-    Counting {
-        phase_bits,
-        repetitions,
-        window: Window::Sine,
-        estimator: Estimator::Paper,
-    }
+fn outcomes(
+    good: u64,
+    total: u64,
+    bits: u32,
+    window: Window,
+    shots: u32,
+    stream: &mut Stream,
+) -> Vec<u64> {
+    let sampler = PhaseDistribution::new(good, total, bits, window)
+        .unwrap()
+        .sampler();
+    (0..shots).map(|_| sampler.sample(stream)).collect()
 }
 
 fn window() -> impl Strategy<Value = Window> {
@@ -58,9 +62,8 @@ proptest! {
         window in window(), seed in any::<u64>(),
     ) {
         let good = (fraction * total as f64).round() as u64;
-        let run = WindowedCounting { phase_bits: bits, repetitions: shots, window };
         let mut stream = Stream::new(seed, 0, 0, 0);
-        let outcomes = run.outcomes(Problem { good, total }, &mut stream).unwrap();
+        let outcomes = outcomes(good, total, bits, window, shots, &mut stream);
         same_maximum(&outcomes, total, bits, window);
     }
 
@@ -84,9 +87,8 @@ proptest! {
     ) {
         let total = (total >> power).max(1);
         let good = ((fraction * total as f64) as u64).min(total);
-        let run = WindowedCounting { phase_bits: bits, repetitions: shots, window };
         let mut stream = Stream::new(seed, 1, 0, 0);
-        let outcomes = run.outcomes(Problem { good, total }, &mut stream).unwrap();
+        let outcomes = outcomes(good, total, bits, window, shots, &mut stream);
         let found = maximum_likelihood(&outcomes, total, bits, window).unwrap();
         let value = |good| ln_likelihood(&outcomes, good, total, bits, window).unwrap();
         let slack = 1e-9 * (1.0 + found.ln_likelihood.abs());
@@ -134,28 +136,6 @@ fn posteriors_are_normalised_products_of_probabilities() {
     }
     let error = posterior(&[1], 1 << 40, 5, Window::Rect).unwrap_err();
     assert!(error.to_string().contains("at most 16777216"));
-}
-
-#[test]
-fn a_million_repetitions_neither_underflow_nor_miss() {
-    let total = 1_u64 << 60;
-    let good = total / 7 * 2;
-    for (name, bits) in [
-        (Estimator::Paper, 6),
-        (Estimator::Sine, 6),
-        (Estimator::Sine, 20),
-    ] {
-        let mut stream = Stream::new(2, 0, 0, 0);
-        let found = estimate(name, &counting(bits, 1_000_000), good, total, &mut stream).unwrap();
-        let error = (found.amplitude - 2.0 / 7.0).abs();
-        assert!(
-            error < 0.02 / f64::from(1_u32 << bits),
-            "{name:?} {bits}: {error}"
-        );
-        assert!(found.ln_likelihood.unwrap().is_finite());
-        assert_eq!(found.queries, ((1 << bits) - 1) * 1_000_000);
-        assert!(found.interval.0 <= 2.0 / 7.0 && 2.0 / 7.0 <= found.interval.1);
-    }
 }
 
 /// |S~ - S| <= 2 pi sqrt(S (N-S))/T + pi^2 N/T^2 with probability at least 8/pi^2: exactly, from
@@ -217,36 +197,6 @@ fn one_outcome_is_within_a_step_with_the_stated_probability() {
     }
 }
 
-#[test]
-fn intervals_cover_as_often_as_they_say() {
-    let mut choice = Stream::new(77, 0, 0, 0);
-    for name in [Estimator::Paper, Estimator::Sine, Estimator::MonteCarlo] {
-        for repetitions in [1, 2, 3, 6] {
-            let (mut covered, mut confidence) = (0.0, 0.0);
-            let runs = 2000;
-            for run in 0..runs {
-                let total = 1 + choice.next_u64() % (1 << 22);
-                let good = (choice.uniform() * choice.uniform() * total as f64) as u64;
-                let mut stream = Stream::new(5, run, repetitions, 0);
-                let settings = counting(4 + run % 5, repetitions);
-                let found = estimate(name, &settings, good, total, &mut stream).unwrap();
-                let truth = good as f64 / total as f64;
-                let (low, high) = found.interval;
-                assert!(0.0 <= low && low <= found.amplitude);
-                assert!(found.amplitude <= high && high <= 1.0);
-                covered += f64::from(u8::from(low - 1e-12 <= truth && truth <= high + 1e-12));
-                confidence = found.confidence;
-            }
-            let share = covered / f64::from(runs);
-            let deviation = (confidence * (1.0 - confidence) / f64::from(runs)).sqrt();
-            assert!(
-                share >= confidence - 4.0 * deviation,
-                "{name:?} B={repetitions}: {share}"
-            );
-        }
-    }
-}
-
 /// Measured elsewhere for a uniform in [0, 1] (root mean square errors): single-shot counting
 /// 0.50/sqrt(T), the sine window 1.28/T, Monte Carlo 0.41/sqrt(n). The mean over outcomes is
 /// exact, for draws of a tail so heavy would take too long to settle.
@@ -276,65 +226,10 @@ fn single_shot_errors_scale_as_the_literature_says() {
             assert!((rmse - expected).abs() < slack, "{bits} {window:?}: {rmse}");
         }
     }
-    let (runs, settings) = (4000, counting(8, 1));
-    let mut sum = 0.0;
-    for run in 0..runs {
-        let mut stream = Stream::new(31, run, 0, 0);
-        let good = (stream.uniform() * total as f64) as u64;
-        let found = estimate(Estimator::MonteCarlo, &settings, good, total, &mut stream).unwrap();
-        let error = found.amplitude - good as f64 / total as f64;
-        sum += error * error;
-    }
-    let rmse = (sum / f64::from(runs) * 255.0).sqrt();
-    assert!((rmse - 0.41).abs() < 0.02, "{rmse}");
 }
 
 #[test]
-fn exact_is_exact_and_extremes_are_never_missed() {
-    let mut stream = Stream::new(0, 0, 0, 0);
-    for total in [1, 2, 1000, 1 << 60] {
-        for good in [0, 1, total - 1, total] {
-            for name in AVAILABLE {
-                for (bits, repetitions) in [(1, 1), (2, 3), (10, 2), (40, 1)] {
-                    let settings = counting(bits, repetitions);
-                    let found = estimate(name, &settings, good, total, &mut stream).unwrap();
-                    let truth = good as f64 / total as f64;
-                    assert!(found.amplitude.is_finite());
-                    let certain = good == 0 || good == total;
-                    if name == Estimator::Exact || (certain && name != Estimator::Sine) {
-                        assert_eq!(found.amplitude, truth, "{name:?} {good}/{total}");
-                    }
-                }
-            }
-        }
-    }
-}
-
-#[test]
-fn what_cannot_be_estimated_is_refused_with_what_can() {
-    let mut stream = Stream::new(0, 0, 0, 0);
-    let error = estimate(Estimator::Qcoin, &counting(5, 1), 1, 2, &mut stream).unwrap_err();
-    assert_eq!(
-        error.to_string(),
-        "no estimator `qcoin` in this version; there are `exact`, `monte-carlo`, `paper`, `sine`"
-    );
-    for name in AVAILABLE {
-        assert!(!estimator_name(name).is_empty());
-        assert_eq!(
-            estimate(name, &counting(5, 1), 1, 0, &mut stream),
-            Err(CountingError::NoIds)
-        );
-        let error = estimate(name, &counting(5, 1), 3, 2, &mut stream).unwrap_err();
-        assert_eq!(
-            error,
-            CountingError::MoreGoodThanTotal { good: 3, total: 2 }
-        );
-    }
-    for (bits, repetitions) in [(0, 1), (41, 1), (5, 0), (5, 1_000_001)] {
-        for name in [Estimator::Paper, Estimator::Sine, Estimator::MonteCarlo] {
-            assert!(estimate(name, &counting(bits, repetitions), 1, 2, &mut stream).is_err());
-        }
-    }
+fn what_cannot_be_inferred_is_refused() {
     let ml = |outcomes: &[u64], total| maximum_likelihood(outcomes, total, 3, Window::Rect);
     assert_eq!(ml(&[], 5), Err(CountingError::NoOutcomes));
     assert_eq!(

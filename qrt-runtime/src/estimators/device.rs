@@ -1,0 +1,199 @@
+//! What estimators measure on.
+//!
+//! The Grover iterate turns the uniform state of the ids by twice the angle `pi theta`, where
+//! `sin^2(pi theta) = S/N`, in the plane of the good and the bad ids. So the outcome of every circuit
+//! that estimators run has a probability in closed form, from which it is drawn. `theta` is known to
+//! 104 bits: a shot after 2^40 iterations has the right probability to better than 1e-15.
+
+use super::{Estimate, EstimatorError, Noise};
+use crate::counting::{Angle, PhaseDistribution, binomial};
+use crate::random::Stream;
+use qrt_core::scene::Window;
+
+/// The most Grover iterations between preparation and measurement.
+pub const MAX_ITERATIONS: u64 = 1 << 44;
+
+/// What is to be estimated. Known to the device, and not to the estimator.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Problem {
+    /// S, the good ids.
+    pub good: u64,
+    /// N, all ids.
+    pub total: u64,
+}
+
+/// Queries and shots, up to now.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Spent {
+    /// Applications of the oracle.
+    pub queries: u64,
+    /// Measurements.
+    pub shots: u64,
+    /// The most queries in one shot.
+    pub depth: u64,
+    /// Times that something was asked.
+    pub rounds: u64,
+}
+
+/// A device that runs circuits with the oracle of one problem, and keeps count.
+#[derive(Debug)]
+pub struct Device<'a> {
+    problem: Problem,
+    theta: Angle,
+    noise: Noise,
+    stream: &'a mut Stream,
+    spent: Spent,
+}
+
+impl<'a> Device<'a> {
+    /// A device for a problem; what it answers is drawn from `stream`.
+    ///
+    /// # Errors
+    /// No ids, more good ids than ids, or noise out of range.
+    pub fn new(
+        problem: Problem,
+        noise: Noise,
+        stream: &'a mut Stream,
+    ) -> Result<Self, EstimatorError> {
+        let Problem { good, total } = problem;
+        noise.check()?;
+        Ok(Self {
+            problem,
+            theta: Angle::of(good, total)?,
+            noise,
+            stream,
+            spent: Spent::default(),
+        })
+    }
+
+    /// N, the number of ids.
+    pub fn total(&self) -> u64 {
+        self.problem.total
+    }
+
+    /// What was spent up to now.
+    pub fn spent(&self) -> Spent {
+        self.spent
+    }
+
+    /// Random numbers for an estimator's own decisions.
+    pub fn stream(&mut self) -> &mut Stream {
+        self.stream
+    }
+
+    /// What a run that began at `start` estimates, with all that is counted here.
+    pub fn estimate(
+        &self,
+        start: Spent,
+        amplitude: f64,
+        interval: (f64, f64),
+        confidence: f64,
+    ) -> Estimate {
+        Estimate {
+            amplitude,
+            good: None,
+            interval,
+            confidence,
+            queries: self.spent.queries - start.queries,
+            shots: self.spent.shots - start.shots,
+            depth: self.spent.depth,
+            rounds: self.spent.rounds - start.rounds,
+            ln_likelihood: None,
+            candidates: None,
+        }
+    }
+
+    /// Takes note of `shots` measurements of `queries` each.
+    fn spend(&mut self, shots: u64, queries: u64) {
+        self.spent.queries = (self.spent.queries).saturating_add(shots.saturating_mul(queries));
+        self.spent.shots = self.spent.shots.saturating_add(shots);
+        self.spent.depth = self.spent.depth.max(queries);
+        self.spent.rounds += 1;
+    }
+
+    /// S, by going through all ids: N queries.
+    pub fn every_id(&mut self) -> u64 {
+        self.spend(self.problem.total, 1);
+        self.problem.good
+    }
+
+    /// The good ids among `shots` that are drawn at random, with replacement: one query each.
+    pub fn paths(&mut self, shots: u64) -> u64 {
+        self.spend(shots, 1);
+        let Problem { good, total } = self.problem;
+        binomial::draw(shots, good, total, self.stream)
+    }
+
+    /// The good ids among `shots` that are measured after `iterations` Grover iterations each:
+    /// `iterations` queries a shot, but one query where there are none, as [`Device::paths`].
+    ///
+    /// An id is good with probability `sin^2((2k + 1) pi theta)`.
+    ///
+    /// # Errors
+    /// More iterations than [`MAX_ITERATIONS`].
+    pub fn iterated(&mut self, iterations: u64, shots: u64) -> Result<u64, EstimatorError> {
+        if iterations > MAX_ITERATIONS {
+            return Err(EstimatorError::TooManyIterations(iterations));
+        }
+        if iterations == 0 {
+            return Ok(self.paths(shots));
+        }
+        self.spend(shots, iterations);
+        let good = self.theta.sine_squared(2 * iterations + 1);
+        Ok(self.measured_ids(iterations, good, shots))
+    }
+
+    /// Of `shots` measured ids, those that are good, if without noise one is with probability
+    /// `good` = (p, 1 - p) after `queries`.
+    fn measured_ids(&mut self, queries: u64, good: (f64, f64), shots: u64) -> u64 {
+        let bits = u64::BITS - (self.problem.total - 1).leading_zeros();
+        let right = self.noise.intact(queries) * self.noise.read_rightly(bits);
+        let any = self.theta.sine_squared(1);
+        let mixed = |ideal: f64, any: f64| right * ideal + (1.0 - right) * any;
+        let (p, q) = (mixed(good.0, any.0), mixed(good.1, any.1));
+        binomial::draw_with(shots, p, q, self.stream)
+    }
+
+    /// Outcomes of the counting circuit with T = 2^`phase_bits`, folded onto `0 ..= T/2`: T-1
+    /// queries each.
+    ///
+    /// # Errors
+    /// A register out of range.
+    pub fn phases(
+        &mut self,
+        phase_bits: u32,
+        window: Window,
+        repetitions: u32,
+    ) -> Result<Vec<u64>, EstimatorError> {
+        let Problem { good, total } = self.problem;
+        let distribution = PhaseDistribution::new(good, total, phase_bits, window)?;
+        let sampler = distribution.sampler();
+        let size = 1_u64 << phase_bits;
+        self.spend(u64::from(repetitions), size - 1);
+        let intact = self.noise.intact(size - 1);
+        let noise = self.noise;
+        let stream = &mut *self.stream;
+        let mut outcome = || {
+            if noise == Noise::NONE {
+                return sampler.sample(stream);
+            }
+            // Unfolded: which of y and T - y was read decides what flipped bits make of it.
+            let mut raw = if stream.uniform() < intact {
+                let folded = sampler.sample(stream);
+                let mirrored = stream.next_u64() >> 63 == 1;
+                if mirrored {
+                    (size - folded) & (size - 1)
+                } else {
+                    folded
+                }
+            } else {
+                stream.next_u64() & (size - 1)
+            };
+            for bit in 0..phase_bits {
+                raw ^= u64::from(stream.uniform() < noise.readout) << bit;
+            }
+            raw.min(size - raw)
+        };
+        Ok((0..repetitions).map(|_| outcome()).collect())
+    }
+}

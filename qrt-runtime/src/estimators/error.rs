@@ -1,0 +1,67 @@
+//! What estimators refuse.
+
+use crate::counting::CountingError;
+use qrt_core::scene::Estimator;
+use std::fmt;
+
+/// Why an estimator cannot do what is asked.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum EstimatorError {
+    /// Counting cannot.
+    Counting(CountingError),
+    /// No query may be spent.
+    NoQueries,
+    /// The asked error is not in (0, 1).
+    ErrorOutOfRange(f64),
+    /// The asked confidence is not in (0, 1).
+    ConfidenceOutOfRange(f64),
+    /// A probability of noise that is not in [0, 1].
+    NoiseOutOfRange(f64),
+    /// More Grover iterations between preparation and measurement than can be told apart.
+    TooManyIterations(u64),
+    /// An estimator that this version does not have.
+    Unavailable(Estimator),
+}
+
+impl fmt::Display for EstimatorError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Counting(error) => error.fmt(f),
+            Self::NoQueries => write!(f, "an estimator needs at least one query"),
+            Self::ErrorOutOfRange(error) => {
+                write!(f, "an error of {error} is not between 0 and 1")
+            }
+            Self::ConfidenceOutOfRange(confidence) => {
+                write!(f, "a confidence of {confidence} is not between 0 and 1")
+            }
+            Self::NoiseOutOfRange(probability) => {
+                write!(
+                    f,
+                    "noise with probability {probability}; a probability is in 0..=1"
+                )
+            }
+            Self::TooManyIterations(iterations) => write!(
+                f,
+                "{iterations} Grover iterations before a measurement; at most {}",
+                super::MAX_ITERATIONS
+            ),
+            Self::Unavailable(estimator) => {
+                write!(f, "no estimator `{estimator}` in this version; there are ")?;
+                for (index, available) in super::AVAILABLE.iter().enumerate() {
+                    let separator = if index == 0 { "" } else { ", " };
+                    write!(f, "{separator}`{available}`")?;
+                }
+                Ok(())
+            }
+        }
+    }
+}
+
+impl std::error::Error for EstimatorError {}
+
+impl From<CountingError> for EstimatorError {
+    fn from(error: CountingError) -> Self {
+        Self::Counting(error)
+    }
+}

@@ -1,0 +1,21 @@
+//! `exact`: without estimating.
+
+use super::{AmplitudeEstimator, Device, Estimate, EstimatorError};
+
+/// `exact`: S itself. Counts every id, N queries, without error: the picture without counting
+/// noise.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Exact;
+
+impl AmplitudeEstimator for Exact {
+    fn estimate(&self, device: &mut Device<'_>) -> Result<Estimate, EstimatorError> {
+        let start = device.spent();
+        let good = device.every_id();
+        let total = device.total();
+        let amplitude = good as f64 / total as f64;
+        Ok(Estimate {
+            good: Some(good),
+            ..device.estimate(start, amplitude, (amplitude, amplitude), 1.0)
+        })
+    }
+}

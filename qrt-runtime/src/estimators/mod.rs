@@ -1,0 +1,129 @@
+//! Estimators: from queries of the oracle to the fraction of good ids.
+//!
+//! One trait, one unit and one result, so that estimators can be compared.
+//!
+//! * [`Device`]: what is asked and answered. An estimator knows of the good ids only what it
+//!   measures here, and here queries are counted and noise is added.
+//! * [`Settings`]: what is wanted: an error, a confidence, the queries that may be spent.
+//! * [`Estimate`]: the fraction, its interval, and what they took.
+//!
+//! The unit is the query: one application of the oracle. A shot after k Grover iterations takes k
+//! queries, for the id that it measures is evaluated classically; without iterations it is a path
+//! of classical Monte Carlo, which is one query, too. Phase estimation with T phases takes T-1.
+
+mod device;
+mod error;
+mod exact;
+mod monte_carlo;
+mod noise;
+mod settings;
+#[cfg(test)]
+mod tests;
+mod windowed;
+
+pub use device::{Device, MAX_ITERATIONS, Problem, Spent};
+pub use error::EstimatorError;
+pub use exact::Exact;
+pub use monte_carlo::MonteCarlo;
+pub use noise::{Noise, NoiseError};
+pub use settings::{DEFAULT_CONFIDENCE, Settings};
+pub use windowed::WindowedCounting;
+
+use crate::random::Stream;
+use qrt_core::scene::{Counting, Estimator};
+
+/// The estimators of this version, by their names in scenes.
+pub const AVAILABLE: [Estimator; 4] = [
+    Estimator::Exact,
+    Estimator::MonteCarlo,
+    Estimator::Paper,
+    Estimator::Sine,
+];
+
+/// An estimated amplitude, and what it took.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Estimate {
+    /// The estimate of S/N, in [0, 1].
+    pub amplitude: f64,
+    /// The likeliest S, where the estimator finds an integer.
+    pub good: Option<u64>,
+    /// Holds S/N with at least the probability [`Estimate::confidence`]; how it is obtained is
+    /// said with each estimator.
+    pub interval: (f64, f64),
+    /// The interval's confidence.
+    pub confidence: f64,
+    /// Applications of the oracle.
+    pub queries: u64,
+    /// Measurements.
+    pub shots: u64,
+    /// The most queries between preparation and measurement: how long the device must stay
+    /// coherent.
+    pub depth: u64,
+    /// Times that the estimator decided what to measure next.
+    pub rounds: u64,
+    /// ln of the probability of what was measured, given the estimate; where the estimator
+    /// computes it.
+    pub ln_likelihood: Option<f64>,
+    /// Separate ranges of S/N that were still possible when the estimator stopped; where it keeps
+    /// more than one.
+    pub candidates: Option<u32>,
+}
+
+/// An estimator of the fraction of good ids.
+pub trait AmplitudeEstimator {
+    /// One run: measures on `device`, and estimates from what it answers. Queries that the device
+    /// was asked before this run are not the estimate's.
+    ///
+    /// # Errors
+    ///
+    /// A setting out of range.
+    fn estimate(&self, device: &mut Device<'_>) -> Result<Estimate, EstimatorError>;
+}
+
+/// The estimator of that name.
+///
+/// # Errors
+///
+/// An estimator that this version does not have, or a setting out of range.
+pub fn estimator(
+    name: Estimator,
+    settings: &Settings,
+) -> Result<Box<dyn AmplitudeEstimator + Send + Sync>, EstimatorError> {
+    settings.check()?;
+    Ok(match name {
+        Estimator::Exact => Box::new(Exact),
+        Estimator::Paper => Box::new(WindowedCounting::paper(settings)?),
+        Estimator::Sine => Box::new(WindowedCounting::sine(settings)?),
+        Estimator::MonteCarlo => Box::new(MonteCarlo::new(settings)),
+        _ => return Err(EstimatorError::Unavailable(name)),
+    })
+}
+
+/// One run of the estimator of that name on a device without noise, under a scene's counting
+/// block: see [`Settings::of`].
+///
+/// # Errors
+///
+/// An estimator that this version does not have, or a problem or a setting out of range.
+///
+/// ```
+/// use qrt_core::scene::{Counting, Estimator, Window};
+/// use qrt_runtime::{estimators::{Problem, estimate}, random::Stream};
+/// let counting = Counting {
+///     phase_bits: 8, repetitions: 3, window: Window::Rect, estimator: Estimator::Paper,
+/// };
+/// let problem = Problem { good: 300, total: 1000 };
+/// let found = estimate(Estimator::Paper, &counting, problem, &mut Stream::new(1, 0, 0, 0))?;
+/// assert_eq!(found.queries, 3 * 255);
+/// assert!((found.amplitude - 0.3).abs() < 0.05);
+/// # Ok::<(), qrt_runtime::estimators::EstimatorError>(())
+/// ```
+pub fn estimate(
+    name: Estimator,
+    counting: &Counting,
+    problem: Problem,
+    stream: &mut Stream,
+) -> Result<Estimate, EstimatorError> {
+    let mut device = Device::new(problem, Noise::NONE, stream)?;
+    estimator(name, &Settings::of(counting)?)?.estimate(&mut device)
+}

@@ -1,0 +1,72 @@
+//! `monte-carlo`: classical sampling.
+
+use super::{AmplitudeEstimator, Device, Estimate, EstimatorError, Settings};
+use crate::counting::binomial;
+
+/// `monte-carlo`: the fraction of good ids among `queries` drawn at random, with replacement.
+///
+/// Interval: all a whose Kullback-Leibler divergence from the fraction is at most
+/// `ln(2/(1 - confidence))/n` (Chernoff's bound, for either side half of what may fail), which holds
+/// for every n and a. Where an error is asked, n is the smallest that Hoeffding's inequality
+/// allows, `ln(2/(1 - confidence)) / (2 error^2)`, if that is less than the queries.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MonteCarlo {
+    /// Ids drawn.
+    queries: u64,
+    confidence: f64,
+}
+
+impl MonteCarlo {
+    pub(super) fn new(settings: &Settings) -> Self {
+        let enough = settings.error.map_or(f64::INFINITY, |error| {
+            libm::log(2.0 / (1.0 - settings.confidence)) / (2.0 * error * error)
+        });
+        Self {
+            // A float beyond 2^64 becomes the largest integer.
+            queries: settings.queries.min(enough.ceil() as u64).max(1),
+            confidence: settings.confidence,
+        }
+    }
+}
+
+impl AmplitudeEstimator for MonteCarlo {
+    fn estimate(&self, device: &mut Device<'_>) -> Result<Estimate, EstimatorError> {
+        let start = device.spent();
+        let hits = device.paths(self.queries);
+        let shots = self.queries as f64;
+        let amplitude = hits as f64 / shots;
+        let interval = chernoff_interval(hits, self.queries, 1.0 - self.confidence);
+        Ok(device.estimate(start, amplitude, interval, self.confidence))
+    }
+}
+
+/// All a that Chernoff's bound does not exclude, at a probability of `failure` in all, after `hits`
+/// of `shots`.
+pub(super) fn chernoff_interval(hits: u64, shots: u64, failure: f64) -> (f64, f64) {
+    let n = shots as f64;
+    let fraction = hits as f64 / n;
+    let missed = (shots - hits) as f64 / n;
+    let reach = libm::log(2.0 / failure) / n;
+    let low = (fraction - chernoff(missed, reach)).max(0.0);
+    let high = (fraction + chernoff(fraction, reach)).min(1.0);
+    (low, high)
+}
+
+/// The distance from `fraction` to the largest a at or above it with `KL(fraction, a) <= reach`.
+///
+/// By Chernoff's bound a fraction this low or lower has probability at most exp(-n reach) under
+/// any larger a.
+fn chernoff(fraction: f64, reach: f64) -> f64 {
+    let rest = 1.0 - fraction;
+    let (mut low, mut high) = (0.0, rest);
+    for _ in 0..100 {
+        let middle = 0.5 * (low + high);
+        let divergence = binomial::deviance(fraction, -middle) + binomial::deviance(rest, middle);
+        if divergence <= reach {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    high
+}

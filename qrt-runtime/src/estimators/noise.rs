@@ -1,0 +1,119 @@
+//! Noise of a device.
+
+use super::EstimatorError;
+use std::fmt;
+use std::str::FromStr;
+
+/// What goes wrong on a device.
+///
+/// *Depolarising*: with this probability a query leaves the whole register, ids and counter, in the
+/// maximally mixed state, where it stays. A shot of k queries is intact with probability
+/// `(1 - depolarising)^k`; otherwise every outcome is equally likely: an id is good with
+/// probability S/N, and a counter reads anything.
+///
+/// *Readout*: with this probability each measured bit is read wrongly. On a counter the bits are
+/// flipped. An id that is read wrongly is another id, and is taken to be good with probability S/N:
+/// neighbours of an id are not modelled.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Noise {
+    /// Probability that a query destroys the state.
+    pub depolarising: f64,
+    /// Probability that a measured bit is wrong.
+    pub readout: f64,
+}
+
+impl Noise {
+    /// A perfect device.
+    pub const NONE: Self = Self {
+        depolarising: 0.0,
+        readout: 0.0,
+    };
+
+    /// # Errors
+    /// A probability that is not in [0, 1].
+    pub(crate) fn check(&self) -> Result<(), EstimatorError> {
+        for probability in [self.depolarising, self.readout] {
+            if !(0.0..=1.0).contains(&probability) {
+                return Err(EstimatorError::NoiseOutOfRange(probability));
+            }
+        }
+        Ok(())
+    }
+
+    /// The probability that a state survives `queries`.
+    pub fn intact(&self, queries: u64) -> f64 {
+        survives(self.depolarising, queries)
+    }
+
+    /// The probability that `bits` are all read rightly.
+    pub fn read_rightly(&self, bits: u32) -> f64 {
+        survives(self.readout, u64::from(bits))
+    }
+}
+
+/// `(1 - each)^times`.
+fn survives(each: f64, times: u64) -> f64 {
+    if times == 0 {
+        1.0
+    } else if each >= 1.0 {
+        0.0
+    } else {
+        libm::exp(times as f64 * libm::log1p(-each))
+    }
+}
+
+impl fmt::Display for Noise {
+    /// As it is written on the command line.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "depolarising={},readout={}",
+            self.depolarising, self.readout
+        )
+    }
+}
+
+/// What is not [`Noise`] as it is written on the command line.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct NoiseError(String);
+
+impl fmt::Display for NoiseError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "{}; noise is written as `depolarising=1e-4,readout=0.01`, with probabilities in 0..=1",
+            self.0
+        )
+    }
+}
+
+impl std::error::Error for NoiseError {}
+
+impl FromStr for Noise {
+    type Err = NoiseError;
+
+    fn from_str(text: &str) -> Result<Self, NoiseError> {
+        let mut noise = Self::NONE;
+        let mut named = [false; 2];
+        for part in text.split(',') {
+            let (name, value) = part
+                .split_once('=')
+                .ok_or_else(|| NoiseError(format!("`{part}` has no `=`")))?;
+            let value: f64 = (value.trim().parse())
+                .map_err(|_| NoiseError(format!("`{value}` is not a number")))?;
+            if !(0.0..=1.0).contains(&value) {
+                return Err(NoiseError(format!("{value} is not a probability")));
+            }
+            let (place, slot) = match name.trim() {
+                "depolarising" => (0, &mut noise.depolarising),
+                "readout" => (1, &mut noise.readout),
+                other => return Err(NoiseError(format!("there is no noise `{other}`"))),
+            };
+            if std::mem::replace(&mut named[place], true) {
+                return Err(NoiseError(format!("`{}` is there twice", name.trim())));
+            }
+            *slot = value;
+        }
+        Ok(noise)
+    }
+}

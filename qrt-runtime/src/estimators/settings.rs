@@ -1,0 +1,76 @@
+//! What is wanted of an estimator.
+
+use super::{EstimatorError, Noise};
+use crate::counting::{CountingError, MAX_PHASE_BITS, MAX_REPETITIONS};
+use qrt_core::scene::{Counting, Window};
+
+/// The confidence of intervals where none is asked.
+pub const DEFAULT_CONFIDENCE: f64 = 0.95;
+
+/// What is wanted of an estimator. Each takes from it what it has a use for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// t, of T = 2^t: the counting register, in `1..=40`.
+    pub phase_bits: u32,
+    /// B, the runs of the counting circuit, in `1..=1000000`.
+    pub repetitions: u32,
+    /// The counting register's window, for `posterior-mean`, which leaves it open.
+    pub window: Window,
+    /// The most queries that may be spent, for estimators that decide themselves what they measure;
+    /// at least 1. (T - 1) B in a scene, so that all estimators cost the same.
+    pub queries: u64,
+    /// The error at which they stop, as the interval's half-width, in (0, 1); none: when the
+    /// queries are spent.
+    pub error: Option<f64>,
+    /// The probability with which intervals hold S/N, in (0, 1).
+    pub confidence: f64,
+    /// Noise that an estimator with a likelihood reckons with. What a device suffers is said where
+    /// it is made, and may differ.
+    pub known_noise: Noise,
+}
+
+impl Settings {
+    /// The settings of a scene's counting block: `queries` is what B runs of its counting circuit
+    /// take.
+    ///
+    /// # Errors
+    /// A register or repetitions out of range.
+    pub fn of(counting: &Counting) -> Result<Self, EstimatorError> {
+        check_register(counting.phase_bits, counting.repetitions)?;
+        Ok(Self {
+            phase_bits: counting.phase_bits,
+            repetitions: counting.repetitions,
+            window: counting.window,
+            // Below 2^40 * 10^6 < 2^60.
+            queries: ((1_u64 << counting.phase_bits) - 1) * u64::from(counting.repetitions),
+            error: None,
+            confidence: DEFAULT_CONFIDENCE,
+            known_noise: Noise::NONE,
+        })
+    }
+
+    pub(crate) fn check(&self) -> Result<(), EstimatorError> {
+        check_register(self.phase_bits, self.repetitions)?;
+        if self.queries == 0 {
+            return Err(EstimatorError::NoQueries);
+        }
+        let inside = |value: f64| value > 0.0 && value < 1.0;
+        if let Some(error) = self.error.filter(|&error| !inside(error)) {
+            return Err(EstimatorError::ErrorOutOfRange(error));
+        }
+        if !inside(self.confidence) {
+            return Err(EstimatorError::ConfidenceOutOfRange(self.confidence));
+        }
+        self.known_noise.check()
+    }
+}
+
+fn check_register(phase_bits: u32, repetitions: u32) -> Result<(), EstimatorError> {
+    if !(1..=MAX_PHASE_BITS).contains(&phase_bits) {
+        return Err(CountingError::PhaseBitsOutOfRange(phase_bits).into());
+    }
+    if !(1..=MAX_REPETITIONS).contains(&repetitions) {
+        return Err(CountingError::RepetitionsOutOfRange(repetitions).into());
+    }
+    Ok(())
+}

@@ -1,0 +1,101 @@
+//! `paper` and `sine`: repeated quantum counting, and the likeliest S.
+
+use super::{AmplitudeEstimator, Device, Estimate, EstimatorError, Settings};
+use crate::counting::maximum_likelihood;
+use qrt_core::scene::Window;
+use std::f64::consts::PI;
+
+/// Repeated quantum counting, and the likeliest S: `paper` with the rectangular window, `sine`
+/// with the sine window.
+///
+/// Interval: with y' and y'' the lower and the upper median of the B outcomes, theta lies in
+/// `[(y' - 1)/T, (y'' + 1)/T]`. A single outcome is within one step of T theta with probability
+/// at least 8/pi^2 (Brassard, Hoyer, Mosca & Tapp, *Quantum amplitude amplification and
+/// estimation*, 2000, theorem 11; for a single outcome this is
+/// `|S~ - S| <= 2 pi sqrt(S(N-S))/T + pi^2 N/T^2`), and for the median to be off, half of the
+/// outcomes must be. The sine window exceeds that probability. Where the likeliest S lies outside,
+/// the interval is extended to it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WindowedCounting {
+    /// t, of T = 2^t.
+    pub phase_bits: u32,
+    /// B.
+    pub repetitions: u32,
+    /// The window of the counting register.
+    pub window: Window,
+}
+
+/// What a single outcome is within one step of T theta with.
+const ONE_STEP: f64 = 8.0 / (PI * PI);
+
+impl WindowedCounting {
+    /// The paper's.
+    ///
+    /// # Errors
+    /// A register or repetitions out of range.
+    pub fn paper(settings: &Settings) -> Result<Self, EstimatorError> {
+        Self::with(settings, Window::Rect)
+    }
+
+    /// With the sine window.
+    ///
+    /// # Errors
+    /// A register or repetitions out of range.
+    pub fn sine(settings: &Settings) -> Result<Self, EstimatorError> {
+        Self::with(settings, Window::Sine)
+    }
+
+    fn with(settings: &Settings, window: Window) -> Result<Self, EstimatorError> {
+        settings.check()?;
+        Ok(Self {
+            phase_bits: settings.phase_bits,
+            repetitions: settings.repetitions,
+            window,
+        })
+    }
+
+    /// What `outcomes` say about the good ids among `total`; [`Self::repetitions`] plays no part.
+    ///
+    /// # Errors
+    ///
+    /// As [`maximum_likelihood`].
+    pub fn infer(&self, outcomes: &[u64], total: u64) -> Result<Estimate, EstimatorError> {
+        let likeliest = maximum_likelihood(outcomes, total, self.phase_bits, self.window)?;
+        let amplitude = likeliest.good as f64 / total as f64;
+        let (low, high) = self.medians_interval(outcomes);
+        let shots = outcomes.len() as u64;
+        let depth = (1 << self.phase_bits) - 1;
+        Ok(Estimate {
+            amplitude,
+            good: Some(likeliest.good),
+            interval: (low.min(amplitude), high.max(amplitude)),
+            confidence: ONE_STEP,
+            queries: shots.saturating_mul(depth),
+            shots,
+            depth,
+            rounds: 1,
+            ln_likelihood: Some(likeliest.ln_likelihood),
+            candidates: None,
+        })
+    }
+
+    fn medians_interval(&self, outcomes: &[u64]) -> (f64, f64) {
+        let mut sorted = outcomes.to_vec();
+        sorted.sort_unstable();
+        let size = (1_u64 << self.phase_bits) as f64;
+        let lower = sorted[(sorted.len() - 1) / 2] as f64 - 1.0;
+        let upper = sorted[sorted.len() / 2] as f64 + 1.0;
+        let amplitude = |steps: f64| {
+            let sine = libm::sin(PI * (steps.clamp(0.0, 0.5 * size) / size));
+            sine * sine
+        };
+        (amplitude(lower), amplitude(upper))
+    }
+}
+
+impl AmplitudeEstimator for WindowedCounting {
+    fn estimate(&self, device: &mut Device<'_>) -> Result<Estimate, EstimatorError> {
+        let outcomes = device.phases(self.phase_bits, self.window, self.repetitions)?;
+        self.infer(&outcomes, device.total())
+    }
+}
