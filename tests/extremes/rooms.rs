@@ -9,6 +9,7 @@ use qrt::core::diagnostics::Report;
 use qrt::core::front::parse;
 use qrt::core::scene::Estimator;
 use qrt::runtime::render::{Model, Options, render};
+use std::fmt::Write as _;
 
 type Point = [f64; 3];
 
@@ -71,14 +72,19 @@ impl Room {
             let [a, b, c, d] = wall.map(|code| (self.place)(corner(code)));
             if self.triangles {
                 for half in [[a, b, c], [a, c, d]] {
-                    geometry +=
-                        &format!("  - triangle: {{ vertices: {half:?}, material: wall }}\n");
+                    writeln!(
+                        geometry,
+                        "  - triangle: {{ vertices: {half:?}, material: wall }}"
+                    )
+                    .unwrap();
                 }
             } else {
-                geometry += &format!(
-                    "  - quad: {{ vertices: {:?}, material: wall }}\n",
-                    [a, b, c, d]
-                );
+                let all = [a, b, c, d];
+                writeln!(
+                    geometry,
+                    "  - quad: {{ vertices: {all:?}, material: wall }}"
+                )
+                .unwrap();
             }
         }
         let bits = ", { bits: [6, 6] }".repeat(DEPTH as usize - 1);
@@ -339,7 +345,7 @@ precision: {{ fraction: 24 }}"
             let error = (pixel[0] / expected - 1.0).abs();
             assert!(error < 0.05, "{model:?} {height}: {pixel:?}");
             if model == Model::Real {
-                measured.push(format!("{height}: {:.0e}", error));
+                measured.push(format!("{height}: {error:.0e}"));
             }
         }
     }
