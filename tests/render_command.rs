@@ -175,6 +175,7 @@ fn pictures_say_how_they_were_made() {
             expected.extend([
                 ("phase_bits", "7"),
                 ("repetitions", "1"),
+                ("colour", "three-runs"),
                 ("noise", "depolarising=0,readout=0"),
             ]);
         }

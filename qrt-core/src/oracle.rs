@@ -38,6 +38,18 @@ use std::fmt;
 /// Fraction bits under `precision: { fraction: auto }`.
 pub const DEFAULT_FRACTION: u32 = 16;
 
+/// The number of the channel that holds the luminance.
+pub const LUMINANCE_CHANNEL: usize = 3;
+
+/// Weights of red, green and blue in the luminance, of the primaries of sRGB (ITU-R BT.709).
+pub const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
+
+/// The luminance of a linear colour.
+pub fn luminance(colour: &[f64; 3]) -> f64 {
+    let [r, g, b] = *colour;
+    LUMINANCE[0] * r + LUMINANCE[1] * g + LUMINANCE[2] * b
+}
+
 /// How a scene is compiled, where not as it says itself.
 #[derive(Clone, Copy, Debug)]
 pub struct Options {
@@ -92,7 +104,7 @@ impl From<SamplingError> for OracleError {
 /// A channel's part of an oracle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Channel {
-    /// 0 red, 1 green, 2 blue.
+    /// 0 red, 1 green, 2 blue, [`LUMINANCE_CHANNEL`] their luminance.
     pub number: usize,
     /// The colour, in units of `scale 2^-fraction`.
     pub colour: Operand,
@@ -155,6 +167,23 @@ impl Oracle {
         let mut recording = Recording::new(scene, [0, 1, 2], Options::default())?;
         let channels = [0, 1, 2].map(|channel| recording.oracle(&[channel]));
         Ok((channels, recording.oracle(&[0, 1, 2])))
+    }
+
+    /// The oracle of the luminance alone: see [`luminance`].
+    ///
+    /// # Errors
+    /// As [`Oracle::new`].
+    pub fn luminance(scene: &ValidScene, options: Options) -> Result<Self, OracleError> {
+        Ok(Recording::with_luminance(scene, options)?.oracle(&[3]))
+    }
+
+    /// One program for all three channels and, behind them, their luminance: what a machine runs
+    /// that counts the luminance and looks at the colours of the paths that it measures.
+    ///
+    /// # Errors
+    /// As [`Oracle::new`].
+    pub fn rgb_and_luminance(scene: &ValidScene, options: Options) -> Result<Self, OracleError> {
+        Ok(Recording::with_luminance(scene, options)?.oracle(&[0, 1, 2, 3]))
     }
 
     fn compile<const C: usize>(

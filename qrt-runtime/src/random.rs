@@ -87,6 +87,11 @@ impl Stream {
         (self.next_u64() >> 11) as f64 * (1.0 / 9_007_199_254_740_992.0)
     }
 
+    /// Uniform in `0..limit`, to one part in 2^64 / `limit`; 0 if the limit is 0.
+    pub fn below(&mut self, limit: u64) -> u64 {
+        ((u128::from(self.next_u64()) * u128::from(limit)) >> 64) as u64
+    }
+
     /// Uniform in (0, 1], with 53 significant bits however small it is (down to 2^-75): what the
     /// inverse of a heavy-tailed distribution needs where its tail is thinnest.
     pub fn fine_uniform(&mut self) -> f64 {

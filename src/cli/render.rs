@@ -49,6 +49,9 @@ pub(crate) struct RenderArgs {
     /// How the good ids are counted; exact takes them all, without noise [default: the scene's]
     #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(estimators()))]
     estimator: Option<String>,
+    /// How pixels get their colours
+    #[arg(long, value_enum, default_value_t = Colour::ThreeRuns)]
+    colour: Colour,
     /// Noise of the device that counts: the probability that a query destroys the state, and that a
     /// measured bit is wrong; either may be left out
     #[arg(long, value_name = "depolarising=P,readout=P", value_parser = noise)]
@@ -107,6 +110,24 @@ impl From<Model> for render::Model {
     }
 }
 
+/// How pixels get their colours.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Colour {
+    /// Each channel is counted
+    ThreeRuns,
+    /// The luminance is counted, and the paths that are measured give the colour
+    OneRun,
+}
+
+impl From<Colour> for render::Colour {
+    fn from(colour: Colour) -> Self {
+        match colour {
+            Colour::ThreeRuns => Self::ThreeRuns,
+            Colour::OneRun => Self::OneRun,
+        }
+    }
+}
+
 fn estimators() -> [&'static str; AVAILABLE.len()] {
     AVAILABLE.map(Estimator::name)
 }
@@ -161,6 +182,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
         crop: args.crop,
         model: args.model.into(),
         estimator: args.estimator.as_deref().and_then(Estimator::from_name),
+        colour: args.colour.into(),
         noise: args.noise.unwrap_or_default(),
         threads: args.threads.and_then(|n| NonZeroUsize::new(n as usize)),
         checkpoint: checkpoint.clone(),

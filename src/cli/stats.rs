@@ -33,6 +33,7 @@ fn stats(scene: &ValidScene, rendered: &Rendered, clipped: u64) -> Value {
         "scene_hash": scene.fingerprint().to_string(),
         "model": rendered.model.name(),
         "estimator": rendered.estimator.name(),
+        "colour": rendered.colour.name(),
         "noise": { "depolarising": rendered.noise.depolarising, "readout": rendered.noise.readout },
         "seed": rendered.seed,
         "width": written.film.width,

@@ -1,12 +1,18 @@
 //! A scene's program as the builder recorded it, from which the oracles of channels are assembled.
 
-use super::{Channel, DEFAULT_FRACTION, Options, Oracle, OracleError, faces, register_of};
-use crate::circuit::builder::{Builder, NamedPlace, Recorded, Target};
+use super::{
+    Channel, DEFAULT_FRACTION, LUMINANCE, LUMINANCE_CHANNEL, Options, Oracle, OracleError, faces,
+    luminance, register_of,
+};
+use crate::circuit::builder::{Builder, NamedPlace, Real, Recorded, Target};
 use crate::circuit::{self, Operand, RegisterId, Role, Style, Type, Word};
 use crate::sampling::PathPoints;
 use crate::scene::{Nearest, Uncompute};
-use crate::tracer::{Records, Stage, trace};
+use crate::tracer::{Arith, Records, Stage, trace};
 use crate::valid::ValidScene;
+
+/// Channels by number.
+const CHANNELS: [&str; 4] = ["r", "g", "b", "luminance"];
 
 /// What was recorded, and what is known of it: `known` is an oracle without a program.
 pub(super) struct Recording {
@@ -22,6 +28,41 @@ impl Recording {
         scene: &ValidScene,
         channels: [usize; C],
         options: Options,
+    ) -> Result<Self, OracleError> {
+        Self::with(scene, channels, options, |_, _, _| Vec::new())
+    }
+
+    /// All three channels, and behind them their luminance.
+    pub(super) fn with_luminance(
+        scene: &ValidScene,
+        options: Options,
+    ) -> Result<Self, OracleError> {
+        Self::with(scene, [0, 1, 2], options, |builder, colours, bounds| {
+            let scale = luminance(bounds);
+            let shares = [0, 1, 2].map(|c| {
+                // A black picture has no scale.
+                let share = if scale > 0.0 {
+                    LUMINANCE[c] * bounds[c] / scale
+                } else {
+                    0.0
+                };
+                builder.scale(colours[c], share)
+            });
+            let sum = shares
+                .into_iter()
+                .reduce(|sum, share| builder.add(sum, share));
+            sum.map(|sum| (LUMINANCE_CHANNEL, sum, scale))
+                .into_iter()
+                .collect()
+        })
+    }
+
+    /// The channels, and others that `more` makes of their colours: number, colour and scale.
+    fn with<const C: usize>(
+        scene: &ValidScene,
+        channels: [usize; C],
+        options: Options,
+        more: impl FnOnce(&mut Builder<'_>, &[Real; C], &[f64; C]) -> Vec<(usize, Real, f64)>,
     ) -> Result<Self, OracleError> {
         let written = scene.scene();
         let stage = Stage::new(scene, channels).relative();
@@ -47,14 +88,17 @@ impl Recording {
             Nearest::Running => trace(&mut builder, &stage, stage.geometry()),
             Nearest::Paper => trace(&mut builder, &stage, &Records(&stage)),
         };
+        let bounds = stage.bound();
+        let more = more(&mut builder, &colours, &bounds);
+        let own = (0..C).map(|k| (channels[k], colours[k], bounds[k]));
         let mut outputs = Vec::new();
-        for (k, &colour) in colours.iter().enumerate() {
+        for (number, colour, scale) in own.chain(more) {
             let (colour, count) = builder.counted(colour, bits, written.comparator.at);
             outputs.push(Channel {
-                number: channels[k],
+                number,
                 colour,
                 count,
-                scale: stage.bound()[k],
+                scale,
             });
         }
         let id = builder.id();
@@ -119,7 +163,7 @@ impl Recording {
             if let Operand::Word(word) = output.colour {
                 let register = &mut program.registers[word.register.index()];
                 register.role = Role::Colour;
-                register.name = format!("colour.{}", ["r", "g", "b"][output.number]);
+                register.name = format!("colour.{}", CHANNELS[output.number]);
             }
         }
         let held = program.outputs();

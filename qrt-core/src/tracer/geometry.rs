@@ -27,6 +27,9 @@ pub const INWARD: f64 = 1.0 / (1_u64 << 32) as f64;
 /// Planes nearer than this to each other (in coefficients and offset) are one.
 const SAME_PLANE: f64 = 1.0 / (1_u64 << 42) as f64;
 
+/// The eye stands on a plane that is nearer than this, in stage units and relative to where it is.
+const ON_PLANE: f64 = 1.0 / (1_u64 << 46) as f64;
+
 /// `low <= a p[axis + 1] + b p[axis + 2] <= high`, for a point of a plane with main axis `axis`
 /// (axes are counted cyclically). The greater of `|a|`, `|b|` is 1; a bound may be infinite.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -217,6 +220,20 @@ impl Geometry {
         self.planes.push(new);
         on_plane.push(Vec::new());
         plane
+    }
+
+    /// Moves planes that pass by `point` within rounding onto it, so that a ray from there does not
+    /// meet the wall where it starts.
+    pub(super) fn pass_through(&mut self, point: [f64; 3]) {
+        for plane in &mut self.planes {
+            let [along, first, second] = [0, 1, 2].map(|k| point[(plane.axis + k) % 3]);
+            // As the tracer computes it: the difference is then zero, not almost.
+            let [a, b] = plane.form;
+            let height = along + (a * first + b * second);
+            if (plane.offset - height).abs() <= ON_PLANE * (1.0 + height.abs()) {
+                plane.offset = height;
+            }
+        }
     }
 
     /// Sorts planes by main axis and lays their faces out in that order.

@@ -58,7 +58,7 @@ impl<const C: usize> Stage<C> {
         let emitters = first..first + surfaces.iter().copied().filter(emits).count() as u32;
         let black = surfaces.iter().filter(|s| rank(&s.scatter) == 0).count() as u32;
         let reach = camera::reach(&written.camera, written.film);
-        let geometry = Geometry::new(
+        let mut geometry = Geometry::new(
             scene.polygons(),
             |polygon| emits(&&scene.surfaces()[polygon.surface as usize]),
             &reach,
@@ -77,9 +77,13 @@ impl<const C: usize> Stage<C> {
             .map(|surface| channels.map(|c| surface.radiance[c]))
             .collect();
         let bound = bound::colour(&surfaces, &radiance, &scatters);
+        let camera = CameraStage::new(&written.camera, written.film, &geometry, unit);
+        if camera.perspective {
+            geometry.pass_through(camera.fixed);
+        }
         let frames = geometry.frames.iter();
         Self {
-            camera: CameraStage::new(&written.camera, written.film, &geometry, unit),
+            camera,
             film_bits: depths.first().map_or([0, 0], |primary| primary.bits),
             surface_of: scene
                 .polygons()

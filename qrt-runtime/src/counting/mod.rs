@@ -19,6 +19,7 @@ mod draw;
 mod error;
 mod kernel;
 mod likelihood;
+mod measured;
 #[cfg(test)]
 pub(crate) mod tests;
 
@@ -28,3 +29,4 @@ pub use distribution::PhaseDistribution;
 pub use draw::Sampler;
 pub use error::{CountingError, MAX_PHASE_BITS, MAX_REPETITIONS};
 pub use likelihood::{MaximumLikelihood, ln_likelihood, maximum_likelihood, posterior};
+pub(crate) use measured::good_id;

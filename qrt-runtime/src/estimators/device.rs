@@ -6,7 +6,7 @@
 //! 104 bits: a shot after 2^40 iterations has the right probability to better than 1e-15.
 
 use super::{Estimate, EstimatorError, Noise};
-use crate::counting::{Angle, PhaseDistribution, binomial};
+use crate::counting::{Angle, PhaseDistribution, binomial, good_id};
 use crate::random::Stream;
 use qrt_core::scene::Window;
 
@@ -33,6 +33,8 @@ pub struct Spent {
     pub depth: u64,
     /// Times that something was asked.
     pub rounds: u64,
+    /// Measured ids that turned out to be good: each is one of the good ids, all equally likely.
+    pub good_ids: u64,
 }
 
 /// A device that runs circuits with the oracle of one problem, and keeps count.
@@ -114,6 +116,7 @@ impl<'a> Device<'a> {
     /// S, by going through all ids: N queries.
     pub fn every_id(&mut self) -> u64 {
         self.spend(self.problem.total, 1);
+        self.spent.good_ids += self.problem.good;
         self.problem.good
     }
 
@@ -121,7 +124,9 @@ impl<'a> Device<'a> {
     pub fn paths(&mut self, shots: u64) -> u64 {
         self.spend(shots, 1);
         let Problem { good, total } = self.problem;
-        binomial::draw(shots, good, total, self.stream)
+        let found = binomial::draw(shots, good, total, self.stream);
+        self.spent.good_ids += found;
+        found
     }
 
     /// The good ids among `shots` that are measured after `iterations` Grover iterations each:
@@ -151,7 +156,9 @@ impl<'a> Device<'a> {
         let any = self.theta.sine_squared(1);
         let mixed = |ideal: f64, any: f64| right * ideal + (1.0 - right) * any;
         let (p, q) = (mixed(good.0, any.0), mixed(good.1, any.1));
-        binomial::draw_with(shots, p, q, self.stream)
+        let found = binomial::draw_with(shots, p, q, self.stream);
+        self.spent.good_ids += found;
+        found
     }
 
     /// Outcomes of the counting circuit with T = 2^`phase_bits`, folded onto `0 ..= T/2`: T-1
@@ -194,6 +201,11 @@ impl<'a> Device<'a> {
             }
             raw.min(size - raw)
         };
-        Ok((0..repetitions).map(|_| outcome()).collect())
+        let outcomes = (0..repetitions).map(|_| outcome()).collect();
+        // The ids are measured, too.
+        let theta = distribution.theta();
+        let p = good_id(theta, phase_bits, window);
+        self.measured_ids(size - 1, (p, 1.0 - p), u64::from(repetitions));
+        Ok(outcomes)
     }
 }

@@ -24,7 +24,7 @@ use super::native;
 use super::native::NativeOracle;
 use super::span::Span;
 use qrt_core::circuit::{Operand, Word};
-use qrt_core::oracle::Oracle;
+use qrt_core::oracle::{Channel, LUMINANCE_CHANNEL, Oracle};
 use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -32,7 +32,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 pub struct OracleMachine {
     oracle: Arc<Oracle>,
     seed: u64,
-    /// What is read of every path: by channel the count, then by channel the colour.
+    /// What is read of every path: by channel the count, then, where they are wanted, by channel the
+    /// colour, and last the count of the luminance, where the oracle has it.
     outputs: Vec<Operand>,
     machine: Machine,
 }
@@ -61,6 +62,8 @@ pub struct Finished<'a> {
     pub first_id: u64,
     /// By channel: how many thresholds each path's colour exceeds, at most `2^c`.
     pub good: [&'a [i64]; 3],
+    /// The same of the luminance; empty unless the oracle has it.
+    pub luminance: &'a [i64],
     /// By channel: each path's colour, in units of `2^-fraction` of the channel's scale. Empty
     /// unless asked for.
     pub colours: [&'a [i64]; 3],
@@ -219,7 +222,7 @@ impl OracleMachine {
                 let last = pixel + 1 == pixels.len() && first == ids.end;
                 if block.ids.len() == most || last {
                     self.run(&mut block, &parameters)?;
-                    Self::hand_over(&block, &mut finished);
+                    self.hand_over(&block, &mut finished);
                     block.ids.clear();
                     block.runs.clear();
                 }
@@ -236,16 +239,27 @@ impl OracleMachine {
             .collect()
     }
 
-    fn hand_over(block: &Block, finished: &mut impl FnMut(Finished<'_>)) {
+    /// Where among the outputs the count of the luminance is.
+    fn luminance(&self) -> Option<usize> {
+        let channels = &self.oracle.channels;
+        let there = channels.iter().any(|c| c.number == LUMINANCE_CHANNEL);
+        there.then(|| self.outputs.len() - 1)
+    }
+
+    fn hand_over(&self, block: &Block, finished: &mut impl FnMut(Finished<'_>)) {
+        let luminance = self.luminance();
+        let colours = self.outputs.len() - usize::from(luminance.is_some()) > 3;
         let mut start = 0;
         for run in &block.runs {
             let range = start..start + run.count;
-            let column = |k: usize| block.values.get(k).map_or(&[][..], |v| &v[range.clone()]);
+            let column = |k: usize| &block.values[k][range.clone()];
+            let colour = |k: usize| if colours { column(k) } else { &[] };
             finished(Finished {
                 pixel: run.pixel,
                 first_id: run.first,
                 good: [column(0), column(1), column(2)],
-                colours: [column(3), column(4), column(5)],
+                luminance: luminance.map_or(&[], column),
+                colours: [colour(3), colour(4), colour(5)],
             });
             start = range.end;
         }
@@ -295,8 +309,9 @@ impl OracleMachine {
             }
         }
         let most = 1 << self.oracle.comparator_bits();
-        for values in block.values.iter_mut().take(3) {
-            for value in &mut values[..count] {
+        let counts = (0..3).chain(self.luminance());
+        for column in counts {
+            for value in &mut block.values[column][..count] {
                 *value = (*value).clamp(0, most);
             }
         }
@@ -319,13 +334,13 @@ struct Run {
 }
 
 fn outputs(oracle: &Oracle, colours: bool) -> Vec<Operand> {
-    let counts = oracle.channels.iter().map(|channel| channel.count);
-    let colours = oracle
-        .channels
-        .iter()
-        .map(|channel| channel.colour)
-        .take(if colours { 3 } else { 0 });
-    counts.chain(colours).collect()
+    let (luminance, rgb): (Vec<&Channel>, Vec<&Channel>) =
+        (oracle.channels.iter()).partition(|channel| channel.number == LUMINANCE_CHANNEL);
+    let counts = rgb.iter().map(|channel| channel.count);
+    let wanted = if colours { 3 } else { 0 };
+    let colours = rgb.iter().map(|channel| channel.colour).take(wanted);
+    let luminance = luminance.iter().map(|channel| channel.count);
+    counts.chain(colours).chain(luminance).collect()
 }
 
 fn word_of(operand: Operand) -> Option<Word> {

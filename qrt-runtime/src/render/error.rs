@@ -1,5 +1,6 @@
 //! Why a picture isn't rendered.
 
+use super::one_run::OneRunError;
 use crate::checkpoint::CheckpointError;
 use crate::counting::CountingError;
 use crate::estimators::EstimatorError;
@@ -12,6 +13,8 @@ use std::path::PathBuf;
 pub enum RenderError {
     /// The scene asks for an accuracy, which this version can't turn into knobs.
     Accuracy,
+    /// One run for all channels, and an estimator that measures no paths.
+    NothingMeasured,
     /// A crop without pixels, or not within the film.
     Crop {
         /// x, y, width, height.
@@ -84,6 +87,7 @@ impl RenderError {
     pub fn is_refusal(&self) -> bool {
         match self {
             Self::Accuracy
+            | Self::NothingMeasured
             | Self::Crop { .. }
             | Self::TooManyPaths { .. }
             | Self::Bound { .. }
@@ -116,6 +120,11 @@ impl fmt::Display for RenderError {
                 "the scene asks for an `accuracy`, and this version of qrt does not choose the \
                  knobs for it: in its place set `sampling.path_bits`, `comparator.bits`, \
                  `counting.phase_bits` and `counting.repetitions`"
+            ),
+            Self::NothingMeasured => write!(
+                f,
+                "colour from one run is that of the paths which are measured, and the estimator \
+                 `exact` measures none: choose another estimator, or three runs"
             ),
             Self::Crop { crop, film } => {
                 let [x, y, width, height] = crop;
@@ -210,6 +219,15 @@ impl From<qrt_core::oracle::OracleError> for RenderError {
 impl From<crate::machines::Defect> for RenderError {
     fn from(error: crate::machines::Defect) -> Self {
         Self::Defect(error)
+    }
+}
+
+impl From<OneRunError> for RenderError {
+    fn from(error: OneRunError) -> Self {
+        match error {
+            OneRunError::Estimator(error) => error.into(),
+            OneRunError::Defect(defect) => defect.into(),
+        }
     }
 }
 

@@ -35,6 +35,7 @@ impl Rendered {
             metadata.set("comparator_at", comparator.at.name())?;
             metadata.set("phase_bits", counting.phase_bits.to_string())?;
             metadata.set("repetitions", counting.repetitions.to_string())?;
+            metadata.set("colour", self.colour.name())?;
             metadata.set("noise", self.noise.to_string())?;
         }
         metadata.set("queries", self.total_queries().to_string())?;

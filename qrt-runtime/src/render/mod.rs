@@ -44,6 +44,7 @@
 
 mod error;
 mod metadata;
+mod one_run;
 mod pixel;
 mod sum;
 mod tiles;
@@ -92,6 +93,30 @@ impl Model {
     }
 }
 
+/// How a pixel gets its colour.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Colour {
+    /// A run of counting for each channel, as in the paper.
+    #[default]
+    ThreeRuns,
+    /// One run, of the luminance; the colour comes from the paths that it measures. A third of the
+    /// queries, and colours with the noise of that many paths.
+    OneRun,
+}
+
+impl Colour {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::ThreeRuns, Self::OneRun];
+
+    /// As it is written.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::ThreeRuns => "three-runs",
+            Self::OneRun => "one-run",
+        }
+    }
+}
+
 /// How to render. What isn't set follows from the scene.
 #[derive(Clone, Default)]
 pub struct Options<'a> {
@@ -104,6 +129,8 @@ pub struct Options<'a> {
     pub model: Model,
     /// The estimator, in place of the scene's.
     pub estimator: Option<Estimator>,
+    /// How pixels get their colours.
+    pub colour: Colour,
     /// Noise of the device that counts; none unless set.
     pub noise: Noise,
     /// Threads; as many as the machine has cores unless set.
@@ -154,6 +181,8 @@ pub struct Rendered {
     pub crop: [u32; 4],
     /// The estimator.
     pub estimator: Estimator,
+    /// How its pixels got their colours.
+    pub colour: Colour,
     /// Noise of the device that counted.
     pub noise: Noise,
     /// The seed.
@@ -214,13 +243,7 @@ impl Rendered {
 /// # Errors
 /// See [`RenderError`]. An interruption is one: what is finished then is in the checkpoint.
 pub fn render(scene: &ValidScene, options: &Options<'_>) -> Result<Rendered, RenderError> {
-    render_by(scene, options, |model| {
-        let oracle = Oracle::rgb(scene, qrt_core::oracle::Options::default())?.into();
-        Ok(match model {
-            Model::Gates => OracleMachine::gates(oracle, options.seed, false)?,
-            Model::Real | Model::Fixed => OracleMachine::fixed(oracle, options.seed, false),
-        })
-    })
+    render_by(scene, options, |model| compiled(scene, options, model))
 }
 
 /// Renders a scene of `qrt!` by the circuit that was compiled with it: the same picture as
@@ -231,6 +254,10 @@ pub fn render(scene: &ValidScene, options: &Options<'_>) -> Result<Rendered, Ren
 /// As [`render`].
 pub fn render_compiled<C: NativeOracle>(options: &Options<'_>) -> Result<Rendered, RenderError> {
     render_by(C::scene(), options, |model| {
+        // Its luminance was not compiled.
+        if options.colour == Colour::OneRun {
+            return compiled(C::scene(), options, model);
+        }
         let oracle = C::oracle()
             .map_err(qrt_core::oracle::OracleError::from)?
             .into();
@@ -238,6 +265,26 @@ pub fn render_compiled<C: NativeOracle>(options: &Options<'_>) -> Result<Rendere
             Model::Gates => OracleMachine::gates(oracle, options.seed, false)?,
             Model::Real | Model::Fixed => OracleMachine::native::<C>(oracle, options.seed, false),
         })
+    })
+}
+
+/// A machine for the scene's oracle, made now.
+fn compiled(
+    scene: &ValidScene,
+    options: &Options<'_>,
+    model: Model,
+) -> Result<OracleMachine, RenderError> {
+    let chosen = qrt_core::oracle::Options::default();
+    let one_run = options.colour == Colour::OneRun;
+    let oracle = if one_run {
+        Oracle::rgb_and_luminance(scene, chosen)?.into()
+    } else {
+        Oracle::rgb(scene, chosen)?.into()
+    };
+    // The colours of the paths that are measured.
+    Ok(match model {
+        Model::Gates => OracleMachine::gates(oracle, options.seed, one_run)?,
+        Model::Real | Model::Fixed => OracleMachine::fixed(oracle, options.seed, one_run),
     })
 }
 
@@ -269,7 +316,13 @@ fn render_by(
         }
         model @ (Model::Fixed | Model::Gates) => Source::Oracle(machine(model)?),
     };
-    let pixels = Pixels::new(source, written, estimator, options.noise, options.seed)?;
+    let Options {
+        noise,
+        colour,
+        seed,
+        ..
+    } = *options;
+    let pixels = Pixels::new(source, written, estimator, noise, colour, seed)?;
     let threads = options.threads.map_or(0, NonZeroUsize::get);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
     let pool = pool.map_err(|error| RenderError::Threads(error.to_string()))?;
@@ -305,10 +358,12 @@ fn render_by(
         Ok(()) => Ok(Rendered {
             image: film.image,
             queries: film.queries,
-            good: (options.model != Model::Real).then_some(film.good),
+            good: (options.model != Model::Real && options.colour == Colour::ThreeRuns)
+                .then_some(film.good),
             model: options.model,
             crop,
             estimator,
+            colour: options.colour,
             noise: options.noise,
             seed: options.seed,
             bound,
@@ -344,6 +399,7 @@ fn header(scene: &ValidScene, asked: &Options<'_>, estimator: Estimator, crop: [
     let options = [
         ("model", asked.model.name().to_owned()),
         ("estimator", estimator.name().to_owned()),
+        ("colour", asked.colour.name().to_owned()),
         ("noise", asked.noise.to_string()),
         ("version", env!("CARGO_PKG_VERSION").to_owned()),
     ];

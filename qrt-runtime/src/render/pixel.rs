@@ -1,7 +1,8 @@
 //! From the paths of a pixel to its colour.
 
-use super::RenderError;
+use super::one_run::{OneRun, Segments};
 use super::sum::Sum;
+use super::{Colour, RenderError};
 use crate::counting::Comparators;
 use crate::estimators::{AmplitudeEstimator, Device, Noise, Problem, Settings, estimator};
 use crate::machines::{Block, Defect, OracleMachine, Real};
@@ -22,10 +23,12 @@ const SPLIT: u64 = 1 << 18;
 const PARTS: u64 = 1 << 12;
 
 /// What the paths of a pixel add up to, per channel.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Totals {
     colour: [Sum; 3],
     good: [u64; 3],
+    /// Of the luminance, where it is counted.
+    segments: Segments,
     /// Paths out of bounds, and the colour of the first.
     stray: [(u64, f64); 3],
 }
@@ -61,6 +64,7 @@ struct Counter {
     comparators: [Comparators; 3],
     estimator: Box<dyn AmplitudeEstimator + Send + Sync>,
     noise: Noise,
+    one_run: Option<OneRun>,
 }
 
 impl Pixels {
@@ -69,6 +73,7 @@ impl Pixels {
         scene: &Scene,
         estimate: Estimator,
         noise: Noise,
+        colour: Colour,
         seed: u64,
     ) -> Result<Self, RenderError> {
         let (bound, paths) = match &source {
@@ -86,6 +91,13 @@ impl Pixels {
                 return Err(RenderError::Bound { channel, bound });
             }
         }
+        let one_run = match colour {
+            Colour::ThreeRuns => None,
+            Colour::OneRun if estimate == Estimator::Exact => {
+                return Err(RenderError::NothingMeasured);
+            }
+            Colour::OneRun => Some(OneRun::new(&bound, scene, paths)?),
+        };
         let counter = if estimate == Estimator::Exact {
             None
         } else {
@@ -94,6 +106,7 @@ impl Pixels {
                 comparators: [r?, g?, b?],
                 estimator: estimator(estimate, &Settings::of(&scene.counting)?)?,
                 noise,
+                one_run,
             })
         };
         Ok(Self {
@@ -104,6 +117,18 @@ impl Pixels {
             paths,
             counter,
         })
+    }
+
+    pub(super) fn source(&self) -> &Source {
+        &self.source
+    }
+
+    pub(super) fn seed(&self) -> u64 {
+        self.seed
+    }
+
+    fn one_run(&self) -> Option<&OneRun> {
+        self.counter.as_ref()?.one_run.as_ref()
     }
 
     pub(super) fn bound(&self) -> [f64; 3] {
@@ -138,6 +163,9 @@ impl Pixels {
             }
             Source::Oracle(machine) => machine.trace(pixels, ids, |finished| {
                 let totals = &mut totals[finished.pixel];
+                if let Some(one_run) = self.one_run() {
+                    one_run.take_counts(&mut totals.segments, finished.luminance);
+                }
                 for (total, good) in totals.good.iter_mut().zip(finished.good) {
                     *total += good.iter().sum::<i64>().cast_unsigned();
                 }
@@ -207,10 +235,16 @@ impl Pixels {
             }
             match &self.counter {
                 None => totals.colour[channel].add(colours),
+                Some(Counter {
+                    one_run: Some(_), ..
+                }) => {}
                 Some(counter) => {
                     totals.good[channel] += counter.comparators[channel].good_total(colours);
                 }
             }
+        }
+        if let Some(one_run) = self.one_run() {
+            one_run.take_colours(&mut totals.segments, &block.colours);
         }
     }
 
@@ -238,6 +272,9 @@ impl Pixels {
                     bound,
                 });
             }
+            if self.one_run().is_some() {
+                continue;
+            }
             finished.colour[channel] = match &self.counter {
                 None if matches!(self.source, Source::Oracle(_)) => {
                     bound * (totals.good[channel] as f64 / ids as f64)
@@ -261,6 +298,16 @@ impl Pixels {
                 }
             };
         }
+        if let Some(counter) = &self.counter
+            && let Some(one_run) = &counter.one_run
+        {
+            let Counter {
+                estimator, noise, ..
+            } = counter;
+            (finished.colour, finished.queries) =
+                one_run.finish(self, &**estimator, *noise, pixel, &totals.segments)?;
+            finished.good = [0; 3];
+        }
         Ok(finished)
     }
 }
@@ -268,6 +315,7 @@ impl Pixels {
 impl Totals {
     /// Adds the totals of later ids.
     fn append(&mut self, later: &Self) {
+        self.segments.append(&later.segments);
         for channel in 0..3 {
             self.colour[channel].append(&later.colour[channel]);
             self.good[channel] += later.good[channel];
@@ -301,7 +349,15 @@ sampling: { path_bits: 5 }
     fn wall(estimator: Estimator) -> Pixels {
         let scene = parse(WALL, "wall.yaml", &[], "".as_ref()).unwrap().valid;
         let real = Source::Real(Box::new(Real::new(&scene, 0).unwrap()));
-        Pixels::new(real, scene.scene(), estimator, Noise::NONE, 0).unwrap()
+        Pixels::new(
+            real,
+            scene.scene(),
+            estimator,
+            Noise::NONE,
+            Colour::ThreeRuns,
+            0,
+        )
+        .unwrap()
     }
 
     #[test]

@@ -160,8 +160,12 @@ impl Builder<'_> {
         self.signed(held, sign)
     }
 
-    /// Whether `a / b` is at least 0 and fits below `most`, and the quotient where it does.
+    /// Whether `a / b` is at least 0 and fits below `most`, and the quotient where it does. A dividend
+    /// that is zero whatever happens is not ahead: it is a ray that starts there.
     pub(super) fn ahead_of(&mut self, a: Real, b: Real, most: f64) -> (Bool, Real) {
+        if a.as_constant() == Some(0.0) {
+            return (Bool::Constant(false), a);
+        }
         if let Some(divisor) = b.as_constant() {
             let quotient = self.times_constant(a, 1.0 / divisor);
             let behind = self.negative_sign(quotient);

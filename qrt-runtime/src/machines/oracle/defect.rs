@@ -30,7 +30,7 @@ pub enum Defect {
     },
     /// A sign that was turned, or not, against the comparison.
     Flip {
-        /// 0 red, 1 green, 2 blue.
+        /// 0 red, 1 green, 2 blue, 3 luminance.
         channel: usize,
         /// The thresholds that the colour exceeds.
         count: i64,
@@ -39,7 +39,7 @@ pub enum Defect {
     },
     /// A comparison that changes what it compares.
     Compared {
-        /// 0 red, 1 green, 2 blue.
+        /// 0 red, 1 green, 2 blue, 3 luminance.
         channel: usize,
         /// The thresholds that the colour exceeds.
         count: i64,
@@ -48,7 +48,7 @@ pub enum Defect {
     },
     /// A comparison that touches a qubit which holds something else.
     Foreign {
-        /// 0 red, 1 green, 2 blue.
+        /// 0 red, 1 green, 2 blue, 3 luminance.
         channel: usize,
         /// The qubit.
         qubit: Qubit,

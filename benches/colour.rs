@@ -1,0 +1,82 @@
+//! Colour from one run of counting instead of three.
+//!
+//! `cargo bench --bench colour` renders scenes both ways with the default estimator, at the same
+//! queries a pixel in all, and prints the errors against the picture without counting noise: of the
+//! luminance, which one run has three times the queries for, and of the colour at that luminance,
+//! which it has from a few measured paths. Fails unless one run's luminance is the better one.
+
+// A bench that cannot run has nothing to report.
+#![allow(clippy::unwrap_used, clippy::expect_used)]
+
+use qrt_core::front::load;
+use qrt_core::oracle::luminance;
+use qrt_core::scene::Estimator;
+use qrt_runtime::render::{Colour, Options, render};
+use std::path::Path;
+
+const SCENES: [&str; 3] = ["cornell-box", "floor-and-light", "velvet"];
+/// Queries of a run under one-run; a third of it by channel under three-runs.
+const BITS: [u32; 3] = [9, 11, 13];
+
+type Picture = Vec<[f64; 3]>;
+
+/// Root mean square errors over the mean luminance: of the luminance, and of the colours when both
+/// are scaled to the right luminance.
+fn errors(found: &Picture, truth: &Picture) -> [f64; 2] {
+    let (mut brightness, mut hue, mut mean) = (0.0, 0.0, 0.0);
+    for (found, truth) in found.iter().zip(truth) {
+        let (y, right) = (luminance(found), luminance(truth));
+        mean += right;
+        brightness += (y - right) * (y - right);
+        if y > 0.0 {
+            for (f, t) in found.iter().zip(truth) {
+                let error = f * right / y - t;
+                hue += error * error / 3.0;
+            }
+        }
+    }
+    let n = truth.len() as f64;
+    [brightness, hue].map(|square| (square / n).sqrt() / (mean / n))
+}
+
+fn main() {
+    println!(
+        "| scene | queries a pixel | luminance, three runs | one run | hue, three runs | one run |"
+    );
+    println!("|---|---|---|---|---|---|");
+    let mut wrong = Vec::new();
+    for name in SCENES {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("scenes-yaml/{name}.yaml"));
+        let picture = |estimator, colour, bits: u32, repetitions: u32| {
+            let sets = [
+                "film={ width: 24, height: 24 }".to_owned(),
+                "sampling.path_bits=12".to_owned(),
+                format!("counting.phase_bits={bits}"),
+                format!("counting.repetitions={repetitions}"),
+            ];
+            let scene = load(&path, &sets).unwrap().valid;
+            let options = Options {
+                estimator: Some(estimator),
+                colour,
+                ..Options::default()
+            };
+            render(&scene, &options).unwrap()
+        };
+        let truth = picture(Estimator::Exact, Colour::ThreeRuns, 8, 1)
+            .image
+            .pixels;
+        for bits in BITS {
+            // Three times the repetitions for the one run.
+            let three = picture(Estimator::AdaptiveBayes, Colour::ThreeRuns, bits, 1);
+            let one = picture(Estimator::AdaptiveBayes, Colour::OneRun, bits, 3);
+            let [y3, c3] = errors(&three.image.pixels, &truth);
+            let [y1, c1] = errors(&one.image.pixels, &truth);
+            let queries = one.total_queries() / (24 * 24);
+            println!("| {name} | {queries} | {y3:.5} | {y1:.5} | {c3:.5} | {c1:.5} |");
+            if y1 > y3 {
+                wrong.push(format!("{name} at {queries} queries: {y1} > {y3}"));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "one run's luminance is worse: {wrong:#?}");
+}

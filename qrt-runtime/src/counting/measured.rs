@@ -1,0 +1,80 @@
+//! The id register once the counter has been read.
+//!
+//! Before the inverse Fourier transform the counter holds j with probability `w_j^2`, and the ids
+//! have been turned j times: whoever measures them finds a good one with probability
+//!
+//! ```text
+//! sum_j w_j^2 sin^2((2j + 1) pi theta) = 1/2 - 1/2 sum_j w_j^2 cos((4j + 2) pi theta),
+//! ```
+//!
+//! whatever is done to the counter. The cosines add up in closed form.
+
+use qrt_core::scene::Window;
+use std::f64::consts::{PI, TAU};
+
+/// The probability that the id measured after phase estimation is good.
+pub(crate) fn good_id(theta: f64, phase_bits: u32, window: Window) -> f64 {
+    let size = (1_u64 << phase_bits) as f64;
+    let x = PI * theta;
+    // sum_j cos(first + j step).
+    let cosines = |first: f64, step: f64| {
+        let half = 0.5 * step;
+        let sine = libm::sin(half);
+        let ratio = if sine.abs() < 1e-9 {
+            // At most one turn away from where all terms are equal up to sign.
+            size * libm::cos(size * half) / libm::cos(half)
+        } else {
+            libm::sin(size * half) / sine
+        };
+        ratio * libm::cos(first + (size - 1.0) * half)
+    };
+    let plain = cosines(2.0 * x, 4.0 * x);
+    let mean = match window {
+        Window::Rect => plain / size,
+        Window::Sine => {
+            let points = size + 1.0;
+            let turn = TAU / points;
+            let beside =
+                cosines(2.0 * x + turn, 4.0 * x + turn) + cosines(2.0 * x - turn, 4.0 * x - turn);
+            (plain - 0.5 * beside) / points
+        }
+    };
+    (0.5 - 0.5 * mean).clamp(0.0, 1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_sum_over_the_counter_is_the_closed_form() {
+        for bits in [1, 2, 3, 6, 10] {
+            let size = 1_u32 << bits;
+            for step in 0..=200 {
+                let theta = f64::from(step) / 400.0;
+                for window in [Window::Rect, Window::Sine] {
+                    let weight = |j: u32| match window {
+                        Window::Rect => 1.0 / f64::from(size),
+                        Window::Sine => {
+                            let points = f64::from(size) + 1.0;
+                            let sine = libm::sin(PI * f64::from(j + 1) / points);
+                            2.0 / points * sine * sine
+                        }
+                    };
+                    let sum: f64 = (0..size)
+                        .map(|j| {
+                            let sine = libm::sin(f64::from(2 * j + 1) * PI * theta);
+                            weight(j) * sine * sine
+                        })
+                        .sum();
+                    let found = good_id(theta, bits, window);
+                    assert!(
+                        (found - sum).abs() < 1e-11,
+                        "{bits} {theta} {window:?}: {found} {sum}"
+                    );
+                }
+            }
+        }
+        assert!((good_id(0.3, 40, Window::Sine) - 0.5).abs() < 1e-9);
+    }
+}

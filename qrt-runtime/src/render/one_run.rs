@@ -1,0 +1,215 @@
+//! Colour from one run of counting instead of three.
+//!
+//! The luminance alone is counted. A good id that an estimator measures is a path and a comparator
+//! below its luminance, so that paths are measured with probabilities proportional to their
+//! luminance; each is evaluated classically, without a query. The pixel is the luminance times the
+//! mean of these paths' colours over their luminances:
+//!
+//! ```text
+//! E[rgb_i / Y_i] = sum_i (Y_i / sum_j Y_j) (rgb_i / Y_i) = mean(rgb) / mean(Y).
+//! ```
+//!
+//! Its luminance is as good as counting makes it. Its colour has the error of so many samples as good
+//! ids were measured, which is none where all paths have one colour.
+
+use super::pixel::{Pixels, Source};
+use crate::counting::{Comparators, CountingError};
+use crate::estimators::{AmplitudeEstimator, Device, EstimatorError, Noise, Problem};
+use crate::machines::Defect;
+use crate::random::Stream;
+use qrt_core::oracle::{LUMINANCE_CHANNEL, luminance};
+use qrt_core::scene::Scene;
+use std::ops::Range;
+
+/// Paths whose counts are kept as one sum, at least.
+const SEGMENT: u64 = 256;
+/// Sums that are kept, at most.
+const SEGMENTS: u64 = 1 << 12;
+/// Measured ids that are looked at, at most; a colour is then known to a part in a hundred of its
+/// paths' spread.
+const MEASURED: u64 = 1 << 13;
+
+/// How the luminance is counted.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct OneRun {
+    comparators: Comparators,
+    segment: u64,
+}
+
+/// What the paths of a pixel add up to: by segment, good ids of the luminance.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Segments {
+    sums: Vec<u64>,
+    paths: u64,
+}
+
+impl Segments {
+    /// Adds the next path.
+    fn add(&mut self, good: u64, segment: u64) {
+        if self.paths.is_multiple_of(segment) {
+            self.sums.push(0);
+        }
+        if let Some(last) = self.sums.last_mut() {
+            *last += good;
+        }
+        self.paths += 1;
+    }
+
+    /// Adds the paths that follow. To be used on segments' boundaries.
+    pub(super) fn append(&mut self, later: &Self) {
+        self.sums.extend(&later.sums);
+        self.paths += later.paths;
+    }
+}
+
+impl OneRun {
+    pub(super) fn new(bound: &[f64; 3], scene: &Scene, paths: u64) -> Result<Self, CountingError> {
+        Ok(Self {
+            comparators: Comparators::new(luminance(bound), scene.comparator)?,
+            segment: SEGMENT.max(paths / SEGMENTS),
+        })
+    }
+
+    /// Adds paths with these colours.
+    pub(super) fn take_colours(&self, segments: &mut Segments, colours: &[&[f64]; 3]) {
+        let [r, g, b] = colours;
+        for ((r, g), b) in r.iter().zip(*g).zip(*b) {
+            segments.add(self.good(&[*r, *g, *b]), self.segment);
+        }
+    }
+
+    /// Adds paths with these counts.
+    pub(super) fn take_counts(&self, segments: &mut Segments, counts: &[i64]) {
+        for good in counts {
+            segments.add(good.cast_unsigned(), self.segment);
+        }
+    }
+
+    fn good(&self, colour: &[f64; 3]) -> u64 {
+        u64::from(self.comparators.good(luminance(colour)))
+    }
+
+    /// The colour of a pixel, and the queries that it took.
+    pub(super) fn finish(
+        &self,
+        pixels: &Pixels,
+        estimator: &dyn AmplitudeEstimator,
+        noise: Noise,
+        [x, y]: [u32; 2],
+        segments: &Segments,
+    ) -> Result<([f64; 3], u64), OneRunError> {
+        if self.comparators.step() == 0.0 {
+            return Ok(([0.0; 3], 0));
+        }
+        let problem = Problem {
+            good: segments.sums.iter().sum(),
+            total: segments.paths * self.comparators.count(),
+        };
+        let mut stream = Stream::new(pixels.seed(), x, y, LUMINANCE_CHANNEL as u8);
+        let mut device = Device::new(problem, noise, &mut stream)?;
+        let estimate = estimator.estimate(&mut device)?;
+        let measured = device.spent().good_ids.min(MEASURED);
+        let value = self.comparators.pixel_of_amplitude(estimate.amplitude);
+        let mut ids: Vec<u64> = (0..measured).map(|_| stream.below(problem.good)).collect();
+        ids.sort_unstable();
+        let (mut sum, mut found) = ([0.0; 3], 0.0);
+        self.paths_of(pixels, [x, y], segments, &ids, |colour| {
+            let luminance = luminance(&colour);
+            // A colour may round to black where its luminance does not.
+            if luminance > 0.0 {
+                for (sum, part) in sum.iter_mut().zip(colour) {
+                    *sum += part / luminance;
+                }
+                found += 1.0;
+            }
+        })?;
+        // Where no path is known, nothing is known of its colour: grey.
+        let colour = sum.map(|sum| {
+            if found > 0.0 {
+                value * (sum / found)
+            } else {
+                value
+            }
+        });
+        Ok((colour, estimate.queries))
+    }
+
+    /// Hands over the colours of the paths of these good ids, which are in order.
+    fn paths_of(
+        &self,
+        pixels: &Pixels,
+        pixel: [u32; 2],
+        segments: &Segments,
+        ids: &[u64],
+        mut colour: impl FnMut([f64; 3]),
+    ) -> Result<(), Defect> {
+        let mut ids = ids.iter().copied().peekable();
+        let mut first = 0;
+        for (number, &sum) in (0_u64..).zip(&segments.sums) {
+            if ids.peek().is_some_and(|&id| id < first + sum) {
+                let start = number * self.segment;
+                let end = (start + self.segment).min(segments.paths);
+                let mut before = first;
+                self.trace(pixels, pixel, start..end, |good, rgb| {
+                    while ids.next_if(|&id| id < before + good).is_some() {
+                        colour(rgb);
+                    }
+                    before += good;
+                })?;
+            }
+            first += sum;
+        }
+        Ok(())
+    }
+
+    /// Traces paths again: by path, the good ids of its luminance and its colour.
+    fn trace(
+        &self,
+        pixels: &Pixels,
+        pixel: [u32; 2],
+        paths: Range<u64>,
+        mut path: impl FnMut(u64, [f64; 3]),
+    ) -> Result<(), Defect> {
+        match pixels.source() {
+            Source::Real(real) => {
+                real.trace_range(&[pixel], paths, |block| {
+                    let [r, g, b] = block.colours;
+                    for ((&r, &g), &b) in r.iter().zip(g).zip(b) {
+                        path(self.good(&[r, g, b]), [r, g, b]);
+                    }
+                });
+                Ok(())
+            }
+            Source::Oracle(machine) => {
+                let unit = 1.0 / (1_u64 << machine.oracle().fraction) as f64;
+                let bound = pixels.bound();
+                machine.trace(&[pixel], paths, |finished| {
+                    let [r, g, b] = finished.colours;
+                    for (place, good) in finished.luminance.iter().enumerate() {
+                        let parts = [r[place], g[place], b[place]];
+                        let rgb = [0, 1, 2].map(|c| bound[c] * (parts[c] as f64 * unit));
+                        path(good.cast_unsigned(), rgb);
+                    }
+                })
+            }
+        }
+    }
+}
+
+/// Why a pixel has no colour.
+pub(super) enum OneRunError {
+    Estimator(EstimatorError),
+    Defect(Defect),
+}
+
+impl From<EstimatorError> for OneRunError {
+    fn from(error: EstimatorError) -> Self {
+        Self::Estimator(error)
+    }
+}
+
+impl From<Defect> for OneRunError {
+    fn from(defect: Defect) -> Self {
+        Self::Defect(defect)
+    }
+}
