@@ -25,6 +25,8 @@ mod tests;
 
 pub use comparator::{Comparators, MAX_COMPARATOR_BITS};
 pub use distribution::PhaseDistribution;
+pub(crate) use distribution::check_counts;
+pub(crate) use double::Double;
 pub use draw::Sampler;
 pub use error::{CountingError, MAX_PHASE_BITS, MAX_REPETITIONS, estimator_name};
 pub use estimate::{

@@ -17,6 +17,8 @@ mod real;
 pub mod run;
 mod span;
 mod state;
+pub mod statevector;
+mod transpose;
 
 pub use fixed::{Extremes, Fixed, Lanes, contents};
 pub use gates::{Dirty, Gates, InvalidGate, Rows};
