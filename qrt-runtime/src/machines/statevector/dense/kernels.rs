@@ -199,25 +199,19 @@ fn hadamards<S: Simd>(simd: S, data: &mut [f64], mask: usize, scale: f64) {
     let mut next = || {
         let bit = high.trailing_zeros();
         high &= high.wrapping_sub(1);
-        bit
+        2_usize << bit
     };
     let mut left = (mask >> LOW).count_ones();
     while left > 0 {
-        let stride = 2 << next();
+        let near = next();
         if left >= 2 {
-            let wide = 2 << next();
             left -= 2;
-            fours(
-                simd,
-                data,
-                stride,
-                wide,
-                if left == 0 { scale } else { 1.0 },
-            );
+            let scale = if left == 0 { scale } else { 1.0 };
+            fours(simd, data, [near, next()], scale);
         } else {
             left -= 1;
-            for block in data.chunks_exact_mut(2 * stride) {
-                let (a, b) = block.split_at_mut(stride);
+            for block in data.chunks_exact_mut(2 * near) {
+                let (a, b) = block.split_at_mut(near);
                 pairs(simd, a, b, scale);
             }
         }
@@ -248,6 +242,8 @@ fn within<const MASK: usize>(blocks: &mut [[f64; 2 << LOW]], scale: f64) {
             v = v.map(|part| part * scale);
         }
         *block = v;
+        // Vectors across blocks would be gathered and scattered, at twice the time.
+        std::hint::black_box(&mut *block);
     }
 }
 
@@ -263,32 +259,36 @@ fn pairs<S: Simd>(simd: S, a: &mut [f64], b: &mut [f64], scale: f64) {
     }
 }
 
-/// Two Hadamards at once, `stride < wide` apart.
+/// Two Hadamards at once, on halves that are so far apart, the nearer first.
 #[inline(always)]
-fn fours<S: Simd>(simd: S, data: &mut [f64], stride: usize, wide: usize, scale: f64) {
-    let factor = simd.splat_f64s(scale);
-    for block in data.chunks_exact_mut(2 * wide) {
-        let (low, high) = block.split_at_mut(wide);
-        let halves = low.chunks_exact_mut(2 * stride);
-        for (low, high) in halves.zip(high.chunks_exact_mut(2 * stride)) {
-            let (a, b) = low.split_at_mut(stride);
-            let (c, d) = high.split_at_mut(stride);
+fn fours<S: Simd>(simd: S, data: &mut [f64], [near, far]: [usize; 2], scale: f64) {
+    for block in data.chunks_exact_mut(2 * far) {
+        let (low, high) = block.split_at_mut(far);
+        let halves = low.chunks_exact_mut(2 * near);
+        for (low, high) in halves.zip(high.chunks_exact_mut(2 * near)) {
+            let (a, b) = low.split_at_mut(near);
+            let (c, d) = high.split_at_mut(near);
             let [a, b, c, d] = [a, b, c, d].map(|part| S::as_mut_simd_f64s(part).0);
             for (((a, b), c), d) in a.iter_mut().zip(b).zip(c).zip(d) {
-                let (s, t) = (simd.add_f64s(*a, *b), simd.sub_f64s(*a, *b));
-                let (u, v) = (simd.add_f64s(*c, *d), simd.sub_f64s(*c, *d));
-                let sums = [
-                    simd.add_f64s(s, u),
-                    simd.add_f64s(t, v),
-                    simd.sub_f64s(s, u),
-                    simd.sub_f64s(t, v),
-                ];
-                [*a, *b, *c, *d] = if scale == 1.0 {
-                    sums
-                } else {
-                    [0, 1, 2, 3].map(|k| simd.mul_f64s(sums[k], factor))
-                };
+                let ([s, t], [u, v]) = (one(simd, *a, *b), one(simd, *c, *d));
+                let ([p, q], [r, w]) = (one(simd, s, u), one(simd, t, v));
+                [*a, *b, *c, *d] = scaled(simd, [p, r, q, w], scale);
             }
         }
     }
+}
+
+/// Sum and difference.
+#[inline(always)]
+fn one<S: Simd>(simd: S, a: S::f64s, b: S::f64s) -> [S::f64s; 2] {
+    [simd.add_f64s(a, b), simd.sub_f64s(a, b)]
+}
+
+#[inline(always)]
+fn scaled<S: Simd>(simd: S, values: [S::f64s; 4], scale: f64) -> [S::f64s; 4] {
+    if scale == 1.0 {
+        return values;
+    }
+    let factor = simd.splat_f64s(scale);
+    [0, 1, 2, 3].map(|k| simd.mul_f64s(values[k], factor))
 }
