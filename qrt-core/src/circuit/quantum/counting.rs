@@ -142,7 +142,7 @@ impl<'a> Counting<'a> {
         }
     }
 
-    /// Hadamards on the ids, and the window.
+    /// The window, and Hadamards on the ids.
     ///
     /// # Errors
     /// The sink's.
@@ -150,10 +150,11 @@ impl<'a> Counting<'a> {
         &self,
         sink: &mut impl FnMut(QuantumGate<'_>) -> Result<(), E>,
     ) -> Result<(), E> {
-        let ids = self.iterate.oracle().superposed();
-        ids.iter().try_for_each(|id| sink(H(*id)))?;
+        // The window first: while its bond is entangled, a simulator has twice the states.
         let bond = self.iterate.qubits() + self.counter.len() as u32;
-        window::prepare(self.window, &self.counter, bond, sink)
+        window::prepare(self.window, &self.counter, bond, sink)?;
+        let ids = self.iterate.oracle().superposed();
+        ids.iter().try_for_each(|id| sink(H(*id)))
     }
 
     /// One G under the control of bit `bit` of the counting register, which asks for `2^bit` of
