@@ -31,6 +31,10 @@ pub enum StateVectorError {
     },
     /// A gate or a register names a qubit that the machine does not have, or one twice.
     InvalidQubit(Qubit),
+    /// A bound on amplitudes that is negative or no number.
+    Bound(f64),
+    /// Nothing can be measured: all states have been dropped.
+    NoStates,
     /// An angle that is not finite.
     Angle(f64),
     /// A register whose outcomes are too many to be listed.
@@ -81,6 +85,11 @@ impl fmt::Display for StateVectorError {
                 f,
                 "qubit {qubit} is used twice by one gate or register, or is none of the machine's"
             ),
+            Self::Bound(bound) => write!(
+                f,
+                "a bound of {bound} on the amplitudes that are dropped; it is not negative"
+            ),
+            Self::NoStates => f.write_str("no state carries amplitude: all have been dropped"),
             Self::Angle(angle) => write!(f, "a rotation by {angle}"),
             Self::RegisterTooWide { bits, most } => write!(
                 f,

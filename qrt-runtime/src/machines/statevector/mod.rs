@@ -75,7 +75,7 @@ pub trait StateVector {
     /// As [`StateVector::distribution`].
     fn sample(&mut self, register: &[Qubit], stream: &mut Stream) -> Result<u64, StateVectorError> {
         let outcomes = self.distribution(register)?;
-        Ok(draw(&outcomes, stream) as u64)
+        Ok(draw(&outcomes, stream)? as u64)
     }
 
     /// The sum of the amplitudes' squares: 1, but for rounding.
@@ -83,17 +83,17 @@ pub trait StateVector {
 }
 
 /// Draws from a list of probabilities; never an outcome of probability 0.
-fn draw(probabilities: &[f64], stream: &mut Stream) -> usize {
+fn draw(probabilities: &[f64], stream: &mut Stream) -> Result<usize, StateVectorError> {
     let mut left = stream.uniform() * probabilities.iter().sum::<f64>();
-    let mut last = 0;
+    let mut last = None;
     for (outcome, &probability) in probabilities.iter().enumerate() {
         if probability > 0.0 {
-            last = outcome;
+            last = Some(outcome);
             if left < probability {
                 break;
             }
             left -= probability;
         }
     }
-    last
+    last.ok_or(StateVectorError::NoStates)
 }

@@ -6,10 +6,11 @@
 //! amplitudes for all counters follow by themselves, and its Fourier transform over the counter.
 //! `O(T N log T)` time, `O(T + N)` memory.
 
+use super::error::filled;
 use super::fourier::Fourier;
+use super::subspace::window;
 use super::{StateVectorError, fold};
 use crate::machines::InstructionSet;
-use crate::machines::statevector::subspace::{MOST_PHASE_BITS, window};
 use pulp::{Simd, WithSimd};
 use qrt_core::scene::Window;
 use rayon::prelude::*;
@@ -17,8 +18,14 @@ use rayon::prelude::*;
 /// Transforms at once, of two ids each: one is the real part, one the imaginary one.
 const LANES: usize = 8;
 
+/// Most bits of a counting register: a batch of transforms takes 128 bytes for each value.
+const MOST_PHASE_BITS: u32 = 20;
+
 /// Ids whose amplitudes are summed in a run.
 const RUN: usize = 1 << 12;
+
+/// Shares of the ids that are transformed each by itself, and summed up.
+const SHARES: usize = 32;
 
 /// The distribution of counting over a truth table, `good[id]`: by outcome `y = 0 ..= T/2`.
 ///
@@ -36,7 +43,7 @@ const RUN: usize = 1 << 12;
 /// ```
 ///
 /// # Errors
-/// A table whose size is no power of two, or a counting register that is not in 1 to 26 bits.
+/// A table whose size is no power of two, or a counting register that is not in 1 to 20 bits.
 pub fn reduced(
     good: &[bool],
     phase_bits: u32,
@@ -53,20 +60,20 @@ pub fn reduced(
     }
     let size = 1 << phase_bits;
     let set = InstructionSet::widest();
-    let window = window(phase_bits, shape);
+    let window = window(phase_bits, shape)?;
     let start = 1.0 / (good.len() as f64).sqrt();
     let signs: Vec<f64> = good.iter().map(|g| if *g { -1.0 } else { 1.0 }).collect();
 
     // Twice the mean of each query.
-    let mut amplitudes = vec![start; good.len()];
-    let mut means = Vec::with_capacity(size);
-    for _ in 0..size {
+    let mut amplitudes = filled(start, good.len())?;
+    let mut means = filled(0.0, size)?;
+    for slot in &mut means {
         let runs = signs.par_chunks(RUN).zip(amplitudes.par_chunks(RUN));
         let sums: Vec<f64> = runs
             .map(|(signs, amplitudes)| set.dispatch(Sum { signs, amplitudes }))
             .collect();
         let mean = 2.0 * sums.iter().sum::<f64>() / good.len() as f64;
-        means.push(mean);
+        *slot = mean;
         let runs = signs.par_chunks(RUN).zip(amplitudes.par_chunks_mut(RUN));
         runs.for_each(|(signs, amplitudes)| {
             set.dispatch(Query {
@@ -79,13 +86,13 @@ pub fn reduced(
 
     let fourier = Fourier::new(phase_bits);
     let batches: Vec<&[f64]> = signs.chunks(2 * LANES).collect();
-    // As many sums as there may be threads, and always in the same order.
-    let shares = batches.par_chunks(batches.len().div_ceil(64));
+    // Always the same sums, in the same order.
+    let shares = batches.par_chunks(batches.len().div_ceil(SHARES));
     let shares: Vec<Vec<f64>> = shares
         .map(|batches| {
-            let mut sums = vec![0.0; size];
-            let mut re = vec![[0.0; LANES]; size];
-            let mut im = vec![[0.0; LANES]; size];
+            let mut sums = filled(0.0, size)?;
+            let mut re = filled([0.0; LANES], size)?;
+            let mut im = filled([0.0; LANES], size)?;
             for signs in batches {
                 set.dispatch(Batch {
                     signs,
@@ -98,9 +105,9 @@ pub fn reduced(
                     sums: &mut sums,
                 });
             }
-            sums
+            Ok(sums)
         })
-        .collect();
+        .collect::<Result<_, StateVectorError>>()?;
     let all: Vec<f64> = (0..size)
         .map(|y| {
             let place = fourier.place(y);

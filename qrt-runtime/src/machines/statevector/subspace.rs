@@ -5,6 +5,7 @@
 //! cos((2j+1) phi))`: both real, one the real and one the imaginary part of what is transformed.
 //! `O(T log T)`, exact from S and N.
 
+use super::error::filled;
 use super::fourier::Fourier;
 use super::{StateVectorError, fold};
 use crate::counting::{Double, check_counts};
@@ -12,7 +13,7 @@ use qrt_core::scene::Window;
 use std::f64::consts::PI;
 
 /// Most bits of a counting register whose amplitudes are listed.
-pub(super) const MOST_PHASE_BITS: u32 = 26;
+pub(super) const MOST_PHASE_BITS: u32 = 24;
 
 /// The distribution of counting `good` among `total` ids: by outcome `y = 0 ..= T/2`.
 ///
@@ -26,7 +27,7 @@ pub(super) const MOST_PHASE_BITS: u32 = 26;
 /// ```
 ///
 /// # Errors
-/// No ids, more good ids than ids, or a counting register that is not in 1 to 26 bits.
+/// No ids, more good ids than ids, or a counting register that is not in 1 to 24 bits.
 pub fn subspace(
     good: u64,
     total: u64,
@@ -48,19 +49,18 @@ pub fn subspace(
         Double::from(total - good).divide(all).sqrt(),
     );
     let mut power = turned((cosine, sine), (cosine, sine));
-    let (mut re, mut im) = (vec![[sine.hi]], vec![[cosine.hi]]);
-    re.reserve_exact(size - 1);
-    im.reserve_exact(size - 1);
-    for _ in 0..phase_bits {
+    let (mut re, mut im) = (filled([sine.hi], size)?, filled([cosine.hi], size)?);
+    for bit in 0..phase_bits {
         let (c, s) = (power.0.hi, power.1.hi);
-        for j in 0..re.len() {
+        let known = 1 << bit;
+        for j in 0..known {
             let ([sine], [cosine]) = (re[j], im[j]);
-            re.push([sine * c + cosine * s]);
-            im.push([cosine * c - sine * s]);
+            re[known + j] = [sine * c + cosine * s];
+            im[known + j] = [cosine * c - sine * s];
         }
         power = turned(power, power);
     }
-    let window = window(phase_bits, shape);
+    let window = window(phase_bits, shape)?;
     for ((re, im), weight) in re.iter_mut().zip(&mut im).zip(window) {
         re[0] *= weight;
         im[0] *= weight;
@@ -81,19 +81,17 @@ fn turned(a: (Double, Double), b: (Double, Double)) -> (Double, Double) {
 }
 
 /// The counting register's amplitudes.
-pub(super) fn window(phase_bits: u32, shape: Window) -> Vec<f64> {
+pub(super) fn window(phase_bits: u32, shape: Window) -> Result<Vec<f64>, StateVectorError> {
     let size = 1_usize << phase_bits;
-    match shape {
-        Window::Rect => vec![1.0 / (size as f64).sqrt(); size],
-        Window::Sine => {
-            let points = size as f64 + 1.0;
-            let most = (2.0 / points).sqrt();
-            let weight = |j: usize| {
-                // From the nearer end: a sine near half a turn would lose its last bits.
-                let near = (j + 1).min(size - j);
-                most * libm::sin(PI * (near as f64 / points))
-            };
-            (0..size).map(weight).collect()
+    let mut weights = filled(1.0 / (size as f64).sqrt(), size)?;
+    if shape == Window::Sine {
+        let points = size as f64 + 1.0;
+        let most = (2.0 / points).sqrt();
+        for (j, weight) in weights.iter_mut().enumerate() {
+            // From the nearer end: a sine near half a turn would lose its last bits.
+            let near = (j + 1).min(size - j);
+            *weight = most * libm::sin(PI * (near as f64 / points));
         }
     }
+    Ok(weights)
 }

@@ -280,7 +280,7 @@ impl StateVector for Dense {
         stream: &mut Stream,
     ) -> Result<u64, StateVectorError> {
         let outcomes = self.distribution(register)?;
-        let outcome = super::draw(&outcomes, stream);
+        let outcome = super::draw(&outcomes, stream)?;
         let factor = 1.0 / outcomes[outcome].sqrt();
         let frame = self.plan.frame;
         for (index, amplitude) in self.amplitudes.iter_mut().enumerate() {

@@ -95,13 +95,19 @@ impl Sparse {
     }
 
     /// With another bound on amplitudes that are dropped; 0 drops exact zeros only.
-    pub fn with_bound(mut self, bound: f64) -> Self {
+    ///
+    /// # Errors
+    /// A bound that is negative or no number.
+    pub fn with_bound(mut self, bound: f64) -> Result<Self, StateVectorError> {
+        if bound.is_nan() || bound < 0.0 {
+            return Err(StateVectorError::Bound(bound));
+        }
         self.bound = bound;
-        self
+        Ok(self)
     }
 
-    /// With another number of states allowed. One takes 16 bytes and a bit for each qubit, and four
-    /// times that while states are mixed.
+    /// With another number of states allowed. One takes a bit for each qubit and 16 bytes; while
+    /// states are mixed, twice that and some 60 bytes more.
     pub fn with_most_states(mut self, most: u64) -> Self {
         self.most = most;
         self
@@ -285,7 +291,7 @@ impl StateVector for Sparse {
         stream: &mut Stream,
     ) -> Result<u64, StateVectorError> {
         let outcomes = self.distribution(register)?;
-        let outcome = super::draw(&outcomes, stream);
+        let outcome = super::draw(&outcomes, stream)?;
         let values = self.values(register)?;
         let factor = self.scale() / outcomes[outcome].sqrt();
         self.odd = false;

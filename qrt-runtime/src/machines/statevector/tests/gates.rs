@@ -190,6 +190,11 @@ fn large_registers_are_like_small_ones() {
         dense.gate(gate.gate()).unwrap();
         sparse.gate(gate.gate()).unwrap();
     }
+    // A run of Hadamards within and beyond.
+    for q in [17, 2, 15, 9, 16] {
+        dense.gate(QuantumGate::H(q)).unwrap();
+        sparse.gate(QuantumGate::H(q)).unwrap();
+    }
     let register: Vec<Qubit> = (0..qubits).collect();
     let mut left = 0.0;
     for (state, amplitude) in sparse.amplitudes(&register).unwrap() {
@@ -331,7 +336,7 @@ fn what_cannot_be_is_refused() {
 fn what_is_dropped_is_accounted_for() {
     let angle = 2e-3;
     let run = |bound: f64| {
-        let mut sparse = Sparse::new(70).with_bound(bound);
+        let mut sparse = Sparse::new(70).with_bound(bound).unwrap();
         let gate = QuantumGate::Ry { angle, target: 66 };
         sparse.gate(gate).unwrap();
         (sparse.states().unwrap(), sparse.dropped(), sparse.norm())
@@ -341,4 +346,15 @@ fn what_is_dropped_is_accounted_for() {
     assert_eq!(states, 1);
     assert!((dropped - 1e-3_f64.sin().powi(2)).abs() < 1e-20);
     assert!((norm + dropped - 1.0).abs() < 1e-15);
+    for bound in [-1e-9, f64::NAN] {
+        assert!(matches!(
+            Sparse::new(1).with_bound(bound),
+            Err(StateVectorError::Bound(_))
+        ));
+    }
+    // Nothing is left to be measured.
+    let mut sparse = Sparse::new(1).with_bound(1.0).unwrap();
+    sparse.gate(QuantumGate::H(0)).unwrap();
+    let nothing = sparse.measure(&[0], &mut Stream::new(1, 0, 0, 0));
+    assert_eq!(nothing, Err(StateVectorError::NoStates));
 }

@@ -2,6 +2,7 @@
 
 mod agreement;
 mod gates;
+mod outside;
 
 use super::*;
 use qrt_core::circuit::quantum::{QuantumGate, Turns};
