@@ -50,7 +50,10 @@ pub struct Report {
 /// Outcomes y and T - y mean the same theta~: their probabilities, added, for `y = 0 ..= T/2`.
 pub fn fold(outcomes: &[f64]) -> Vec<f64> {
     let size = outcomes.len();
-    let folded = (0..=size / 2).map(|y| match (size - y) % size.max(1) {
+    if size == 0 {
+        return Vec::new();
+    }
+    let folded = (0..=size / 2).map(|y| match (size - y) % size {
         other if other == y => outcomes[y],
         other => outcomes[y] + outcomes[other],
     });
@@ -99,7 +102,7 @@ pub fn count<M: StateVector>(
             queries: counting.queries(),
             most_states: None,
             checks,
-            norm: machine.norm(),
+            norm: machine.norm()?,
             dropped: 0.0,
         },
     })
@@ -158,7 +161,7 @@ impl<M: StateVector> Run<'_, M> {
 /// ";
 /// let scene = parse(text, "lamp.yaml", &[], "".as_ref())?.valid;
 /// let oracle = Oracle::new(&scene, 0, Options::default())?;
-/// // Its diagonal crosses the upper left pixel's neighbour.
+/// // The triangle's slanted edge runs through the upper right pixel.
 /// let counted = counting_of(&oracle, 0, 1, [1, 0], 4, Window::Rect)?;
 /// assert!((counted.distribution.iter().sum::<f64>() - 1.0).abs() < 1e-12);
 /// assert_eq!(counted.report.queries, 15);

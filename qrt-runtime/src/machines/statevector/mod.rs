@@ -79,7 +79,10 @@ pub trait StateVector {
     }
 
     /// The sum of the amplitudes' squares: 1, but for rounding.
-    fn norm(&mut self) -> f64;
+    ///
+    /// # Errors
+    /// As [`StateVector::gate`], of gates that waited.
+    fn norm(&mut self) -> Result<f64, StateVectorError>;
 }
 
 /// Draws from a list of probabilities; never an outcome of probability 0.

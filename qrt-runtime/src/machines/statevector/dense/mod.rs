@@ -293,7 +293,7 @@ impl StateVector for Dense {
         Ok(outcome as u64)
     }
 
-    fn norm(&mut self) -> f64 {
-        self.sums(1, |_| 0)[0]
+    fn norm(&mut self) -> Result<f64, StateVectorError> {
+        Ok(self.sums(1, |_| 0)[0])
     }
 }

@@ -17,7 +17,7 @@ struct Keys {
     /// Words that their bits take.
     words: usize,
     /// State by state: its words.
-    keys: Vec<u64>,
+    all: Vec<u64>,
     /// State by state: what the mixed qubits hold.
     subs: Vec<u64>,
 }
@@ -117,7 +117,7 @@ impl Sparse {
         Ok(Keys {
             live,
             words,
-            keys,
+            all: keys,
             subs,
         })
     }
@@ -144,7 +144,7 @@ fn grouped(keys: &Keys) -> Result<Groups, StateVectorError> {
     let mut found: HashMap<&[u64], usize> = HashMap::new();
     let mut all = Vec::new();
     let mut last: Option<(&[u64], usize)> = None;
-    for (key, of) in keys.keys.chunks_exact(keys.words).zip(&mut of) {
+    for (key, of) in keys.all.chunks_exact(keys.words).zip(&mut of) {
         // Neighbours mostly are of one group.
         *of = match last {
             Some((known, group)) if known == key => group,

@@ -312,15 +312,13 @@ impl StateVector for Sparse {
         Ok(outcome as u64)
     }
 
-    fn norm(&mut self) -> f64 {
-        if self.run().is_err() {
-            return f64::NAN;
-        }
+    fn norm(&mut self) -> Result<f64, StateVectorError> {
+        self.run()?;
         let scale = self.scale();
         let sums = self.blocks.iter().map(|block| {
             let squares = block.amplitudes.iter().map(Complex::norm_sqr);
             squares.sum::<f64>()
         });
-        sums.sum::<f64>() * scale * scale
+        Ok(sums.sum::<f64>() * scale * scale)
     }
 }
