@@ -20,6 +20,7 @@
 
 mod budget;
 pub mod compiled;
+mod phase;
 mod recording;
 
 pub use budget::{Spent, check_budget, spent};

@@ -42,6 +42,7 @@ mod machine;
 mod op;
 mod passes;
 mod program;
+pub mod quantum;
 mod record;
 mod register;
 

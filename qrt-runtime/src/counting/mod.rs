@@ -26,6 +26,8 @@ pub(crate) mod tests;
 pub(crate) use angle::Angle;
 pub use comparator::{Comparators, MAX_COMPARATOR_BITS};
 pub use distribution::PhaseDistribution;
+pub(crate) use distribution::check_counts;
+pub(crate) use double::Double;
 pub use draw::Sampler;
 pub use error::{CountingError, MAX_PHASE_BITS, MAX_REPETITIONS};
 pub use likelihood::{MaximumLikelihood, ln_likelihood, maximum_likelihood, posterior};

@@ -3,7 +3,8 @@
 //! [`Real`] reads it over lanes of `f64`: pictures, meshes, and the limit that every finite width
 //! converges to. [`Fixed`] evaluates the program that it is compiled to, operation by operation, on
 //! integers of its registers' widths. [`Gates`] executes the circuit of that program, gate by gate.
-//! [`run`] does so with routines written by hand.
+//! [`run`] does so with routines written by hand. [`statevector`] follows amplitudes: the counting
+//! circuit around an oracle, gate by gate.
 
 mod bvh;
 mod fixed;
@@ -17,6 +18,8 @@ mod real;
 pub mod run;
 mod span;
 mod state;
+pub mod statevector;
+mod transpose;
 
 pub use fixed::{Extremes, Fixed, Lanes, contents};
 pub use gates::{Dirty, Gates, InvalidGate, Rows};

@@ -2,6 +2,7 @@
 
 use super::compile::Wiring;
 use crate::machines::Span;
+use crate::machines::transpose::transpose;
 use qrt_core::circuit::Qubit;
 use std::fmt;
 
@@ -161,22 +162,5 @@ fn set_lanes(words: &mut [u64], first: usize, end: usize) {
         let high = end.clamp(64 * place, 64 * place + 64) - 64 * place;
         let below = |bits: usize| u64::MAX.checked_shr(64 - bits as u32).unwrap_or(0);
         *word |= below(high) & !below(low);
-    }
-}
-
-/// Swaps bit i of word j with bit j of word i (Warren, Hacker's Delight, 7-3).
-fn transpose(square: &mut [u64; 64]) {
-    let mut half = 32;
-    let mut mask = u64::MAX >> 32;
-    while half != 0 {
-        let mut k = 0;
-        while k < 64 {
-            let swapped = (square[k] >> half ^ square[k + half]) & mask;
-            square[k] ^= swapped << half;
-            square[k + half] ^= swapped;
-            k = (k + half + 1) & !half;
-        }
-        half >>= 1;
-        mask ^= mask << half;
     }
 }

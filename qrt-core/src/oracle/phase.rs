@@ -1,0 +1,41 @@
+//! A scene's oracle as the phase oracle of a pixel.
+
+use super::Oracle;
+use crate::circuit::lower;
+use crate::circuit::quantum::{PhaseOracle, QuantumError};
+
+impl Oracle {
+    /// The circuit of channel number `channel` of [`Oracle::channels`] in pixel (column, row): its
+    /// id is the path's id and, above it, the comparator.
+    ///
+    /// # Errors
+    /// No such channel.
+    pub fn phase(
+        &self,
+        channel: usize,
+        seed: u64,
+        pixel: [u32; 2],
+    ) -> Result<PhaseOracle, QuantumError> {
+        if channel >= self.channels.len() {
+            return Err(QuantumError::NoChannel(channel));
+        }
+        let compute = self.program.instructions.len();
+        let whole = self.whole(channel);
+        let flip = whole.instructions.len() - 2 * compute;
+        let parts = lower::parts(&whole, &[compute, compute + flip]);
+        let [compute, flip, uncompute] = &parts[..] else {
+            return Err(QuantumError::NoIds);
+        };
+        let words = self.program.parameters.iter();
+        let words: Vec<u64> = words
+            .map(|parameter| parameter.value(&self.points, seed, pixel))
+            .collect();
+        let register = |register| {
+            let mut inputs = compute.inputs.iter();
+            let found = inputs.find(|(id, _)| *id == register);
+            found.map_or(&[][..], |(_, qubits)| qubits)
+        };
+        let superposed = [register(self.id), register(self.comparator)].concat();
+        PhaseOracle::new(compute, flip, uncompute, superposed, &words)
+    }
+}

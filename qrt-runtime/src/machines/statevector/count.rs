@@ -1,0 +1,198 @@
+//! Quantum counting's circuit, run on a machine.
+
+use super::{Sparse, StateVector, StateVectorError};
+use qrt_core::circuit::quantum::{Counting, PhaseOracle, QuantumGate};
+use qrt_core::oracle::Oracle;
+use qrt_core::scene::Window;
+
+/// Most that ancillas may be excited by: what rounding leaves of a window's bond.
+const CLEAN: f64 = 1e-28;
+
+/// When ancillas are looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Checks {
+    /// After the preparation, after each query, and at the end.
+    EveryQuery,
+    /// At the end.
+    AtTheEnd,
+}
+
+/// What a run of the counting circuit measures, and what it took.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Counted {
+    /// `P(theta~)`, by outcome `y = 0 ..= T/2`.
+    pub distribution: Vec<f64>,
+    /// What it took.
+    pub report: Report,
+}
+
+/// What a run of the counting circuit took.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Report {
+    /// Qubits: ids, ancillas, counting register.
+    pub qubits: u32,
+    /// Of these, the ones in superposition: ids and counting register.
+    pub superposed: u32,
+    /// Gates executed.
+    pub gates: u64,
+    /// Calls of the oracle, compute and uncompute each.
+    pub queries: u64,
+    /// The most basis states with amplitude at a time; none where all are kept.
+    pub most_states: Option<u64>,
+    /// How often all ancillas were looked at, and were zero in every basis state with amplitude.
+    pub checks: u64,
+    /// The sum of all probabilities.
+    pub norm: f64,
+    /// The probability of the states that were dropped as too small.
+    pub dropped: f64,
+}
+
+/// Outcomes y and T - y mean the same theta~: their probabilities, added, for `y = 0 ..= T/2`.
+pub fn fold(outcomes: &[f64]) -> Vec<f64> {
+    let size = outcomes.len();
+    if size == 0 {
+        return Vec::new();
+    }
+    let folded = (0..=size / 2).map(|y| match (size - y) % size {
+        other if other == y => outcomes[y],
+        other => outcomes[y] + outcomes[other],
+    });
+    folded.collect()
+}
+
+/// Runs a counting circuit on a machine whose qubits are zero, gate by gate.
+///
+/// # Errors
+/// What the machine refuses; an ancilla that does not return to zero.
+pub fn count<M: StateVector>(
+    machine: &mut M,
+    counting: &Counting<'_>,
+    checks: Checks,
+) -> Result<Counted, StateVectorError> {
+    let ancillas = counting.ancillas();
+    let mut run = Run {
+        machine,
+        ancillas: &ancillas,
+        gates: 0,
+        checks: 0,
+    };
+    counting.prepare(&mut |gate| run.gate(gate))?;
+    for bit in 0..counting.counter().len() as u32 {
+        for _ in 0..1_u64 << bit {
+            if checks == Checks::EveryQuery {
+                run.check()?;
+            }
+            counting.query(bit, &mut |gate| run.gate(gate))?;
+        }
+    }
+    if checks == Checks::EveryQuery {
+        run.check()?;
+    }
+    counting.inverse_fourier(&mut |gate| run.gate(gate))?;
+    run.check()?;
+    let (gates, checks) = (run.gates, run.checks);
+    let outcomes = machine.distribution(counting.counter())?;
+    let ids = counting.iterate().oracle().superposed().len();
+    Ok(Counted {
+        distribution: fold(&outcomes),
+        report: Report {
+            qubits: counting.qubits(),
+            superposed: (ids + counting.counter().len()) as u32,
+            gates,
+            queries: counting.queries(),
+            most_states: None,
+            checks,
+            norm: machine.norm()?,
+            dropped: 0.0,
+        },
+    })
+}
+
+struct Run<'a, M> {
+    machine: &'a mut M,
+    ancillas: &'a [u32],
+    gates: u64,
+    checks: u64,
+}
+
+impl<M: StateVector> Run<'_, M> {
+    fn gate(&mut self, gate: QuantumGate<'_>) -> Result<(), StateVectorError> {
+        self.gates += 1;
+        self.machine.gate(gate)
+    }
+
+    fn check(&mut self) -> Result<(), StateVectorError> {
+        let probability = self.machine.excited(self.ancillas)?;
+        if probability > CLEAN {
+            let mut qubit = 0;
+            for ancilla in self.ancillas {
+                if self.machine.excited(&[*ancilla])? > 0.0 {
+                    qubit = *ancilla;
+                    break;
+                }
+            }
+            return Err(StateVectorError::Dirty { qubit, probability });
+        }
+        self.checks += 1;
+        Ok(())
+    }
+}
+
+/// Counts the good ids of channel number `channel` of a pixel (column, row) by the whole circuit, on
+/// the sparse machine: every Hadamard, every gate of every controlled query with all its ancillas,
+/// the window and the inverse Fourier transform, for a counting register of `phase_bits`.
+///
+/// ```
+/// use qrt_core::front::parse;
+/// use qrt_core::oracle::{Options, Oracle};
+/// use qrt_core::scene::Window;
+/// use qrt_runtime::machines::statevector::counting_of;
+///
+/// let text = "
+/// name: lamp
+/// camera: { orthographic: { eye: [0, 0, 2], target: [0, 0, 0], up: [0, 1, 0], height: 2 } }
+/// film: { width: 2, height: 2 }
+/// materials: { lamp: { emitter: { radiance: [4, 2, 1] } } }
+/// geometry:
+///   - triangle: { vertices: [[-1, -1, 0], [1, -1, 0], [1, 1, 0]], material: lamp }
+/// sampling: { path_bits: 3, depths: [{ bits: [2, 2] }] }
+/// precision: { fraction: 4 }
+/// comparator: { bits: 1 }
+/// ";
+/// let scene = parse(text, "lamp.yaml", &[], "".as_ref())?.valid;
+/// let oracle = Oracle::new(&scene, 0, Options::default())?;
+/// // The triangle's slanted edge runs through the upper right pixel.
+/// let counted = counting_of(&oracle, 0, 1, [1, 0], 4, Window::Rect)?;
+/// assert!((counted.distribution.iter().sum::<f64>() - 1.0).abs() < 1e-12);
+/// assert_eq!(counted.report.queries, 15);
+/// assert_eq!(counted.report.superposed, 3 + 1 + 4);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// No such channel or counting register, more states than the machine allows, an ancilla that does
+/// not return to zero.
+pub fn counting_of(
+    oracle: &Oracle,
+    channel: usize,
+    seed: u64,
+    pixel: [u32; 2],
+    phase_bits: u32,
+    window: Window,
+) -> Result<Counted, StateVectorError> {
+    let oracle = oracle.phase(channel, seed, pixel)?;
+    counting_of_circuit(&oracle, phase_bits, window)
+}
+
+fn counting_of_circuit(
+    oracle: &PhaseOracle,
+    phase_bits: u32,
+    window: Window,
+) -> Result<Counted, StateVectorError> {
+    let counting = Counting::new(oracle, phase_bits, window)?;
+    let mut machine = Sparse::new(counting.qubits());
+    let mut counted = count(&mut machine, &counting, Checks::EveryQuery)?;
+    counted.report.most_states = Some(machine.most_states());
+    counted.report.dropped = machine.dropped();
+    Ok(counted)
+}

@@ -1,0 +1,324 @@
+//! The basis states that carry amplitude, and no others.
+
+mod block;
+mod mix;
+
+use super::dense::Step;
+use super::error::{check_qubits, filled};
+use super::{StateVector, StateVectorError};
+use crate::machines::InstructionSet;
+use crate::random::Stream;
+use block::{Block, Local, RunBlock, STATES};
+use num_complex::Complex;
+use qrt_core::circuit::Qubit;
+use qrt_core::circuit::quantum::QuantumGate;
+use rayon::prelude::*;
+
+/// Most gates that wait.
+const WAITING: usize = 1 << 16;
+
+/// Most qubits of a register whose distribution is listed.
+const LISTED: u32 = 26;
+
+/// Most Hadamards executed together.
+const TOGETHER: usize = 16;
+
+/// The sparse machine: basis states with amplitude, of any number of qubits, on all cores.
+///
+/// States stand in blocks of 2048, bit-sliced: a row of bits for each qubit. X, CNOT and Toffoli
+/// change rows, of all states at once, and phases change amplitudes; these are executed one by one,
+/// block after block. Hadamards and rotations mix states: those that differ in the mixed qubits
+/// alone are gathered, transformed together (adjacent Hadamards on different qubits as one fast
+/// Walsh-Hadamard transform), and put back in the order of their groups. What distinguishes groups
+/// are the qubits that are not the same in all states, so that ancillas at zero cost nothing.
+///
+/// A state is dropped when its amplitude is at most a bound: [`Sparse::ROUNDING`] unless another is
+/// set. What rounding leaves of amplitudes that cancel is below it. The dropped states' probability
+/// is summed up in [`Sparse::dropped`]; nothing is renormalised.
+///
+/// The same bits come out whatever the number of threads and the instruction set.
+///
+/// ```
+/// use qrt_core::circuit::quantum::QuantumGate::{Cx, H};
+/// use qrt_runtime::machines::statevector::{Sparse, StateVector};
+/// // 500 qubits that are all read as 0 or all as 1.
+/// let mut cat = Sparse::new(500);
+/// cat.gate(H(0))?;
+/// for qubit in 1..500 {
+///     cat.gate(Cx(qubit - 1, qubit))?;
+/// }
+/// assert_eq!(cat.states()?, 2);
+/// let ends = cat.distribution(&[0, 499])?;
+/// assert!((ends[0] - 0.5).abs() < 1e-15 && (ends[3] - 0.5).abs() < 1e-15);
+/// # Ok::<(), qrt_runtime::machines::statevector::StateVectorError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Sparse {
+    qubits: u32,
+    blocks: Vec<Block>,
+    states: usize,
+    waiting: Vec<Local>,
+    /// Adjacent Hadamards that wait, after everything in `waiting`.
+    hadamards: Vec<Qubit>,
+    /// Is there a factor `1/sqrt(2)` that the amplitudes lack?
+    odd: bool,
+    bound: f64,
+    dropped: f64,
+    most: u64,
+    peak: u64,
+    instructions: InstructionSet,
+}
+
+impl Sparse {
+    /// Amplitudes up to this are dropped unless another bound is set: below what rounding leaves
+    /// (2^-53) of amplitudes that are states' of 2^-20 and above.
+    pub const ROUNDING: f64 = 1e-16;
+
+    /// States allowed unless another number is set.
+    pub const MOST_STATES: u64 = 1 << 24;
+
+    /// All qubits zero.
+    pub fn new(qubits: u32) -> Self {
+        Self {
+            qubits,
+            blocks: vec![Block::zero(qubits)],
+            states: 1,
+            waiting: Vec::new(),
+            hadamards: Vec::new(),
+            odd: false,
+            bound: Self::ROUNDING,
+            dropped: 0.0,
+            most: Self::MOST_STATES,
+            peak: 1,
+            instructions: InstructionSet::widest(),
+        }
+    }
+
+    /// With another bound on amplitudes that are dropped; 0 drops exact zeros only.
+    ///
+    /// # Errors
+    /// A bound that is negative or no number.
+    pub fn with_bound(mut self, bound: f64) -> Result<Self, StateVectorError> {
+        if bound.is_nan() || bound < 0.0 {
+            return Err(StateVectorError::Bound(bound));
+        }
+        self.bound = bound;
+        Ok(self)
+    }
+
+    /// With another number of states allowed. One takes a bit for each qubit and 16 bytes; while
+    /// states are mixed, twice that and some 60 bytes more.
+    pub fn with_most_states(mut self, most: u64) -> Self {
+        self.most = most;
+        self
+    }
+
+    /// With another instruction set.
+    pub fn with_instructions(mut self, instructions: InstructionSet) -> Self {
+        self.instructions = instructions;
+        self
+    }
+
+    /// States that carry amplitude.
+    ///
+    /// # Errors
+    /// As [`StateVector::gate`], of gates that waited.
+    pub fn states(&mut self) -> Result<u64, StateVectorError> {
+        self.run()?;
+        Ok(self.states as u64)
+    }
+
+    /// The most states that have carried amplitude.
+    pub fn most_states(&self) -> u64 {
+        self.peak
+    }
+
+    /// The probability of all states that were dropped.
+    pub fn dropped(&self) -> f64 {
+        self.dropped
+    }
+
+    /// Every state with amplitude: what up to 64 qubits hold in it, bit 0 first, and its amplitude.
+    ///
+    /// # Errors
+    /// A qubit that is none, or more than 64.
+    pub fn amplitudes(
+        &mut self,
+        register: &[Qubit],
+    ) -> Result<Vec<(u64, Complex<f64>)>, StateVectorError> {
+        let values = self.values(register)?;
+        let scale = self.scale();
+        let amplitudes = self.blocks.iter().flat_map(|block| &block.amplitudes);
+        let amplitudes = amplitudes.map(|amplitude| amplitude * scale);
+        Ok(values.into_iter().zip(amplitudes).collect())
+    }
+
+    /// What a register holds, state by state.
+    fn values(&mut self, register: &[Qubit]) -> Result<Vec<u64>, StateVectorError> {
+        check_qubits(register, self.qubits)?;
+        if register.len() > 64 {
+            return Err(StateVectorError::RegisterTooWide {
+                bits: register.len() as u32,
+                most: 64,
+            });
+        }
+        self.run()?;
+        let mut values = filled(0, self.states)?;
+        for (block, values) in self.blocks.iter().zip(values.chunks_mut(STATES)) {
+            block.values(register, values);
+        }
+        Ok(values)
+    }
+
+    fn scale(&self) -> f64 {
+        if self.odd {
+            std::f64::consts::FRAC_1_SQRT_2
+        } else {
+            1.0
+        }
+    }
+
+    /// Executes what waits.
+    fn run(&mut self) -> Result<(), StateVectorError> {
+        self.run_local();
+        while !self.hadamards.is_empty() {
+            let count = self.hadamards.len().min(TOGETHER);
+            let mixed: Vec<Qubit> = self.hadamards.drain(..count).collect();
+            let factors = count as u32 + u32::from(self.odd);
+            self.odd = factors % 2 == 1;
+            let step = Step::Hadamards {
+                mask: (1 << count) - 1,
+                scale: 0.5_f64.powi((factors / 2) as i32),
+            };
+            self.mix(&mixed, step)?;
+        }
+        Ok(())
+    }
+
+    fn run_local(&mut self) {
+        if self.waiting.is_empty() {
+            return;
+        }
+        let steps = std::mem::take(&mut self.waiting);
+        let set = self.instructions;
+        self.blocks.par_iter_mut().for_each(|block| {
+            set.dispatch(RunBlock {
+                steps: &steps,
+                block,
+            });
+        });
+        self.waiting = steps;
+        self.waiting.clear();
+    }
+
+    /// A step that waits for no Hadamard to come.
+    fn wait(&mut self, step: Local) -> Result<(), StateVectorError> {
+        if !self.hadamards.is_empty() {
+            self.run()?;
+        }
+        self.waiting.push(step);
+        if self.waiting.len() >= WAITING {
+            self.run_local();
+        }
+        Ok(())
+    }
+}
+
+impl StateVector for Sparse {
+    fn qubits(&self) -> u32 {
+        self.qubits
+    }
+
+    fn gate(&mut self, gate: QuantumGate<'_>) -> Result<(), StateVectorError> {
+        let is = |qubits: &[Qubit]| check_qubits(qubits, self.qubits);
+        match gate {
+            QuantumGate::X(t) => is(&[t]).and_then(|()| self.wait(Local::X(t))),
+            QuantumGate::Cx(a, t) => is(&[a, t]).and_then(|()| self.wait(Local::Cx(a, t))),
+            QuantumGate::Ccx(a, b, t) => {
+                is(&[a, b, t]).and_then(|()| self.wait(Local::Ccx(a, b, t)))
+            }
+            QuantumGate::Phase { turns, on } => {
+                is(on)?;
+                let [re, im] = turns.factor();
+                self.wait(Local::Phase(Complex::new(re, im), on.into()))
+            }
+            QuantumGate::H(t) => {
+                is(&[t])?;
+                if self.hadamards.contains(&t) {
+                    self.run()?;
+                }
+                self.hadamards.push(t);
+                Ok(())
+            }
+            QuantumGate::Ry { angle, target } => {
+                is(&[target])?;
+                if !angle.is_finite() {
+                    return Err(StateVectorError::Angle(angle));
+                }
+                self.run()?;
+                let matrix = super::dense::rotation(angle);
+                self.mix(&[target], Step::Rotate { target: 0, matrix })
+            }
+        }
+    }
+
+    fn distribution(&mut self, register: &[Qubit]) -> Result<Vec<f64>, StateVectorError> {
+        let bits = register.len() as u32;
+        if bits > LISTED {
+            return Err(StateVectorError::RegisterTooWide { bits, most: LISTED });
+        }
+        let values = self.values(register)?;
+        let mut sums = filled(0.0, 1 << bits)?;
+        let amplitudes = self.blocks.iter().flat_map(|block| &block.amplitudes);
+        for (value, amplitude) in values.into_iter().zip(amplitudes) {
+            sums[value as usize] += amplitude.norm_sqr();
+        }
+        let scale = self.scale();
+        Ok(sums.into_iter().map(|sum| sum * scale * scale).collect())
+    }
+
+    fn excited(&mut self, qubits: &[Qubit]) -> Result<f64, StateVectorError> {
+        check_qubits(qubits, self.qubits)?;
+        self.run()?;
+        let scale = self.scale();
+        let sums = self.blocks.iter().map(|block| block.excited(qubits));
+        Ok(sums.sum::<f64>() * scale * scale)
+    }
+
+    fn measure(
+        &mut self,
+        register: &[Qubit],
+        stream: &mut Stream,
+    ) -> Result<u64, StateVectorError> {
+        let outcomes = self.distribution(register)?;
+        let outcome = super::draw(&outcomes, stream)?;
+        let values = self.values(register)?;
+        let factor = self.scale() / outcomes[outcome].sqrt();
+        self.odd = false;
+        let amplitudes = self.blocks.iter_mut().flat_map(|b| &mut b.amplitudes);
+        for (value, amplitude) in values.into_iter().zip(amplitudes) {
+            *amplitude *= if value as usize == outcome {
+                factor
+            } else {
+                0.0
+            };
+        }
+        // States that were not read go as all do that have no amplitude.
+        let none = Step::Hadamards {
+            mask: 0,
+            scale: 1.0,
+        };
+        self.mix(&[], none)?;
+        Ok(outcome as u64)
+    }
+
+    fn norm(&mut self) -> Result<f64, StateVectorError> {
+        self.run()?;
+        let scale = self.scale();
+        let sums = self.blocks.iter().map(|block| {
+            let squares = block.amplitudes.iter().map(Complex::norm_sqr);
+            squares.sum::<f64>()
+        });
+        Ok(sums.sum::<f64>() * scale * scale)
+    }
+}
