@@ -11,6 +11,7 @@
 //! queries, for the id that it measures is evaluated classically; without iterations it is a path
 //! of classical Monte Carlo, which is one query, too. Phase estimation with T phases takes T-1.
 
+mod bayes;
 mod device;
 mod error;
 mod exact;
@@ -21,6 +22,7 @@ mod settings;
 mod tests;
 mod windowed;
 
+pub use bayes::AdaptiveBayes;
 pub use device::{Device, MAX_ITERATIONS, Problem, Spent};
 pub use error::EstimatorError;
 pub use exact::Exact;
@@ -33,11 +35,12 @@ use crate::random::Stream;
 use qrt_core::scene::{Counting, Estimator};
 
 /// The estimators of this version, by their names in scenes.
-pub const AVAILABLE: [Estimator; 4] = [
+pub const AVAILABLE: [Estimator; 5] = [
     Estimator::Exact,
     Estimator::MonteCarlo,
     Estimator::Paper,
     Estimator::Sine,
+    Estimator::AdaptiveBayes,
 ];
 
 /// An estimated amplitude, and what it took.
@@ -94,6 +97,7 @@ pub fn estimator(
         Estimator::Exact => Box::new(Exact),
         Estimator::Paper => Box::new(WindowedCounting::paper(settings)?),
         Estimator::Sine => Box::new(WindowedCounting::sine(settings)?),
+        Estimator::AdaptiveBayes => Box::new(AdaptiveBayes::new(settings)?),
         Estimator::MonteCarlo => Box::new(MonteCarlo::new(settings)),
         _ => return Err(EstimatorError::Unavailable(name)),
     })

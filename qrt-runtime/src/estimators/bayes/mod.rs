@@ -1,0 +1,8 @@
+//! Bayesian estimators.
+
+mod adaptive;
+mod depth;
+mod posterior;
+mod support;
+
+pub use adaptive::AdaptiveBayes;
