@@ -48,6 +48,7 @@ impl AmplitudeEstimator for AdaptiveBayes {
         let mut left = self.queries;
         while left > 0 && !self.is_done(&posterior) {
             let plan = depth::choose(&mut posterior, &self.noise, left);
+
             let good = device.iterated(plan.iterations, plan.shots)?;
             posterior.observe(plan.iterations, good, plan.shots - good);
             left -= plan.shots * plan.iterations.max(1);

@@ -5,7 +5,7 @@ use crate::estimators::{Device, Estimate, Noise, Spent};
 use std::f64::consts::PI;
 
 /// Points that together hold less than this of the mass are dropped, cell by cell.
-const NEGLIGIBLE: f64 = 1e-13;
+const NEGLIGIBLE: f64 = 1e-8;
 /// Grid steps per standard deviation that the shots may have left, at the least. Sums over points
 /// of a smooth density then agree with its integral to better than `exp(-2 (pi/0.7)^2) = 3e-18`.
 const COARSEST: f64 = 0.7;
@@ -87,13 +87,13 @@ impl Posterior {
         self.support.position(0).wrapping_add_signed(turns as i64)
     }
 
-    /// The standard deviation of each mode, if shots were many.
-    pub(super) fn mode_deviation(&self) -> f64 {
-        if self.information > 0.0 {
-            1.0 / self.information.sqrt()
-        } else {
-            f64::INFINITY
-        }
+    /// The mean distance of `pi theta` from its mean, in units that make it the standard deviation
+    /// where the posterior is normal. Far modes with little mass count less here than there.
+    pub(super) fn width(&self) -> f64 {
+        let sum: f64 = (self.mass.iter().zip(&self.deviations))
+            .map(|(mass, deviation)| mass * deviation.abs())
+            .sum();
+        sum * (0.5 * PI).sqrt()
     }
 
     /// The share of shots with so many iterations that noise spares.
@@ -126,27 +126,24 @@ impl Posterior {
         }
         self.support.cosines(2 * iterations + 1, &mut self.cosines);
         let intact = self.intact(iterations);
+        if intact < 1.0 {
+            for (cosine, plain) in self.cosines.iter_mut().zip(&self.plain) {
+                *cosine = intact * *cosine + (1.0 - intact) * plain;
+            }
+        }
         let mut sums = [[0.0; support::LANES]; 2];
         let terms = (self.mass.chunks(support::LANES))
             .zip(self.deviations.chunks(support::LANES))
             .zip(self.cosines.chunks(support::LANES));
         for ((mass, deviations), cosines) in terms {
             for (lane, ((m, d), c)) in mass.iter().zip(deviations).zip(cosines).enumerate() {
-                sums[0][lane] += m * c;
-                sums[1][lane] += m * c * d;
+                let t = m * c;
+                sums[0][lane] += t;
+                sums[1][lane] += t * d;
             }
         }
-        let mut even = sums[0].iter().sum::<f64>();
-        let mut odd = sums[1].iter().sum::<f64>();
-        if intact < 1.0 {
-            let (mut plain_even, mut plain_odd) = (0.0, 0.0);
-            for ((m, d), c) in self.mass.iter().zip(&self.deviations).zip(&self.plain) {
-                plain_even += m * c;
-                plain_odd += m * c * d;
-            }
-            even = intact * even + (1.0 - intact) * plain_even;
-            odd = intact * odd + (1.0 - intact) * plain_odd;
-        }
+        let even = sums[0].iter().sum::<f64>();
+        let odd = sums[1].iter().sum::<f64>();
         let spread = (1.0 - even * even).max(f64::MIN_POSITIVE);
         (1.0 - odd * odd / (spread * self.variance)).clamp(0.0, 1.0)
     }
@@ -173,13 +170,24 @@ impl Posterior {
         self.multiply(shots, &mut mass);
         self.mass = mass;
         self.summarise();
-        if self.support.step().is_none() && self.is_mostly_empty() {
-            self.refine_by(0);
-        }
+        self.prune();
     }
 
-    fn is_mostly_empty(&self) -> bool {
-        2 * self.mass.iter().filter(|&&mass| mass > NEGLIGIBLE).count() < self.mass.len()
+    /// Drops what has no mass, where it is much.
+    fn prune(&mut self) {
+        let held = |mass: &[f64]| mass.iter().any(|&mass| mass > NEGLIGIBLE);
+        let width = self.support.width();
+        let empty = self.mass.chunks(width).filter(|chunk| !held(chunk)).count();
+        if 4 * empty * width < self.mass.len() {
+            return;
+        }
+        let kept: Vec<bool> = self.mass.chunks(width).map(held).collect();
+        self.support.retain(&kept);
+        for values in [&mut self.mass, &mut self.prior, &mut self.plain] {
+            let mut chunk = 0..values.len();
+            values.retain(|_| chunk.next().is_some_and(|index| kept[index / width]));
+        }
+        self.summarise();
     }
 
     /// Moves to a grid as fine as the shots demand, and two to four times finer: the next few shots
@@ -246,13 +254,11 @@ impl Posterior {
 
     fn summarise(&mut self) {
         let sum: f64 = self.mass.iter().sum();
-        let first = self.support.position(0);
+        let scale = 1.0 / sum;
         let mut mean = 0.0;
-        self.deviations.clear();
-        for (index, mass) in self.mass.iter_mut().enumerate() {
-            *mass /= sum;
-            let place = support::radians(self.support.position(index) - first);
-            self.deviations.push(place);
+        self.support.places(&mut self.deviations);
+        for (mass, place) in self.mass.iter_mut().zip(&self.deviations) {
+            *mass *= scale;
             mean += *mass * place;
         }
         self.mean = mean;

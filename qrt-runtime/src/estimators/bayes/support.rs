@@ -90,10 +90,7 @@ impl Support {
             Self::Grid { panels, .. } => panels[before / LANES] + 1 == panels[after / LANES],
             Self::Integers(integers) => integers[before].0 + 1 == integers[after].0,
         };
-        let width = match self {
-            Self::Grid { .. } => LANES,
-            Self::Integers(_) => 1,
-        };
+        let width = self.width();
         for first in (0..self.len()).step_by(width) {
             let last = first + width - 1;
             match runs.last_mut() {
@@ -102,6 +99,24 @@ impl Support {
             }
         }
         runs
+    }
+
+    /// Points that are kept or dropped together.
+    pub(super) fn width(&self) -> usize {
+        match self {
+            Self::Grid { .. } => LANES,
+            Self::Integers(_) => 1,
+        }
+    }
+
+    /// Drops panels, or integers.
+    pub(super) fn retain(&mut self, kept: &[bool]) {
+        let mut index = 0..kept.len();
+        let mut keep = || index.next().is_some_and(|index| kept[index]);
+        match self {
+            Self::Grid { panels, .. } => panels.retain(|_| keep()),
+            Self::Integers(integers) => integers.retain(|_| keep()),
+        }
     }
 
     /// Without the points where `keep` is false (a panel stays if any of its points does), and
@@ -137,9 +152,8 @@ impl Support {
         match self {
             Self::Integers(integers) => vec![1.0; integers.len()],
             Self::Grid { level, panels } => {
-                let mut prior: Vec<f64> = (0..self.len())
-                    .map(|index| libm::sin(2.0 * radians(self.position(index))))
-                    .collect();
+                let mut prior = Vec::new();
+                self.turns(1, |_, sine| prior.extend_from_slice(sine));
                 // Midpoints miss a twelfth of their first cell where a density rises from 0, by
                 // the formula of Euler and Maclaurin: h^2/24 of its slope.
                 let end = 11.0 / 12.0;
@@ -155,20 +169,44 @@ impl Support {
         }
     }
 
+    /// `pi theta` at every point, less that at the first.
+    pub(super) fn places(&self, places: &mut Vec<f64>) {
+        places.clear();
+        let first = self.position(0);
+        match self {
+            Self::Integers(integers) => {
+                places.extend((integers.iter()).map(|&(_, theta)| radians(theta - first)));
+            }
+            Self::Grid { level, panels } => {
+                let step = radians(cell(*level));
+                for &panel in panels {
+                    let start = radians((panel - panels[0]) << (64 - level));
+                    places.extend((0..LANES).map(|lane| start + step * lane as f64));
+                }
+            }
+        }
+    }
+
     /// `cos(2 m pi theta)` at every point.
     pub(super) fn cosines(&self, multiple: u64, cosines: &mut Vec<f64>) {
         cosines.clear();
-        let (level, panels) = match self {
-            Self::Integers(integers) => {
-                cosines.extend(
-                    (integers.iter()).map(|&(_, theta)| turned(theta.wrapping_mul(multiple)).0),
-                );
-                return;
+        match self {
+            Self::Integers(integers) => cosines.extend(
+                (integers.iter()).map(|&(_, theta)| turned(theta.wrapping_mul(multiple)).0),
+            ),
+            Self::Grid { panels, .. } => {
+                cosines.reserve(panels.len() * LANES);
+                self.turns(multiple, |cosine, _| cosines.extend_from_slice(cosine));
             }
-            Self::Grid { level, panels } => (*level, panels),
+        }
+    }
+
+    /// `cos(2 m pi theta)` and `sin(2 m pi theta)` of each panel of a grid.
+    fn turns(&self, multiple: u64, mut panel_of: impl FnMut(&[f64; LANES], &[f64; LANES])) {
+        let Self::Grid { level, panels } = self else {
+            return;
         };
-        cosines.reserve(panels.len() * LANES);
-        let step = multiple.wrapping_mul(cell(level));
+        let step = multiple.wrapping_mul(cell(*level));
         let (panel_cosine, panel_sine) = turned(step.wrapping_mul(LANES as u64));
         let (step_cosine, step_sine) = turned(step);
         let (mut c, mut s) = ([0.0; LANES], [0.0; LANES]);
@@ -189,7 +227,7 @@ impl Support {
                     s[lane] = x * step_sine + y * step_cosine;
                 }
             }
-            cosines.extend_from_slice(&c);
+            panel_of(&c, &s);
             expected = Some(panel + 1);
         }
     }
