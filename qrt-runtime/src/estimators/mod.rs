@@ -14,16 +14,22 @@
 mod device;
 mod error;
 mod exact;
+mod iterative;
+mod mlae;
 mod monte_carlo;
 mod noise;
+mod normal;
 mod settings;
 #[cfg(test)]
 mod tests;
+mod turns;
 mod windowed;
 
 pub use device::{Device, MAX_ITERATIONS, Problem, Spent};
 pub use error::EstimatorError;
 pub use exact::Exact;
+pub use iterative::{Chebyshev, Iqae, Miqae};
+pub use mlae::Mlae;
 pub use monte_carlo::MonteCarlo;
 pub use noise::{Noise, NoiseError};
 pub use settings::{DEFAULT_CONFIDENCE, Settings};
@@ -33,11 +39,15 @@ use crate::random::Stream;
 use qrt_core::scene::{Counting, Estimator};
 
 /// The estimators of this version, by their names in scenes.
-pub const AVAILABLE: [Estimator; 4] = [
+pub const AVAILABLE: [Estimator; 8] = [
     Estimator::Exact,
     Estimator::MonteCarlo,
     Estimator::Paper,
     Estimator::Sine,
+    Estimator::Mlae,
+    Estimator::Iqae,
+    Estimator::Miqae,
+    Estimator::Chebyshev,
 ];
 
 /// An estimated amplitude, and what it took.
@@ -94,6 +104,10 @@ pub fn estimator(
         Estimator::Exact => Box::new(Exact),
         Estimator::Paper => Box::new(WindowedCounting::paper(settings)?),
         Estimator::Sine => Box::new(WindowedCounting::sine(settings)?),
+        Estimator::Mlae => Box::new(Mlae::new(settings)),
+        Estimator::Iqae => Box::new(Iqae::new(settings)),
+        Estimator::Miqae => Box::new(Miqae::new(settings)),
+        Estimator::Chebyshev => Box::new(Chebyshev::new(settings)),
         Estimator::MonteCarlo => Box::new(MonteCarlo::new(settings)),
         _ => return Err(EstimatorError::Unavailable(name)),
     })
