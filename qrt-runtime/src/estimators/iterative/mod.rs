@@ -11,19 +11,18 @@
 
 mod arc;
 mod chebyshev;
-mod clopper_pearson;
 mod iqae;
 mod miqae;
 #[cfg(test)]
 mod tests;
 
 pub use chebyshev::Chebyshev;
-pub use iqae::{Iqae, cost};
+pub use iqae::Iqae;
 pub use miqae::Miqae;
 
+use super::clopper_pearson::clopper_pearson;
 use super::{Device, Estimate, EstimatorError, MAX_ITERATIONS, Settings};
 use arc::{Arc, Multiples};
-use clopper_pearson::clopper_pearson;
 use std::f64::consts::PI;
 
 /// What distinguishes one method of this family from another.
@@ -49,6 +48,9 @@ enum Failures {
     /// In proportion to the multiple: the deeper, the more.
     ByMultiple,
 }
+
+/// What is left for a late phase is worth at least so many shots.
+const FEW_SHOTS: u64 = 5;
 
 /// What is wanted, as this family understands it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -106,7 +108,7 @@ impl Rules {
             if arc.error() <= goal.error || left == 0 {
                 break;
             }
-            let deepest = 2 * (left / iqae::cost("LF", self.shots as f64) as u64).min(MAX_ITERATIONS) + 1;
+            let deepest = 2 * (left / self.least_shots()).min(MAX_ITERATIONS) + 1;
             let from = depth.multiple.saturating_mul(self.ratio);
             if let Some(multiple) = arc.largest_multiple(self.multiples, from, deepest) {
                 depth = Depth::new(multiple);
@@ -126,6 +128,15 @@ impl Rules {
         }
         let (low, high) = arc.amplitudes();
         Ok(device.estimate(start, 0.5 * (low + high), (low, high), goal.confidence))
+    }
+
+    /// The shots for which the queries must suffice, for a depth to be worth measuring.
+    fn least_shots(&self) -> u64 {
+        if self.late.is_some() {
+            self.shots.min(FEW_SHOTS)
+        } else {
+            self.shots
+        }
     }
 
     /// How many shots to take next. In the late phase, where a whole batch would be more than

@@ -199,6 +199,14 @@ impl Likelihood {
             .sum()
     }
 
+    /// Good ids and shots, where there was nothing but paths.
+    pub(super) fn paths(&self) -> Option<(u64, u64)> {
+        match self.levels[..] {
+            [level] if level.multiple == 1 => Some((level.hits, level.shots)),
+            _ => None,
+        }
+    }
+
     /// Bits to which an angle must be found within a section, for its error to be far below the
     /// statistical one.
     pub(super) fn digits(&self) -> u32 {

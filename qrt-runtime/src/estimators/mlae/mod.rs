@@ -6,6 +6,7 @@ mod search;
 #[cfg(test)]
 mod tests;
 
+use super::clopper_pearson::clopper_pearson;
 use super::normal::normal_quantile;
 use super::turns::amplitude;
 use super::{AmplitudeEstimator, Device, Estimate, EstimatorError, Noise, Settings};
@@ -24,7 +25,8 @@ use search::{Found, search};
 /// the normal quantile below the largest, from the first to the last of them
 /// ([`Estimate::candidates`] says how many ranges they form). That the ratio follows a chi-square
 /// distribution (Wilks) is an asymptotic statement, and here shots are few; the factor is
-/// measured.
+/// measured: at 95 % asked, 95 to 97 % are held. Where the queries suffice for paths alone, it is
+/// Clopper & Pearson's interval.
 ///
 /// Where an error is asked, depths go only as deep as needed on average, and beyond while the
 /// interval is too wide.
@@ -50,7 +52,7 @@ impl Mlae {
     /// unambiguous phase estimation without adaptive measurements*, 2009).
     pub const MORE_SHOTS: u64 = 3;
     /// What the asymptotic likelihood ratio is multiplied with.
-    pub const REACH: f64 = 1.15;
+    pub const REACH: f64 = 1.2;
     /// Queries times the interval's half-width, for a around 1/2.
     const COST: f64 = 3.6;
 
@@ -66,7 +68,7 @@ impl Mlae {
     /// What is likely after what was measured.
     fn found(&self, likelihood: &Likelihood) -> Found {
         let z = normal_quantile(0.5 * (1.0 - self.confidence));
-        search(likelihood, super::iterative::cost("RE", Self::REACH) * 0.5 * z * z)
+        search(likelihood, Self::REACH * 0.5 * z * z)
     }
 
     /// Measures level by level.
@@ -110,15 +112,14 @@ impl AmplitudeEstimator for Mlae {
         let start = device.spent();
         let likelihood = self.measured(device)?;
         let found = self.found(&likelihood);
+        let interval = match likelihood.paths() {
+            Some((hits, shots)) => clopper_pearson(hits, shots, 1.0 - self.confidence),
+            None => found.amplitudes(),
+        };
         Ok(Estimate {
             ln_likelihood: Some(likelihood.ln_probability(found.angle)),
             candidates: Some(found.ranges),
-            ..device.estimate(
-                start,
-                amplitude(found.angle),
-                found.amplitudes(),
-                self.confidence,
-            )
+            ..device.estimate(start, amplitude(found.angle), interval, self.confidence)
         })
     }
 }

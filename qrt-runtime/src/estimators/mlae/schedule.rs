@@ -71,8 +71,11 @@ impl Schedule {
     }
 
     /// The next level, where the planned ones did not suffice: at most `left` queries.
+    ///
+    /// Half as deep again, and not twice: two angles that are a power of 1/2 apart look the same
+    /// to all powers of 2 beyond.
     pub(super) fn beyond(&self, deepest: u64, spent: u64, left: u64) -> Option<Planned> {
-        let depth = (2 * deepest).max(1).min(self.cap);
+        let depth = (deepest + deepest / 2 + 1).min(self.cap);
         let shots = self.shots(depth, 0);
         if depth == 0 || depth == deepest {
             // As much again, at the same depth.

@@ -5,7 +5,7 @@
 //! half of what may fail, on either side. They hold for every number of shots.
 
 use crate::counting::binomial::ln_probability;
-use crate::estimators::normal::normal_quantile;
+use super::normal::normal_quantile;
 
 /// The interval of the share of hits, that fails with probability at most `failure`.
 pub(super) fn clopper_pearson(hits: u64, shots: u64, failure: f64) -> (f64, f64) {
