@@ -11,6 +11,8 @@
 //! queries, for the id that it measures is evaluated classically; without iterations it is a path
 //! of classical Monte Carlo, which is one query, too. Phase estimation with T phases takes T-1.
 
+#[cfg(test)]
+mod budgets;
 mod clopper_pearson;
 mod device;
 mod error;

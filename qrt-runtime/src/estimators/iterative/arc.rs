@@ -172,3 +172,83 @@ fn floor_sum(mut count: u128, mut a: u128, mut b: u128) -> u128 {
         (a, modulus) = (modulus, a);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::random::Stream;
+    use proptest::prelude::*;
+
+    /// Downwards, one by one.
+    fn tried(arc: Arc, of: Multiples, from: u64, to: u64) -> Option<u64> {
+        (from.max(1)..=to.min(HALF / arc.width()))
+            .rev()
+            .filter(|multiple| of == Multiples::All || multiple % 2 == 1)
+            .find(|&multiple| arc.section(multiple).is_some())
+    }
+
+    proptest! {
+        #[test]
+        fn sums_of_floors_are_those_of_their_terms(
+            count in 0..200_u64, a in 0..u64::MAX, b in 0..=u64::MAX,
+        ) {
+            let term = |i: u64| (product(a, i) + u128::from(b)) >> 63;
+            let sum: u128 = (0..count).map(term).sum();
+            prop_assert_eq!(floor_sum(u128::from(count), a.into(), b.into()), sum);
+        }
+
+        /// Around fractions of small denominators, where few multiples will do, and anywhere.
+        #[test]
+        fn the_largest_multiple_is_found_without_trying_them_all(
+            near in 0..6_usize, offset in -3.0..3.0_f64, anywhere in 0.0..1.0_f64,
+            width in 2.0..13.0_f64, from in 1..3000_u64, span in 0..4000_u64,
+            all in any::<bool>(),
+        ) {
+            let width = (HALF as f64 * libm::exp2(-width)) as u64;
+            let centre = [0.0, 1.0 / 3.0, 0.5, 2.0 / 3.0, 1.0, anywhere][near];
+            let shift = if near == 5 { 0.0 } else { offset * width as f64 };
+            let low = (centre * HALF as f64 + shift).max(0.0) as u64;
+            let low = low.min(HALF - width);
+            let arc = Arc { low, high: low + width };
+            let of = if all { Multiples::All } else { Multiples::Odd };
+            let found = arc.largest_multiple(of, from, from + span);
+            prop_assert_eq!(found, tried(arc, of, from, from + span));
+        }
+
+        #[test]
+        fn arcs_of_shares_hold_the_angles_with_those_shares(
+            angle in 1..HALF, power in 0..40_u32, low in 0.0..0.2_f64, high in 0.0..0.2_f64,
+        ) {
+            let multiple = (1 << power) + 1;
+            let section = (product(multiple, angle) >> 63) as u64;
+            let share = crate::estimators::turns::sine_squared(multiple.wrapping_mul(angle)).0;
+            let shares = ((share - low).max(0.0), (share + high).min(1.0));
+            let arc = Arc::of_shares(multiple, section, shares);
+            prop_assert!(arc.low <= angle && angle <= arc.high);
+            // Up to the slack, within the section.
+            let around = Arc { low: arc.low + 1, high: arc.high - 1 };
+            prop_assert!(around.low >= around.high || around.section(multiple) == Some(section));
+        }
+    }
+
+    /// Around 1/3 of half a turn no multiple of 3 will do, and of the others those of at most 2/3
+    /// of what the width would allow: there is no trying 10^11 of them.
+    #[test]
+    fn structure_at_any_depth_is_seen() {
+        let mut stream = Stream::new(1, 0, 0, 0);
+        for power in 10..44 {
+            let width = (HALF >> power) + stream.next_u64() % 100;
+            let arc = Arc {
+                low: HALF / 3 - width / 2,
+                high: HALF / 3 - width / 2 + width,
+            };
+            let found = arc.largest_multiple(Multiples::All, 1, u64::MAX >> 8);
+            let largest = found.unwrap() as f64 / libm::exp2(f64::from(power));
+            assert!((largest - 2.0 / 3.0).abs() < 0.01, "{power}: {largest}");
+            let odd = arc
+                .largest_multiple(Multiples::Odd, 1, u64::MAX >> 8)
+                .unwrap();
+            assert!(odd % 2 == 1 && odd % 3 != 0 && found <= Some(odd + 4));
+        }
+    }
+}

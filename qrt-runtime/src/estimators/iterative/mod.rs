@@ -35,8 +35,8 @@ struct Rules {
     shots: u64,
     /// How what may fail is divided among the depths.
     failures: Failures,
-    /// Shots are taken one by one, once this many times the error is about what they all would
-    /// leave.
+    /// Once as many shots would leave less than this many times the error, a tenth of those taken
+    /// at the depth are taken next.
     late: Option<f64>,
 }
 
@@ -89,9 +89,7 @@ impl Rules {
         let deepest = goal.deepest().max(1.0);
         let share = match self.failures {
             // As many depths as there can be.
-            Failures::Equal => {
-                1.0 / (1.0 + (libm::log(deepest) / libm::log(ratio)).floor())
-            }
+            Failures::Equal => 1.0 / (1.0 + (libm::log(deepest) / libm::log(ratio)).floor()),
             // A geometric series, the last term of which is at most 1.
             Failures::ByMultiple => (1.0 - 1.0 / ratio) * (multiple as f64 / deepest).min(1.0),
         };
@@ -117,7 +115,9 @@ impl Rules {
                 break;
             };
             let failure = self.failure(goal, depth.multiple);
-            let shots = self.batch(&arc, &depth, goal, failure).min(left / depth.cost());
+            let shots = self
+                .batch(&arc, &depth, goal, failure)
+                .min(left / depth.cost());
             if shots == 0 {
                 break;
             }
@@ -139,8 +139,7 @@ impl Rules {
         }
     }
 
-    /// How many shots to take next. In the late phase, where a whole batch would be more than
-    /// enough, half of those that are missing: intervals shrink as the root of the shots.
+    /// How many shots to take next.
     fn batch(&self, arc: &Arc, depth: &Depth, goal: &Goal, failure: f64) -> u64 {
         let Some(late) = self.late else {
             return self.shots;
@@ -149,12 +148,11 @@ impl Rules {
         let (low, high) = clopper_pearson(self.shots / 2, self.shots, failure);
         let (from, to) = (depth.share(arc.low), depth.share(arc.high));
         let reachable = 0.5 * (high - low) * 2.0 * arc.error() / (to - from).abs();
-        if reachable >= late * goal.error {
-            return self.shots;
+        if reachable < late * goal.error {
+            (depth.shots / 10).clamp(1, self.shots)
+        } else {
+            self.shots
         }
-        let narrower = arc.error() / goal.error;
-        let missing = depth.shots as f64 * (narrower * narrower - 1.0);
-        ((0.5 * missing) as u64).clamp(1, self.shots)
     }
 }
 

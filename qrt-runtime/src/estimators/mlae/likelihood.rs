@@ -74,7 +74,8 @@ impl Level {
         let start = self.multiple.wrapping_mul(low);
         let end = u128::from(start) + width;
         let half = u128::from(HALF);
-        let crosses = |multiple: u128| u128::from(start) <= multiple * half && multiple * half <= end;
+        let crosses =
+            |multiple: u128| u128::from(start) <= multiple * half && multiple * half <= end;
         let zero = crosses(0) || crosses(2);
         let one = crosses(1) || crosses(3);
         if width >= half || (zero && one) {
@@ -128,7 +129,10 @@ impl Level {
         let multiple = u128::from(self.multiple);
         let half = u128::from(HALF);
         let section = |angle: u64| multiple * u128::from(angle) / half;
-        let (first, last) = (section(low) + 1, (multiple * u128::from(high)).div_ceil(half));
+        let (first, last) = (
+            section(low) + 1,
+            (multiple * u128::from(high)).div_ceil(half),
+        );
         if first >= last {
             return None;
         }

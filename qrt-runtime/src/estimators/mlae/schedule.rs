@@ -62,7 +62,9 @@ impl Schedule {
                 level.1 = (u128::from(level.1) * factor) as u64;
             }
         } else if deepest > 0 {
-            let depth = (left / self.shots(deepest, 0)).min(2 * deepest).min(self.cap);
+            let depth = (left / self.shots(deepest, 0))
+                .min(2 * deepest)
+                .min(self.cap);
             if depth > 0 {
                 levels.push((depth, left / depth));
             }
