@@ -28,10 +28,7 @@ fn monte_carlo_errors_scale_as_the_literature_says() {
         let found = estimate(
             Estimator::MonteCarlo,
             &settings,
-            Problem {
-                good: good,
-                total: total,
-            },
+            Problem { good, total },
             &mut stream,
         )
         .unwrap();
@@ -55,10 +52,7 @@ fn a_million_repetitions_neither_underflow_nor_miss() {
         let found = estimate(
             name,
             &counting(bits, 1_000_000),
-            Problem {
-                good: good,
-                total: total,
-            },
+            Problem { good, total },
             &mut stream,
         )
         .unwrap();
@@ -85,16 +79,8 @@ fn intervals_cover_as_often_as_they_say() {
                 let good = (choice.uniform() * choice.uniform() * total as f64) as u64;
                 let mut stream = Stream::new(5, run, repetitions, 0);
                 let settings = counting(4 + run % 5, repetitions);
-                let found = estimate(
-                    name,
-                    &settings,
-                    Problem {
-                        good: good,
-                        total: total,
-                    },
-                    &mut stream,
-                )
-                .unwrap();
+                let found =
+                    estimate(name, &settings, Problem { good, total }, &mut stream).unwrap();
                 let truth = good as f64 / total as f64;
                 let (low, high) = found.interval;
                 assert!(0.0 <= low && low <= found.amplitude);
@@ -121,16 +107,8 @@ fn exact_is_exact_and_extremes_are_never_missed() {
             for name in AVAILABLE {
                 for (bits, repetitions) in [(1, 1), (2, 3), (10, 2), (40, 1)] {
                     let settings = counting(bits, repetitions);
-                    let found = estimate(
-                        name,
-                        &settings,
-                        Problem {
-                            good: good,
-                            total: total,
-                        },
-                        &mut stream,
-                    )
-                    .unwrap();
+                    let found =
+                        estimate(name, &settings, Problem { good, total }, &mut stream).unwrap();
                     let truth = good as f64 / total as f64;
                     assert!(found.amplitude.is_finite());
                     let certain = good == 0 || good == total;
