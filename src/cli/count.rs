@@ -139,12 +139,12 @@ pub(crate) fn run(args: &CountArgs) -> Result<(), Failure> {
 }
 
 impl<'a> Answer<'a> {
-    fn new(args: &'a CountArgs) -> Result<Self, CountingError> {
+    fn new(args: &'a CountArgs) -> Result<Self, EstimatorError> {
         let window = args.window.into();
         let distribution = PhaseDistribution::new(args.good, args.total, args.phase_bits, window)?;
         let largest = distribution.largest_outcome();
         if let Some(&outcome) = args.outcomes.iter().find(|&&y| y > largest) {
-            return Err(CountingError::OutcomeOutOfRange { outcome, largest });
+            return Err(CountingError::OutcomeOutOfRange { outcome, largest }.into());
         }
         let (shown, outcomes) = if !args.outcomes.is_empty() {
             (Shown::Asked, args.outcomes.clone())

@@ -187,7 +187,7 @@ impl std::error::Error for RenderError {
             Self::Sampling(error) => Some(error),
             Self::Oracle(error) => Some(error),
             Self::Defect(error) => Some(error),
-            Self::Estimator(error) => error.fmt(f),
+            Self::Estimator(error) => Some(error),
             Self::Counting(error) => Some(error),
             Self::Checkpoint(error) => Some(error),
             _ => None,

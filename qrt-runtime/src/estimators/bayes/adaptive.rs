@@ -1,18 +1,29 @@
 //! `adaptive-bayes`: every depth is chosen from what is known.
 
-use super::depth;
 use super::posterior::Posterior;
+use super::{Goal, depth};
 use crate::estimators::{AmplitudeEstimator, Device, Estimate, EstimatorError, Noise, Settings};
 
-/// What is left of the variance of `pi theta` when theta is known.
-const KNOWN: f64 = 1e-12;
-
-/// `adaptive-bayes`
+/// `adaptive-bayes`: single shots, each at the depth that is expected to sharpen the posterior most
+/// per query; the posterior mean. The default, and the most accurate here.
+///
+/// The prior is uniform in the amplitude. The likelihood is that of the device, with the noise that
+/// is known. Depth is chosen greedily from the whole posterior, multimodal as it is, as in adaptive
+/// phase estimation (Wiebe & Granade, *Efficient Bayesian phase estimation*, 2016) and Bayesian
+/// amplitude estimation (Ramôa & Santos, *Bayesian quantum amplitude estimation*, 2024), with the
+/// expected variance computed, not sampled; the posterior is a quadrature, not a cloud of
+/// particles, which could lose a mode.
+///
+/// Interval: the amplitudes of highest posterior density that hold the asked confidence, and what
+/// lies between them. On average over the prior it holds the amplitude as often as it says,
+/// whatever was measured and whenever it stopped; at a given amplitude, more or less often.
+///
+/// Stops early where the asked error is reached or a single S is left (all others together below
+/// 10^-12). Never spends more than the queries allowed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AdaptiveBayes {
     queries: u64,
-    error: Option<f64>,
-    confidence: f64,
+    goal: Goal,
     noise: Noise,
 }
 
@@ -23,21 +34,9 @@ impl AdaptiveBayes {
         settings.check()?;
         Ok(Self {
             queries: settings.queries,
-            error: settings.error,
-            confidence: settings.confidence,
+            goal: Goal::of(settings),
             noise: settings.known_noise,
         })
-    }
-
-    fn is_done(&self, posterior: &Posterior) -> bool {
-        if posterior.likeliest().is_some_and(|(_, probability)| probability > 1.0 - KNOWN) {
-            return true;
-        }
-        let Some(error) = self.error else {
-            return false;
-        };
-        let (low, high) = posterior.interval(self.confidence);
-        high - low <= 2.0 * error
     }
 }
 
@@ -46,13 +45,12 @@ impl AmplitudeEstimator for AdaptiveBayes {
         let start = device.spent();
         let mut posterior = Posterior::new(device.total(), self.noise);
         let mut left = self.queries;
-        while left > 0 && !self.is_done(&posterior) {
+        while left > 0 && !self.goal.is_reached(&posterior) {
             let plan = depth::choose(&mut posterior, &self.noise, left);
-
             let good = device.iterated(plan.iterations, plan.shots)?;
             posterior.observe(plan.iterations, good, plan.shots - good);
             left -= plan.shots * plan.iterations.max(1);
         }
-        Ok(posterior.sharpened().estimate(device, start, self.confidence))
+        Ok(posterior.sharpened().estimate(device, start, self.goal.confidence))
     }
 }

@@ -90,7 +90,7 @@ pub(super) fn choose(posterior: &mut Posterior, noise: &Noise, left: u64) -> Pla
 
 /// The depth beyond which noise destroys more than depth gains: `r^2 k`, the information per query
 /// where r = (1 - p)^k of all shots are intact, is largest at half of 1/p.
-fn useful(noise: &Noise) -> f64 {
+pub(super) fn useful(noise: &Noise) -> f64 {
     if noise.depolarising > 0.0 {
         -0.5 / libm::log1p(-noise.depolarising.min(0.999_999))
     } else {

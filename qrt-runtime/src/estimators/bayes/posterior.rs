@@ -96,6 +96,14 @@ impl Posterior {
         sum * (0.5 * PI).sqrt()
     }
 
+    /// Whether an interval of this half-width could hold most of the mass: a wider posterior need
+    /// not be looked at.
+    pub(super) fn could_reach(&self, error: f64) -> bool {
+        let place = support::radians(self.mean_position());
+        let slope = libm::sin(2.0 * place).abs();
+        slope * self.width() < 4.0 * error
+    }
+
     /// The share of shots with so many iterations that noise spares.
     pub(super) fn intact(&self, iterations: u64) -> f64 {
         if self.noise == Noise::NONE || iterations == 0 {

@@ -1,6 +1,7 @@
 //! Where a posterior is held: a grid of angles, coarse to fine, or the integers.
 
 use crate::counting::Angle;
+use crate::estimators::turns::amplitude;
 
 /// Points of a panel.
 pub(super) const LANES: usize = 8;
@@ -271,12 +272,6 @@ fn cell(level: u32) -> u64 {
 /// `pi theta`, for theta in units of 2^-64 turns.
 pub(super) fn radians(position: u64) -> f64 {
     position as f64 * (std::f64::consts::PI / 18_446_744_073_709_551_616.0)
-}
-
-/// `sin^2(pi theta)`, exact at both ends.
-pub(super) fn amplitude(position: u64) -> f64 {
-    let sine = libm::sin(radians(position));
-    sine * sine
 }
 
 /// Cosine and sine of a turn in units of 2^-64.

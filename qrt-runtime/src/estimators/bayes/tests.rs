@@ -1,0 +1,1 @@
+//! What Bayesian estimators promise.
