@@ -8,6 +8,7 @@
 //!
 //! * [`PhaseDistribution`]: `P(theta~ | theta)`, rectangular and sine window, and draws from it;
 //! * [`maximum_likelihood`]: the paper's inference, over every S in `0 ..= N`;
+//! * [`posterior_mean`]: the mean of the same data's posterior, and its interval;
 //! * [`Comparators`]: from colours to good ids, and from amplitudes to pixels.
 
 mod angle;
@@ -19,6 +20,7 @@ mod draw;
 mod error;
 mod kernel;
 mod likelihood;
+mod posterior;
 #[cfg(test)]
 pub(crate) mod tests;
 
@@ -27,4 +29,5 @@ pub use comparator::{Comparators, MAX_COMPARATOR_BITS};
 pub use distribution::PhaseDistribution;
 pub use draw::Sampler;
 pub use error::{CountingError, MAX_PHASE_BITS, MAX_REPETITIONS};
+pub use posterior::{Posterior, posterior_mean};
 pub use likelihood::{MaximumLikelihood, ln_likelihood, maximum_likelihood, posterior};

@@ -23,6 +23,7 @@ mod mlae;
 mod monte_carlo;
 mod noise;
 mod normal;
+mod posterior_mean;
 mod settings;
 #[cfg(test)]
 mod tests;
@@ -37,6 +38,7 @@ pub use iterative::{Chebyshev, Iqae, Miqae};
 pub use mlae::Mlae;
 pub use monte_carlo::MonteCarlo;
 pub use noise::{Noise, NoiseError};
+pub use posterior_mean::PosteriorMean;
 pub use settings::{DEFAULT_CONFIDENCE, Settings};
 pub use windowed::WindowedCounting;
 
@@ -44,10 +46,11 @@ use crate::random::Stream;
 use qrt_core::scene::{Counting, Estimator};
 
 /// The estimators of this version, by their names in scenes.
-pub const AVAILABLE: [Estimator; 10] = [
+pub const AVAILABLE: [Estimator; 11] = [
     Estimator::Exact,
     Estimator::MonteCarlo,
     Estimator::Paper,
+    Estimator::PosteriorMean,
     Estimator::Sine,
     Estimator::AdaptiveBayes,
     Estimator::RandomDepth,
@@ -110,6 +113,7 @@ pub fn estimator(
     Ok(match name {
         Estimator::Exact => Box::new(Exact),
         Estimator::Paper => Box::new(WindowedCounting::paper(settings)?),
+        Estimator::PosteriorMean => Box::new(PosteriorMean::new(settings)?),
         Estimator::Sine => Box::new(WindowedCounting::sine(settings)?),
         Estimator::AdaptiveBayes => Box::new(AdaptiveBayes::new(settings)?),
         Estimator::RandomDepth => Box::new(RandomDepth::new(settings)?),
