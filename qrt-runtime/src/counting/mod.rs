@@ -29,5 +29,5 @@ pub use comparator::{Comparators, MAX_COMPARATOR_BITS};
 pub use distribution::PhaseDistribution;
 pub use draw::Sampler;
 pub use error::{CountingError, MAX_PHASE_BITS, MAX_REPETITIONS};
-pub use posterior::{Posterior, posterior_mean};
 pub use likelihood::{MaximumLikelihood, ln_likelihood, maximum_likelihood, posterior};
+pub use posterior::{Posterior, posterior_mean};

@@ -28,6 +28,8 @@ const FEW_IDS: u64 = 1 << 12;
 const NEAR: u64 = 48;
 /// Up to this many integers of a far panel are summed over.
 const FEW_FAR: f64 = 2048.0;
+/// Up to this many of the first and the last cell.
+const FEW_AT_ENDS: u64 = 1024;
 /// ln of what is left out, relative to the likeliest.
 const NEGLIGIBLE: f64 = -60.0;
 /// Gauss and Legendre's nodes and weights of order 8, on [-1, 1]; the other half mirrors.
@@ -154,12 +156,24 @@ impl Integral<'_> {
         self.total as f64 * (0.5 * PI / half) * libm::sin(PI * place)
     }
 
-    /// The largest S whose phase is not above this grid point; none below the first.
-    fn good_below(&self, cell: u64) -> u64 {
+    /// The largest S whose phase is not above this grid point, and what is above it of N times the
+    /// amplitude there.
+    fn good_below(&self, cell: u64) -> (u64, f64) {
         let theta = Double::from(cell).scale(1.0 / self.likelihood.register.size() as f64);
-        (double::sine_squared(theta) * Double::from(self.total))
-            .floor()
-            .min(self.total)
+        let place = double::sine_squared(theta) * Double::from(self.total);
+        let good = place.floor().min(self.total);
+        let rest = place - Double::from(good);
+        (good, rest.hi)
+    }
+
+    /// From a grid point to the middle between the integers on either side of it, in steps: where
+    /// sums over the integers of a cell are split, and so integrals that stand for them.
+    fn split(&self, cell: u64) -> f64 {
+        if cell == 0 || cell == self.half() {
+            return 0.0;
+        }
+        let (_, rest) = self.good_below(cell);
+        (0.5 - rest) / self.density(cell as f64)
     }
 
     /// The integers of the cells `first .. last`, as a range.
@@ -167,12 +181,12 @@ impl Integral<'_> {
         let low = if first == 0 {
             0
         } else {
-            self.good_below(first) + 1
+            self.good_below(first).0 + 1
         };
         let high = if last == self.half() {
             self.total
         } else {
-            self.good_below(last)
+            self.good_below(last).0
         };
         low..=high
     }
@@ -229,7 +243,10 @@ impl Integral<'_> {
         if range.is_empty() {
             return;
         }
-        if (range.end() - range.start()) / 16 < panels {
+        // At the ends of the range a sum differs from its integral by its slope, too.
+        let is_end = cell == 0 || cell + 1 == self.half();
+        let few = if is_end { FEW_AT_ENDS } else { 16 * panels };
+        if range.end() - range.start() < few {
             self.integers(*range.start(), *range.end());
             return;
         }
@@ -244,9 +261,10 @@ impl Integral<'_> {
                 }
             }
         }
-        let width = 1.0 / panels as f64;
+        let start = self.split(cell);
+        let width = (1.0 + self.split(cell + 1) - start) / panels as f64;
         for panel in 0..panels {
-            self.panel(cell, panel as f64 * width, width);
+            self.panel(cell, start + panel as f64 * width, width);
         }
     }
 
@@ -298,8 +316,16 @@ impl Integral<'_> {
         // The gap's ends are as far from the outcomes as near cells reach, or ends of the range.
         let mut start = first;
         while start < last {
-            let left = if first == 0 { u64::MAX } else { start - first + NEAR };
-            let right = if last == self.half() { u64::MAX } else { last - start + NEAR };
+            let left = if first == 0 {
+                u64::MAX
+            } else {
+                start - first + NEAR
+            };
+            let right = if last == self.half() {
+                u64::MAX
+            } else {
+                last - start + NEAR
+            };
             // No wider than half of the distance to the nearest outcome, also from its far end.
             let distance = left.min(right / 2).min(self.half());
             let end = start + (distance / 2).max(1);
@@ -318,7 +344,10 @@ impl Integral<'_> {
             self.integers(*range.start(), *range.end());
             return;
         }
-        let (low, high) = (first as f64, last as f64);
+        let (low, high) = (
+            first as f64 + self.split(first),
+            last as f64 + self.split(last),
+        );
         let piece = self.quadrature(low, high, |offset| {
             self.average(0.5 * (low + high) + 0.5 * (high - low) * offset)
         });
@@ -340,7 +369,13 @@ impl Integral<'_> {
                 } else {
                     register.envelope(sum.min(size - sum))
                 };
-                (count, near * near, far * far, (place - y) / size, sum / size)
+                (
+                    count,
+                    near * near,
+                    far * far,
+                    (place - y) / size,
+                    sum / size,
+                )
             })
             .collect();
         let wave = |place: f64, shift: f64| {

@@ -18,6 +18,7 @@ mod clopper_pearson;
 mod device;
 mod error;
 mod exact;
+mod interval;
 mod iterative;
 mod mlae;
 mod monte_carlo;

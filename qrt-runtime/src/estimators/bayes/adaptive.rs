@@ -14,9 +14,10 @@ use crate::estimators::{AmplitudeEstimator, Device, Estimate, EstimatorError, No
 /// expected variance computed, not sampled; the posterior is a quadrature, not a cloud of
 /// particles, which could lose a mode.
 ///
-/// Interval: the amplitudes of highest posterior density that hold the asked confidence, and what
-/// lies between them. On average over the prior it holds the amplitude as often as it says,
-/// whatever was measured and whenever it stopped; at a given amplitude, more or less often.
+/// Interval: the amplitudes of highest posterior density that hold all but 2/5 of what may fail at
+/// the asked confidence, and what lies between them. On average over the prior it holds the
+/// amplitude more often than asked, whatever was measured and whenever it stopped; at an amplitude
+/// of 1/2, where it does so least, about as often.
 ///
 /// Stops early where the asked error is reached or a single S is left (all others together below
 /// 10^-12). Never spends more than the queries allowed.
@@ -51,6 +52,8 @@ impl AmplitudeEstimator for AdaptiveBayes {
             posterior.observe(plan.iterations, good, plan.shots - good);
             left -= plan.shots * plan.iterations.max(1);
         }
-        Ok(posterior.sharpened().estimate(device, start, self.goal.confidence))
+        Ok(posterior
+            .sharpened()
+            .estimate(device, start, self.goal.confidence))
     }
 }

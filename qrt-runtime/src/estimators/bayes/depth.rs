@@ -62,7 +62,12 @@ pub(super) fn choose(posterior: &mut Posterior, noise: &Noise, left: u64) -> Pla
                 .collect();
             ranked.sort_by(|a, b| b.0.total_cmp(&a.0));
             candidates.clear();
-            candidates.extend(ranked.iter().take(CLOSELY).map(|&(_, iterations)| iterations));
+            candidates.extend(
+                ranked
+                    .iter()
+                    .take(CLOSELY)
+                    .map(|&(_, iterations)| iterations),
+            );
         } else {
             candidates = candidates.into_iter().step_by(EVERY).collect();
         }
@@ -111,11 +116,7 @@ fn fitting(room: f64, width: f64) -> f64 {
     } else {
         BEST
     };
-    if width > 0.0 {
-        share / width
-    } else {
-        0.0
-    }
+    if width > 0.0 { share / width } else { 0.0 }
 }
 
 /// The growth of 1/sigma per query, if a share `rest` of the variance remains.

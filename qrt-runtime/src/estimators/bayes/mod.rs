@@ -41,7 +41,10 @@ impl Goal {
 
     /// Whether S is known, or the interval as narrow as is asked.
     fn is_reached(&self, posterior: &Posterior) -> bool {
-        if posterior.likeliest().is_some_and(|(_, probability)| probability > 1.0 - DOUBT) {
+        if posterior
+            .likeliest()
+            .is_some_and(|(_, probability)| probability > 1.0 - DOUBT)
+        {
             return true;
         }
         // An interval much narrower than the posterior is not worth its computation.

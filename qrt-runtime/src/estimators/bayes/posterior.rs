@@ -1,6 +1,7 @@
 //! What is known of theta after shots at several depths.
 
 use super::support::{self, Support};
+use crate::estimators::interval::credible_content;
 use crate::estimators::{Device, Estimate, Noise, Spent};
 use std::f64::consts::PI;
 
@@ -47,11 +48,50 @@ pub(super) struct Posterior {
     prior: Vec<f64>,
     /// `pi theta` less the mean.
     deviations: Vec<f64>,
+    /// As the mass, but of the square root of the likelihood.
+    tempered: Tempered,
     /// `cos 2 pi theta` where there is noise.
     plain: Vec<f64>,
     mean: f64,
     variance: f64,
     cosines: Vec<f64>,
+}
+
+/// The posterior if every shot counted half, which depths are chosen by.
+///
+/// What single shots at the best phase measure is as likely under one mode as under another, so
+/// that a wrong mode may come to seem certain; at an amplitude of 1/2, where every depth gives good
+/// and bad ids alike, nothing measured later would contradict it. Half as certain, the choice keeps
+/// testing other modes: errors of many standard deviations become rare, at the price of a tenth of
+/// the queries. (Bayesian amplitude estimation's annealing, Ramôa & Santos 2024, has the same aim.)
+#[derive(Clone, Debug, Default)]
+struct Tempered {
+    mass: Vec<f64>,
+    deviations: Vec<f64>,
+    variance: f64,
+}
+
+impl Tempered {
+    fn update(&mut self, mass: &[f64], prior: &[f64], deviations: &[f64]) {
+        self.mass.clear();
+        self.mass.extend(
+            mass.iter()
+                .zip(prior)
+                .map(|(mass, prior)| (mass * prior).sqrt()),
+        );
+        let scale = 1.0 / self.mass.iter().sum::<f64>();
+        let mut mean = 0.0;
+        for (mass, deviation) in self.mass.iter_mut().zip(deviations) {
+            *mass *= scale;
+            mean += *mass * deviation;
+        }
+        self.deviations.clear();
+        self.deviations
+            .extend(deviations.iter().map(|deviation| deviation - mean));
+        self.variance = (self.mass.iter().zip(&self.deviations))
+            .map(|(mass, deviation)| mass * deviation * deviation)
+            .sum();
+    }
 }
 
 impl Posterior {
@@ -67,6 +107,7 @@ impl Posterior {
             mass: Vec::new(),
             prior: Vec::new(),
             deviations: Vec::new(),
+            tempered: Tempered::default(),
             plain: Vec::new(),
             mean: 0.0,
             variance: 0.0,
@@ -124,12 +165,13 @@ impl Posterior {
         0.25 * (most * most - self.information).max(0.0).sqrt()
     }
 
-    /// The expected variance after one more shot, as a share of the present.
+    /// The expected variance after one more shot, as a share of the present; of the posterior in
+    /// which shots count half.
     ///
     /// With `C = E[c]` and `D = E[(x - mean) c]` of `c = 1 - 2 P(good)`, a shot leaves
     /// `V - D^2/(1 - C^2)` on average.
     pub(super) fn remaining_variance(&mut self, iterations: u64) -> f64 {
-        if self.variance <= 0.0 {
+        if self.tempered.variance <= 0.0 {
             return 1.0;
         }
         self.support.cosines(2 * iterations + 1, &mut self.cosines);
@@ -140,8 +182,8 @@ impl Posterior {
             }
         }
         let mut sums = [[0.0; support::LANES]; 2];
-        let terms = (self.mass.chunks(support::LANES))
-            .zip(self.deviations.chunks(support::LANES))
+        let terms = (self.tempered.mass.chunks(support::LANES))
+            .zip(self.tempered.deviations.chunks(support::LANES))
             .zip(self.cosines.chunks(support::LANES));
         for ((mass, deviations), cosines) in terms {
             for (lane, ((m, d), c)) in mass.iter().zip(deviations).zip(cosines).enumerate() {
@@ -153,7 +195,7 @@ impl Posterior {
         let even = sums[0].iter().sum::<f64>();
         let odd = sums[1].iter().sum::<f64>();
         let spread = (1.0 - even * even).max(f64::MIN_POSITIVE);
-        (1.0 - odd * odd / (spread * self.variance)).clamp(0.0, 1.0)
+        (1.0 - odd * odd / (spread * self.tempered.variance)).clamp(0.0, 1.0)
     }
 
     /// Takes note of shots after `iterations`.
@@ -275,6 +317,8 @@ impl Posterior {
             *deviation -= mean;
             self.variance += mass * *deviation * *deviation;
         }
+        self.tempered
+            .update(&self.mass, &self.prior, &self.deviations);
     }
 
     /// The mean fraction of good ids.
@@ -285,7 +329,8 @@ impl Posterior {
         mean.clamp(0.0, 1.0)
     }
 
-    /// The posterior mean, with the smallest interval of likeliest points that holds `confidence`.
+    /// The posterior mean, with the interval of likeliest points for `confidence`: see
+    /// [`Self::interval`].
     pub(super) fn estimate(&self, device: &Device<'_>, start: Spent, confidence: f64) -> Estimate {
         let mean = self.mean_amplitude();
         let (low, high) = self.interval(confidence);
@@ -316,10 +361,10 @@ impl Posterior {
         runs.iter().filter(held).count() as u32
     }
 
-    /// The smallest interval with all points whose likelihood exceeds that of the others, such that
-    /// the points hold at least `content` of the mass: the posterior's region of highest density,
-    /// and what lies between its parts.
-    pub(super) fn interval(&self, content: f64) -> (f64, f64) {
+    /// The posterior's region of highest density, and what lies between its parts: all points whose
+    /// likelihood exceeds that of the others, such that they hold [`credible_content`] of the mass.
+    pub(super) fn interval(&self, confidence: f64) -> (f64, f64) {
+        let content = credible_content(confidence);
         let density = |index: usize| self.mass[index] / self.prior[index];
         let mut order: Vec<usize> = (0..self.mass.len()).collect();
         order.sort_by(|&a, &b| density(b).total_cmp(&density(a)));
@@ -366,10 +411,7 @@ fn multiply_many(shots: Shots, cosines: &[f64], mass: &mut [f64]) {
         ln(good, -change / (1.0 - nearest)) + ln(bad, change / (1.0 + nearest))
     };
     let logarithms: Vec<f64> = cosines.iter().map(|&c| terms(c)).collect();
-    let largest = logarithms
-        .iter()
-        .copied()
-        .fold(f64::NEG_INFINITY, f64::max);
+    let largest = logarithms.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     for (mass, logarithm) in mass.iter_mut().zip(logarithms) {
         *mass *= libm::exp(logarithm - largest).max(UNLIKELIEST);
     }

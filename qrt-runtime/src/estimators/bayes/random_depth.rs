@@ -70,6 +70,8 @@ impl AmplitudeEstimator for RandomDepth {
                 range *= GROWTH;
             }
         }
-        Ok(posterior.sharpened().estimate(device, start, self.goal.confidence))
+        Ok(posterior
+            .sharpened()
+            .estimate(device, start, self.goal.confidence))
     }
 }

@@ -132,9 +132,8 @@ impl Support {
             ),
             Self::Grid { level, panels } => {
                 let finer = finer.min(LAST_LEVEL - level);
-                let kept = (panels.iter().enumerate()).filter(|&(index, _)| {
-                    (index * LANES..(index + 1) * LANES).any(&keep)
-                });
+                let kept = (panels.iter().enumerate())
+                    .filter(|&(index, _)| (index * LANES..(index + 1) * LANES).any(&keep));
                 let panels = kept
                     .flat_map(|(_, &panel)| panel << finer..(panel + 1) << finer)
                     .collect();
