@@ -7,7 +7,9 @@ use super::failure::Failure;
 use clap::{Args, ValueEnum};
 use qrt_core::scene::Window;
 use qrt_runtime::counting::{CountingError, MAX_REPETITIONS, PhaseDistribution, posterior};
-use qrt_runtime::estimators::{Device, Estimate, EstimatorError, Noise, Problem, WindowedCounting};
+use qrt_runtime::estimators::{
+    DEFAULT_CONFIDENCE, Device, Estimate, EstimatorError, Noise, Problem, WindowedCounting,
+};
 use qrt_runtime::random::Stream;
 use serde_json::{Value, json};
 
@@ -300,6 +302,7 @@ impl Drawn {
             phase_bits: args.phase_bits,
             repetitions: shots,
             window,
+            confidence: DEFAULT_CONFIDENCE,
         };
         let mut stream = Stream::new(args.seed, 0, 0, 0);
         let problem = Problem {

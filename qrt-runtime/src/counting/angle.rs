@@ -25,6 +25,22 @@ impl Angle {
         (sine.hi.clamp(0.0, 1.0), cosine.hi.clamp(0.0, 1.0))
     }
 
+    /// theta in units of 2^-64 turns, rounded down.
+    pub(crate) fn position_of(good: u64, total: u64) -> u64 {
+        theta_of(good, total)
+            .scale(18_446_744_073_709_551_616.0)
+            .floor()
+    }
+
+    /// The largest S whose theta is at most `position`, in units of 2^-64 turns and at most 1/2;
+    /// within one, where a rounding decides.
+    pub(crate) fn count_below(position: u64, total: u64) -> u64 {
+        let theta = Double::from(position).scale(1.0 / 18_446_744_073_709_551_616.0);
+        (double::sine_squared(theta) * Double::from(total))
+            .floor()
+            .min(total)
+    }
+
     /// m theta, folded onto [0, 1/2]: sin^2 has period 1 and is even.
     fn folded(self, multiple: u64) -> Double {
         let turns = self.0 * Double::from(multiple);

@@ -75,7 +75,15 @@ pub fn maximum_likelihood(
 ) -> Result<MaximumLikelihood, CountingError> {
     check_counts(0, total)?;
     let likelihood = Likelihood::new(outcomes, register(phase_bits, window)?)?;
-    Search::new(&likelihood, total).run()
+    likeliest(&likelihood, total)
+}
+
+/// As [`maximum_likelihood`].
+pub(super) fn likeliest(
+    likelihood: &Likelihood,
+    total: u64,
+) -> Result<MaximumLikelihood, CountingError> {
+    Search::new(likelihood, total).run()
 }
 
 /// ln of the probability of `outcomes`, in their order, given `good` of `total` ids; negative
@@ -146,14 +154,15 @@ pub fn posterior(
     Ok(values)
 }
 
-struct Likelihood {
-    register: Register,
+/// ln of the probability of outcomes, as a function of the phase.
+pub(super) struct Likelihood {
+    pub(super) register: Register,
     /// Outcome and how often, the most frequent first.
-    outcomes: Vec<(u64, f64)>,
+    pub(super) outcomes: Vec<(u64, f64)>,
 }
 
 impl Likelihood {
-    fn new(outcomes: &[u64], register: Register) -> Result<Self, CountingError> {
+    pub(super) fn new(outcomes: &[u64], register: Register) -> Result<Self, CountingError> {
         let largest = register.size() / 2;
         let mut counts = BTreeMap::new();
         for &outcome in outcomes {
@@ -170,7 +179,7 @@ impl Likelihood {
         Ok(Self { register, outcomes })
     }
 
-    fn at(&self, phase: Phase) -> f64 {
+    pub(super) fn at(&self, phase: Phase) -> f64 {
         self.outcomes
             .iter()
             .map(|&(y, c)| c * ln_probability(&self.register, phase, y))
@@ -179,7 +188,7 @@ impl Likelihood {
 
     /// A bound of L over a cell, from its distances to the outcomes and to their mirror images;
     /// exact only in not being exceeded. Stops as soon as it is below `floor`.
-    fn bound(&self, cell: u64, floor: f64) -> f64 {
+    pub(super) fn bound(&self, cell: u64, floor: f64) -> f64 {
         let size = self.register.size();
         let mut bound = 0.0;
         for &(y, count) in &self.outcomes {

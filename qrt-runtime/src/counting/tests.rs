@@ -3,6 +3,7 @@
 mod draws;
 mod high_precision;
 mod inference;
+mod posterior_mean;
 
 /// Pearson's statistic over bins of at least ten expected draws, within five standard deviations
 /// of its mean (a normal deviate by Wilson and Hilferty).

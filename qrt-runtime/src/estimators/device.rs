@@ -148,11 +148,39 @@ impl<'a> Device<'a> {
         Ok(self.measured_ids(iterations, good, shots))
     }
 
+    /// How many of `shots` states have returned to the beginning after `iterations` Grover
+    /// iterations: the preparation is undone, and all qubits of the id read zero. `iterations`
+    /// queries a shot, for the preparation of all ids takes none.
+    ///
+    /// A state returns with probability `cos^2(2k pi theta)`: what is between preparation and its
+    /// inverse turns by `2k pi theta`. A state that noise has destroyed, or that is read wrongly,
+    /// reads zero as often as any other id, once in N.
+    ///
+    /// # Errors
+    /// More iterations than [`MAX_ITERATIONS`].
+    pub fn returned(&mut self, iterations: u64, shots: u64) -> Result<u64, EstimatorError> {
+        if iterations > MAX_ITERATIONS {
+            return Err(EstimatorError::TooManyIterations(iterations));
+        }
+        self.spend(shots, iterations);
+        let (sine, cosine) = self.theta.sine_squared(2 * iterations);
+        let any = 1.0 / self.problem.total as f64;
+        let right = self.intact(iterations);
+        let mixed = |ideal: f64, any: f64| right * ideal + (1.0 - right) * any;
+        let (p, q) = (mixed(cosine, any), mixed(sine, 1.0 - any));
+        Ok(binomial::draw_with(shots, p, q, self.stream))
+    }
+
+    /// The probability that a state survives `queries` and all its id's bits are read rightly.
+    fn intact(&self, queries: u64) -> f64 {
+        let bits = u64::BITS - (self.problem.total - 1).leading_zeros();
+        self.noise.intact(queries) * self.noise.read_rightly(bits)
+    }
+
     /// Of `shots` measured ids, those that are good, if without noise one is with probability
     /// `good` = (p, 1 - p) after `queries`.
     fn measured_ids(&mut self, queries: u64, good: (f64, f64), shots: u64) -> u64 {
-        let bits = u64::BITS - (self.problem.total - 1).leading_zeros();
-        let right = self.noise.intact(queries) * self.noise.read_rightly(bits);
+        let right = self.intact(queries);
         let any = self.theta.sine_squared(1);
         let mixed = |ideal: f64, any: f64| right * ideal + (1.0 - right) * any;
         let (p, q) = (mixed(good.0, any.0), mixed(good.1, any.1));

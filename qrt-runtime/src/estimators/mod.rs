@@ -11,21 +11,35 @@
 //! queries, for the id that it measures is evaluated classically; without iterations it is a path
 //! of classical Monte Carlo, which is one query, too. Phase estimation with T phases takes T-1.
 
+mod bayes;
+#[cfg(test)]
+mod budgets;
+mod clopper_pearson;
 mod device;
 mod error;
 mod exact;
+mod interval;
+mod iterative;
+mod mlae;
 mod monte_carlo;
 mod noise;
+mod normal;
+mod posterior_mean;
 mod settings;
 #[cfg(test)]
 mod tests;
+mod turns;
 mod windowed;
 
+pub use bayes::{AdaptiveBayes, RandomDepth};
 pub use device::{Device, MAX_ITERATIONS, Problem, Spent};
 pub use error::EstimatorError;
 pub use exact::Exact;
+pub use iterative::{Chebyshev, Iqae, Miqae};
+pub use mlae::Mlae;
 pub use monte_carlo::MonteCarlo;
 pub use noise::{Noise, NoiseError};
+pub use posterior_mean::PosteriorMean;
 pub use settings::{DEFAULT_CONFIDENCE, Settings};
 pub use windowed::WindowedCounting;
 
@@ -33,11 +47,18 @@ use crate::random::Stream;
 use qrt_core::scene::{Counting, Estimator};
 
 /// The estimators of this version, by their names in scenes.
-pub const AVAILABLE: [Estimator; 4] = [
+pub const AVAILABLE: [Estimator; 11] = [
     Estimator::Exact,
     Estimator::MonteCarlo,
     Estimator::Paper,
+    Estimator::PosteriorMean,
     Estimator::Sine,
+    Estimator::AdaptiveBayes,
+    Estimator::RandomDepth,
+    Estimator::Mlae,
+    Estimator::Iqae,
+    Estimator::Miqae,
+    Estimator::Chebyshev,
 ];
 
 /// An estimated amplitude, and what it took.
@@ -93,7 +114,14 @@ pub fn estimator(
     Ok(match name {
         Estimator::Exact => Box::new(Exact),
         Estimator::Paper => Box::new(WindowedCounting::paper(settings)?),
+        Estimator::PosteriorMean => Box::new(PosteriorMean::new(settings)?),
         Estimator::Sine => Box::new(WindowedCounting::sine(settings)?),
+        Estimator::AdaptiveBayes => Box::new(AdaptiveBayes::new(settings)?),
+        Estimator::RandomDepth => Box::new(RandomDepth::new(settings)?),
+        Estimator::Mlae => Box::new(Mlae::new(settings)),
+        Estimator::Iqae => Box::new(Iqae::new(settings)),
+        Estimator::Miqae => Box::new(Miqae::new(settings)),
+        Estimator::Chebyshev => Box::new(Chebyshev::new(settings)),
         Estimator::MonteCarlo => Box::new(MonteCarlo::new(settings)),
         _ => return Err(EstimatorError::Unavailable(name)),
     })

@@ -1,0 +1,59 @@
+//! `adaptive-bayes`: every depth is chosen from what is known.
+
+use super::posterior::Posterior;
+use super::{Goal, depth};
+use crate::estimators::{AmplitudeEstimator, Device, Estimate, EstimatorError, Noise, Settings};
+
+/// `adaptive-bayes`: single shots, each at the depth that is expected to sharpen the posterior most
+/// per query; the posterior mean. The default, and the most accurate here.
+///
+/// The prior is uniform in the amplitude. The likelihood is that of the device, with the noise that
+/// is known. Depth is chosen greedily from the whole posterior, multimodal as it is, as in adaptive
+/// phase estimation (Wiebe & Granade, *Efficient Bayesian phase estimation*, 2016) and Bayesian
+/// amplitude estimation (Ramôa & Santos, *Bayesian quantum amplitude estimation*, 2024), with the
+/// expected variance computed, not sampled; the posterior is a quadrature, not a cloud of
+/// particles, which could lose a mode.
+///
+/// Interval: the amplitudes of highest posterior density that hold all but 2/5 of what may fail at
+/// the asked confidence, and what lies between them. On average over the prior it holds the
+/// amplitude more often than asked, whatever was measured and whenever it stopped; at an amplitude
+/// of 1/2, where it does so least, about as often.
+///
+/// Stops early where the asked error is reached or a single S is left (all others together below
+/// 10^-12). Never spends more than the queries allowed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AdaptiveBayes {
+    queries: u64,
+    goal: Goal,
+    noise: Noise,
+}
+
+impl AdaptiveBayes {
+    /// # Errors
+    /// A setting out of range.
+    pub fn new(settings: &Settings) -> Result<Self, EstimatorError> {
+        settings.check()?;
+        Ok(Self {
+            queries: settings.queries,
+            goal: Goal::of(settings),
+            noise: settings.known_noise,
+        })
+    }
+}
+
+impl AmplitudeEstimator for AdaptiveBayes {
+    fn estimate(&self, device: &mut Device<'_>) -> Result<Estimate, EstimatorError> {
+        let start = device.spent();
+        let mut posterior = Posterior::new(device.total(), self.noise);
+        let mut left = self.queries;
+        while left > 0 && !self.goal.is_reached(&posterior) {
+            let plan = depth::choose(&mut posterior, &self.noise, left);
+            let good = device.iterated(plan.iterations, plan.shots)?;
+            posterior.observe(plan.iterations, good, plan.shots - good);
+            left -= plan.shots * plan.iterations.max(1);
+        }
+        Ok(posterior
+            .sharpened()
+            .estimate(device, start, self.goal.confidence))
+    }
+}

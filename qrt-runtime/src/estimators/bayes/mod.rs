@@ -1,0 +1,58 @@
+//! Bayesian estimators.
+//!
+//! The prior is uniform over S in `0 ..= N`, that is, in the amplitude. What is known is a
+//! posterior of theta = asin(sqrt(S/N))/pi, held coarse to fine around every mode, and where few S
+//! are left, over these.
+//!
+//! * [`AdaptiveBayes`] chooses every depth from it;
+//! * [`RandomDepth`] draws its depths at random.
+
+mod adaptive;
+mod depth;
+mod posterior;
+mod random_depth;
+mod support;
+#[cfg(test)]
+mod tests;
+
+pub use adaptive::AdaptiveBayes;
+pub use random_depth::RandomDepth;
+
+use crate::estimators::Settings;
+use posterior::Posterior;
+
+/// When to stop.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Goal {
+    error: Option<f64>,
+    confidence: f64,
+}
+
+/// The probability of all other S at which one is known.
+const DOUBT: f64 = 1e-12;
+
+impl Goal {
+    fn of(settings: &Settings) -> Self {
+        Self {
+            error: settings.error,
+            confidence: settings.confidence,
+        }
+    }
+
+    /// Whether S is known, or the interval as narrow as is asked.
+    fn is_reached(&self, posterior: &Posterior) -> bool {
+        if posterior
+            .likeliest()
+            .is_some_and(|(_, probability)| probability > 1.0 - DOUBT)
+        {
+            return true;
+        }
+        // An interval much narrower than the posterior is not worth its computation.
+        self.error.is_some_and(|error| {
+            posterior.could_reach(error) && {
+                let (low, high) = posterior.interval(self.confidence);
+                high - low <= 2.0 * error
+            }
+        })
+    }
+}

@@ -1,0 +1,418 @@
+//! What is known of theta after shots at several depths.
+
+use super::support::{self, Support};
+use crate::estimators::interval::credible_content;
+use crate::estimators::{Device, Estimate, Noise, Spent};
+use std::f64::consts::PI;
+
+/// Points that together hold less than this of the mass are dropped, cell by cell.
+const NEGLIGIBLE: f64 = 1e-8;
+/// Grid steps per standard deviation that the shots may have left, at the least. Sums over points
+/// of a smooth density then agree with its integral to better than `exp(-2 (pi/0.7)^2) = 3e-18`.
+const COARSEST: f64 = 0.7;
+/// The most points of a grid.
+const MOST_POINTS: f64 = 4096.0;
+/// No outcome is less likely than this, so that no rounding makes data impossible.
+const UNLIKELIEST: f64 = 1e-30;
+/// Factors between two rescalings of a product.
+const FACTORS: usize = 8;
+
+/// Shots at one depth.
+#[derive(Clone, Copy, Debug)]
+struct Shots {
+    /// 2k + 1.
+    multiple: u64,
+    good: u64,
+    bad: u64,
+    /// The share of shots that noise spares.
+    intact: f64,
+}
+
+/// The posterior of theta = asin(sqrt(S/N))/pi, with a prior that is uniform over S in `0 ..= N`.
+///
+/// It is held at points ([`Support`]), coarse at first, and computed anew from all shots wherever
+/// these call for finer ones: around every mode that still has mass. Where few S are left, the
+/// points are these.
+#[derive(Clone, Debug)]
+pub(super) struct Posterior {
+    total: u64,
+    noise: Noise,
+    /// Bits of an id.
+    bits: u32,
+    support: Support,
+    shots: Vec<Shots>,
+    /// Fisher information of the shots about `pi theta`.
+    information: f64,
+    /// Mass of each point; they sum to 1.
+    mass: Vec<f64>,
+    prior: Vec<f64>,
+    /// `pi theta` less the mean.
+    deviations: Vec<f64>,
+    /// As the mass, but of the square root of the likelihood.
+    tempered: Tempered,
+    /// `cos 2 pi theta` where there is noise.
+    plain: Vec<f64>,
+    mean: f64,
+    variance: f64,
+    cosines: Vec<f64>,
+}
+
+/// The posterior if every shot counted half, which depths are chosen by.
+///
+/// What single shots at the best phase measure is as likely under one mode as under another, so
+/// that a wrong mode may come to seem certain; at an amplitude of 1/2, where every depth gives good
+/// and bad ids alike, nothing measured later would contradict it. Half as certain, the choice keeps
+/// testing other modes: errors of many standard deviations become rare, at the price of a tenth of
+/// the queries. (Bayesian amplitude estimation's annealing, Ramôa & Santos 2024, has the same aim.)
+#[derive(Clone, Debug, Default)]
+struct Tempered {
+    mass: Vec<f64>,
+    deviations: Vec<f64>,
+    variance: f64,
+}
+
+impl Tempered {
+    fn update(&mut self, mass: &[f64], prior: &[f64], deviations: &[f64]) {
+        self.mass.clear();
+        self.mass.extend(
+            mass.iter()
+                .zip(prior)
+                .map(|(mass, prior)| (mass * prior).sqrt()),
+        );
+        let scale = 1.0 / self.mass.iter().sum::<f64>();
+        let mut mean = 0.0;
+        for (mass, deviation) in self.mass.iter_mut().zip(deviations) {
+            *mass *= scale;
+            mean += *mass * deviation;
+        }
+        self.deviations.clear();
+        self.deviations
+            .extend(deviations.iter().map(|deviation| deviation - mean));
+        self.variance = (self.mass.iter().zip(&self.deviations))
+            .map(|(mass, deviation)| mass * deviation * deviation)
+            .sum();
+    }
+}
+
+impl Posterior {
+    /// Before the first shot.
+    pub(super) fn new(total: u64, noise: Noise) -> Self {
+        let mut posterior = Self {
+            total,
+            noise,
+            bits: u64::BITS - (total - 1).leading_zeros(),
+            support: Support::whole(total),
+            shots: Vec::new(),
+            information: 0.0,
+            mass: Vec::new(),
+            prior: Vec::new(),
+            deviations: Vec::new(),
+            tempered: Tempered::default(),
+            plain: Vec::new(),
+            mean: 0.0,
+            variance: 0.0,
+            cosines: Vec::new(),
+        };
+        posterior.recompute();
+        posterior
+    }
+
+    /// The variance of `pi theta`.
+    pub(super) fn variance(&self) -> f64 {
+        self.variance
+    }
+
+    /// The mean of `pi theta`, in units of 2^-64 turns.
+    pub(super) fn mean_position(&self) -> u64 {
+        let turns = self.mean * (18_446_744_073_709_551_616.0 / PI);
+        self.support.position(0).wrapping_add_signed(turns as i64)
+    }
+
+    /// The mean distance of `pi theta` from its mean, in units that make it the standard deviation
+    /// where the posterior is normal. Far modes with little mass count less here than there.
+    pub(super) fn width(&self) -> f64 {
+        let sum: f64 = (self.mass.iter().zip(&self.deviations))
+            .map(|(mass, deviation)| mass * deviation.abs())
+            .sum();
+        sum * (0.5 * PI).sqrt()
+    }
+
+    /// Whether an interval of this half-width could hold most of the mass: a wider posterior need
+    /// not be looked at.
+    pub(super) fn could_reach(&self, error: f64) -> bool {
+        let place = support::radians(self.mean_position());
+        let slope = libm::sin(2.0 * place).abs();
+        slope * self.width() < 4.0 * error
+    }
+
+    /// The share of shots with so many iterations that noise spares.
+    pub(super) fn intact(&self, iterations: u64) -> f64 {
+        if self.noise == Noise::NONE || iterations == 0 {
+            1.0
+        } else {
+            self.noise.intact(iterations) * self.noise.read_rightly(self.bits)
+        }
+    }
+
+    /// The most iterations after which the posterior can still be held: many modes call for many
+    /// points.
+    pub(super) fn deepest(&self) -> f64 {
+        let Some(step) = self.support.step() else {
+            return f64::INFINITY;
+        };
+        let length = step * self.support.len() as f64;
+        let most = MOST_POINTS * COARSEST / length;
+        0.25 * (most * most - self.information).max(0.0).sqrt()
+    }
+
+    /// The expected variance after one more shot, as a share of the present; of the posterior in
+    /// which shots count half.
+    ///
+    /// With `C = E[c]` and `D = E[(x - mean) c]` of `c = 1 - 2 P(good)`, a shot leaves
+    /// `V - D^2/(1 - C^2)` on average.
+    pub(super) fn remaining_variance(&mut self, iterations: u64) -> f64 {
+        if self.tempered.variance <= 0.0 {
+            return 1.0;
+        }
+        self.support.cosines(2 * iterations + 1, &mut self.cosines);
+        let intact = self.intact(iterations);
+        if intact < 1.0 {
+            for (cosine, plain) in self.cosines.iter_mut().zip(&self.plain) {
+                *cosine = intact * *cosine + (1.0 - intact) * plain;
+            }
+        }
+        let mut sums = [[0.0; support::LANES]; 2];
+        let terms = (self.tempered.mass.chunks(support::LANES))
+            .zip(self.tempered.deviations.chunks(support::LANES))
+            .zip(self.cosines.chunks(support::LANES));
+        for ((mass, deviations), cosines) in terms {
+            for (lane, ((m, d), c)) in mass.iter().zip(deviations).zip(cosines).enumerate() {
+                let t = m * c;
+                sums[0][lane] += t;
+                sums[1][lane] += t * d;
+            }
+        }
+        let even = sums[0].iter().sum::<f64>();
+        let odd = sums[1].iter().sum::<f64>();
+        let spread = (1.0 - even * even).max(f64::MIN_POSITIVE);
+        (1.0 - odd * odd / (spread * self.tempered.variance)).clamp(0.0, 1.0)
+    }
+
+    /// Takes note of shots after `iterations`.
+    pub(super) fn observe(&mut self, iterations: u64, good: u64, bad: u64) {
+        let intact = self.intact(iterations);
+        let shots = Shots {
+            multiple: 2 * iterations + 1,
+            good,
+            bad,
+            intact,
+        };
+        self.shots.push(shots);
+        let slope = 2.0 * shots.multiple as f64 * intact;
+        self.information += slope * slope * (good + bad) as f64;
+        if let Some(step) = self.support.step()
+            && step * self.information.sqrt() > COARSEST
+        {
+            self.refine(step);
+            return;
+        }
+        let mut mass = std::mem::take(&mut self.mass);
+        self.multiply(shots, &mut mass);
+        self.mass = mass;
+        self.summarise();
+        self.prune();
+    }
+
+    /// Drops what has no mass, where it is much.
+    fn prune(&mut self) {
+        let held = |mass: &[f64]| mass.iter().any(|&mass| mass > NEGLIGIBLE);
+        let width = self.support.width();
+        let empty = self.mass.chunks(width).filter(|chunk| !held(chunk)).count();
+        if 4 * empty * width < self.mass.len() {
+            return;
+        }
+        let kept: Vec<bool> = self.mass.chunks(width).map(held).collect();
+        self.support.retain(&kept);
+        for values in [&mut self.mass, &mut self.prior, &mut self.plain] {
+            let mut chunk = 0..values.len();
+            values.retain(|_| chunk.next().is_some_and(|index| kept[index / width]));
+        }
+        self.summarise();
+    }
+
+    /// Moves to a grid as fine as the shots demand, and two to four times finer: the next few shots
+    /// need no other. What has no mass before the last of them is dropped.
+    fn refine(&mut self, step: f64) {
+        let mut finer = 1;
+        while step * self.information.sqrt() > COARSEST * f64::from(1_u32 << (finer - 1)) {
+            finer += 1;
+        }
+        self.refine_by(finer);
+    }
+
+    fn refine_by(&mut self, finer: u32) {
+        let mass = std::mem::take(&mut self.mass);
+        self.support = (self.support).refined(|index| mass[index] > NEGLIGIBLE, finer, self.total);
+        self.recompute();
+    }
+
+    /// With a grid fine enough to read off an interval's ends.
+    pub(super) fn sharpened(mut self) -> Self {
+        let fine = (self.support.step()).is_none_or(|step| step * self.information.sqrt() < 0.1);
+        if !fine {
+            self.refine_by(2);
+        }
+        self
+    }
+
+    fn recompute(&mut self) {
+        self.prior = self.support.prior();
+        let mut mass = self.prior.clone();
+        if self.noise != Noise::NONE {
+            let mut plain = std::mem::take(&mut self.plain);
+            self.support.cosines(1, &mut plain);
+            self.plain = plain;
+        }
+        for index in 0..self.shots.len() {
+            self.multiply(self.shots[index], &mut mass);
+            if index % FACTORS == FACTORS - 1 {
+                rescale(&mut mass);
+            }
+        }
+        self.mass = mass;
+        self.summarise();
+    }
+
+    /// Multiplies `mass` by the likelihood of `shots`, up to a common factor.
+    fn multiply(&mut self, shots: Shots, mass: &mut [f64]) {
+        self.support.cosines(shots.multiple, &mut self.cosines);
+        let intact = shots.intact;
+        if intact < 1.0 {
+            for (cosine, plain) in self.cosines.iter_mut().zip(&self.plain) {
+                *cosine = intact * *cosine + (1.0 - intact) * plain;
+            }
+        }
+        if shots.good + shots.bad == 1 {
+            let sign = if shots.good == 1 { -0.5 } else { 0.5 };
+            for (mass, cosine) in mass.iter_mut().zip(&self.cosines) {
+                *mass *= (0.5 + sign * cosine).max(UNLIKELIEST);
+            }
+            return;
+        }
+        multiply_many(shots, &self.cosines, mass);
+    }
+
+    fn summarise(&mut self) {
+        let sum: f64 = self.mass.iter().sum();
+        let scale = 1.0 / sum;
+        let mut mean = 0.0;
+        self.support.places(&mut self.deviations);
+        for (mass, place) in self.mass.iter_mut().zip(&self.deviations) {
+            *mass *= scale;
+            mean += *mass * place;
+        }
+        self.mean = mean;
+        self.variance = 0.0;
+        for (mass, deviation) in self.mass.iter().zip(&mut self.deviations) {
+            *deviation -= mean;
+            self.variance += mass * *deviation * *deviation;
+        }
+        self.tempered
+            .update(&self.mass, &self.prior, &self.deviations);
+    }
+
+    /// The mean fraction of good ids.
+    pub(super) fn mean_amplitude(&self) -> f64 {
+        let mean: f64 = (self.mass.iter().enumerate())
+            .map(|(index, mass)| mass * self.support.amplitude(index, self.total))
+            .sum();
+        mean.clamp(0.0, 1.0)
+    }
+
+    /// The posterior mean, with the interval of likeliest points for `confidence`: see
+    /// [`Self::interval`].
+    pub(super) fn estimate(&self, device: &Device<'_>, start: Spent, confidence: f64) -> Estimate {
+        let mean = self.mean_amplitude();
+        let (low, high) = self.interval(confidence);
+        let interval = (low.min(mean), high.max(mean));
+        Estimate {
+            good: self.likeliest().map(|(good, _)| good),
+            candidates: Some(self.candidates()),
+            ..device.estimate(start, mean, interval, confidence)
+        }
+    }
+
+    /// The likeliest S and its probability, where these are held one by one.
+    pub(super) fn likeliest(&self) -> Option<(u64, f64)> {
+        let Support::Integers(integers) = &self.support else {
+            return None;
+        };
+        (integers.iter().zip(&self.mass))
+            .map(|(&(good, _), &mass)| (good, mass))
+            .max_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
+    /// Ranges without a gap that hold mass.
+    pub(super) fn candidates(&self) -> u32 {
+        let runs = self.support.runs();
+        let held = |&&(first, last): &&(usize, usize)| {
+            self.mass[first..=last].iter().sum::<f64>() > NEGLIGIBLE
+        };
+        runs.iter().filter(held).count() as u32
+    }
+
+    /// The posterior's region of highest density, and what lies between its parts: all points whose
+    /// likelihood exceeds that of the others, such that they hold [`credible_content`] of the mass.
+    pub(super) fn interval(&self, confidence: f64) -> (f64, f64) {
+        let content = credible_content(confidence);
+        let density = |index: usize| self.mass[index] / self.prior[index];
+        let mut order: Vec<usize> = (0..self.mass.len()).collect();
+        order.sort_by(|&a, &b| density(b).total_cmp(&density(a)));
+        let (mut held, mut first, mut last) = (0.0, usize::MAX, 0);
+        for index in order {
+            if held >= content {
+                break;
+            }
+            held += self.mass[index];
+            (first, last) = (first.min(index), last.max(index));
+        }
+        let low = self.support.ends(first, self.total).0;
+        let high = self.support.ends(last, self.total).1;
+        (low, high)
+    }
+}
+
+fn rescale(mass: &mut [f64]) {
+    let largest = mass.iter().copied().fold(0.0, f64::max);
+    for mass in mass {
+        *mass /= largest;
+    }
+}
+
+/// Many shots of one depth: logarithms, relative to the likeliest point, so that what large counts
+/// multiply is small.
+fn multiply_many(shots: Shots, cosines: &[f64], mass: &mut [f64]) {
+    let (good, bad) = (shots.good as f64, shots.bad as f64);
+    // P(good) = (1 - c)/2, at its likeliest where c is this.
+    let best = (bad - good) / (good + bad);
+    let nearest = (cosines.iter().copied())
+        .min_by(|a, b| (a - best).abs().total_cmp(&(b - best).abs()))
+        .unwrap_or(best)
+        .clamp(1e-15 - 1.0, 1.0 - 1e-15);
+    let ln = |count: f64, ratio: f64| {
+        if count == 0.0 {
+            0.0
+        } else {
+            count * libm::log1p(ratio.max(UNLIKELIEST - 1.0))
+        }
+    };
+    let terms = |c: f64| {
+        let change = c - nearest;
+        ln(good, -change / (1.0 - nearest)) + ln(bad, change / (1.0 + nearest))
+    };
+    let logarithms: Vec<f64> = cosines.iter().map(|&c| terms(c)).collect();
+    let largest = logarithms.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    for (mass, logarithm) in mass.iter_mut().zip(logarithms) {
+        *mass *= libm::exp(logarithm - largest).max(UNLIKELIEST);
+    }
+}

@@ -1,0 +1,282 @@
+//! Where a posterior is held: a grid of angles, coarse to fine, or the integers.
+
+use crate::counting::Angle;
+use crate::estimators::turns::amplitude;
+
+/// Points of a panel.
+pub(super) const LANES: usize = 8;
+/// The first grid: 2^3 panels over [0, 1/2].
+const FIRST_LEVEL: u32 = 4;
+/// The finest: points 2^-60 turns apart, and at odd multiples of 2^-61.
+const LAST_LEVEL: u32 = 57;
+/// Up to this many integers are held one by one.
+const FEW_INTEGERS: f64 = 128.0;
+
+/// Angles theta, in units of 2^-64 turns, so that `m theta` modulo a turn is a wrapping product,
+/// and exact however large m is.
+#[derive(Clone, Debug)]
+pub(super) enum Support {
+    /// Midpoints of equal cells. A panel is [`LANES`] cells; those without mass are left out.
+    Grid {
+        /// A panel is 2^-level turns wide.
+        level: u32,
+        /// Which panels there are, in ascending order.
+        panels: Vec<u64>,
+    },
+    /// Every S that is left, and its theta.
+    Integers(Vec<(u64, u64)>),
+}
+
+impl Support {
+    /// All that `total` ids allow.
+    pub(super) fn whole(total: u64) -> Self {
+        let grid = Self::Grid {
+            level: FIRST_LEVEL,
+            panels: (0..1 << (FIRST_LEVEL - 1)).collect(),
+        };
+        grid.integers(total).unwrap_or(grid)
+    }
+
+    pub(super) fn len(&self) -> usize {
+        match self {
+            Self::Grid { panels, .. } => panels.len() * LANES,
+            Self::Integers(integers) => integers.len(),
+        }
+    }
+
+    /// The distance between neighbouring points of a grid, in radians of `pi theta`.
+    pub(super) fn step(&self) -> Option<f64> {
+        match self {
+            Self::Grid { level, .. } => Some(radians(cell(*level))),
+            Self::Integers(_) => None,
+        }
+    }
+
+    pub(super) fn position(&self, index: usize) -> u64 {
+        match self {
+            Self::Grid { level, panels } => {
+                let lane = (index % LANES) as u64;
+                panels[index / LANES] << (64 - level) | (2 * lane + 1) << (60 - level)
+            }
+            Self::Integers(integers) => integers[index].1,
+        }
+    }
+
+    /// The fraction of good ids at the lower and the upper end of a point's cell.
+    pub(super) fn ends(&self, index: usize, total: u64) -> (f64, f64) {
+        match self {
+            Self::Grid { level, .. } => {
+                let (middle, half) = (self.position(index), cell(*level) / 2);
+                (amplitude(middle - half), amplitude(middle + half))
+            }
+            Self::Integers(integers) => {
+                let fraction = integers[index].0 as f64 / total as f64;
+                (fraction, fraction)
+            }
+        }
+    }
+
+    /// The fraction of good ids at a point.
+    pub(super) fn amplitude(&self, index: usize, total: u64) -> f64 {
+        match self {
+            Self::Grid { .. } => amplitude(self.position(index)),
+            Self::Integers(integers) => integers[index].0 as f64 / total as f64,
+        }
+    }
+
+    /// Stretches of the grid without a gap, as indices of their first and last points.
+    pub(super) fn runs(&self) -> Vec<(usize, usize)> {
+        let mut runs: Vec<(usize, usize)> = Vec::new();
+        let neighbours = |before: usize, after: usize| match self {
+            Self::Grid { panels, .. } => panels[before / LANES] + 1 == panels[after / LANES],
+            Self::Integers(integers) => integers[before].0 + 1 == integers[after].0,
+        };
+        let width = self.width();
+        for first in (0..self.len()).step_by(width) {
+            let last = first + width - 1;
+            match runs.last_mut() {
+                Some(run) if neighbours(run.1, first) => run.1 = last,
+                _ => runs.push((first, last)),
+            }
+        }
+        runs
+    }
+
+    /// Points that are kept or dropped together.
+    pub(super) fn width(&self) -> usize {
+        match self {
+            Self::Grid { .. } => LANES,
+            Self::Integers(_) => 1,
+        }
+    }
+
+    /// Drops panels, or integers.
+    pub(super) fn retain(&mut self, kept: &[bool]) {
+        let mut index = 0..kept.len();
+        let mut keep = || index.next().is_some_and(|index| kept[index]);
+        match self {
+            Self::Grid { panels, .. } => panels.retain(|_| keep()),
+            Self::Integers(integers) => integers.retain(|_| keep()),
+        }
+    }
+
+    /// Without the points where `keep` is false (a panel stays if any of its points does), and
+    /// `2^finer` times as fine; or the integers that are left, where they are few.
+    pub(super) fn refined(&self, keep: impl Fn(usize) -> bool, finer: u32, total: u64) -> Self {
+        match self {
+            Self::Integers(integers) => Self::Integers(
+                (integers.iter().enumerate())
+                    .filter(|&(index, _)| keep(index))
+                    .map(|(_, &integer)| integer)
+                    .collect(),
+            ),
+            Self::Grid { level, panels } => {
+                let finer = finer.min(LAST_LEVEL - level);
+                let kept = (panels.iter().enumerate())
+                    .filter(|&(index, _)| (index * LANES..(index + 1) * LANES).any(&keep));
+                let panels = kept
+                    .flat_map(|(_, &panel)| panel << finer..(panel + 1) << finer)
+                    .collect();
+                let grid = Self::Grid {
+                    level: level + finer,
+                    panels,
+                };
+                grid.integers(total).unwrap_or(grid)
+            }
+        }
+    }
+
+    /// The prior's mass at each point, up to a common factor. The prior is uniform over the
+    /// integers; on a grid, uniform in the fraction of good ids.
+    pub(super) fn prior(&self) -> Vec<f64> {
+        match self {
+            Self::Integers(integers) => vec![1.0; integers.len()],
+            Self::Grid { level, panels } => {
+                let mut prior = Vec::new();
+                self.turns(1, |_, sine| prior.extend_from_slice(sine));
+                // Midpoints miss a twelfth of their first cell where a density rises from 0, by
+                // the formula of Euler and Maclaurin: h^2/24 of its slope.
+                let end = 11.0 / 12.0;
+                if panels.first() == Some(&0) {
+                    prior[0] *= end;
+                }
+                if panels.last() == Some(&((1 << (level - 1)) - 1)) {
+                    let last = prior.len() - 1;
+                    prior[last] *= end;
+                }
+                prior
+            }
+        }
+    }
+
+    /// `pi theta` at every point, less that at the first.
+    pub(super) fn places(&self, places: &mut Vec<f64>) {
+        places.clear();
+        let first = self.position(0);
+        match self {
+            Self::Integers(integers) => {
+                places.extend((integers.iter()).map(|&(_, theta)| radians(theta - first)));
+            }
+            Self::Grid { level, panels } => {
+                let step = radians(cell(*level));
+                for &panel in panels {
+                    let start = radians((panel - panels[0]) << (64 - level));
+                    places.extend((0..LANES).map(|lane| start + step * lane as f64));
+                }
+            }
+        }
+    }
+
+    /// `cos(2 m pi theta)` at every point.
+    pub(super) fn cosines(&self, multiple: u64, cosines: &mut Vec<f64>) {
+        cosines.clear();
+        match self {
+            Self::Integers(integers) => cosines.extend(
+                (integers.iter()).map(|&(_, theta)| turned(theta.wrapping_mul(multiple)).0),
+            ),
+            Self::Grid { panels, .. } => {
+                cosines.reserve(panels.len() * LANES);
+                self.turns(multiple, |cosine, _| cosines.extend_from_slice(cosine));
+            }
+        }
+    }
+
+    /// `cos(2 m pi theta)` and `sin(2 m pi theta)` of each panel of a grid.
+    fn turns(&self, multiple: u64, mut panel_of: impl FnMut(&[f64; LANES], &[f64; LANES])) {
+        let Self::Grid { level, panels } = self else {
+            return;
+        };
+        let step = multiple.wrapping_mul(cell(*level));
+        let (panel_cosine, panel_sine) = turned(step.wrapping_mul(LANES as u64));
+        let (step_cosine, step_sine) = turned(step);
+        let (mut c, mut s) = ([0.0; LANES], [0.0; LANES]);
+        let mut expected = None;
+        for &panel in panels {
+            if expected == Some(panel) {
+                for lane in 0..LANES {
+                    let (x, y) = (c[lane], s[lane]);
+                    c[lane] = x * panel_cosine - y * panel_sine;
+                    s[lane] = x * panel_sine + y * panel_cosine;
+                }
+            } else {
+                let first = panel << (64 - level) | 1 << (60 - level);
+                (c[0], s[0]) = turned(first.wrapping_mul(multiple));
+                for lane in 1..LANES {
+                    let (x, y) = (c[lane - 1], s[lane - 1]);
+                    c[lane] = x * step_cosine - y * step_sine;
+                    s[lane] = x * step_sine + y * step_cosine;
+                }
+            }
+            panel_of(&c, &s);
+            expected = Some(panel + 1);
+        }
+    }
+
+    /// The integers on this grid, if they are few.
+    fn integers(&self, total: u64) -> Option<Self> {
+        let Self::Grid { level, panels } = self else {
+            return None;
+        };
+        let width = 64 - level;
+        let n = total as f64;
+        let mut few = 0.0;
+        for &(first, last) in &self.runs() {
+            let low = radians(panels[first / LANES] << width);
+            let high = radians((panels[last / LANES] + 1) << width);
+            few += 1.0 + n * libm::sin(high - low) * libm::sin(high + low);
+            if few > FEW_INTEGERS {
+                return None;
+            }
+        }
+        let mut integers = Vec::new();
+        for &(first, last) in &self.runs() {
+            // A rounding may put an integer on the wrong side of an end: one more on either side.
+            let low = Angle::count_below(panels[first / LANES] << width, total).saturating_sub(1);
+            let high = Angle::count_below((panels[last / LANES] + 1) << width, total) + 1;
+            for good in low..=high.min(total) {
+                if integers.last().is_none_or(|&(last, _)| last < good) {
+                    integers.push((good, Angle::position_of(good, total)));
+                }
+            }
+        }
+        Some(Self::Integers(integers))
+    }
+}
+
+/// The distance between points, in units of 2^-64 turns.
+fn cell(level: u32) -> u64 {
+    1 << (61 - level)
+}
+
+/// `pi theta`, for theta in units of 2^-64 turns.
+pub(super) fn radians(position: u64) -> f64 {
+    position as f64 * (std::f64::consts::PI / 18_446_744_073_709_551_616.0)
+}
+
+/// Cosine and sine of a turn in units of 2^-64.
+pub(super) fn turned(turn: u64) -> (f64, f64) {
+    // Signed, so that small angles of either sign keep their precision.
+    let angle = (turn as i64) as f64 * (std::f64::consts::TAU / 18_446_744_073_709_551_616.0);
+    let (sine, cosine) = libm::sincos(angle);
+    (cosine, sine)
+}

@@ -1,0 +1,59 @@
+//! `iqae`: iterative amplitude estimation.
+
+use super::{Failures, Goal, Multiples, Rules};
+use crate::estimators::{AmplitudeEstimator, Device, Estimate, EstimatorError, Settings};
+
+/// `iqae`: iterative quantum amplitude estimation (Grinko, Gacon, Zoufal & Woerner, *Iterative
+/// quantum amplitude estimation*, npj Quantum Information 2021), with Clopper-Pearson intervals.
+///
+/// Odd multiples of theta, each at least twice the one before. What may fail is divided equally
+/// among as many depths as there can be, `1 + log2(pi / (4 error))`. Shots at an unchanged depth are
+/// counted together.
+///
+/// Interval: the last arc. Looking at a depth's interval after every batch of shots fails a little
+/// more often than the union bound counts, and Clopper-Pearson intervals less often than they
+/// say; at 95 % asked, 96 to 98 % are held.
+///
+/// A depth that has failed sends all later ones astray. This happens as often at the first as at
+/// the last, so that the root mean square error, unlike any quantile, does not fall with 1/queries:
+/// compare [`Miqae`](super::Miqae).
+///
+/// Noise is not reckoned with: shares are taken for those of a perfect device.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Iqae {
+    goal: Goal,
+    rules: Rules,
+}
+
+impl Iqae {
+    /// Shots taken at once. Queries times error at 95 % are 3.4 to 4.0 with 12, 3.6 to 4.1 with 20,
+    /// and 6.0 to 9.4 with the 100 that are usual; with 8 the intervals hold less often.
+    pub const SHOTS: u64 = 12;
+
+    /// Queries times the error that is asked, on average.
+    const COST: f64 = 5.0;
+
+    pub(crate) fn new(settings: &Settings) -> Self {
+        Self::with_shots(settings, Self::SHOTS)
+    }
+
+    /// With another number of shots at once, at least one.
+    pub fn with_shots(settings: &Settings, shots: u64) -> Self {
+        Self {
+            goal: Goal::new(settings, Self::COST),
+            rules: Rules {
+                multiples: Multiples::Odd,
+                ratio: 2,
+                shots: shots.max(1),
+                failures: Failures::Equal,
+                late: None,
+            },
+        }
+    }
+}
+
+impl AmplitudeEstimator for Iqae {
+    fn estimate(&self, device: &mut Device<'_>) -> Result<Estimate, EstimatorError> {
+        self.rules.run(&self.goal, device)
+    }
+}

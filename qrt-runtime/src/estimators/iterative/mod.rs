@@ -1,0 +1,209 @@
+//! Estimation by ever narrower arcs: `iqae`, `miqae` and `chebyshev`.
+//!
+//! All three keep an arc of angles that holds theta, measure at the deepest multiple of theta that
+//! still tells all angles of the arc apart, and turn the exact interval of the measured share into
+//! a narrower arc. They differ in the multiples that they may use, in how much deeper the next
+//! measurement must be, in how many shots they take at once, and in how they divide what may fail
+//! among the depths: those are the [`Rules`], and each estimator says its own.
+//!
+//! An arc replaces the one before it only as far as both agree; where they don't, which happens
+//! only when an interval has failed, the later one stands, as published.
+
+mod arc;
+mod chebyshev;
+mod iqae;
+mod miqae;
+#[cfg(test)]
+mod tests;
+
+pub use chebyshev::Chebyshev;
+pub use iqae::Iqae;
+pub use miqae::Miqae;
+
+use super::clopper_pearson::clopper_pearson;
+use super::{Device, Estimate, EstimatorError, MAX_ITERATIONS, Settings};
+use arc::{Arc, Multiples};
+use std::f64::consts::PI;
+
+/// What distinguishes one method of this family from another.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Rules {
+    multiples: Multiples,
+    /// How many times deeper the next measurement is at least.
+    ratio: u64,
+    /// Shots taken at once.
+    shots: u64,
+    /// How what may fail is divided among the depths.
+    failures: Failures,
+    /// Once as many shots would leave less than this many times the error, a tenth of those taken
+    /// at the depth are taken next.
+    late: Option<f64>,
+}
+
+/// How what may fail is divided among the depths.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Failures {
+    /// The same for each.
+    Equal,
+    /// In proportion to the multiple: the deeper, the more.
+    ByMultiple,
+}
+
+/// What is left for a late phase is worth at least so many shots.
+const FEW_SHOTS: u64 = 5;
+
+/// What is wanted, as this family understands it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Goal {
+    /// Half-width of the interval of S/N at which to stop.
+    error: f64,
+    /// The most queries.
+    queries: u64,
+    confidence: f64,
+}
+
+impl Goal {
+    /// The asked error; without one, the error that a method with this `cost`, queries times error,
+    /// reaches with the queries there are.
+    fn new(settings: &Settings, cost: f64) -> Self {
+        let reachable = (cost / settings.queries as f64).clamp(1e-15, 0.499);
+        Self {
+            error: settings.error.unwrap_or(reachable),
+            queries: settings.queries,
+            confidence: settings.confidence,
+        }
+    }
+
+    /// No multiple beyond this is ever measured: an arc within half a turn of it is narrower than
+    /// the error asks, for S/N changes by at most pi a turn.
+    fn deepest(&self) -> f64 {
+        0.25 * PI / self.error
+    }
+}
+
+impl Rules {
+    /// What may fail at a depth.
+    fn failure(&self, goal: &Goal, multiple: u64) -> f64 {
+        let all = 1.0 - goal.confidence;
+        let ratio = self.ratio as f64;
+        let deepest = goal.deepest().max(1.0);
+        let share = match self.failures {
+            // As many depths as there can be.
+            Failures::Equal => 1.0 / (1.0 + (libm::log(deepest) / libm::log(ratio)).floor()),
+            // A geometric series, the last term of which is at most 1.
+            Failures::ByMultiple => (1.0 - 1.0 / ratio) * (multiple as f64 / deepest).min(1.0),
+        };
+        all * share
+    }
+
+    /// Measures until the goal is reached.
+    fn run(&self, goal: &Goal, device: &mut Device<'_>) -> Result<Estimate, EstimatorError> {
+        let start = device.spent();
+        let mut arc = Arc::ALL;
+        let mut depth = Depth::new(1);
+        loop {
+            let left = goal.queries - (device.spent().queries - start.queries);
+            if arc.error() <= goal.error || left == 0 {
+                break;
+            }
+            let deepest = 2 * (left / self.least_shots()).min(MAX_ITERATIONS) + 1;
+            let from = depth.multiple.saturating_mul(self.ratio);
+            if let Some(multiple) = arc.largest_multiple(self.multiples, from, deepest) {
+                depth = Depth::new(multiple);
+            }
+            let Some(section) = arc.section(depth.multiple) else {
+                break;
+            };
+            let failure = self.failure(goal, depth.multiple);
+            let shots = self
+                .batch(&arc, &depth, goal, failure)
+                .min(left / depth.cost());
+            if shots == 0 {
+                break;
+            }
+            depth.measure(device, shots)?;
+            let shares = clopper_pearson(depth.hits, depth.shots, failure);
+            let measured = Arc::of_shares(depth.multiple, section, depth.sines(shares));
+            arc = measured.intersection(arc).unwrap_or(measured);
+        }
+        let (low, high) = arc.amplitudes();
+        Ok(device.estimate(start, 0.5 * (low + high), (low, high), goal.confidence))
+    }
+
+    /// The shots for which the queries must suffice, for a depth to be worth measuring.
+    fn least_shots(&self) -> u64 {
+        if self.late.is_some() {
+            self.shots.min(FEW_SHOTS)
+        } else {
+            self.shots
+        }
+    }
+
+    /// How many shots to take next.
+    fn batch(&self, arc: &Arc, depth: &Depth, goal: &Goal, failure: f64) -> u64 {
+        let Some(late) = self.late else {
+            return self.shots;
+        };
+        // The widest interval of that many shots, carried over to S/N.
+        let (low, high) = clopper_pearson(self.shots / 2, self.shots, failure);
+        let (from, to) = (depth.share(arc.low), depth.share(arc.high));
+        let reachable = 0.5 * (high - low) * 2.0 * arc.error() / (to - from).abs();
+        if reachable < late * goal.error {
+            (depth.shots / 10).clamp(1, self.shots)
+        } else {
+            self.shots
+        }
+    }
+}
+
+/// The measurements at one multiple of theta.
+#[derive(Clone, Copy, Debug)]
+struct Depth {
+    multiple: u64,
+    shots: u64,
+    hits: u64,
+}
+
+impl Depth {
+    fn new(multiple: u64) -> Self {
+        Self {
+            multiple,
+            shots: 0,
+            hits: 0,
+        }
+    }
+
+    fn is_odd(&self) -> bool {
+        self.multiple % 2 == 1
+    }
+
+    /// Queries a shot.
+    fn cost(&self) -> u64 {
+        (self.multiple / 2).max(1)
+    }
+
+    fn measure(&mut self, device: &mut Device<'_>, shots: u64) -> Result<(), EstimatorError> {
+        let iterations = self.multiple / 2;
+        self.hits += if self.is_odd() {
+            device.iterated(iterations, shots)?
+        } else {
+            device.returned(iterations, shots)?
+        };
+        self.shots += shots;
+        Ok(())
+    }
+
+    /// From shares of hits to `sin^2` of the multiple: odd ones show it, even ones what remains.
+    fn sines(&self, (low, high): (f64, f64)) -> (f64, f64) {
+        if self.is_odd() {
+            (low, high)
+        } else {
+            (1.0 - high, 1.0 - low)
+        }
+    }
+
+    /// `sin^2` of the multiple of an angle.
+    fn share(&self, angle: u64) -> f64 {
+        super::turns::sine_squared(self.multiple.wrapping_mul(angle)).0
+    }
+}

@@ -1,0 +1,218 @@
+//! The largest likelihood, and all angles not far below it.
+//!
+//! Angles are divided from coarse to fine. A range is cut where the shallowest level with a turning
+//! point inside turns; the part with the largest upper bound comes next. What is within one section
+//! of every level is a *peak*: there L is concave, and its maximum is found by bisection of the
+//! slope. Parts whose bound is further below the best peak than asked are left alone, and none
+//! else, so that no peak is missed, however many levels there are: with shots enough at each, few
+//! parts are alive at a time.
+
+use super::likelihood::Likelihood;
+use crate::estimators::turns::{HALF, amplitude};
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+
+/// The most parts that are looked at. What is then still undecided is not left out, but counts as
+/// possible. Runs without noise need some hundreds.
+const MOST_PARTS: usize = 20_000;
+
+/// What is to be known of a likelihood.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Found {
+    /// The likeliest angle.
+    pub(super) angle: u64,
+    /// The smallest and the largest angle at most `reach` below.
+    pub(super) low: u64,
+    /// See `low`.
+    pub(super) high: u64,
+    /// Separate ranges of such angles.
+    pub(super) ranges: u32,
+}
+
+impl Found {
+    /// The interval of S/N.
+    pub(super) fn amplitudes(&self) -> (f64, f64) {
+        (amplitude(self.low), amplitude(self.high))
+    }
+
+    /// Its half-width.
+    pub(super) fn error(&self) -> f64 {
+        let (low, high) = self.amplitudes();
+        0.5 * (high - low)
+    }
+}
+
+/// Angles of `low ..= high`, of which none has a larger L than `bound`.
+#[derive(Clone, Copy, Debug)]
+struct Part {
+    low: u64,
+    high: u64,
+    bound: f64,
+}
+
+impl Ord for Part {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.bound
+            .total_cmp(&other.bound)
+            .then(other.low.cmp(&self.low))
+    }
+}
+
+impl PartialOrd for Part {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Part {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl Eq for Part {}
+
+/// A local maximum, and the part that it is the largest of.
+#[derive(Clone, Copy, Debug)]
+struct Peak {
+    low: u64,
+    high: u64,
+    angle: u64,
+    /// L at the three.
+    values: [f64; 3],
+}
+
+/// The largest value of `likelihood`, and all angles at which it is at most `reach` less.
+pub(super) fn search(likelihood: &Likelihood, reach: f64) -> Found {
+    let mut parts = BinaryHeap::new();
+    let add = |parts: &mut BinaryHeap<Part>, low: u64, high: u64| {
+        let bound = likelihood.bound(low, high);
+        parts.push(Part { low, high, bound });
+    };
+    add(&mut parts, 0, HALF);
+    let mut peaks: Vec<Peak> = Vec::new();
+    let mut best = f64::NEG_INFINITY;
+    let mut looked = 0;
+    while let Some(part) = parts.pop() {
+        looked += 1;
+        let Part { low, high, bound } = part;
+        if bound < best - reach {
+            break;
+        }
+        if looked > MOST_PARTS && !peaks.is_empty() {
+            parts.push(part);
+            break;
+        }
+        if let Some(cut) = likelihood.cut(low, high) {
+            add(&mut parts, low, cut);
+            add(&mut parts, cut, high);
+        } else {
+            for peak in peaks_of(likelihood, low, high) {
+                best = best.max(peak.values[1]);
+                peaks.push(peak);
+            }
+        }
+    }
+    peaks.retain(|peak| peak.values[1] >= best - reach);
+    let undecided = parts
+        .into_iter()
+        .filter(|part| part.bound >= best - reach)
+        .map(|part| (part.low, part.high))
+        .collect();
+    summary(likelihood, &peaks, undecided, best - reach)
+}
+
+/// The peaks of a part without turning points: one, if L is concave there. With noise a part is
+/// divided further, evenly, so that its few peaks are told apart.
+fn peaks_of(likelihood: &Likelihood, low: u64, high: u64) -> impl Iterator<Item = Peak> {
+    let pieces = if likelihood.is_concave() { 1 } else { 8 };
+    let ends = move |i: u64| {
+        let inside = u128::from(high - low) * u128::from(i) / u128::from(pieces);
+        low + inside as u64
+    };
+    (0..pieces)
+        .map(move |i| (ends(i), ends(i + 1)))
+        .filter(|(low, high)| low < high)
+        .map(|(low, high)| peak_of(likelihood, low, high))
+}
+
+fn peak_of(likelihood: &Likelihood, low: u64, high: u64) -> Peak {
+    let turn = bisect(low, high, likelihood.digits(), |angle| {
+        likelihood.slope(angle) > 0.0
+    });
+    let [first, middle, last] = [low, turn, high].map(|angle| likelihood.at(angle));
+    // At the ends of all angles, and of pieces.
+    let (angle, value) = if middle >= first.max(last) {
+        (turn, middle)
+    } else if first >= last {
+        (low, first)
+    } else {
+        (high, last)
+    };
+    Peak {
+        low,
+        high,
+        angle,
+        values: [first, value, last],
+    }
+}
+
+/// Where `low .. high` is divided into angles at which `holds` and angles at which it doesn't, to
+/// 2^-digits of its width.
+fn bisect(low: u64, high: u64, digits: u32, holds: impl Fn(u64) -> bool) -> u64 {
+    let (mut low, mut high) = (low, high);
+    for _ in 0..digits {
+        if high - low <= 1 {
+            break;
+        }
+        let middle = low + (high - low) / 2;
+        if holds(middle) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    low + (high - low) / 2
+}
+
+/// What the peaks and the undecided parts come to; `least` is the smallest L that counts.
+fn summary(
+    likelihood: &Likelihood,
+    peaks: &[Peak],
+    undecided: Vec<(u64, u64)>,
+    least: f64,
+) -> Found {
+    let digits = likelihood.digits();
+    let inside = |angle: u64| likelihood.at(angle) >= least;
+    let best = peaks
+        .iter()
+        .max_by(|a, b| (a.values[1].total_cmp(&b.values[1])).then(b.angle.cmp(&a.angle)));
+    let low_end = |peak: &Peak| {
+        if peak.values[0] >= least {
+            peak.low
+        } else {
+            bisect(peak.low, peak.angle, digits, |angle| !inside(angle))
+        }
+    };
+    let high_end = |peak: &Peak| {
+        if peak.values[2] >= least {
+            peak.high
+        } else {
+            bisect(peak.angle, peak.high, digits, inside)
+        }
+    };
+    // Ranges touch where a cut lies within one; elsewhere what is between peak and cut is out.
+    let mut ranges: Vec<(u64, u64)> = undecided;
+    ranges.extend(peaks.iter().map(|peak| (low_end(peak), high_end(peak))));
+    ranges.sort_unstable();
+    let (separate, end) = ranges.iter().fold((0, None), |(count, end), &(low, high)| {
+        let apart = end.is_none_or(|end| low > end);
+        (count + u32::from(apart), end.max(Some(high)))
+    });
+    Found {
+        angle: best.map_or(0, |peak| peak.angle),
+        low: ranges.first().map_or(0, |range| range.0),
+        high: end.unwrap_or(HALF),
+        ranges: separate,
+    }
+}
