@@ -52,6 +52,11 @@ enum Failures {
 /// What is left for a late phase is worth at least so many shots.
 const FEW_SHOTS: u64 = 5;
 
+/// What is taken off what may fail, because a depth's interval is looked at after every batch of
+/// shots, which the published methods that divide it equally leave out. Without it, 92 % of the
+/// intervals hold a = 1/2 at worst where 95 % are asked; with it, 95 %.
+const LOOKS: f64 = 0.6;
+
 /// What is wanted, as this family understands it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Goal {
@@ -89,7 +94,7 @@ impl Rules {
         let deepest = goal.deepest().max(1.0);
         let share = match self.failures {
             // As many depths as there can be.
-            Failures::Equal => 1.0 / (1.0 + (libm::log(deepest) / libm::log(ratio)).floor()),
+            Failures::Equal => LOOKS / (1.0 + (libm::log(deepest) / libm::log(ratio)).floor()),
             // A geometric series, the last term of which is at most 1.
             Failures::ByMultiple => (1.0 - 1.0 / ratio) * (multiple as f64 / deepest).min(1.0),
         };

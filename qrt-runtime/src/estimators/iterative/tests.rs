@@ -83,7 +83,12 @@ fn failures_add_up_to_what_may_fail() {
             sum += rules.failure(&goal, multiple);
             multiple /= ratio;
         }
-        assert!(sum <= 0.05 + 1e-12 && sum > 0.045, "{failures:?}: {sum}");
+        let all = if failures == Failures::Equal {
+            0.05 * LOOKS
+        } else {
+            0.05
+        };
+        assert!(sum <= all + 1e-12 && sum > 0.9 * all, "{failures:?}: {sum}");
     }
 }
 
