@@ -123,16 +123,18 @@ pub(crate) fn slopes(points: &[Point]) -> (f64, f64) {
     (of(|p| p.rmse), of(|p| p.q95))
 }
 
-/// The least and the largest queries times error at 95 %.
-pub(crate) fn costs(points: &[Point]) -> (f64, f64) {
-    range(points.iter().map(|p| p.queries * p.q95))
+/// The geometric mean of queries times error at 95 %, of points of at least `from` queries.
+pub(crate) fn cost(points: &[Point], from: u64) -> f64 {
+    let known = points.iter().filter(|point| point.asked >= from);
+    let costs: Vec<f64> = known.map(|p| (p.queries * p.q95).ln()).collect();
+    (costs.iter().sum::<f64>() / costs.len() as f64).exp()
 }
 
 /// As a row of the Markdown table.
 pub(crate) fn row(points: &[Point]) -> String {
     let (rmse, q95) = slopes(points);
     let rmses = range(points.iter().map(|p| p.queries * p.rmse));
-    let costs = costs(points);
+    let costs = range(points.iter().map(|p| p.queries * p.q95));
     let last = points.last().map_or(0.0, |p| p.seconds * 1e6);
     format!(
         "| {:.2} - {:.2} | {rmse:.2} | {:.2} - {:.2} | {q95:.2} | {last:.0} |",

@@ -34,7 +34,8 @@ impl Chebyshev {
     /// The authors' nu.
     pub const LATE: f64 = 8.0;
 
-    /// Queries times the error that is asked, on average.
+    /// Queries times the error that is aimed at where only queries are given: about what most runs
+    /// take.
     const COST: f64 = 4.0;
 
     pub(crate) fn new(settings: &Settings) -> Self {

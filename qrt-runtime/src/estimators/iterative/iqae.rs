@@ -29,7 +29,8 @@ impl Iqae {
     /// and 6.0 to 9.4 with the 100 that are usual; with 8 the intervals hold less often.
     pub const SHOTS: u64 = 12;
 
-    /// Queries times the error that is asked, on average.
+    /// Queries times the error that is aimed at where only queries are given: about what most runs
+    /// take.
     const COST: f64 = 5.0;
 
     pub(crate) fn new(settings: &Settings) -> Self {
