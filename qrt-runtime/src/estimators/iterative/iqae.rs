@@ -10,9 +10,8 @@ use crate::estimators::{AmplitudeEstimator, Device, Estimate, EstimatorError, Se
 /// among as many depths as there can be, `1 + log2(pi / (4 error))`. Shots at an unchanged depth are
 /// counted together.
 ///
-/// Interval: the last arc. Looking at a depth's interval after every batch of shots fails a little
-/// more often than the union bound counts, and Clopper-Pearson intervals less often than they
-/// say; at 95 % asked, 96 to 98 % are held.
+/// Interval: the last arc. Shots at a depth are looked at after every batch, so that what may fail
+/// at it is taken to be 0.6 of what the authors give it; at 95 % asked, 95 to 99 % are held.
 ///
 /// A depth that has failed sends all later ones astray. This happens as often at the first as at
 /// the last, so that the root mean square error, unlike any quantile, does not fall with 1/queries:
@@ -30,7 +29,8 @@ impl Iqae {
     /// and 6.0 to 9.4 with the 100 that are usual; with 8 the intervals hold less often.
     pub const SHOTS: u64 = 12;
 
-    /// Queries times the error that is asked, on average.
+    /// Queries times the error that is aimed at where only queries are given: about what most runs
+    /// take.
     const COST: f64 = 5.0;
 
     pub(crate) fn new(settings: &Settings) -> Self {

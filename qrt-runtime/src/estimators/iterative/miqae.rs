@@ -25,7 +25,8 @@ impl Miqae {
     /// Shots taken at once; chosen as [`Iqae::SHOTS`](super::Iqae::SHOTS).
     pub const SHOTS: u64 = 12;
 
-    /// Queries times the error that is asked, on average.
+    /// Queries times the error that is aimed at where only queries are given: about what most runs
+    /// take.
     const COST: f64 = 5.5;
 
     pub(crate) fn new(settings: &Settings) -> Self {

@@ -52,6 +52,11 @@ enum Failures {
 /// What is left for a late phase is worth at least so many shots.
 const FEW_SHOTS: u64 = 5;
 
+/// What is taken off what may fail, because a depth's interval is looked at after every batch of
+/// shots, which the published methods that divide it equally leave out. Without it, 92 % of the
+/// intervals hold a = 1/2 at worst where 95 % are asked; with it, 95 %.
+const LOOKS: f64 = 0.6;
+
 /// What is wanted, as this family understands it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Goal {
@@ -89,18 +94,31 @@ impl Rules {
         let deepest = goal.deepest().max(1.0);
         let share = match self.failures {
             // As many depths as there can be.
-            Failures::Equal => 1.0 / (1.0 + (libm::log(deepest) / libm::log(ratio)).floor()),
+            Failures::Equal => LOOKS / (1.0 + (libm::log(deepest) / libm::log(ratio)).floor()),
             // A geometric series, the last term of which is at most 1.
             Failures::ByMultiple => (1.0 - 1.0 / ratio) * (multiple as f64 / deepest).min(1.0),
         };
         all * share
     }
 
+    /// A multiple of which nothing is measured yet.
+    fn depth(&self, goal: &Goal, multiple: u64) -> Depth {
+        let failure = self.failure(goal, multiple);
+        let (low, high) = clopper_pearson(self.shots / 2, self.shots, failure);
+        Depth {
+            multiple,
+            failure,
+            widest: 0.5 * (high - low),
+            shots: 0,
+            hits: 0,
+        }
+    }
+
     /// Measures until the goal is reached.
     fn run(&self, goal: &Goal, device: &mut Device<'_>) -> Result<Estimate, EstimatorError> {
         let start = device.spent();
         let mut arc = Arc::ALL;
-        let mut depth = Depth::new(1);
+        let mut depth = self.depth(goal, 1);
         loop {
             let left = goal.queries - (device.spent().queries - start.queries);
             if arc.error() <= goal.error || left == 0 {
@@ -109,20 +127,17 @@ impl Rules {
             let deepest = 2 * (left / self.least_shots()).min(MAX_ITERATIONS) + 1;
             let from = depth.multiple.saturating_mul(self.ratio);
             if let Some(multiple) = arc.largest_multiple(self.multiples, from, deepest) {
-                depth = Depth::new(multiple);
+                depth = self.depth(goal, multiple);
             }
             let Some(section) = arc.section(depth.multiple) else {
                 break;
             };
-            let failure = self.failure(goal, depth.multiple);
-            let shots = self
-                .batch(&arc, &depth, goal, failure)
-                .min(left / depth.cost());
+            let shots = self.batch(&arc, &depth, goal).min(left / depth.cost());
             if shots == 0 {
                 break;
             }
             depth.measure(device, shots)?;
-            let shares = clopper_pearson(depth.hits, depth.shots, failure);
+            let shares = clopper_pearson(depth.hits, depth.shots, depth.failure);
             let measured = Arc::of_shares(depth.multiple, section, depth.sines(shares));
             arc = measured.intersection(arc).unwrap_or(measured);
         }
@@ -140,14 +155,13 @@ impl Rules {
     }
 
     /// How many shots to take next.
-    fn batch(&self, arc: &Arc, depth: &Depth, goal: &Goal, failure: f64) -> u64 {
+    fn batch(&self, arc: &Arc, depth: &Depth, goal: &Goal) -> u64 {
         let Some(late) = self.late else {
             return self.shots;
         };
-        // The widest interval of that many shots, carried over to S/N.
-        let (low, high) = clopper_pearson(self.shots / 2, self.shots, failure);
+        // Carried over to S/N.
         let (from, to) = (depth.share(arc.low), depth.share(arc.high));
-        let reachable = 0.5 * (high - low) * 2.0 * arc.error() / (to - from).abs();
+        let reachable = depth.widest * 2.0 * arc.error() / (to - from).abs();
         if reachable < late * goal.error {
             (depth.shots / 10).clamp(1, self.shots)
         } else {
@@ -160,19 +174,15 @@ impl Rules {
 #[derive(Clone, Copy, Debug)]
 struct Depth {
     multiple: u64,
+    /// What may fail.
+    failure: f64,
+    /// The largest half-width of the share's interval after one batch of shots.
+    widest: f64,
     shots: u64,
     hits: u64,
 }
 
 impl Depth {
-    fn new(multiple: u64) -> Self {
-        Self {
-            multiple,
-            shots: 0,
-            hits: 0,
-        }
-    }
-
     fn is_odd(&self) -> bool {
         self.multiple % 2 == 1
     }

@@ -31,15 +31,16 @@ fn mean_queries(estimator: &dyn AmplitudeEstimator, error: f64, runs: u32) -> (f
     (queries, within)
 }
 
-/// Rall & Fuller measure 3.99/error on average at 95 %, with 100 shots at once. (A program of
-/// theirs, run on amplitudes uniform in [0, 1], takes 4.05/error in this unit.)
+/// Rall & Fuller measure 3.99/error on average at 95 %, for an error of the amplitude's root. (Their
+/// method as published, run on roots uniform in [0, 1], takes 4.05/error in this unit.) Here it
+/// is a tenth more, for intervals that hold though they are looked at often.
 #[test]
 fn chebyshev_takes_the_published_queries() {
     let error = 1e-4;
-    let estimator = Chebyshev::with_shots(&settings(u64::MAX, Some(error)), 100);
+    let estimator = Chebyshev::new(&settings(u64::MAX, Some(error)));
     let (queries, within) = mean_queries(&estimator, error, 400);
     let constant = queries * error;
-    assert!((constant / 3.99 - 1.0).abs() < 0.1, "{constant}");
+    assert!((constant / 3.99 - 1.1).abs() < 0.08, "{constant}");
     assert!(within > 0.94, "{within}");
 }
 
@@ -83,7 +84,12 @@ fn failures_add_up_to_what_may_fail() {
             sum += rules.failure(&goal, multiple);
             multiple /= ratio;
         }
-        assert!(sum <= 0.05 + 1e-12 && sum > 0.045, "{failures:?}: {sum}");
+        let all = if failures == Failures::Equal {
+            0.05 * LOOKS
+        } else {
+            0.05
+        };
+        assert!(sum <= all + 1e-12 && sum > 0.9 * all, "{failures:?}: {sum}");
     }
 }
 

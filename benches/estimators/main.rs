@@ -1,0 +1,110 @@
+//! What every estimator's queries buy, and whether its intervals hold what they promise.
+//!
+//! `cargo bench --bench estimators` runs every estimator that there is
+//!
+//! * on amplitudes spread evenly over [0, 1], and on the pixels of the Cornell box, at 63 to 8,191
+//!   queries: the root mean square error, the error that 95 % of the runs keep, the slopes of both
+//!   on logarithmic axes, and queries times error;
+//! * 10,000 times on each of a few kinds of amplitudes, among many ids and few: how often its
+//!   interval holds the amplitude;
+//!
+//! prints both as Markdown tables, and fails where a figure is not within the range that
+//! `expected.rs` gives with its source, or an interval holds more than a point less often than it
+//! says. `--csv FILE` writes all that was measured; `--quick` makes few runs and judges slopes and
+//! coverage generously, in some ten seconds; a name alone runs the estimators whose names hold it.
+
+// A bench that cannot run has nothing to report.
+#![allow(clippy::unwrap_used, clippy::expect_used)]
+
+mod coverage;
+mod expected;
+mod fit;
+mod problems;
+mod runs;
+
+use expected::{Expected, Verdicts};
+use problems::Problems;
+use qrt::core::scene::Estimator;
+use qrt::runtime::estimators::AVAILABLE;
+use runs::{Point, Run};
+use std::fmt::Write as _;
+use std::process::ExitCode;
+use std::time::Instant;
+
+/// What is asked on the command line.
+struct Arguments {
+    quick: bool,
+    csv: Option<String>,
+    name: Option<String>,
+}
+
+impl Arguments {
+    fn of_command_line() -> Self {
+        let (mut quick, mut csv, mut name) = (false, None, None);
+        let mut arguments = std::env::args().skip(1);
+        while let Some(argument) = arguments.next() {
+            match argument.as_str() {
+                "--quick" => quick = true,
+                "--csv" => csv = Some(arguments.next().expect("--csv FILE")),
+                // Cargo's own.
+                "--bench" => {}
+                _ => name = Some(argument),
+            }
+        }
+        Self { quick, csv, name }
+    }
+}
+
+fn main() -> ExitCode {
+    let asked = Arguments::of_command_line();
+    let names = AVAILABLE.into_iter().filter(|&estimator| {
+        let asked = asked.name.as_ref();
+        estimator != Estimator::Exact && asked.is_none_or(|name| estimator.name().contains(name))
+    });
+    let names: Vec<Estimator> = names.collect();
+    let registers = if asked.quick { 6..=10 } else { 6..=13 };
+    let mut csv = String::from("estimator,amplitudes,asked,queries,rmse,q95,seconds_a_run\n");
+    let mut verdicts = Verdicts::default();
+
+    let begin = Instant::now();
+    let kinds = [Problems::even(), Problems::pixels(asked.quick)];
+    eprintln!("{}", kinds[1]);
+    for problems in &kinds {
+        println!("\n### {problems}\n");
+        println!("| estimator | RMSE x queries | slope | q95 x queries | slope | us a run |");
+        println!("| --- | --- | --- | --- | --- | --- |");
+        for &name in &names {
+            let expected = Expected::of(name);
+            let points: Vec<Point> = registers
+                .clone()
+                .map(|bits| {
+                    let run = Run {
+                        name,
+                        bits,
+                        repetitions: expected.repetitions,
+                    };
+                    run.point(problems, expected.runs(asked.quick))
+                })
+                .collect();
+            for point in &points {
+                writeln!(csv, "{name},{},{point}", problems.name()).unwrap();
+            }
+            println!("| {name} {}", runs::row(&points));
+            verdicts.judge(name, &expected, problems, &points, asked.quick);
+        }
+    }
+
+    println!("\n### How often intervals hold the amplitude\n");
+    coverage::table(&names, asked.quick, &mut verdicts);
+    println!("\n{verdicts}");
+    println!("{:.0} seconds", begin.elapsed().as_secs_f64());
+
+    if let Some(file) = asked.csv {
+        std::fs::write(&file, csv).unwrap_or_else(|error| panic!("{file}: {error}"));
+    }
+    if verdicts.all_kept() {
+        ExitCode::SUCCESS
+    } else {
+        ExitCode::FAILURE
+    }
+}

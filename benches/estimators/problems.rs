@@ -1,0 +1,94 @@
+//! What is estimated: amplitudes spread evenly, or the pixels of a picture.
+
+use qrt::core::front;
+use qrt::core::scene::Estimator;
+use qrt::runtime::estimators::Problem;
+use qrt::runtime::render::{Model, Options, render};
+use std::fmt;
+use std::path::Path;
+
+/// Amplitudes to run estimators on.
+pub(crate) enum Problems {
+    /// Spread evenly over [0, 1], in as many steps as there are runs.
+    Even,
+    /// Every channel of the Cornell box's pixels, in their order, as often as needed.
+    Pixels { film: u32, list: Vec<Problem> },
+}
+
+/// Ids where amplitudes are spread evenly.
+const IDS: u64 = 1 << 40;
+
+impl Problems {
+    pub(crate) fn even() -> Self {
+        Self::Even
+    }
+
+    /// Counted by the fixed machine, path by path.
+    pub(crate) fn pixels(quick: bool) -> Self {
+        let (film, path_bits) = if quick { (16, 8) } else { (64, 12) };
+        let sets = [
+            format!("film.width={film}"),
+            format!("film.height={film}"),
+            format!("sampling.path_bits={path_bits}"),
+        ];
+        let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes-yaml/cornell-box.yaml");
+        let loaded = front::load(&scene, &sets).unwrap_or_else(|report| panic!("{report}"));
+        let options = Options {
+            model: Model::Fixed,
+            estimator: Some(Estimator::Exact),
+            ..Options::default()
+        };
+        let rendered = render(&loaded.valid, &options).unwrap_or_else(|error| panic!("{error}"));
+        let list = rendered
+            .counts()
+            .map(|count| Problem {
+                good: count.good.expect("the fixed machine counts ids"),
+                total: count.total,
+            })
+            .collect();
+        Self::Pixels { film, list }
+    }
+
+    /// As it is called in files.
+    pub(crate) fn name(&self) -> &'static str {
+        match self {
+            Self::Even => "even",
+            Self::Pixels { .. } => "pixels",
+        }
+    }
+
+    pub(crate) fn problem(&self, run: u32, runs: u32) -> Problem {
+        match self {
+            Self::Even => {
+                let share = (f64::from(run) + 0.5) / f64::from(runs);
+                Problem {
+                    good: (share * IDS as f64) as u64,
+                    total: IDS,
+                }
+            }
+            Self::Pixels { list, .. } => list[run as usize % list.len()],
+        }
+    }
+}
+
+impl fmt::Display for Problems {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Even => write!(f, "Amplitudes spread evenly over [0, 1]"),
+            Self::Pixels { film, list } => {
+                let shares = list.iter().map(|p| p.good as f64 / p.total as f64);
+                let mut shares: Vec<f64> = shares.collect();
+                shares.sort_by(f64::total_cmp);
+                let at = |percent: usize| shares[(shares.len() - 1) * percent / 100];
+                write!(
+                    f,
+                    "Pixels of the Cornell box, {film} x {film}, amplitudes of {:.4} ({:.4} to \
+                     {:.4} for 90 %)",
+                    at(50),
+                    at(5),
+                    at(95)
+                )
+            }
+        }
+    }
+}
