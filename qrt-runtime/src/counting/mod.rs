@@ -8,6 +8,7 @@
 //!
 //! * [`PhaseDistribution`]: `P(theta~ | theta)`, rectangular and sine window, and draws from it;
 //! * [`maximum_likelihood`]: the paper's inference, over every S in `0 ..= N`;
+//! * [`LookupTable`]: that distribution the other way round, from an outcome to S;
 //! * [`Comparators`]: from colours to good ids, and from amplitudes to pixels.
 
 mod angle;
@@ -19,6 +20,7 @@ mod draw;
 mod error;
 mod kernel;
 mod likelihood;
+mod lookup;
 #[cfg(test)]
 pub(crate) mod tests;
 
@@ -28,3 +30,4 @@ pub use distribution::PhaseDistribution;
 pub use draw::Sampler;
 pub use error::{CountingError, MAX_PHASE_BITS, MAX_REPETITIONS};
 pub use likelihood::{MaximumLikelihood, ln_likelihood, maximum_likelihood, posterior};
+pub use lookup::{Column, LookupTable};

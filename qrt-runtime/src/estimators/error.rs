@@ -20,6 +20,8 @@ pub enum EstimatorError {
     NoiseOutOfRange(f64),
     /// More Grover iterations between preparation and measurement than can be told apart.
     TooManyIterations(u64),
+    /// A reference from which amplitudes are measured that is not in [0, 1].
+    ReferenceOutOfRange(f64),
     /// An estimator that this version does not have.
     Unavailable(Estimator),
 }
@@ -46,6 +48,9 @@ impl fmt::Display for EstimatorError {
                 "{iterations} Grover iterations before a measurement; at most {}",
                 super::MAX_ITERATIONS
             ),
+            Self::ReferenceOutOfRange(reference) => {
+                write!(f, "a reference of {reference} is not in [0, 1]")
+            }
             Self::Unavailable(estimator) => {
                 write!(f, "no estimator `{estimator}` in this version; there are ")?;
                 for (index, available) in super::AVAILABLE.iter().enumerate() {

@@ -11,21 +11,29 @@
 //! queries, for the id that it measures is evaluated classically; without iterations it is a path
 //! of classical Monte Carlo, which is one query, too. Phase estimation with T phases takes T-1.
 
+mod abrams_williams;
+mod clopper_pearson;
+mod coin;
 mod device;
 mod error;
 mod exact;
 mod monte_carlo;
 mod noise;
+mod qss;
+mod quantum_coin;
 mod settings;
 #[cfg(test)]
 mod tests;
 mod windowed;
 
+pub use abrams_williams::AbramsWilliams;
 pub use device::{Device, MAX_ITERATIONS, Problem, Spent};
 pub use error::EstimatorError;
 pub use exact::Exact;
 pub use monte_carlo::MonteCarlo;
 pub use noise::{Noise, NoiseError};
+pub use qss::Supersampling;
+pub use quantum_coin::QuantumCoin;
 pub use settings::{DEFAULT_CONFIDENCE, Settings};
 pub use windowed::WindowedCounting;
 
@@ -33,11 +41,14 @@ use crate::random::Stream;
 use qrt_core::scene::{Counting, Estimator};
 
 /// The estimators of this version, by their names in scenes.
-pub const AVAILABLE: [Estimator; 4] = [
+pub const AVAILABLE: [Estimator; 7] = [
     Estimator::Exact,
     Estimator::MonteCarlo,
     Estimator::Paper,
     Estimator::Sine,
+    Estimator::Qss,
+    Estimator::Qcoin,
+    Estimator::AbramsWilliams,
 ];
 
 /// An estimated amplitude, and what it took.
@@ -95,6 +106,9 @@ pub fn estimator(
         Estimator::Paper => Box::new(WindowedCounting::paper(settings)?),
         Estimator::Sine => Box::new(WindowedCounting::sine(settings)?),
         Estimator::MonteCarlo => Box::new(MonteCarlo::new(settings)),
+        Estimator::Qss => Box::new(Supersampling::new(settings)),
+        Estimator::Qcoin => Box::new(QuantumCoin::new(settings)),
+        Estimator::AbramsWilliams => Box::new(AbramsWilliams::new(settings)),
         _ => return Err(EstimatorError::Unavailable(name)),
     })
 }
