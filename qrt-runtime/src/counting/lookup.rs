@@ -34,9 +34,9 @@ const KEPT: usize = 1 << 16;
 /// What the table says of one reading.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Column {
-    /// The likeliest S.
+    /// The likeliest S; the nearest, if y is not read for any S unless wrongly.
     pub good: u64,
-    /// ln P(y | S) of that S.
+    /// ln P(y | S) of that S; negative infinity if y is not read for any S.
     pub ln_likelihood: f64,
     /// Its share of the column: the confidence map. The probability of this S if all were equally
     /// likely before.
@@ -127,16 +127,40 @@ impl LookupTable {
     }
 
     fn compute(&self, y: u64) -> Result<Column, CountingError> {
-        let best = maximum_likelihood(&[y], self.total, self.phase_bits, Window::Rect)?;
+        let largest = self.register.size() / 2;
+        if y > largest {
+            return Err(CountingError::OutcomeOutOfRange {
+                outcome: y,
+                largest,
+            });
+        }
+        let likeliest = maximum_likelihood(&[y], self.total, self.phase_bits, Window::Rect);
         let mut rows = self.rows(y);
         rows.sort_by(|a, b| a.distance.total_cmp(&b.distance));
+        let (good, ln_likelihood) = match likeliest {
+            Ok(best) => (best.good, best.ln_likelihood),
+            // Read wrongly, for no S is read like this: the nearest one.
+            Err(CountingError::ImpossibleOutcomes) => {
+                let nearest = rows.first().map_or(0.0, |row| 0.5 * (row.low + row.high));
+                ((nearest * self.total as f64).round() as u64, f64::NEG_INFINITY)
+            }
+            Err(error) => return Err(error),
+        };
         // A destroyed register reads every y equally often, and all but the ends are two.
         let readings = if self.is_end(y) { 1.0 } else { 2.0 };
         let any = (1.0 - self.intact) * readings / self.register.size() as f64;
         let noisy = |probability: f64| self.intact * probability + any;
         let weight = |row: &Row| row.count * noisy(row.probability);
         let all: f64 = rows.iter().map(weight).sum();
-        let middle = best.good as f64 / self.total as f64;
+        if all <= 0.0 {
+            return Ok(Column {
+                good,
+                ln_likelihood,
+                certainty: 0.0,
+                interval: (0.0, 1.0),
+            });
+        }
+        let middle = good as f64 / self.total as f64;
         let mut interval = (middle, middle);
         let mut gathered = 0.0;
         for row in &rows {
@@ -147,9 +171,9 @@ impl LookupTable {
             interval = (interval.0.min(row.low), interval.1.max(row.high));
         }
         Ok(Column {
-            good: best.good,
-            ln_likelihood: best.ln_likelihood,
-            certainty: (noisy(libm::exp(best.ln_likelihood)) / all).min(1.0),
+            good,
+            ln_likelihood,
+            certainty: (noisy(libm::exp(ln_likelihood)) / all).min(1.0),
             interval,
         })
     }
@@ -262,5 +286,100 @@ impl LookupTable {
         let size = self.register.size() as f64;
         let sines = libm::sin(PI * ((to - from) / size)) * libm::sin(PI * ((to + from) / size));
         self.total as f64 * sines
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::counting::PhaseDistribution;
+
+    /// P(y | S), all rows.
+    fn rows(total: u64, bits: u32, y: u64) -> Vec<f64> {
+        let row = |good| {
+            let distribution = PhaseDistribution::new(good, total, bits, Window::Rect);
+            distribution.unwrap().probability(y)
+        };
+        (0..=total).map(row).collect()
+    }
+
+    /// Johnston's table for 4 x 4 subpixels and 4 counter qubits, and others, entry by entry: the
+    /// largest of each column, its share, and the rows around it.
+    #[test]
+    fn columns_are_those_of_the_whole_table() {
+        for (total, bits) in [(16, 4), (16, 2), (64, 7), (1, 3), (7, 1), (1000, 5)] {
+            let table = LookupTable::new(total, bits, 0.9, 1.0).unwrap();
+            for y in 0..=1 << (bits - 1) {
+                let rows = rows(total, bits, y);
+                let sum: f64 = rows.iter().sum();
+                let column = table.column(y).unwrap();
+                if sum == 0.0 {
+                    assert_eq!((column.certainty, column.interval), (0.0, (0.0, 1.0)));
+                    continue;
+                }
+                let largest = rows.iter().copied().fold(0.0, f64::max);
+                assert!((rows[column.good as usize] / largest - 1.0).abs() < 1e-9);
+                assert!((column.certainty - largest / sum).abs() < 1e-9, "{total} {bits} {y}");
+                assert!((libm::exp(column.ln_likelihood) - largest).abs() < 1e-9);
+                let inside = |good: usize| {
+                    let fraction = good as f64 / total as f64;
+                    column.interval.0 <= fraction && fraction <= column.interval.1
+                };
+                let gathered: f64 = (0..rows.len()).filter(|&i| inside(i)).map(|i| rows[i]).sum();
+                assert!(inside(column.good as usize) && gathered >= 0.9 * sum * (1.0 - 1e-9));
+                assert_eq!(table.column(y), Ok(column));
+            }
+            assert!(table.column((1 << (bits - 1)) + 1).is_err());
+        }
+    }
+
+    /// Gathered rows against all of them.
+    #[test]
+    fn gathered_rows_are_worth_the_single_ones() {
+        for (total, bits) in [(20_000, 4), (20_000, 9), (3000, 12), (5000, 8)] {
+            let table = LookupTable::new(total, bits, 0.95, 1.0).unwrap();
+            let half = 1_u64 << (bits - 1);
+            for y in [0, 1, 2, half / 3, half / 2, half - 1, half] {
+                let rows = rows(total, bits, y);
+                let sum: f64 = rows.iter().sum();
+                let column = table.column(y).unwrap();
+                let fraction = |i: usize| i as f64 / total as f64;
+                let gathered: f64 = (0..rows.len())
+                    .filter(|&i| column.interval.0 <= fraction(i) && fraction(i) <= column.interval.1)
+                    .map(|i| rows[i])
+                    .sum();
+                let share = gathered / sum;
+                assert!(share > 0.945, "{total} {bits} {y}: {share}");
+                let certainty = rows[column.good as usize] / sum;
+                assert!((column.certainty / certainty - 1.0).abs() < 0.02, "{total} {bits} {y}");
+            }
+        }
+    }
+
+    /// Registers and ids of any size: one reading is one column, quickly.
+    #[test]
+    fn no_size_is_too_large() {
+        for total in [1, 2, 1000, 1 << 30, 1 << 60] {
+            for bits in [1, 2, 11, 30, 40] {
+                for intact in [1.0, 0.99, 0.0] {
+                    let table = LookupTable::new(total, bits, 0.95, intact).unwrap();
+                    let half = 1_u64 << (bits - 1);
+                    for y in [0, 1, half / 5, half / 2, half] {
+                        let column = table.column(y).unwrap();
+                        let (low, high) = column.interval;
+                        let fraction = column.good as f64 / total as f64;
+                        assert!(0.0 <= low && low <= fraction && fraction <= high && high <= 1.0);
+                        assert!((0.0..=1.0).contains(&column.certainty));
+                        if intact == 1.0 && bits == 30 && total == 1 << 60 && y == half / 5 {
+                            // Two steps to either side, of pi sin(2 pi / 10) each.
+                            assert!((high - low) * (1 << 30) as f64 > 7.0);
+                            assert!((high - low) * ((1 << 30) as f64) < 8.5);
+                        }
+                    }
+                }
+            }
+        }
+        assert!(LookupTable::new(0, 3, 0.95, 1.0).is_err());
+        assert!(LookupTable::new(3, 41, 0.95, 1.0).is_err());
     }
 }

@@ -123,7 +123,7 @@ fn exact_is_exact_and_extremes_are_never_missed() {
 #[test]
 fn what_cannot_be_estimated_is_refused_with_what_can() {
     let mut stream = Stream::new(0, 0, 0, 0);
-    for name in Estimator::ALL {
+    for &name in Estimator::ALL {
         if !AVAILABLE.contains(&name) {
             let problem = Problem { good: 1, total: 2 };
             let error = estimate(name, &counting(5, 1), problem, &mut stream).unwrap_err();

@@ -83,3 +83,133 @@ impl Device<'_> {
         Ok(crate::counting::binomial::draw_with(shots, p, q, self.stream))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::estimators::{Noise, Problem};
+    use crate::random::Stream;
+
+    /// Amplitudes of n ids and the coin, which is the highest qubit. All gates are real.
+    struct State {
+        ids: u32,
+        amplitudes: Vec<f64>,
+    }
+
+    impl State {
+        fn zero(ids: u32) -> Self {
+            let mut amplitudes = vec![0.0; 2 << ids];
+            amplitudes[0] = 1.0;
+            Self { ids, amplitudes }
+        }
+
+        /// A gate on one qubit, as the rows of its matrix.
+        fn gate(&mut self, qubit: u32, [[a, b], [c, d]]: [[f64; 2]; 2]) {
+            let bit = 1 << qubit;
+            for i in 0..self.amplitudes.len() {
+                if i & bit == 0 {
+                    let (zero, one) = (self.amplitudes[i], self.amplitudes[i | bit]);
+                    self.amplitudes[i] = a * zero + b * one;
+                    self.amplitudes[i | bit] = c * zero + d * one;
+                }
+            }
+        }
+
+        fn hadamards(&mut self) {
+            let h = std::f64::consts::FRAC_1_SQRT_2;
+            (0..self.ids).for_each(|qubit| self.gate(qubit, [[h, h], [h, -h]]));
+        }
+
+        /// The circuit W of this module's page, with the first `good` ids good.
+        fn shifted(&mut self, good: usize, reference: f64) {
+            let tilt = (1.0 - 2.0 * reference).abs();
+            let (sine, cosine) = ((1.0 / (1.0 + tilt)).sqrt(), (tilt / (1.0 + tilt)).sqrt());
+            let sign = if reference <= 0.5 { -1.0 } else { 1.0 };
+            let coin = 1_usize << self.ids;
+            self.hadamards();
+            self.gate(self.ids, [[cosine, -sine], [sine, cosine]]);
+            for (i, amplitude) in self.amplitudes.iter_mut().enumerate() {
+                if i & coin == 0 {
+                    *amplitude *= sign;
+                } else if i & !coin < good {
+                    *amplitude = -*amplitude;
+                }
+            }
+            self.gate(self.ids, [[cosine, sine], [-sine, cosine]]);
+            self.hadamards();
+        }
+    }
+
+    /// The state vector, gate by gate, against the closed form; all S of up to 16 ids.
+    #[test]
+    fn the_circuit_measures_what_is_drawn_from() {
+        for ids in 0..=4 {
+            let total = 1_usize << ids;
+            for good in 0..=total {
+                for reference in [0.0, 0.03, 0.25, 0.4999, 0.5, 0.7, 0.9375, 1.0] {
+                    let omega = Angle::shifted(good as u64, total as u64, reference).unwrap();
+                    let mut state = State::zero(ids);
+                    for queries in 1..=9 {
+                        if queries > 1 {
+                            state.amplitudes[0] = -state.amplitudes[0];
+                        }
+                        state.shifted(good, reference);
+                        let zeros = state.amplitudes[0].powi(2);
+                        let norm: f64 = state.amplitudes.iter().map(|a| a * a).sum();
+                        let heads = if queries % 2 == 1 { zeros } else { norm - zeros };
+                        let (closed, rest) = omega.sine_squared(queries);
+                        assert!(
+                            (heads - closed).abs() < 1e-12 && (closed + rest - 1.0).abs() < 1e-12,
+                            "{good}/{total} - {reference}, {queries}: {heads}, {closed}"
+                        );
+                        if queries == 1 {
+                            let mean = (good as f64 / total as f64 - reference)
+                                / f64::max(reference, 1.0 - reference);
+                            assert!((state.amplitudes[0] + mean).abs() < 1e-14);
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// Shares of heads, and with noise their mixture with those of the maximally mixed state of
+    /// four ids and a coin.
+    #[test]
+    fn heads_are_drawn_with_and_without_noise() {
+        let problem = Problem { good: 3, total: 16 };
+        let noisy = Noise {
+            depolarising: 0.02,
+            readout: 0.01,
+        };
+        for noise in [Noise::NONE, noisy] {
+            let mut stream = Stream::new(8, 0, 0, 0);
+            let mut device = Device::new(problem, noise, &mut stream).unwrap();
+            let shots = 200_000;
+            for queries in [1_i32, 2, 5, 6] {
+                let heads = device.shifted(0.3, queries as u64, shots).unwrap() as f64;
+                let omega = libm::asin((0.3 - 3.0 / 16.0) / 0.7);
+                let ideal = libm::sin(f64::from(queries) * omega).powi(2);
+                let right = (1.0 - noise.depolarising).powi(queries)
+                    * (1.0 - noise.readout).powi(5);
+                let any = if queries % 2 == 1 { 1.0 } else { 31.0 } / 32.0;
+                let expected = right * ideal + (1.0 - right) * any;
+                let deviation = (expected * (1.0 - expected) / shots as f64).sqrt();
+                assert!(
+                    (heads / shots as f64 - expected).abs() < 5.0 * deviation,
+                    "{queries}: {heads}, {expected}"
+                );
+            }
+            assert_eq!(device.spent().queries, shots * (1 + 2 + 5 + 6));
+            assert_eq!(device.spent().depth, 6);
+        }
+        let mut stream = Stream::new(8, 0, 0, 0);
+        let mut device = Device::new(problem, Noise::NONE, &mut stream).unwrap();
+        assert_eq!(device.spent().queries, 0);
+        for reference in [-0.1, 1.1, f64::NAN] {
+            assert!(device.shifted(reference, 1, 1).is_err());
+        }
+        assert!(device.shifted(0.5, MAX_ITERATIONS + 1, 1).is_err());
+        assert_eq!(device.spent().shots, 0);
+    }
+}
