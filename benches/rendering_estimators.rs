@@ -2,8 +2,8 @@
 //!
 //! Promises, each asserted: at 95 % asked, intervals hold S/N in 94 % of the runs or more, for a
 //! uniform in [0, 1] and at its extremes; the error that 95 % of the runs keep falls as 1/queries;
-//! queries x error is what the table says; an estimate of 10^4 queries takes well below a
-//! millisecond.
+//! queries x error is what the table says; an estimate of 10^4 queries takes half a millisecond
+//! at most.
 
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
@@ -89,7 +89,7 @@ fn main() {
                 assert!(share >= 0.94);
             }
         }
-        println!("  queries   95 % of errors   x queries   RMSE x queries");
+        println!("  queries   95 % of errors   x queries   mean x queries   RMSE x queries");
         let mut points = Vec::new();
         let mut largest = 0.0;
         for bits in [6, 8, 10, 12, 14, 16] {
@@ -98,9 +98,11 @@ fn main() {
             let quantile = errors[errors.len() * 95 / 100];
             let squares: f64 = errors.iter().map(|error| error * error).sum();
             let rmse = (squares / errors.len() as f64).sqrt();
+            let mean = errors.iter().sum::<f64>() / errors.len() as f64;
             println!(
-                "  {queries:<9} {quantile:<16.3e} {:<11.2} {:.2}",
+                "  {queries:<9} {quantile:<16.3e} {:<11.2} {:<16.2} {:.2}",
                 quantile * queries,
+                mean * queries,
                 rmse * queries
             );
             points.push((libm::log(queries), libm::log(quantile)));
@@ -120,6 +122,6 @@ fn main() {
         measure(name, &settings, runs, 1 << 40, uniform(1 << 40));
         let microseconds = 1e6 * start.elapsed().as_secs_f64() / f64::from(runs);
         println!("  {microseconds:.1} us an estimate of 10^4 queries\n");
-        assert!(microseconds < 1000.0);
+        assert!(microseconds < 500.0);
     }
 }
