@@ -100,7 +100,14 @@ mod tests {
     /// Against the arc sine of `f64`, and where the sine is 0 or 1 exactly.
     #[test]
     fn shifted_angles_are_arc_sines() {
-        for (good, total) in [(1_u64, 3_u64), (300, 1000), (0, 7), (7, 7), (1, 1 << 60), (5, 8)] {
+        for (good, total) in [
+            (1_u64, 3_u64),
+            (300, 1000),
+            (0, 7),
+            (7, 7),
+            (1, 1 << 60),
+            (5, 8),
+        ] {
             let amplitude = good as f64 / total as f64;
             for reference in [0.0, 1e-9, 0.3, 0.5, 0.625, 0.999, 1.0] {
                 let angle = Angle::shifted(good, total, reference).unwrap();
@@ -117,7 +124,10 @@ mod tests {
                 }
             }
         }
-        assert_eq!(Angle::shifted(5, 8, 0.625).unwrap().sine_squared(1 << 40).0, 0.0);
+        assert_eq!(
+            Angle::shifted(5, 8, 0.625).unwrap().sine_squared(1 << 40).0,
+            0.0
+        );
         assert_eq!(Angle::shifted(0, 8, 1.0).unwrap().sine_squared(1).0, 1.0);
         assert!(Angle::shifted(2, 1, 0.5).is_err());
     }

@@ -142,7 +142,10 @@ impl LookupTable {
             // Read wrongly, for no S is read like this: the nearest one.
             Err(CountingError::ImpossibleOutcomes) => {
                 let nearest = rows.first().map_or(0.0, |row| 0.5 * (row.low + row.high));
-                ((nearest * self.total as f64).round() as u64, f64::NEG_INFINITY)
+                (
+                    (nearest * self.total as f64).round() as u64,
+                    f64::NEG_INFINITY,
+                )
             }
             Err(error) => return Err(error),
         };
@@ -262,7 +265,11 @@ impl LookupTable {
                 end
             };
             let middle = 0.5 * (from + to);
-            let mirrored = if self.is_end(y) { 0.0 } else { mean(middle + y_steps) };
+            let mirrored = if self.is_end(y) {
+                0.0
+            } else {
+                mean(middle + y_steps)
+            };
             let (low, high) = (from.min(to), from.max(to));
             rows.push(Row {
                 distance: (to - y_steps).abs(),
@@ -319,13 +326,19 @@ mod tests {
                 }
                 let largest = rows.iter().copied().fold(0.0, f64::max);
                 assert!((rows[column.good as usize] / largest - 1.0).abs() < 1e-9);
-                assert!((column.certainty - largest / sum).abs() < 1e-9, "{total} {bits} {y}");
+                assert!(
+                    (column.certainty - largest / sum).abs() < 1e-9,
+                    "{total} {bits} {y}"
+                );
                 assert!((libm::exp(column.ln_likelihood) - largest).abs() < 1e-9);
                 let inside = |good: usize| {
                     let fraction = good as f64 / total as f64;
                     column.interval.0 <= fraction && fraction <= column.interval.1
                 };
-                let gathered: f64 = (0..rows.len()).filter(|&i| inside(i)).map(|i| rows[i]).sum();
+                let gathered: f64 = (0..rows.len())
+                    .filter(|&i| inside(i))
+                    .map(|i| rows[i])
+                    .sum();
                 assert!(inside(column.good as usize) && gathered >= 0.9 * sum * (1.0 - 1e-9));
                 assert_eq!(table.column(y), Ok(column));
             }
@@ -345,13 +358,18 @@ mod tests {
                 let column = table.column(y).unwrap();
                 let fraction = |i: usize| i as f64 / total as f64;
                 let gathered: f64 = (0..rows.len())
-                    .filter(|&i| column.interval.0 <= fraction(i) && fraction(i) <= column.interval.1)
+                    .filter(|&i| {
+                        column.interval.0 <= fraction(i) && fraction(i) <= column.interval.1
+                    })
                     .map(|i| rows[i])
                     .sum();
                 let share = gathered / sum;
                 assert!(share > 0.945, "{total} {bits} {y}: {share}");
                 let certainty = rows[column.good as usize] / sum;
-                assert!((column.certainty / certainty - 1.0).abs() < 0.02, "{total} {bits} {y}");
+                assert!(
+                    (column.certainty / certainty - 1.0).abs() < 0.02,
+                    "{total} {bits} {y}"
+                );
             }
         }
     }

@@ -100,7 +100,10 @@ mod tests {
             for hits in [0, 1, n / 3, n / 2, n - 1, n] {
                 for failure in [0.3, 0.05, 1e-3, 1e-6, 1e-9] {
                     let (low, high) = clopper_pearson(hits, n, failure);
-                    assert!(low <= hits as f64 / n as f64 && hits as f64 / n as f64 <= high, "{hits}/{n} {failure}: {low} {high}");
+                    assert!(
+                        low <= hits as f64 / n as f64 && hits as f64 / n as f64 <= high,
+                        "{hits}/{n} {failure}: {low} {high}"
+                    );
                     if hits > 0 {
                         let found = tail(n, low, hits..=n);
                         assert!((found / failure - 0.5).abs() < 1e-5, "{hits}/{n}: {found}");

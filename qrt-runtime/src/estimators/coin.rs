@@ -101,7 +101,11 @@ impl Tosses {
     fn angle(&self, heads: f64) -> f64 {
         let ideal = (heads - (1.0 - self.right) * self.any) / self.right;
         // Without anything left of the state, every angle is possible: 0/0 is not a number.
-        let ideal = if ideal.is_nan() { 0.5 } else { ideal.clamp(0.0, 1.0) };
+        let ideal = if ideal.is_nan() {
+            0.5
+        } else {
+            ideal.clamp(0.0, 1.0)
+        };
         libm::asin(ideal.sqrt())
     }
 }

@@ -21,6 +21,8 @@ mod monte_carlo;
 mod noise;
 mod qss;
 mod quantum_coin;
+#[cfg(test)]
+mod rendering_tests;
 mod settings;
 #[cfg(test)]
 mod tests;

@@ -155,8 +155,12 @@ fn worst_angle(tosses: u64) -> f64 {
     let mut worst = 0.0;
     for pair in ends.windows(2) {
         let middle = 0.5 * (pair[0] + pair[1]);
-        let few = (0..=tosses).filter(|&k| angle(k) < middle - FRAC_PI_8).count() as u64;
-        let many = (0..=tosses).filter(|&k| angle(k) > middle + FRAC_PI_8).count() as u64;
+        let few = (0..=tosses)
+            .filter(|&k| angle(k) < middle - FRAC_PI_8)
+            .count() as u64;
+        let many = (0..=tosses)
+            .filter(|&k| angle(k) > middle + FRAC_PI_8)
+            .count() as u64;
         let at = |i: usize| pair[0] + (pair[1] - pair[0]) * i as f64 / PIECES as f64;
         for piece in 0..PIECES {
             // `many` of n is `many` tails or fewer.
@@ -204,6 +208,7 @@ mod tests {
             assert!(bound >= worst, "{tosses}: {bound}, {worst}");
             assert!(bound <= 1.4 * worst, "{tosses}: {bound}, {worst}");
         }
+        assert!((step_fails(4) - 0.31).abs() < 0.03, "{}", step_fails(4));
         assert!(step_fails(65) > step_fails(64) && step_fails(65) < 1e-4);
     }
 }

@@ -80,7 +80,12 @@ impl Device<'_> {
         };
         let mixed = |ideal: f64, any: f64| right * ideal + (1.0 - right) * any;
         let (p, q) = (mixed(ideal.0, any.0), mixed(ideal.1, any.1));
-        Ok(crate::counting::binomial::draw_with(shots, p, q, self.stream))
+        Ok(crate::counting::binomial::draw_with(
+            shots,
+            p,
+            q,
+            self.stream,
+        ))
     }
 }
 
@@ -156,7 +161,11 @@ mod tests {
                         state.shifted(good, reference);
                         let zeros = state.amplitudes[0].powi(2);
                         let norm: f64 = state.amplitudes.iter().map(|a| a * a).sum();
-                        let heads = if queries % 2 == 1 { zeros } else { norm - zeros };
+                        let heads = if queries % 2 == 1 {
+                            zeros
+                        } else {
+                            norm - zeros
+                        };
                         let (closed, rest) = omega.sine_squared(queries);
                         assert!(
                             (heads - closed).abs() < 1e-12 && (closed + rest - 1.0).abs() < 1e-12,
@@ -190,8 +199,8 @@ mod tests {
                 let heads = device.shifted(0.3, queries as u64, shots).unwrap() as f64;
                 let omega = libm::asin((0.3 - 3.0 / 16.0) / 0.7);
                 let ideal = libm::sin(f64::from(queries) * omega).powi(2);
-                let right = (1.0 - noise.depolarising).powi(queries)
-                    * (1.0 - noise.readout).powi(5);
+                let right =
+                    (1.0 - noise.depolarising).powi(queries) * (1.0 - noise.readout).powi(5);
                 let any = if queries % 2 == 1 { 1.0 } else { 31.0 } / 32.0;
                 let expected = right * ideal + (1.0 - right) * any;
                 let deviation = (expected * (1.0 - expected) / shots as f64).sqrt();
