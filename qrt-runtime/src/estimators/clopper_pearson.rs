@@ -106,11 +106,14 @@ mod tests {
                     );
                     if hits > 0 {
                         let found = tail(n, low, hits..=n);
-                        assert!((found / failure - 0.5).abs() < 1e-5, "{hits}/{n}: {found}");
+                        assert!((found / failure - 0.5).abs() < 1e-6, "{hits}/{n}: {found}");
                     }
                     if hits < n {
                         let found = tail(n, high, 0..=hits);
-                        assert!((found / failure - 0.5).abs() < 1e-5, "{hits}/{n}: {found}");
+                        // 1 - high has lost the bits that 1 is too large for.
+                        let lost = (n - hits) as f64 * f64::EPSILON / (1.0 - high);
+                        let off = (found / failure - 0.5).abs();
+                        assert!(off < 1e-6 + lost, "{hits}/{n}: {found}");
                     }
                 }
             }
