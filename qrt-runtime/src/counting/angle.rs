@@ -16,6 +16,32 @@ impl Angle {
         Ok(Self(theta_of(good, total)))
     }
 
+    /// The angle, in turns of pi, whose sine is `|a - reference| / max(reference, 1 - reference)` for
+    /// a = S/N: what the shifted circuit turns by, in [0, 1/2]. `reference` is in [0, 1].
+    ///
+    /// # Errors
+    /// No ids, or more good ids than ids.
+    pub(crate) fn shifted(good: u64, total: u64, reference: f64) -> Result<Self, CountingError> {
+        check_counts(good, total)?;
+        let reference = Double::from(reference);
+        let rest = Double::ONE - reference;
+        let scale = if reference.hi > 0.5 { reference } else { rest };
+        let part = |ids: u64| Double::from(ids).divide(Double::from(total));
+        // From the nearer of 0 and 1, so that neither difference loses what the other has.
+        let difference = if good <= total - good {
+            part(good) - reference
+        } else {
+            rest - part(total - good)
+        };
+        let sine = difference.divide(scale);
+        let sine = if sine.hi < 0.0 { -sine } else { sine };
+        if sine.hi >= 1.0 {
+            return Ok(Self(Double::from(0.5)));
+        }
+        let rest = (Double::ONE - sine) * (Double::ONE + sine);
+        Ok(Self(double::theta(sine * sine, rest)))
+    }
+
     /// `sin^2(m pi theta)` and `cos^2(m pi theta)`, each to its own precision: absolute errors are
     /// below `m 2^-100`.
     pub(crate) fn sine_squared(self, multiple: u64) -> (f64, f64) {
@@ -85,6 +111,41 @@ mod tests {
                 (before, now) = (now, 2.0 * step * now - before);
             }
         }
+    }
+
+    /// Against the arc sine of `f64`, and where the sine is 0 or 1 exactly.
+    #[test]
+    fn shifted_angles_are_arc_sines() {
+        for (good, total) in [
+            (1_u64, 3_u64),
+            (300, 1000),
+            (0, 7),
+            (7, 7),
+            (1, 1 << 60),
+            (5, 8),
+        ] {
+            let amplitude = good as f64 / total as f64;
+            for reference in [0.0, 1e-9, 0.3, 0.5, 0.625, 0.999, 1.0] {
+                let angle = Angle::shifted(good, total, reference).unwrap();
+                let sine = (amplitude - reference).abs() / f64::max(reference, 1.0 - reference);
+                for multiple in [1_u64, 2, 3, 10, 1001] {
+                    let expected = libm::sin(multiple as f64 * libm::asin(sine)).powi(2);
+                    let (found, rest) = angle.sine_squared(multiple);
+                    let tolerance = 1e-12 * multiple as f64 / (1.0 - sine + 1e-12).sqrt();
+                    assert!(
+                        (found - expected).abs() < tolerance.min(1e-6),
+                        "{good}/{total} - {reference}, {multiple}: {found}, {expected}"
+                    );
+                    assert!((found + rest - 1.0).abs() < 1e-15);
+                }
+            }
+        }
+        assert_eq!(
+            Angle::shifted(5, 8, 0.625).unwrap().sine_squared(1 << 40).0,
+            0.0
+        );
+        assert_eq!(Angle::shifted(0, 8, 1.0).unwrap().sine_squared(1).0, 1.0);
+        assert!(Angle::shifted(2, 1, 0.5).is_err());
     }
 
     /// 2^40 turns of 1/3: theta = 1/3 for S/N = 3/4, so m theta depends on m modulo 3 alone.

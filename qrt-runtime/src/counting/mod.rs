@@ -9,6 +9,7 @@
 //! * [`PhaseDistribution`]: `P(theta~ | theta)`, rectangular and sine window, and draws from it;
 //! * [`maximum_likelihood`]: the paper's inference, over every S in `0 ..= N`;
 //! * [`posterior_mean`]: the mean of the same data's posterior, and its interval;
+//! * [`LookupTable`]: that distribution the other way round, from an outcome to S;
 //! * [`Comparators`]: from colours to good ids, and from amplitudes to pixels.
 
 mod angle;
@@ -20,6 +21,7 @@ mod draw;
 mod error;
 mod kernel;
 mod likelihood;
+mod lookup;
 mod measured;
 mod posterior;
 #[cfg(test)]
@@ -33,5 +35,6 @@ pub(crate) use double::Double;
 pub use draw::Sampler;
 pub use error::{CountingError, MAX_PHASE_BITS, MAX_REPETITIONS};
 pub use likelihood::{MaximumLikelihood, ln_likelihood, maximum_likelihood, posterior};
+pub use lookup::{Column, LookupTable};
 pub(crate) use measured::good_id;
 pub use posterior::{Posterior, posterior_mean};

@@ -5,6 +5,8 @@
 //! that estimators run has a probability in closed form, from which it is drawn. `theta` is known to
 //! 104 bits: a shot after 2^40 iterations has the right probability to better than 1e-15.
 
+mod shifted;
+
 use super::{Estimate, EstimatorError, Noise};
 use crate::counting::{Angle, PhaseDistribution, binomial, good_id};
 use crate::random::Stream;

@@ -1,7 +1,6 @@
 //! What estimators refuse.
 
 use crate::counting::CountingError;
-use qrt_core::scene::Estimator;
 use std::fmt;
 
 /// Why an estimator cannot do what is asked.
@@ -20,8 +19,8 @@ pub enum EstimatorError {
     NoiseOutOfRange(f64),
     /// More Grover iterations between preparation and measurement than can be told apart.
     TooManyIterations(u64),
-    /// An estimator that this version does not have.
-    Unavailable(Estimator),
+    /// A reference from which amplitudes are measured that is not in [0, 1].
+    ReferenceOutOfRange(f64),
 }
 
 impl fmt::Display for EstimatorError {
@@ -46,13 +45,8 @@ impl fmt::Display for EstimatorError {
                 "{iterations} Grover iterations before a measurement; at most {}",
                 super::MAX_ITERATIONS
             ),
-            Self::Unavailable(estimator) => {
-                write!(f, "no estimator `{estimator}` in this version; there are ")?;
-                for (index, available) in super::AVAILABLE.iter().enumerate() {
-                    let separator = if index == 0 { "" } else { ", " };
-                    write!(f, "{separator}`{available}`")?;
-                }
-                Ok(())
+            Self::ReferenceOutOfRange(reference) => {
+                write!(f, "a reference of {reference} is not in [0, 1]")
             }
         }
     }

@@ -11,10 +11,12 @@
 //! queries, for the id that it measures is evaluated classically; without iterations it is a path
 //! of classical Monte Carlo, which is one query, too. Phase estimation with T phases takes T-1.
 
+mod abrams_williams;
 mod bayes;
 #[cfg(test)]
 mod budgets;
 mod clopper_pearson;
+mod coin;
 mod device;
 mod error;
 mod exact;
@@ -25,12 +27,17 @@ mod monte_carlo;
 mod noise;
 mod normal;
 mod posterior_mean;
+mod qss;
+mod quantum_coin;
+#[cfg(test)]
+mod rendering_tests;
 mod settings;
 #[cfg(test)]
 mod tests;
 mod turns;
 mod windowed;
 
+pub use abrams_williams::AbramsWilliams;
 pub use bayes::{AdaptiveBayes, RandomDepth};
 pub use device::{Device, MAX_ITERATIONS, Problem, Spent};
 pub use error::EstimatorError;
@@ -40,14 +47,16 @@ pub use mlae::Mlae;
 pub use monte_carlo::MonteCarlo;
 pub use noise::{Noise, NoiseError};
 pub use posterior_mean::PosteriorMean;
+pub use qss::Supersampling;
+pub use quantum_coin::QuantumCoin;
 pub use settings::{DEFAULT_CONFIDENCE, Settings};
 pub use windowed::WindowedCounting;
 
 use crate::random::Stream;
 use qrt_core::scene::{Counting, Estimator};
 
-/// The estimators of this version, by their names in scenes.
-pub const AVAILABLE: [Estimator; 11] = [
+/// All estimators, by their names in scenes.
+pub const AVAILABLE: [Estimator; 14] = [
     Estimator::Exact,
     Estimator::MonteCarlo,
     Estimator::Paper,
@@ -59,6 +68,9 @@ pub const AVAILABLE: [Estimator; 11] = [
     Estimator::Iqae,
     Estimator::Miqae,
     Estimator::Chebyshev,
+    Estimator::Qss,
+    Estimator::Qcoin,
+    Estimator::AbramsWilliams,
 ];
 
 /// An estimated amplitude, and what it took.
@@ -105,7 +117,7 @@ pub trait AmplitudeEstimator {
 ///
 /// # Errors
 ///
-/// An estimator that this version does not have, or a setting out of range.
+/// A setting out of range.
 pub fn estimator(
     name: Estimator,
     settings: &Settings,
@@ -123,7 +135,9 @@ pub fn estimator(
         Estimator::Miqae => Box::new(Miqae::new(settings)),
         Estimator::Chebyshev => Box::new(Chebyshev::new(settings)),
         Estimator::MonteCarlo => Box::new(MonteCarlo::new(settings)),
-        _ => return Err(EstimatorError::Unavailable(name)),
+        Estimator::Qss => Box::new(Supersampling::new(settings)),
+        Estimator::Qcoin => Box::new(QuantumCoin::new(settings)),
+        Estimator::AbramsWilliams => Box::new(AbramsWilliams::new(settings)),
     })
 }
 
@@ -132,7 +146,7 @@ pub fn estimator(
 ///
 /// # Errors
 ///
-/// An estimator that this version does not have, or a problem or a setting out of range.
+/// A problem or a setting out of range.
 ///
 /// ```
 /// use qrt_core::scene::{Counting, Estimator, Window};

@@ -45,6 +45,13 @@ impl Noise {
         survives(self.depolarising, queries)
     }
 
+    /// The probability that a shot of the shifted circuit among `total` ids survives `queries`, and
+    /// that its ids and its coin are read rightly.
+    pub fn coin_intact(&self, queries: u64, total: u64) -> f64 {
+        let bits = u64::BITS - (total - 1).leading_zeros();
+        self.intact(queries) * self.read_rightly(bits + 1)
+    }
+
     /// The probability that `bits` are all read rightly.
     pub fn read_rightly(&self, bits: u32) -> f64 {
         survives(self.readout, u64::from(bits))

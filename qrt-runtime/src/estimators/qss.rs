@@ -1,0 +1,82 @@
+//! `qss`: quantum supersampling.
+
+use std::sync::{Arc, Mutex, PoisonError};
+
+use super::{AmplitudeEstimator, Device, Estimate, EstimatorError, Noise, Settings};
+use crate::counting::LookupTable;
+use qrt_core::scene::Window;
+
+/// Tables that one estimator keeps.
+const TABLES: usize = 8;
+
+/// `qss`: phase estimation of the Grover iterate, and a look-up table from what the counter reads
+/// to the estimate (Johnston, *Quantum supersampling*, SIGGRAPH 2016 talks; Johnston, Harrigan &
+/// Gimeno-Segovia, *Programming quantum computers*, 2019, chapter 11). See [`LookupTable`].
+///
+/// Johnston runs the circuit once a pixel, and so does B = 1. He has no rule for B > 1; here each
+/// reading is looked up, and the lower median of the readings counts.
+///
+/// Interval: the fractions around the reading that gather `confidence` of its column. That is a
+/// probability if all S were equally likely before, and so for S/N uniform in [0, 1]. For one given
+/// S it may be less: halfway between two readings a single reading's interval of 95 % holds S/N
+/// with probability 0.90. Known noise flattens the table: a register that is destroyed, or that has
+/// a bit read wrongly, is taken to read anything. As soon as that is as probable as what may fail,
+/// intervals are wide.
+#[derive(Debug)]
+pub struct Supersampling {
+    phase_bits: u32,
+    repetitions: u32,
+    confidence: f64,
+    known_noise: Noise,
+    tables: Mutex<Vec<Arc<LookupTable>>>,
+}
+
+impl Supersampling {
+    pub(super) fn new(settings: &Settings) -> Self {
+        Self {
+            phase_bits: settings.phase_bits,
+            repetitions: settings.repetitions,
+            confidence: settings.confidence,
+            known_noise: settings.known_noise,
+            tables: Mutex::default(),
+        }
+    }
+
+    /// The table for N ids, made when it is first wanted.
+    ///
+    /// # Errors
+    /// No ids.
+    pub fn table(&self, total: u64) -> Result<Arc<LookupTable>, EstimatorError> {
+        let mut tables = self.tables.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(table) = tables.iter().find(|table| table.total() == total) {
+            return Ok(table.clone());
+        }
+        let depth = (1 << self.phase_bits) - 1;
+        let noise = self.known_noise;
+        let intact = noise.intact(depth) * noise.read_rightly(self.phase_bits);
+        let table = LookupTable::new(total, self.phase_bits, self.confidence, intact)?;
+        let table = Arc::new(table);
+        if tables.len() == TABLES {
+            tables.remove(0);
+        }
+        tables.push(table.clone());
+        Ok(table)
+    }
+}
+
+impl AmplitudeEstimator for Supersampling {
+    fn estimate(&self, device: &mut Device<'_>) -> Result<Estimate, EstimatorError> {
+        let start = device.spent();
+        let total = device.total();
+        let table = self.table(total)?;
+        let mut readings = device.phases(self.phase_bits, Window::Rect, self.repetitions)?;
+        readings.sort_unstable();
+        let column = table.column(readings[(readings.len() - 1) / 2])?;
+        let amplitude = column.good as f64 / total as f64;
+        Ok(Estimate {
+            good: Some(column.good),
+            ln_likelihood: (self.repetitions == 1).then_some(column.ln_likelihood),
+            ..device.estimate(start, amplitude, column.interval, self.confidence)
+        })
+    }
+}
