@@ -1,12 +1,61 @@
 //! A scene's program as the builder recorded it, from which the oracles of channels are assembled.
 
+use super::nearest::listable;
 use super::{Channel, DEFAULT_FRACTION, Options, Oracle, OracleError, faces, register_of};
-use crate::circuit::builder::{Builder, NamedPlace, Recorded, Target};
+use crate::circuit::builder::{Builder, NamedPlace, Real, Recorded, Target};
 use crate::circuit::{self, Operand, RegisterId, Role, Style, Type, Word};
 use crate::sampling::PathPoints;
 use crate::scene::{Nearest, Uncompute};
-use crate::tracer::{Records, Stage, trace};
+use crate::tracer::{self, FirstGiven, Listing, Records, Stage, trace};
 use crate::valid::ValidScene;
+
+/// How the first ray's hit comes about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum FirstHit {
+    /// The tracer finds it.
+    Traced,
+    /// It is given in a register.
+    Given,
+}
+
+/// What a program of `scene` is built for.
+pub(super) fn target<'a, const C: usize>(
+    scene: &ValidScene,
+    stage: &Stage<C>,
+    points: &'a PathPoints,
+    options: Options,
+) -> Target<'a> {
+    let written = scene.scene();
+    let scoped = written.circuit.uncompute == Uncompute::Scoped;
+    let own = if scoped { Style::Lean } else { Style::Wide };
+    Target {
+        fraction: written.precision.fraction.unwrap_or(DEFAULT_FRACTION),
+        style: options.style.unwrap_or(own),
+        points,
+        film: [written.film.width, written.film.height],
+        faces: faces(stage),
+        passes: options.passes,
+    }
+}
+
+/// The colours of a path, and the register of its first hit if that is given.
+fn record<'a, N: tracer::Nearest<Builder<'a>>, const C: usize>(
+    builder: &mut Builder<'a>,
+    stage: &Stage<C>,
+    nearest: &N,
+    first: FirstHit,
+) -> Result<([Real; C], Option<RegisterId>), OracleError> {
+    let list = Listing::new(stage);
+    if first == FirstHit::Traced || list.is_empty() {
+        return Ok((trace(builder, stage, nearest), None));
+    }
+    listable(&list)?;
+    // One number more than faces: that of none.
+    let width = list.len().ilog2() + 1;
+    let (register, face) = builder.given_index("nearest", Role::Id, width);
+    let nearest = FirstGiven::new(&list, face, nearest);
+    Ok((trace(builder, stage, &nearest), Some(register)))
+}
 
 /// What was recorded, and what is known of it: `known` is an oracle without a program.
 pub(super) struct Recording {
@@ -22,30 +71,21 @@ impl Recording {
         scene: &ValidScene,
         channels: [usize; C],
         options: Options,
+        first: FirstHit,
     ) -> Result<Self, OracleError> {
         let written = scene.scene();
         let stage = Stage::new(scene, channels).relative();
         let points = PathPoints::new(&written.sampling)?;
-        let film = [written.film.width, written.film.height];
-        let fraction = written.precision.fraction.unwrap_or(DEFAULT_FRACTION);
+        let target = target(scene, &stage, &points, options);
+        let (film, fraction) = (target.film, target.fraction);
         let scoped = written.circuit.uncompute == Uncompute::Scoped;
-        let style = options
-            .style
-            .unwrap_or(if scoped { Style::Lean } else { Style::Wide });
-        let mut builder = Builder::new(Target {
-            fraction,
-            style,
-            points: &points,
-            film,
-            faces: faces(&stage),
-            passes: options.passes,
-        });
+        let mut builder = Builder::new(target);
         let bits = written.comparator.bits;
         let comparator = builder.outside("comparator", Type::UInt, Role::Comparator, bits);
         let flag = builder.outside("flag", Type::Bool, Role::Flag, 1);
-        let colours = match written.circuit.nearest {
-            Nearest::Running => trace(&mut builder, &stage, stage.geometry()),
-            Nearest::Paper => trace(&mut builder, &stage, &Records(&stage)),
+        let (colours, nearest) = match written.circuit.nearest {
+            Nearest::Running => record(&mut builder, &stage, stage.geometry(), first)?,
+            Nearest::Paper => record(&mut builder, &stage, &Records(&stage), first)?,
         };
         let mut outputs = Vec::new();
         for (k, &colour) in colours.iter().enumerate() {
@@ -70,6 +110,7 @@ impl Recording {
             channels: outputs,
             id,
             comparator,
+            nearest,
             flag,
             fraction,
             points,
@@ -94,7 +135,8 @@ impl Recording {
             .collect();
         let roots = outputs.iter().flat_map(|o| [o.colour, o.count]);
         let roots: Vec<RegisterId> = roots.filter_map(register_of).collect();
-        let inputs = [self.known.id, self.known.comparator];
+        let mut inputs = vec![self.known.id, self.known.comparator];
+        inputs.extend(self.known.nearest);
         let (mut program, renamed) = circuit::assemble(
             self.recorded.clone(),
             &roots,
