@@ -24,7 +24,7 @@ pub use gates::{Dirty, Gates, InvalidGate, Rows};
 pub use instructions::InstructionSet;
 pub use native::NativeOracle;
 pub use nearest::{Answers, Asked, Candidate, NearestMachine};
-pub use oracle::{Defect, Finished, OracleMachine, Parts};
+pub use oracle::{Defect, Finished, FirstHits, OracleMachine, Parts, PathRun};
 pub use rays::{Met, SingleRay};
 pub use real::{Block, PixelSum, Points, Real, Simd};
 pub use span::Span;
