@@ -25,6 +25,8 @@ const PARTS: u64 = 1 << 12;
 pub(super) struct Totals {
     colour: [Sum; 3],
     good: [u64; 3],
+    /// Queries that first hits took.
+    queries: u64,
     /// Paths out of bounds, and the colour of the first.
     stray: [(u64, f64); 3],
 }
@@ -134,6 +136,7 @@ impl Pixels {
             }
             Source::Oracle(machine) => machine.trace(pixels, ids, |finished| {
                 let totals = &mut totals[finished.pixel];
+                totals.queries += finished.queries;
                 for (total, good) in totals.good.iter_mut().zip(finished.good) {
                     *total += good.iter().sum::<i64>().cast_unsigned();
                 }
@@ -215,7 +218,7 @@ impl Pixels {
     pub(super) fn finish(&self, pixel: [u32; 2], totals: &Totals) -> Result<Pixel, RenderError> {
         let mut finished = Pixel {
             colour: [0.0; 3],
-            queries: 0,
+            queries: totals.queries,
             good: match self.source {
                 Source::Real(_) => [0; 3],
                 Source::Oracle(_) => totals.good,
@@ -263,6 +266,7 @@ impl Pixels {
 impl Totals {
     /// Adds the totals of later ids.
     fn append(&mut self, later: &Self) {
+        self.queries += later.queries;
         for channel in 0..3 {
             self.colour[channel].append(&later.colour[channel]);
             self.good[channel] += later.good[channel];

@@ -30,8 +30,7 @@
 mod first_hits;
 mod minimum;
 mod rounds;
-#[cfg(test)]
-mod tests;
+
 
 pub use first_hits::{FoundHits, Guess, Method};
 pub use minimum::Search;
