@@ -2,7 +2,6 @@
 
 use qrt::core::sampling::PathPoints;
 use qrt::core::scene::Camera;
-use qrt::core::tracer::Stage;
 use qrt::core::valid::ValidScene;
 
 type V = [f64; 3];
@@ -46,8 +45,14 @@ pub struct Meeting {
     pub length: f64,
 }
 
-/// The ray of a path, and its meetings with all polygons of the scene.
-pub fn meetings(scene: &ValidScene, seed: u64, pixel: [u32; 2], id: u64) -> Vec<Meeting> {
+/// What the ray of a path has to do with all polygons of the scene, whose unit is `scale` stage units.
+pub fn meetings(
+    scene: &ValidScene,
+    scale: f64,
+    seed: u64,
+    pixel: [u32; 2],
+    id: u64,
+) -> Vec<Meeting> {
     let written = scene.scene();
     let points = PathPoints::new(&written.sampling).unwrap();
     let at = |axis: usize| {
@@ -74,7 +79,6 @@ pub fn meetings(scene: &ValidScene, seed: u64, pixel: [u32; 2], id: u64) -> Vec<
     } else {
         (moved(eye), forward)
     };
-    let scale = Stage::rgb(scene).geometry().scale;
     let polygons = scene.polygons().iter();
     polygons
         .map(|polygon| {

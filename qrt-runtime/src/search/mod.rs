@@ -30,7 +30,8 @@
 mod first_hits;
 mod minimum;
 mod rounds;
-
+#[cfg(test)]
+mod tests;
 
 pub use first_hits::{FoundHits, Guess, Method};
 pub use minimum::Search;

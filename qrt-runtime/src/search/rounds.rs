@@ -76,9 +76,9 @@ fn angle(marked: usize, states: usize) -> f64 {
 /// Santos (2024), with its constant derived.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rounds {
-    states: usize,
-    counts: Vec<u64>,
-    failure: f64,
+    pub(super) states: usize,
+    pub(super) counts: Vec<u64>,
+    pub(super) failure: f64,
 }
 
 impl Rounds {
