@@ -4,8 +4,8 @@
 
 mod rays;
 
-use qrt::core::front;
 use qrt::core::circuit::lower;
+use qrt::core::front;
 use qrt::core::oracle::NearestOracle;
 use qrt::core::tracer::Stage;
 use qrt::core::valid::ValidScene;
@@ -25,7 +25,9 @@ fn from_file(file: &str, sets: &[&str]) -> ValidScene {
 }
 
 fn from_text(text: &str) -> ValidScene {
-    front::parse(text, "scene.yaml", &[], "".as_ref()).unwrap().valid
+    front::parse(text, "scene.yaml", &[], "".as_ref())
+        .unwrap()
+        .valid
 }
 
 fn oracle(scene: &ValidScene) -> Arc<NearestOracle> {
@@ -51,7 +53,10 @@ fn some_rays(scene: &ValidScene, count: u64) -> Vec<Asked> {
 fn tolerance(oracle: &NearestOracle, met: &Meeting) -> [f64; 2] {
     let ulp = 1.0 / f64::from(1_u32 << oracle.fraction);
     let distance = ulp * (2.0 + 4.0 * met.distance.abs()) * (1.0 + 1.0 / met.slope);
-    [distance, met.length * distance + 4.0 * ulp * (1.0 + met.distance.abs())]
+    [
+        distance,
+        met.length * distance + 4.0 * ulp * (1.0 + met.distance.abs()),
+    ]
 }
 
 /// Every face and many rays against textbook geometry, as far as rounding leaves no doubt; at most
@@ -69,7 +74,11 @@ fn marks_what_is_met(scene: &ValidScene, count: u64, doubt: f64) {
         let all = meetings(scene, scale, SEED, ray.pixel, ray.id);
         let marks = answers.marks(place);
         for (number, &mark) in marks.iter().enumerate() {
-            let Some(&label) = oracle.labels.get(number).filter(|_| number < oracle.faces()) else {
+            let Some(&label) = oracle
+                .labels
+                .get(number)
+                .filter(|_| number < oracle.faces())
+            else {
                 assert!(!mark, "{ray:?} meets number {number} of {}", oracle.faces());
                 continue;
             };
@@ -101,7 +110,10 @@ fn marks_what_is_met(scene: &ValidScene, count: u64, doubt: f64) {
     }
     println!("{met} met, {missed} missed, {doubtful} doubtful");
     assert!(met >= count / 2 && missed >= count / 2);
-    assert!(doubtful as f64 <= doubt * (met + missed) as f64, "{doubtful} of {met}, {missed}");
+    assert!(
+        doubtful as f64 <= doubt * (met + missed) as f64,
+        "{doubtful} of {met}, {missed}"
+    );
 }
 
 #[test]
@@ -225,7 +237,10 @@ fn of_faces_in_one_plane_the_first_listed_is_nearest() {
     let mut ties = 0;
     for place in 0..rays.len() {
         let met = met(&answers, place);
-        let of = |label: u32| met.iter().find(|met| oracle.labels[met.primitive as usize] == label);
+        let of = |label: u32| {
+            met.iter()
+                .find(|met| oracle.labels[met.primitive as usize] == label)
+        };
         if let (Some(triangle), Some(quad)) = (of(1), of(2)) {
             assert_eq!(triangle.distance, quad.distance);
             assert!(triangle < quad);
@@ -285,7 +300,10 @@ fn a_circuit_that_leaves_something_behind_is_refused() {
         tampered[2].gates.remove(gate);
         // Some gates do nothing for so few rays; the last one is an X or a copy of the ray's id.
         if gate > last / 2 {
-            assert!(ask(tampered).is_err(), "gate {gate} of {last} is not missed");
+            assert!(
+                ask(tampered).is_err(),
+                "gate {gate} of {last} is not missed"
+            );
         }
     }
 }
@@ -329,7 +347,10 @@ fn iterates_of_the_circuits_signs_turn_by_the_angle_of_theory() {
             };
             let probability: f64 = of(true).sum();
             let theory = marked_probability(iterations, marked, signs.len());
-            assert!((probability - theory).abs() < 1e-13, "{marked}: {probability}, {theory}");
+            assert!(
+                (probability - theory).abs() < 1e-13,
+                "{marked}: {probability}, {theory}"
+            );
             // Marked states are as likely as each other, and so are the others.
             for class in [true, false] {
                 let (least, most) = of(class).fold((1.0_f64, 0.0_f64), |(least, most), p| {

@@ -60,13 +60,20 @@ pub fn meetings(
         let cells = f64::from(1_u32 << points.bits(0, axis));
         (f64::from(points.index(0, axis, id, shift)) + 0.5) / cells
     };
-    let (width, height) = (f64::from(written.film.width), f64::from(written.film.height));
+    let (width, height) = (
+        f64::from(written.film.width),
+        f64::from(written.film.height),
+    );
     let x = (2.0 * (f64::from(pixel[0]) + at(0)) / width - 1.0) * width / height;
     let y = 1.0 - 2.0 * (f64::from(pixel[1]) + at(1)) / height;
     let (eye, target, up, half, perspective) = match &written.camera {
-        Camera::Perspective(c) => {
-            (c.eye, c.target, c.up, (c.vfov.to_radians() / 2.0).tan(), true)
-        }
+        Camera::Perspective(c) => (
+            c.eye,
+            c.target,
+            c.up,
+            (c.vfov.to_radians() / 2.0).tan(),
+            true,
+        ),
         Camera::Orthographic(c) => (c.eye, c.target, c.up, c.height / 2.0, false),
     };
     let (eye, target, up) = (eye.to_array(), target.to_array(), up.to_array());

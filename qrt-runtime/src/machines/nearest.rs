@@ -189,12 +189,7 @@ impl NearestMachine {
         Ok(())
     }
 
-    fn run(
-        &self,
-        block: &Block,
-        marks: &mut [bool],
-        distances: &mut [i64],
-    ) -> Result<(), Defect> {
+    fn run(&self, block: &Block, marks: &mut [bool], distances: &mut [i64]) -> Result<(), Defect> {
         if let Operand::Constant(value) = self.oracle.distance {
             distances.fill(value);
         }

@@ -21,9 +21,9 @@ fn find(rounds: &Rounds, ranks: &[usize], guess: Option<usize>, stream: Stream) 
         }
         search.run(rounds, &marks, &distances);
     }
-    let found = search.nearest().map_or(usize::MAX, |found| {
-        ranks[found.primitive as usize]
-    });
+    let found = search
+        .nearest()
+        .map_or(usize::MAX, |found| ranks[found.primitive as usize]);
     (found, search.queries())
 }
 
@@ -45,7 +45,10 @@ fn a_rounds_success_is_the_mean_over_its_iterations() {
                 let each = (0..count).map(|k| marked_probability(k, marked, states));
                 let mean = each.sum::<f64>() / count as f64;
                 let closed = success(count, marked, states);
-                assert!((mean - closed).abs() < 1e-12, "{states}, {marked}: {mean}, {closed}");
+                assert!(
+                    (mean - closed).abs() < 1e-12,
+                    "{states}, {marked}: {mean}, {closed}"
+                );
             }
         }
     }
@@ -77,7 +80,11 @@ fn there_are_as_many_rounds_as_the_failure_asks_for_and_no_more() {
 fn no_probability_is_an_error() {
     for failure in [0.0, -0.1, 1.0, 2.0, 1e-16, f64::NAN, f64::INFINITY] {
         let error = Rounds::new(8, 5, failure).unwrap_err();
-        assert!(error.to_string().contains("a search cannot fail with probability"));
+        assert!(
+            error
+                .to_string()
+                .contains("a search cannot fail with probability")
+        );
     }
     assert!(Rounds::new(8, 5, LEAST_FAILURE).is_ok());
 }
@@ -92,19 +99,31 @@ fn a_search_misses_what_it_may_and_no_more_often() {
         let runs = (0..RUNS).filter(|&run| {
             let ranks = shuffled(faces, dice);
             let guess = guess.map(|rank| ranks.iter().position(|&r| r == rank).unwrap());
-            find(&rounds, &ranks, guess, Stream::of_path(6, 0, 0, 9, u64::from(run))).0 != 0
+            find(
+                &rounds,
+                &ranks,
+                guess,
+                Stream::of_path(6, 0, 0, 9, u64::from(run)),
+            )
+            .0 != 0
         });
         runs.count() as f64 / f64::from(RUNS)
     };
     let sigma = |p: f64| (p * (1.0 - p) / f64::from(RUNS)).sqrt();
     let random = missed(None, &mut dice);
-    assert!(random <= rounds.failure() + 4.0 * sigma(failure), "{random}");
+    assert!(
+        random <= rounds.failure() + 4.0 * sigma(failure),
+        "{random}"
+    );
     // It is a bound on what does happen: not all of it is slack.
     assert!(random > 0.2 * failure, "{random}");
     // From the second nearest there is one step left.
     let second = missed(Some(1), &mut dice);
     let exact = rounds.miss(1);
-    assert!((second - exact).abs() < 4.0 * sigma(exact), "{second}, {exact}");
+    assert!(
+        (second - exact).abs() < 4.0 * sigma(exact),
+        "{second}, {exact}"
+    );
     // Who begins at the nearest cannot miss it.
     assert_eq!(missed(Some(0), &mut dice), 0.0);
 }
@@ -125,7 +144,10 @@ fn queries_to_the_minimum_stay_below_the_published_bound() {
         let log = (states as f64).log2();
         let bound = 22.5 * (states as f64).sqrt() + 1.4 * log * log;
         assert!(mean < bound, "{states}: {mean} of {bound}");
-        assert!(mean < 0.5 * states as f64 || states < 1000, "{states}: {mean}");
+        assert!(
+            mean < 0.5 * states as f64 || states < 1000,
+            "{states}: {mean}"
+        );
     }
 }
 
@@ -141,5 +163,9 @@ fn a_search_for_nothing_gives_up_after_the_queries_that_are_stated() {
         sum += search.queries();
     }
     let mean = sum as f64 / runs as f64;
-    assert!((mean / rounds.fruitless() - 1.0).abs() < 0.02, "{mean}, {}", rounds.fruitless());
+    assert!(
+        (mean / rounds.fruitless() - 1.0).abs() < 0.02,
+        "{mean}, {}",
+        rounds.fruitless()
+    );
 }
