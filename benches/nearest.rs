@@ -1,16 +1,16 @@
 //! What finding first hits by quantum search takes: queries over the number of faces P.
 //!
-//! `cargo bench --bench nearest` prints, for scenes of 4 to 1,024 faces (parallelograms askew before a
-//! perspective camera; rectangles along the axes before an orthographic one, as in Alves 2019) and for
-//! example scenes, mean queries a ray
+//! `cargo bench --bench nearest` prints, for scenes of 4 to 1,024 faces (parallelograms askew
+//! before a perspective camera; rectangles along the axes before an orthographic one, as in Alves
+//! 2019) and for example scenes, mean queries a ray
 //!
 //! * of a search that begins with nothing, and of one that begins with what the path before it met,
 //! * against P, which asking about every face takes, and against sqrt(P),
 //! * against 22.5 sqrt(N) + 1.4 (log2 N)^2, after which Durr & Hoyer (1996) have found the minimum
 //!   with probability 1/2;
 //!
-//! the rays whose nearest face was missed, beside the bound on their share; Toffolis and qubits of a
-//! query; and the exponents that fit best. It fails where a promise is broken.
+//! the rays whose nearest face was missed, beside the bound on their share; Toffolis and qubits of
+//! a query; and the exponents that fit best. It fails where a promise is broken.
 
 // A bench that cannot run has nothing to report.
 #![allow(clippy::unwrap_used, clippy::expect_used)]

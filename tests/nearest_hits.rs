@@ -1,5 +1,5 @@
-//! The oracle of nearest hits marks the faces that textbook geometry says it should, the same ones on
-//! integers and gate by gate, and what Grover's iterate makes of it is what theory says.
+//! The oracle of nearest hits marks the faces that textbook geometry says it should, the same ones
+//! on integers and gate by gate, and what Grover's iterate makes of it is what theory says.
 #![allow(clippy::unwrap_used)]
 
 mod rays;
@@ -137,7 +137,8 @@ sampling: { path_bits: 6, depths: [{ bits: [5, 5] }] }
 precision: { fraction: 10 }
 ";
 
-/// Faces that overlap in one plane, a copy of one of them, two that meet in an edge, and one behind.
+/// Faces that overlap in one plane, a copy of one of them, two that meet in an edge, and one
+/// behind.
 const OVERLAPS: &str = "
 name: overlaps
 camera: { perspective: { eye: [0.25, 0.125, 3], target: [0, 0, 0], vfov: 40 } }
@@ -166,7 +167,8 @@ fn met(answers: &Answers, ray: usize) -> Vec<Candidate> {
 }
 
 /// Both machines say the same of every basis state, and mark what is before the nearest so far:
-/// nearer, or as near and listed first. All qubits come back as they were, or the gates machine refuses.
+/// nearer, or as near and listed first. All qubits come back as they were, or the gates machine
+/// refuses.
 fn marks_what_is_nearer(scene: &ValidScene, count: u64) {
     let oracle = oracle(scene);
     let fixed = NearestMachine::fixed(oracle.clone(), SEED);

@@ -1,5 +1,5 @@
-//! Pictures whose first hits are searched for: the same picture where the search does not fail, a wrong
-//! one where it does, and a refusal where there is nothing to search with.
+//! Pictures whose first hits are searched for: the same picture where the search does not fail, a
+//! wrong one where it does, and a refusal where there is nothing to search with.
 #![allow(clippy::unwrap_used)]
 
 use qrt::core::front;

@@ -160,8 +160,8 @@ impl Oracle {
     }
 
     /// [`Oracle::rgb`] of paths whose first hits were found before: the number of the face in the
-    /// scene's [`NearestOracle`], or the number of its faces for none, is an input. Everything after
-    /// the first hit is traced as ever. A scene without faces has no such input.
+    /// scene's [`NearestOracle`], or the number of its faces for none, is an input. Everything
+    /// after the first hit is traced as ever. A scene without faces has no such input.
     ///
     /// # Errors
     /// As [`Oracle::new`], and if there are more than [`MOST_FACES`] faces.

@@ -45,7 +45,8 @@ pub struct Meeting {
     pub length: f64,
 }
 
-/// What the ray of a path has to do with all polygons of the scene, whose unit is `scale` stage units.
+/// What the ray of a path has to do with all polygons of the scene, whose unit is `scale` stage
+/// units.
 pub fn meetings(
     scene: &ValidScene,
     scale: f64,

@@ -11,18 +11,19 @@
 //! ```
 //!
 //! Pairs are compared by their distances and, where these are equal, by their numbers: so the least
-//! of all is what a running nearest keeps that asks about the faces in turn. `best` is classical: what
-//! the search has measured last. Without one it reads the greatest distance there is, which nothing is
-//! nearer than by number, so that every face that the ray meets is marked.
+//! of all is what a running nearest keeps that asks about the faces in turn. `best` is classical:
+//! what the search has measured last. Without one it reads the greatest distance there is, which
+//! nothing is nearer than by number, so that every face that the ray meets is marked.
 //!
 //! Grover's iterate over `primitive` finds a marked one (Lanzagorta & Uhlmann, *Quantum rendering*,
-//! 2005); searched again with what was found as `best`, the minimum (Durr & Hoyer 1996). The ray, the
-//! plane and the edges are those of the tracer (see [`crate::tracer::Listing`]), in fixed point. A face's
-//! data are rounded to the scene's fraction bits, where a circuit with a constant for each face can round
-//! products with it as a whole: the two may differ in a distance's last bits, and so at faces' edges.
+//! 2005); searched again with what was found as `best`, the minimum (Durr & Hoyer 1996). The ray,
+//! the plane and the edges are those of the tracer (see [`crate::tracer::Listing`]), in fixed
+//! point. A face's data are rounded to the scene's fraction bits, where a circuit with a constant
+//! for each face can round products with it as a whole: the two may differ in a distance's last
+//! bits, and so at faces' edges.
 //!
-//! There are `2^m` basis states for P faces, m the least above 0 with `2^m >= P`. Those beyond P meet
-//! nothing.
+//! There are `2^m` basis states for P faces, m the least above 0 with `2^m >= P`. Those beyond P
+//! meet nothing.
 
 use super::recording::target;
 use super::{Options, OracleError, register_of};
@@ -36,7 +37,8 @@ use crate::scene::Uncompute;
 use crate::tracer::{Arith, Listing, Named, Part, Stage};
 use crate::valid::ValidScene;
 
-/// Most faces of a table that is looked up by a face's number: one number of 16 bits stands for none.
+/// Most faces of a table that is looked up by a face's number: one number of 16 bits stands for
+/// none.
 pub const MOST_FACES: usize = (1 << 16) - 1;
 
 /// The oracle of a scene's nearest hits: see [the module](self).
@@ -53,8 +55,8 @@ pub struct NearestOracle {
     pub best_distance: RegisterId,
     /// Its number.
     pub best_primitive: RegisterId,
-    /// The face's distance, in units of `2^-fraction` of the ray's direction; anything where the ray
-    /// does not meet it.
+    /// The face's distance, in units of `2^-fraction` of the ray's direction; anything where the
+    /// ray does not meet it.
     pub distance: Operand,
     /// Is the face nearer than the nearest so far? Or what it is on every path.
     pub nearer: Result<Bit, bool>,

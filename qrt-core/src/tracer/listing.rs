@@ -1,9 +1,9 @@
 //! The faces as a list: one that is in superposition, looked up by its place.
 //!
-//! [`super::Geometry`] holds faces as constants: a machine that asks about all of them in turn folds
-//! them into its code. A [`Listing`] holds the same faces as rows of tables, for a machine that asks
-//! about one face whose number is a register's. The intersection is the same: where a ray crosses a
-//! plane ([`super::cross`]), and whether that lies within the edges.
+//! [`super::Geometry`] holds faces as constants: a machine that asks about all of them in turn
+//! folds them into its code. A [`Listing`] holds the same faces as rows of tables, for a machine
+//! that asks about one face whose number is a register's. The intersection is the same: where a ray
+//! crosses a plane ([`super::cross`]), and whether that lies within the edges.
 
 use super::geometry::{NO_FACE, Slab};
 use super::intersect::{Crossing, Edges, Hit, Nearest, Ray, Turned, cross, meets};
@@ -14,8 +14,8 @@ use std::cell::Cell;
 /// is the nearest. See [the module](self).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Listing {
-    /// Where rays start, if all of them start at one point: what of planes and edges depends on it is
-    /// in the tables.
+    /// Where rays start, if all of them start at one point: what of planes and edges depends on it
+    /// is in the tables.
     viewpoint: [f64; 3],
     /// By face: the main axis of its plane.
     axes: Vec<u32>,

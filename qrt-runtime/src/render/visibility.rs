@@ -1,9 +1,9 @@
 //! How a path's first hit is found.
 //!
-//! Under [`Visibility::Grover`] that is a search of its own for every path, with an oracle of nearest
-//! hits (Lanzagorta & Uhlmann 2005; Alves 2019; Santos 2024), and integration is classical: paths are
-//! taken one by one, and the pixel is their mean. What follows the first hit is traced as ever, by the
-//! same program but for its first intersection, which is given: see
+//! Under [`Visibility::Grover`] that is a search of its own for every path, with an oracle of
+//! nearest hits (Lanzagorta & Uhlmann 2005; Alves 2019; Santos 2024), and integration is classical:
+//! paths are taken one by one, and the pixel is their mean. What follows the first hit is traced as
+//! ever, by the same program but for its first intersection, which is given: see
 //! [`qrt_core::oracle::Oracle::given_first_hit`].
 
 use super::{Model, Options, RenderError};
@@ -14,7 +14,8 @@ use qrt_core::scene::{Estimator, Scene};
 use qrt_core::valid::ValidScene;
 use std::sync::Arc;
 
-/// The probability with which a ray's search may miss the nearest face, unless another is asked for.
+/// The probability with which a ray's search may miss the nearest face, unless another is asked
+/// for.
 pub const DEFAULT_FAILURE: f64 = 1e-3;
 
 /// How a path's first hit is found.
@@ -23,8 +24,8 @@ pub enum Visibility {
     /// By the tracer, which asks about all faces, like all other hits.
     #[default]
     Classical,
-    /// By asking the oracle of nearest hits about every face, and taking the least: the picture of a
-    /// search that never fails.
+    /// By asking the oracle of nearest hits about every face, and taking the least: the picture of
+    /// a search that never fails.
     Exhaustive,
     /// By searching with that oracle.
     Grover {

@@ -5,8 +5,8 @@ use crate::machines::{Answers, Asked, Candidate, Defect, FirstHits, NearestMachi
 use crate::random::Stream;
 
 /// Paths in turn of which each takes the hit of the one before as its first guess. Chains begin at
-/// multiples of this; blocks of paths and the paths of a pixel are whole chains or shorter than one, so
-/// that nothing depends on how paths are cut into blocks.
+/// multiples of this; blocks of paths and the paths of a pixel are whole chains or shorter than
+/// one, so that nothing depends on how paths are cut into blocks.
 const CHAIN: usize = 16;
 
 /// Basis states whose answers are held at a time, unless one ray alone has more.

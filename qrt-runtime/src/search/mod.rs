@@ -1,31 +1,33 @@
-//! Quantum search: the nearest of the faces that a ray meets, in about the square root of their number
-//! of queries.
+//! Quantum search: the nearest of the faces that a ray meets, in about the square root of their
+//! number of queries.
 //!
 //! Of the `N = 2^m` basis states of a face's number, M are marked by the oracle of nearest hits
-//! ([`crate::machines::NearestMachine`]): those that the ray meets nearer than the nearest so far. From
-//! the uniform superposition, k iterations of Grover's iterate make the measured number a marked one
-//! with probability
+//! ([`crate::machines::NearestMachine`]): those that the ray meets nearer than the nearest so far.
+//! From the uniform superposition, k iterations of Grover's iterate make the measured number a
+//! marked one with probability
 //!
 //! ```text
 //! sin^2((2k + 1) theta),      sin theta = sqrt(M / N),
 //! ```
 //!
-//! each marked one as likely as another; so do the unmarked ones share the rest, for the amplitudes never
-//! leave the plane of the two uniform superpositions. M is unknown, and so is the best k: it is drawn
-//! anew for each round ([`Rounds`]; Boyer, Brassard, Hoyer & Tapp, *Tight bounds on quantum searching*,
-//! 1998). What is measured becomes the nearest so far, and the search begins again until it finds
-//! nothing ([`Search`]; Durr & Hoyer, *A quantum algorithm for finding the minimum*, 1996). It ends with a
-//! stated probability of having missed something.
+//! each marked one as likely as another; so do the unmarked ones share the rest, for the amplitudes
+//! never leave the plane of the two uniform superpositions. M is unknown, and so is the best k: it
+//! is drawn anew for each round ([`Rounds`]; Boyer, Brassard, Hoyer & Tapp, *Tight bounds on
+//! quantum searching*, 1998). What is measured becomes the nearest so far, and the search begins
+//! again until it finds nothing ([`Search`]; Durr & Hoyer, *A quantum algorithm for finding the
+//! minimum*, 1996). It ends with a stated probability of having missed something.
 //!
 //! Here, M and the marked numbers are what the circuit says of every basis state, and the
-//! measurements are drawn from that distribution. The search learns what it measures, and nothing else.
+//! measurements are drawn from that distribution. The search learns what it measures, and nothing
+//! else.
 //!
 //! # Queries
 //!
 //! A query is one application of the oracle: compute, flip, uncompute. A round of k iterations is k
 //! queries; one without an iteration counts as one, for whether what was measured is marked must be
-//! asked of something. After an iteration that answer is not counted, as for the estimators: one more
-//! classical evaluation a round would change no exponent. A first guess is asked about once: one query.
+//! asked of something. After an iteration that answer is not counted, as for the estimators: one
+//! more classical evaluation a round would change no exponent. A first guess is asked about once:
+//! one query.
 
 mod first_hits;
 mod minimum;

@@ -63,10 +63,10 @@ fn angle(marked: usize, states: usize) -> f64 {
 /// miss(M) = prod_r (1 - success(c_r, M, N)).
 /// ```
 ///
-/// A minimum of P numbers is missed if the search gives up at any of the numbers on its way. It is at
-/// the number of rank M + 1, of which M are nearer, with probability at most `1 / (M + 1)`, as each of
-/// those still left is found alike; only where it starts it is for certain. Whatever the guess and the
-/// ray, it fails with probability at most
+/// A minimum of P numbers is missed if the search gives up at any of the numbers on its way. It is
+/// at the number of rank M + 1, of which M are nearer, with probability at most `1 / (M + 1)`, as
+/// each of those still left is found alike; only where it starts it is for certain. Whatever the
+/// guess and the ray, it fails with probability at most
 ///
 /// ```text
 /// failure = max_M miss(M) + sum_{M=1}^{P-1} miss(M) / (M + 1),
