@@ -226,6 +226,30 @@ fn what_is_nearer_is_marked_on_integers_and_by_gates() {
 }
 
 #[test]
+fn a_face_that_rays_run_along_is_never_met() {
+    let scene = from_text(
+        "
+name: edge-on
+camera: { orthographic: { eye: [0, 0, 2], target: [0, 0, 0], height: 2 } }
+film: { width: 4, height: 4 }
+materials: { grey: { lambertian: { albedo: [0.5, 0.5, 0.5] } } }
+geometry: [quad: { vertices: [[-1, 0, -1], [-1, 0, 3], [1, 0, 3], [1, 0, -1]], material: grey }]
+sampling: { path_bits: 4, depths: [{ bits: [4, 4] }] }
+",
+    );
+    let oracle = oracle(&scene);
+    let rays = some_rays(&scene, 200);
+    let mut answers = Answers::default();
+    for machine in [
+        NearestMachine::fixed(oracle.clone(), SEED),
+        NearestMachine::gates(oracle.clone(), SEED).unwrap(),
+    ] {
+        machine.ask(&rays, &mut answers).unwrap();
+        assert!((0..rays.len()).all(|place| met(&answers, place).is_empty()));
+    }
+}
+
+#[test]
 fn of_faces_in_one_plane_the_first_listed_is_nearest() {
     let scene = from_text(OVERLAPS);
     let oracle = oracle(&scene);

@@ -33,8 +33,8 @@ fn first_hits_are_searched_for_and_the_picture_is_the_same() {
             folder.works(&arguments)
         })
         .collect();
-    assert_eq!(folder.read("classical.csv"), folder.read("exhaustive.csv"));
-    assert_eq!(folder.read("classical.csv"), folder.read("grover.csv"));
+    assert!(folder.read("classical.csv") == folder.read("exhaustive.csv"));
+    assert!(folder.read("classical.csv") == folder.read("grover.csv"));
 
     assert!(!said[0].contains("first hits"), "{}", said[0]);
     let all = "first hits by exhaustive: P = 8 faces, 8.00 queries a ray = 2.83 sqrt(P) = 1.000 P";
@@ -105,7 +105,7 @@ fn gates_find_what_integers_find() {
         ];
         folder.works(&[&arguments[..], &small].concat());
     }
-    assert_eq!(folder.read("fixed.csv"), folder.read("gates.csv"));
+    assert!(folder.read("fixed.csv") == folder.read("gates.csv"));
 }
 
 #[test]

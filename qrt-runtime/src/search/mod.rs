@@ -26,8 +26,29 @@
 //! A query is one application of the oracle: compute, flip, uncompute. A round of k iterations is k
 //! queries; one without an iteration counts as one, for whether what was measured is marked must be
 //! asked of something. After an iteration that answer is not counted, as for the estimators: one
-//! more classical evaluation a round would change no exponent. A first guess is asked about once:
+//! more evaluation a round, classical, would change no exponent. A first guess is asked about once:
 //! one query.
+//!
+//! ```
+//! use qrt_runtime::random::Stream;
+//! use qrt_runtime::search::{Rounds, Search};
+//!
+//! // The least of 1,000 numbers. What an oracle marks is what is below the least so far.
+//! let numbers: Vec<i64> = (0..1000).map(|n| (617 * n + 300) % 1009).collect();
+//! let rounds = Rounds::new(1024, 1000, 1e-6)?;
+//! let mut search = Search::new(Stream::new(1, 0, 0, 0));
+//! while !search.is_over() {
+//!     let best = search.nearest();
+//!     let below = |&number: &i64| best.is_none_or(|best| number < best.distance);
+//!     let mut marks: Vec<bool> = numbers.iter().map(below).collect();
+//!     marks.resize(1024, false);
+//!     search.run(&rounds, &marks, &numbers);
+//! }
+//! let least = search.nearest().map(|nearest| nearest.distance);
+//! assert_eq!(least, numbers.iter().copied().min());
+//! assert!(search.queries() < 1000);
+//! # Ok::<(), qrt_runtime::search::RoundsError>(())
+//! ```
 
 mod first_hits;
 mod minimum;

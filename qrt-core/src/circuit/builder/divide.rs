@@ -163,6 +163,10 @@ impl Builder<'_> {
     /// Whether `a / b` is at least 0 and fits below `most`, and the quotient where it does.
     pub(super) fn ahead_of(&mut self, a: Real, b: Real, most: f64) -> (Bool, Real) {
         if let Some(divisor) = b.as_constant() {
+            if divisor == 0.0 {
+                // A ray along the plane.
+                return (Bool::Constant(false), Real::constant(0.0));
+            }
             let quotient = self.times_constant(a, 1.0 / divisor);
             let behind = self.negative_sign(quotient);
             let reach = Real::constant(self.farthest(most));
