@@ -10,11 +10,13 @@
 //! which ids have their sign turned follows exactly, `2^c` times cheaper than path by path.
 
 mod defect;
+mod first_hits;
 mod flips;
 mod parts;
 mod through_gates;
 
 pub use defect::Defect;
+pub use first_hits::{FirstHits, PathRun};
 pub use parts::Parts;
 
 use super::fixed::{self, Fixed};
@@ -27,28 +29,6 @@ use qrt_core::circuit::{Operand, Word};
 use qrt_core::oracle::Oracle;
 use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};
-
-/// Paths of a pixel.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct PathRun {
-    /// Column and row.
-    pub pixel: [u32; 2],
-    /// The first path.
-    pub first: u64,
-    /// How many.
-    pub count: usize,
-}
-
-/// What finds the first hits of paths, for an oracle that is given them
-/// ([`Oracle::given_first_hit`]).
-pub trait FirstHits: Send + Sync {
-    /// Sets `hits`, path after path and run after run, to the numbers of the faces that are met
-    /// first, or the number of all faces where none is; and adds to `queries`, by run, what it took.
-    ///
-    /// # Errors
-    /// The first defect that shows.
-    fn find(&self, runs: &[PathRun], hits: &mut [u64], queries: &mut [u64]) -> Result<(), Defect>;
-}
 
 /// An oracle of all three channels on a machine.
 pub struct OracleMachine {
