@@ -58,8 +58,8 @@ pub struct NearestOracle {
     /// The face's distance, in units of `2^-fraction` of the ray's direction; anything where the
     /// ray does not meet it.
     pub distance: Operand,
-    /// Is the face nearer than the nearest so far? Or what it is on every path.
-    pub nearer: Result<Bit, bool>,
+    /// Is the face nearer than the nearest so far? None if no ray can meet any.
+    pub nearer: Option<Bit>,
     /// What [`NearestOracle::best_distance`] holds where there is none; the number then is 0.
     pub nowhere: u64,
     /// By face, its label in the scene; and then that of none.
@@ -124,7 +124,7 @@ impl NearestOracle {
         let recorded = builder.finish()?;
         let roots = register_of(distance)
             .into_iter()
-            .chain(nearer.ok().map(|bit| bit.register));
+            .chain(nearer.map(|bit| bit.register));
         let (program, renamed) = circuit::assemble(
             recorded,
             &roots.collect::<Vec<_>>(),
@@ -170,7 +170,7 @@ impl NearestOracle {
             scope: false,
         });
         program.instructions.clear();
-        if let Ok(bit) = self.nearer {
+        if let Some(bit) = self.nearer {
             program.instructions.push(Instruction {
                 op: program.ops.len() as u32,
                 inverse: false,
@@ -208,7 +208,7 @@ impl NearestOracle {
             Operand::Word(word) => Some(word),
             Operand::Constant(_) => None,
         };
-        let nearer = self.nearer.ok().map(|bit| Word {
+        let nearer = self.nearer.map(|bit| Word {
             register: bit.register,
             offset: bit.index,
             width: 1,

@@ -212,7 +212,7 @@ impl NearestMachine {
                 }
                 let inputs = block.inputs.each_ref().map(Vec::as_slice);
                 fixed.run(&mut own, &inputs, &spans, &mut wanted);
-                let turned = self.oracle.nearer.map_or(false, |bit| bit.inverted);
+                let turned = self.oracle.nearer.is_some_and(|bit| bit.inverted);
                 for (mark, bit) in marks.iter_mut().zip(&bits) {
                     *mark = (*bit == 1) != turned;
                 }

@@ -16,8 +16,8 @@ fn find(rounds: &Rounds, ranks: &[usize], guess: Option<usize>, stream: Stream) 
     while !search.is_over() {
         let best = search.nearest();
         let mut marks = vec![false; rounds.states()];
-        for place in 0..ranks.len() {
-            marks[place] = best.is_none_or(|best| candidate(place) < best);
+        for (place, mark) in marks.iter_mut().enumerate().take(ranks.len()) {
+            *mark = best.is_none_or(|best| candidate(place) < best);
         }
         search.run(rounds, &marks, &distances);
     }

@@ -43,12 +43,9 @@ impl Builder<'_> {
         })
     }
 
-    /// The bit that holds `a`, or what it is on every path.
-    pub(crate) fn truth_bit(&mut self, a: Bool) -> Result<Bit, bool> {
-        match a {
-            Bool::Constant(value) => Err(value),
-            node @ Bool::Node { .. } => Ok(self.bit(node)),
-        }
+    /// The bit that holds `a`; none if `a` is the same on every path.
+    pub(crate) fn truth_bit(&mut self, a: Bool) -> Option<Bit> {
+        matches!(a, Bool::Node { .. }).then(|| self.bit(a))
     }
 
     /// What follows belongs to the comparison with the nearest so far, until
