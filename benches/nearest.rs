@@ -124,7 +124,8 @@ impl Row {
         let film = scene.scene().film;
         let from = |length: u32| {
             let side = SIDE.min(length);
-            (length - side) / 2..(length + side) / 2
+            let first = (length - side) / 2;
+            first..first + side
         };
         let pixels = from(film.height).flat_map(|y| from(film.width).map(move |x| [x, y]));
         let runs: Vec<PathRun> = pixels
@@ -166,7 +167,8 @@ impl Row {
     fn print(&self) {
         let [random, coherent] = self.queries;
         println!(
-            "{:>6}{:>7}{random:>10.1}{coherent:>10.1}{:>9.2}{:>9.2}{:>8.3}{:>10.1}{:>8}{:>8}{:>10}{:>9}",
+            "{:>6}{:>7}{random:>10.1}{coherent:>10.1}{:>9.2}{:>9.2}{:>8.3}{:>10.1}{:>8}{:>8}\
+             {:>10}{:>9}",
             self.faces,
             self.states,
             random / self.faces.sqrt(),

@@ -54,7 +54,7 @@ fn first_hits_are_searched_for_and_the_picture_is_the_same() {
             .any(|part| part == text.as_bytes())
     };
     assert!(says("grover.png", "visibility\0grover"));
-    assert!(says("grover.png", "search_failure\00.000000000001"));
+    assert!(says("grover.png", "search_failure\x000.000000000001"));
     assert!(says("grover.png", "first_guess\0random"));
     assert!(says("exhaustive.png", "visibility\0exhaustive"));
     assert!(!says("classical.png", "visibility"));

@@ -33,21 +33,21 @@ fn unit(a: V) -> V {
 
 /// What a ray and a polygon have to do with each other.
 #[derive(Clone, Copy, Debug)]
-pub struct Meeting {
+pub(crate) struct Meeting {
     /// The distance to the polygon's plane, in stage units of the ray's direction.
-    pub distance: f64,
+    pub(crate) distance: f64,
     /// How far within the polygon's edges, in stage units; negative outside.
-    pub margin: f64,
+    pub(crate) margin: f64,
     /// How fast the ray nears the plane, in the plane's main coordinate: what a distance is
     /// divided by.
-    pub slope: f64,
+    pub(crate) slope: f64,
     /// The direction's length.
-    pub length: f64,
+    pub(crate) length: f64,
 }
 
 /// What the ray of a path has to do with all polygons of the scene, whose unit is `scale` stage
 /// units.
-pub fn meetings(
+pub(crate) fn meetings(
     scene: &ValidScene,
     scale: f64,
     seed: u64,
@@ -91,7 +91,7 @@ pub fn meetings(
     polygons
         .map(|polygon| {
             let corners = &polygon.vertices[..polygon.corners as usize];
-            let corners: Vec<V> = corners.iter().map(|corner| corner.to_array()).collect();
+            let corners: Vec<V> = corners.iter().map(|c| [c.x, c.y, c.z]).collect();
             let normal = if let [a, b, c, d] = corners[..] {
                 cross(sub(c, a), sub(d, b))
             } else {
