@@ -206,6 +206,8 @@ codes! {
         "Keep the divisor away from 0";
     NUMBER_TOO_WIDE = "QRT0611", "a number that no register can hold",
         "Use fewer fraction bits, or a smaller scene";
+    TOO_MANY_FACES = "QRT0612", "more faces than a table holds",
+        "Use a coarser mesh, or find first hits classically";
     MACRO_SCENE = "QRT0701", "what stands in `qrt!` is not a scene",
         "Write `pub scene Name { ... }` or `pub scene Name from \"scene.yaml\"`";
     MACRO_FORMAT = "QRT0702", "a number format that is not `<Fixed<2, F>>`",

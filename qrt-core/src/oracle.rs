@@ -20,10 +20,12 @@
 
 mod budget;
 pub mod compiled;
+mod nearest;
 mod phase;
 mod recording;
 
 pub use budget::{Spent, check_budget, spent};
+pub use nearest::{MOST_FACES, NearestOracle};
 
 use crate::circuit::builder::{BuildError, Builder, NamedPlace, Passes, Real};
 use crate::circuit::{
@@ -33,7 +35,7 @@ use crate::sampling::{PathPoints, SamplingError};
 use crate::scene::ComparatorAt;
 use crate::tracer::{Arith, Stage};
 use crate::valid::ValidScene;
-use recording::Recording;
+use recording::{FirstHit, Recording};
 use std::fmt;
 
 /// Fraction bits under `precision: { fraction: auto }`.
@@ -77,6 +79,11 @@ pub enum OracleError {
     Build(BuildError),
     /// The scene's sequence cannot be made.
     Sampling(SamplingError),
+    /// More faces than a table holds that is looked up by a face's number.
+    TooManyFaces {
+        /// The scene's faces.
+        faces: usize,
+    },
 }
 
 impl fmt::Display for OracleError {
@@ -84,6 +91,11 @@ impl fmt::Display for OracleError {
         match self {
             Self::Build(error) => error.fmt(f),
             Self::Sampling(error) => error.fmt(f),
+            Self::TooManyFaces { faces } => write!(
+                f,
+                "the scene has {faces} faces, and tables of faces hold at most {MOST_FACES}; use \
+                 a coarser mesh"
+            ),
         }
     }
 }
@@ -126,6 +138,8 @@ pub struct Oracle {
     pub id: RegisterId,
     /// The comparator.
     pub comparator: RegisterId,
+    /// What the first ray meets, if that is given: see [`Oracle::given_first_hit`].
+    pub nearest: Option<RegisterId>,
     /// The outcome of the comparison.
     pub flag: RegisterId,
     /// Fraction bits of every number.
@@ -158,6 +172,18 @@ impl Oracle {
         Self::compile(scene, [0, 1, 2], options)
     }
 
+    /// [`Oracle::rgb`] of paths whose first hits were found before: the number of the face in the
+    /// scene's [`NearestOracle`], or the number of its faces for none, is an input. Everything
+    /// after the first hit is traced as ever. A scene without faces has no such input.
+    ///
+    /// # Errors
+    /// As [`Oracle::new`], and if there are more than [`MOST_FACES`] faces.
+    pub fn given_first_hit(scene: &ValidScene) -> Result<Self, OracleError> {
+        let options = Options::default();
+        let mut recording = Recording::new(scene, [0, 1, 2], options, FirstHit::Given)?;
+        Ok(recording.oracle(&[0, 1, 2]))
+    }
+
     /// The oracles of all channels, each as [`Oracle::new`] makes it but for the numbers of its
     /// registers and [`Oracle::sharing`], which is that of all; and the one of all three together:
     /// traced once.
@@ -165,7 +191,7 @@ impl Oracle {
     /// # Errors
     /// As [`Oracle::new`].
     pub fn all(scene: &ValidScene) -> Result<([Self; 3], Self), OracleError> {
-        let mut recording = Recording::new(scene, [0, 1, 2], Options::default())?;
+        let mut recording = Recording::new(scene, [0, 1, 2], Options::default(), FirstHit::Traced)?;
         let channels = [0, 1, 2].map(|channel| recording.oracle(&[channel]));
         Ok((channels, recording.oracle(&[0, 1, 2])))
     }
@@ -192,7 +218,7 @@ impl Oracle {
         channels: [usize; C],
         options: Options,
     ) -> Result<Self, OracleError> {
-        let mut recording = Recording::new(scene, channels, options)?;
+        let mut recording = Recording::new(scene, channels, options, FirstHit::Traced)?;
         Ok(recording.oracle(&std::array::from_fn::<_, C, _>(|place| place)))
     }
 

@@ -10,4 +10,5 @@ pub mod render;
 pub mod replace_file;
 #[cfg(test)]
 mod scratch;
+pub mod search;
 pub mod verify;

@@ -8,10 +8,12 @@ use super::{interrupt, stats, terminal};
 use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueEnum};
 use qrt_core::front;
+use qrt_core::inspect::grouped;
 use qrt_core::scene::Estimator;
 use qrt_runtime::estimators::{AVAILABLE, Noise, NoiseError};
 use qrt_runtime::image::{self, Encoding, Metadata};
 use qrt_runtime::render::{self, Options, Progress, RenderError, Rendered, render};
+use qrt_runtime::search::Guess;
 use std::fs;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -34,7 +36,8 @@ Examples:
   qrt render box.yaml --estimator exact -o box.exr      without the noise of counting, linear
   qrt render box.yaml --set sampling.path_bits=16       more paths
   qrt render box.yaml --set 'film={ width: 8, height: 8 }' --counts box.csv
-  qrt render box.yaml --crop 10,20,4,4 --stats box.json")]
+  qrt render box.yaml --crop 10,20,4,4 --stats box.json
+  qrt render box.yaml --model fixed --visibility grover first hits by quantum search")]
 pub(crate) struct RenderArgs {
     /// The scene, a YAML file
     #[arg(value_name = "SCENE")]
@@ -56,6 +59,15 @@ pub(crate) struct RenderArgs {
     /// measured bit is wrong; either may be left out
     #[arg(long, value_name = "depolarising=P,readout=P", value_parser = noise)]
     noise: Option<Noise>,
+    /// How a path's first hit is found
+    #[arg(long, value_enum, default_value_t = Visibility::Classical)]
+    visibility: Visibility,
+    /// The probability with which a ray's search may miss the nearest face [default: 0.001]
+    #[arg(long, value_name = "P")]
+    search_failure: Option<f64>,
+    /// What a ray's search begins with [default: coherent]
+    #[arg(long, value_enum)]
+    first_guess: Option<FirstGuess>,
     /// Another seed gives other noise
     #[arg(long, value_name = "S", default_value_t = 0)]
     seed: u64,
@@ -98,6 +110,52 @@ enum Model {
     Fixed,
     /// The oracle's circuit, every gate of compute, flip and uncompute
     Gates,
+}
+
+/// How a path's first hit is found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Visibility {
+    /// By the tracer, like all other hits
+    Classical,
+    /// By asking the oracle of nearest hits about every face, path by path
+    Exhaustive,
+    /// By quantum search with that oracle, path by path; needs --model fixed or gates
+    Grover,
+}
+
+/// What a ray's search begins with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum FirstGuess {
+    /// Whatever its first round measures
+    Random,
+    /// What the path before it met
+    Coherent,
+}
+
+impl RenderArgs {
+    fn visibility(&self) -> Result<render::Visibility, Failure> {
+        let grover = self.visibility == Visibility::Grover;
+        for (flag, given) in [
+            ("--search-failure", self.search_failure.is_some()),
+            ("--first-guess", self.first_guess.is_some()),
+        ] {
+            if given && !grover {
+                let message = format!("{flag} is of a search: it needs --visibility grover");
+                return Err(Failure::Usage(message));
+            }
+        }
+        Ok(match self.visibility {
+            Visibility::Classical => render::Visibility::Classical,
+            Visibility::Exhaustive => render::Visibility::Exhaustive,
+            Visibility::Grover => render::Visibility::Grover {
+                failure: self.search_failure.unwrap_or(render::DEFAULT_FAILURE),
+                guess: match self.first_guess {
+                    Some(FirstGuess::Random) => Guess::Random,
+                    Some(FirstGuess::Coherent) | None => Guess::Coherent,
+                },
+            },
+        })
+    }
 }
 
 impl From<Model> for render::Model {
@@ -145,6 +203,7 @@ fn crop(text: &str) -> Result<[u32; 4], String> {
 }
 
 pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
+    let visibility = args.visibility()?;
     let output = args.output.clone().unwrap_or_else(|| picture(&args.scene));
     let encoding = Encoding::of(&output, args.exposure)?;
     let files = [
@@ -184,6 +243,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
         estimator: args.estimator.as_deref().and_then(Estimator::from_name),
         colour: args.colour.into(),
         noise: args.noise.unwrap_or_default(),
+        visibility,
         threads: args.threads.and_then(|n| NonZeroUsize::new(n as usize)),
         checkpoint: checkpoint.clone(),
         resume: args.resume,
@@ -263,5 +323,28 @@ fn summary(output: &Path, rendered: &Rendered, clipped: u64) -> String {
         rendered.model.name(),
         rendered.estimator,
         rendered.total_queries(),
+    ) + &search_summary(rendered)
+}
+
+/// What the search for first hits took; nothing if there was none.
+fn search_summary(rendered: &Rendered) -> String {
+    let Some(searched) = rendered.searched else {
+        return String::new();
+    };
+    let root = libm::sqrt(searched.faces as f64);
+    let mean = rendered.total_queries() as f64 / rendered.paths as f64;
+    let promise = match searched.failure {
+        0.0 => String::new(),
+        failure => format!(", a miss at most {failure:.1e} likely"),
+    };
+    format!(
+        "first hits by {}: P = {} faces, {mean:.2} queries a ray = {:.2} sqrt(P) = {:.3} P, each of \
+         {} Toffolis on {} qubits{promise}\n",
+        rendered.visibility.name(),
+        searched.faces,
+        mean / root,
+        mean / searched.faces as f64,
+        grouped(searched.toffoli),
+        grouped(searched.qubits),
     )
 }

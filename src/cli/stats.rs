@@ -3,7 +3,7 @@
 use super::failure::Failure;
 use qrt_core::valid::ValidScene;
 use qrt_runtime::peak_memory::peak_resident_bytes;
-use qrt_runtime::render::Rendered;
+use qrt_runtime::render::{Rendered, Visibility};
 use qrt_runtime::replace_file::replace_file;
 use serde_json::{Value, json};
 use std::io::Write;
@@ -35,6 +35,8 @@ fn stats(scene: &ValidScene, rendered: &Rendered, clipped: u64) -> Value {
         "estimator": rendered.estimator.name(),
         "colour": rendered.colour.name(),
         "noise": { "depolarising": rendered.noise.depolarising, "readout": rendered.noise.readout },
+        "visibility": rendered.visibility.name(),
+        "search": search(rendered),
         "seed": rendered.seed,
         "width": written.film.width,
         "height": written.film.height,
@@ -51,6 +53,31 @@ fn stats(scene: &ValidScene, rendered: &Rendered, clipped: u64) -> Value {
         "clipped_pixels": clipped,
         "threads": rendered.threads,
         "peak_memory_bytes": peak_resident_bytes(),
+    })
+}
+
+/// What the search for first hits took; null if there was none.
+fn search(rendered: &Rendered) -> Value {
+    let Some(searched) = rendered.searched else {
+        return Value::Null;
+    };
+    let root = libm::sqrt(searched.faces as f64);
+    let mean = rendered.total_queries() as f64 / rendered.paths as f64;
+    let guess = match rendered.visibility {
+        Visibility::Grover { guess, .. } => json!(guess.name()),
+        Visibility::Classical | Visibility::Exhaustive => Value::Null,
+    };
+    json!({
+        "faces": searched.faces,
+        "sqrt_faces": root,
+        "states": searched.states,
+        "queries_per_ray": mean,
+        "queries_per_sqrt_faces": mean / root,
+        "queries_per_face": mean / searched.faces as f64,
+        "failure_bound": searched.failure,
+        "first_guess": guess,
+        "toffoli_per_query": searched.toffoli,
+        "qubits": searched.qubits,
     })
 }
 

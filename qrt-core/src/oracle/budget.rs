@@ -132,6 +132,7 @@ impl OracleError {
                 Path::root().key("precision").key("fraction"),
             ),
             Self::Sampling(_) => (codes::TOO_MANY_IDS, Path::root().key("sampling")),
+            Self::TooManyFaces { .. } => (codes::TOO_MANY_FACES, Path::root().key("geometry")),
         };
         // What is wrong; what to do.
         let text = self.to_string();

@@ -62,6 +62,7 @@ pub trait CompiledOracle: Sized + 'static {
             channels: outline.channels.to_vec(),
             id: outline.id,
             comparator: outline.comparator,
+            nearest: None,
             flag: outline.flag,
             fraction: outline.fraction,
             points: Self::points()?,

@@ -1,5 +1,6 @@
 //! A scene's program as the builder recorded it, from which the oracles of channels are assembled.
 
+use super::nearest::listable;
 use super::{
     Channel, DEFAULT_FRACTION, LUMINANCE, LUMINANCE_CHANNEL, Options, Oracle, OracleError, faces,
     luminance, register_of,
@@ -8,11 +9,59 @@ use crate::circuit::builder::{Builder, NamedPlace, Real, Recorded, Target};
 use crate::circuit::{self, Operand, RegisterId, Role, Style, Type, Word};
 use crate::sampling::PathPoints;
 use crate::scene::{Nearest, Uncompute};
-use crate::tracer::{Arith, Records, Stage, trace};
+use crate::tracer::{self, Arith, FirstGiven, Listing, Records, Stage, trace};
 use crate::valid::ValidScene;
 
 /// Channels by number.
 const CHANNELS: [&str; 4] = ["r", "g", "b", "luminance"];
+
+/// How the first ray's hit comes about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum FirstHit {
+    /// The tracer finds it.
+    Traced,
+    /// It is given in a register.
+    Given,
+}
+
+/// What a program of `scene` is built for.
+pub(super) fn target<'a, const C: usize>(
+    scene: &ValidScene,
+    stage: &Stage<C>,
+    points: &'a PathPoints,
+    options: Options,
+) -> Target<'a> {
+    let written = scene.scene();
+    let scoped = written.circuit.uncompute == Uncompute::Scoped;
+    let own = if scoped { Style::Lean } else { Style::Wide };
+    Target {
+        fraction: written.precision.fraction.unwrap_or(DEFAULT_FRACTION),
+        style: options.style.unwrap_or(own),
+        points,
+        film: [written.film.width, written.film.height],
+        faces: faces(stage),
+        passes: options.passes,
+    }
+}
+
+/// The colours of a path, and the register of its first hit if that is given.
+fn record<'a, N: tracer::Nearest<Builder<'a>>, const C: usize>(
+    builder: &mut Builder<'a>,
+    stage: &Stage<C>,
+    nearest: &N,
+    first: FirstHit,
+) -> Result<([Real; C], Option<RegisterId>), OracleError> {
+    let list = Listing::new(stage);
+    if first == FirstHit::Traced || list.is_empty() {
+        return Ok((trace(builder, stage, nearest), None));
+    }
+    listable(&list)?;
+    // One number more than faces: that of none.
+    let width = list.len().ilog2() + 1;
+    let (register, face) = builder.given_index("nearest", Role::Id, width);
+    let nearest = FirstGiven::new(&list, face, nearest);
+    Ok((trace(builder, stage, &nearest), Some(register)))
+}
 
 /// What was recorded, and what is known of it: `known` is an oracle without a program.
 pub(super) struct Recording {
@@ -28,8 +77,9 @@ impl Recording {
         scene: &ValidScene,
         channels: [usize; C],
         options: Options,
+        first: FirstHit,
     ) -> Result<Self, OracleError> {
-        Self::with(scene, channels, options, |_, _, _| Vec::new())
+        Self::with(scene, channels, options, first, |_, _, _| Vec::new())
     }
 
     /// All three channels, and behind them their luminance.
@@ -37,24 +87,30 @@ impl Recording {
         scene: &ValidScene,
         options: Options,
     ) -> Result<Self, OracleError> {
-        Self::with(scene, [0, 1, 2], options, |builder, colours, bounds| {
-            let scale = luminance(bounds);
-            let shares = [0, 1, 2].map(|c| {
-                // A black picture has no scale.
-                let share = if scale > 0.0 {
-                    LUMINANCE[c] * bounds[c] / scale
-                } else {
-                    0.0
-                };
-                builder.scale(colours[c], share)
-            });
-            let sum = shares
-                .into_iter()
-                .reduce(|sum, share| builder.add(sum, share));
-            sum.map(|sum| (LUMINANCE_CHANNEL, sum, scale))
-                .into_iter()
-                .collect()
-        })
+        Self::with(
+            scene,
+            [0, 1, 2],
+            options,
+            FirstHit::Traced,
+            |builder, colours, bounds| {
+                let scale = luminance(bounds);
+                let shares = [0, 1, 2].map(|c| {
+                    // A black picture has no scale.
+                    let share = if scale > 0.0 {
+                        LUMINANCE[c] * bounds[c] / scale
+                    } else {
+                        0.0
+                    };
+                    builder.scale(colours[c], share)
+                });
+                let sum = shares
+                    .into_iter()
+                    .reduce(|sum, share| builder.add(sum, share));
+                sum.map(|sum| (LUMINANCE_CHANNEL, sum, scale))
+                    .into_iter()
+                    .collect()
+            },
+        )
     }
 
     /// The channels, and others that `more` makes of their colours: number, colour and scale.
@@ -62,31 +118,22 @@ impl Recording {
         scene: &ValidScene,
         channels: [usize; C],
         options: Options,
+        first: FirstHit,
         more: impl FnOnce(&mut Builder<'_>, &[Real; C], &[f64; C]) -> Vec<(usize, Real, f64)>,
     ) -> Result<Self, OracleError> {
         let written = scene.scene();
         let stage = Stage::new(scene, channels).relative();
         let points = PathPoints::new(&written.sampling)?;
-        let film = [written.film.width, written.film.height];
-        let fraction = written.precision.fraction.unwrap_or(DEFAULT_FRACTION);
+        let target = target(scene, &stage, &points, options);
+        let (film, fraction) = (target.film, target.fraction);
         let scoped = written.circuit.uncompute == Uncompute::Scoped;
-        let style = options
-            .style
-            .unwrap_or(if scoped { Style::Lean } else { Style::Wide });
-        let mut builder = Builder::new(Target {
-            fraction,
-            style,
-            points: &points,
-            film,
-            faces: faces(&stage),
-            passes: options.passes,
-        });
+        let mut builder = Builder::new(target);
         let bits = written.comparator.bits;
         let comparator = builder.outside("comparator", Type::UInt, Role::Comparator, bits);
         let flag = builder.outside("flag", Type::Bool, Role::Flag, 1);
-        let colours = match written.circuit.nearest {
-            Nearest::Running => trace(&mut builder, &stage, stage.geometry()),
-            Nearest::Paper => trace(&mut builder, &stage, &Records(&stage)),
+        let (colours, nearest) = match written.circuit.nearest {
+            Nearest::Running => record(&mut builder, &stage, stage.geometry(), first)?,
+            Nearest::Paper => record(&mut builder, &stage, &Records(&stage), first)?,
         };
         let bounds = stage.bound();
         let more = more(&mut builder, &colours, &bounds);
@@ -114,6 +161,7 @@ impl Recording {
             channels: outputs,
             id,
             comparator,
+            nearest,
             flag,
             fraction,
             points,
@@ -138,7 +186,8 @@ impl Recording {
             .collect();
         let roots = outputs.iter().flat_map(|o| [o.colour, o.count]);
         let roots: Vec<RegisterId> = roots.filter_map(register_of).collect();
-        let inputs = [self.known.id, self.known.comparator];
+        let mut inputs = vec![self.known.id, self.known.comparator];
+        inputs.extend(self.known.nearest);
         let (mut program, renamed) = circuit::assemble(
             self.recorded.clone(),
             &roots,

@@ -131,6 +131,18 @@ pub trait Arith: Sized {
         let high = self.real(high);
         super::between(self, low, value, high)
     }
+    /// `table[row] <= value`, reaching outwards as [`Arith::inside`] does.
+    #[inline(always)]
+    fn at_least(&mut self, value: Self::Real, table: &[[f64; 1]], row: Self::Index) -> Self::Bool {
+        let [low] = self.rows(table, row);
+        self.less_equal(low, value)
+    }
+    /// `value <= table[row]`, reaching outwards as [`Arith::inside`] does.
+    #[inline(always)]
+    fn at_most(&mut self, value: Self::Real, table: &[[f64; 1]], row: Self::Index) -> Self::Bool {
+        let [high] = self.rows(table, row);
+        self.less_equal(value, high)
+    }
     /// How far a hit is drawn towards its face's centre, as a share of the way: see
     /// [`super::INWARD`].
     #[inline(always)]

@@ -138,6 +138,30 @@ fn within<A: Arith>(cx: &mut A, slabs: &[Slab], point: [A::Real; 2]) -> A::Bool 
     }
 }
 
+/// The edges of a face, as a machine holds them: the same for all paths, or looked up.
+pub(crate) trait Edges<A: Arith> {
+    /// Is this point of the face's plane within all of them?
+    fn hold(&self, cx: &mut A, point: [A::Real; 2]) -> A::Bool;
+}
+
+impl<A: Arith> Edges<A> for [Slab] {
+    #[inline(always)]
+    fn hold(&self, cx: &mut A, point: [A::Real; 2]) -> A::Bool {
+        within(cx, self, point)
+    }
+}
+
+/// Does a ray that crosses a face's plane so meet the face?
+#[inline(always)]
+pub(crate) fn meets<A: Arith, E: Edges<A> + ?Sized>(
+    cx: &mut A,
+    crossing: &Crossing<A>,
+    edges: &E,
+) -> A::Bool {
+    let inside = edges.hold(cx, crossing.point);
+    cx.and(crossing.ahead, inside)
+}
+
 /// A ray as the planes of one main axis see it: its parts along that axis and across.
 pub struct Turned<A: Arith> {
     /// Along the axis.
@@ -161,6 +185,23 @@ impl<A: Arith> Turned<A> {
             direction: ray.direction[AXIS],
             origin_across: across(&ray.origin),
             direction_across: across(&ray.direction),
+            reach: ray.reach,
+        }
+    }
+
+    /// As the planes of `axis` see `ray`, whichever that is.
+    #[inline(always)]
+    pub(crate) fn looked_up(cx: &mut A, ray: &Ray<A>, axis: A::Index) -> Self {
+        let [x, y] = [cx.is(axis, 0), cx.is(axis, 1)];
+        let mut turn = |v: &Vector<A>, first: usize| {
+            let last = cx.select(y, v[(first + 1) % 3], v[(first + 2) % 3]);
+            cx.select(x, v[first], last)
+        };
+        Self {
+            origin: turn(&ray.origin, 0),
+            direction: turn(&ray.direction, 0),
+            origin_across: [turn(&ray.origin, 1), turn(&ray.origin, 2)],
+            direction_across: [turn(&ray.direction, 1), turn(&ray.direction, 2)],
             reach: ray.reach,
         }
     }
@@ -240,8 +281,7 @@ impl Geometry {
             _ => Turned::new::<2>(ray),
         };
         let crossing = self.cross(cx, plane, &turned, ray.from);
-        let inside = within(cx, &face.slabs, crossing.point);
-        (cx.and(crossing.ahead, inside), crossing.distance)
+        (meets(cx, &crossing, &*face.slabs), crossing.distance)
     }
 
     /// The faces on planes with main axis `AXIS`, in turn, with a running nearest.
@@ -296,8 +336,7 @@ impl Geometry {
             cx.enter(Part::Plane(number));
             let crossing = self.cross(cx, number, &ray, from);
             for face in self.faces_of(number).iter().filter(|face| !face.emits) {
-                let inside = within(cx, &face.slabs, crossing.point);
-                let meets = cx.and(crossing.ahead, inside);
+                let meets = meets(cx, &crossing, &*face.slabs);
                 let nearer = if face.hides_emitter {
                     cx.less_equal(crossing.distance, emitter)
                 } else {
@@ -330,8 +369,7 @@ impl<A: Arith> Running<A> {
     /// The ray crosses the plane of `face`.
     #[inline(always)]
     fn meet(&mut self, cx: &mut A, face: &Face, crossing: &Crossing<A>) {
-        let inside = within(cx, &face.slabs, crossing.point);
-        let meets = cx.and(crossing.ahead, inside);
+        let meets = meets(cx, crossing, &*face.slabs);
         let nearer = cx.less(crossing.distance, self.distance);
         let hit = cx.and(meets, nearer);
         let label = cx.index(face.label);

@@ -10,11 +10,13 @@
 //! which ids have their sign turned follows exactly, `2^c` times cheaper than path by path.
 
 mod defect;
+mod first_hits;
 mod flips;
 mod parts;
 mod through_gates;
 
 pub use defect::Defect;
+pub use first_hits::{FirstHits, PathRun};
 pub use parts::Parts;
 
 use super::fixed::{self, Fixed};
@@ -32,6 +34,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 pub struct OracleMachine {
     oracle: Arc<Oracle>,
     seed: u64,
+    first_hits: Option<Box<dyn FirstHits>>,
     /// What is read of every path: by channel the count, then, where they are wanted, by channel the
     /// colour, and last the count of the luminance, where the oracle has it.
     outputs: Vec<Operand>,
@@ -67,6 +70,8 @@ pub struct Finished<'a> {
     /// By channel: each path's colour, in units of `2^-fraction` of the channel's scale. Empty
     /// unless asked for.
     pub colours: [&'a [i64]; 3],
+    /// Queries that finding the paths' first hits took; 0 unless that is asked of an oracle.
+    pub queries: u64,
 }
 
 impl OracleMachine {
@@ -92,6 +97,7 @@ impl OracleMachine {
         Self {
             oracle,
             seed,
+            first_hits: None,
             outputs,
             machine,
         }
@@ -125,6 +131,7 @@ impl OracleMachine {
         Self {
             oracle,
             seed,
+            first_hits: None,
             outputs,
             machine,
         }
@@ -164,8 +171,15 @@ impl OracleMachine {
             },
             oracle,
             seed,
+            first_hits: None,
             outputs,
         })
+    }
+
+    /// With what finds the first hits, if they are inputs of the oracle.
+    pub fn with_first_hits(mut self, first_hits: Box<dyn FirstHits>) -> Self {
+        self.first_hits = Some(first_hits);
+        self
     }
 
     /// The oracle.
@@ -205,6 +219,8 @@ impl OracleMachine {
         let mut block = Block {
             ids: Vec::with_capacity(most),
             runs: Vec::new(),
+            hits: Vec::new(),
+            queries: Vec::new(),
             values: vec![vec![0; most]; self.outputs.len()],
         };
         for (pixel, &place) in pixels.iter().enumerate() {
@@ -213,9 +229,11 @@ impl OracleMachine {
                 let count = (ids.end - first).min((most - block.ids.len()) as u64);
                 block.runs.push(Run {
                     pixel,
-                    place,
-                    first,
-                    count: count as usize,
+                    paths: PathRun {
+                        pixel: place,
+                        first,
+                        count: count as usize,
+                    },
                 });
                 block.ids.extend(first..first + count);
                 first += count;
@@ -250,13 +268,14 @@ impl OracleMachine {
         let luminance = self.luminance();
         let colours = self.outputs.len() - usize::from(luminance.is_some()) > 3;
         let mut start = 0;
-        for run in &block.runs {
-            let range = start..start + run.count;
+        for (run, &queries) in block.runs.iter().zip(&block.queries) {
+            let range = start..start + run.paths.count;
             let column = |k: usize| &block.values[k][range.clone()];
             let colour = |k: usize| if colours { column(k) } else { &[] };
             finished(Finished {
                 pixel: run.pixel,
-                first_id: run.first,
+                first_id: run.paths.first,
+                queries,
                 good: [column(0), column(1), column(2)],
                 luminance: luminance.map_or(&[], column),
                 colours: [colour(3), colour(4), colour(5)],
@@ -267,11 +286,19 @@ impl OracleMachine {
 
     fn run(&self, block: &mut Block, parameters: &[Vec<u64>]) -> Result<(), Defect> {
         let count = block.ids.len();
+        block.queries.clear();
+        block.queries.resize(block.runs.len(), 0);
+        if self.oracle.nearest.is_some() {
+            let runs: Vec<PathRun> = block.runs.iter().map(|run| run.paths).collect();
+            let first_hits = self.first_hits.as_ref().ok_or(Defect::FirstHits)?;
+            block.hits.resize(count, 0);
+            first_hits.find(&runs, &mut block.hits, &mut block.queries)?;
+        }
         let spans: Vec<Span<'_>> = block
             .runs
             .iter()
             .map(|run| Span {
-                lanes: run.count,
+                lanes: run.paths.count,
                 parameters: &parameters[run.pixel],
             })
             .collect();
@@ -283,13 +310,15 @@ impl OracleMachine {
                 let wanted = wanted.filter(|(output, _)| word_of(**output).is_some());
                 let mut wanted: Vec<&mut [i64]> =
                     wanted.map(|(_, values)| &mut values[..count]).collect();
-                fixed.run(&mut own, &[&block.ids, &zeros], &spans, &mut wanted);
+                let inputs = [&block.ids, &zeros, &block.hits].map(Vec::as_slice);
+                let inputs = &inputs[..2 + usize::from(self.oracle.nearest.is_some())];
+                fixed.run(&mut own, inputs, &spans, &mut wanted);
                 put_back(lanes, own);
             }
             Machine::Native { run, instructions } => {
                 let runs = block.runs.iter().map(|run| native::Run {
-                    first: run.first,
-                    count: run.count,
+                    first: run.paths.first,
+                    count: run.paths.count,
                     parameters: &parameters[run.pixel],
                 });
                 let runs: Vec<_> = runs.collect();
@@ -323,14 +352,17 @@ impl OracleMachine {
 struct Block {
     ids: Vec<u64>,
     runs: Vec<Run>,
+    /// By path: its first hit, if that is an input.
+    hits: Vec<u64>,
+    /// By run: the queries that these took.
+    queries: Vec<u64>,
     values: Vec<Vec<i64>>,
 }
 
 struct Run {
+    /// The pixel's place in the list that was given.
     pixel: usize,
-    place: [u32; 2],
-    first: u64,
-    count: usize,
+    paths: PathRun,
 }
 
 fn outputs(oracle: &Oracle, colours: bool) -> Vec<Operand> {

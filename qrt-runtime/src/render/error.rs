@@ -45,6 +45,12 @@ pub enum RenderError {
     Sampling(qrt_core::sampling::SamplingError),
     /// The scene has no circuit.
     Oracle(qrt_core::oracle::OracleError),
+    /// A model that has no oracle, and so nothing to search with.
+    SearchModel,
+    /// An estimator that counts the ids of a superposition, where every path is searched by itself.
+    SearchEstimator(qrt_core::scene::Estimator),
+    /// A search that cannot be made.
+    Search(crate::search::RoundsError),
     /// The circuit does not do what an oracle must: a defect of qrt. The picture would prove
     /// nothing, so there is none.
     Defect(crate::machines::Defect),
@@ -93,6 +99,9 @@ impl RenderError {
             | Self::Bound { .. }
             | Self::Sampling(_)
             | Self::Oracle(_)
+            | Self::SearchModel
+            | Self::SearchEstimator(_)
+            | Self::Search(_)
             | Self::Counting(_)
             | Self::Estimator(_) => true,
             Self::Checkpoint(error) => matches!(error, CheckpointError::Differs { .. }),
@@ -155,6 +164,16 @@ impl fmt::Display for RenderError {
             ),
             Self::Sampling(error) => error.fmt(f),
             Self::Oracle(error) => error.fmt(f),
+            Self::SearchModel => f.write_str(
+                "first hits are searched for by a circuit, which the model `real` does not have: \
+                 use `fixed` or `gates`",
+            ),
+            Self::SearchEstimator(estimator) => write!(
+                f,
+                "the estimator `{estimator}` counts paths in superposition, and first hits are \
+                 searched for path by path: use `exact`, or find first hits classically"
+            ),
+            Self::Search(error) => error.fmt(f),
             Self::Defect(error) => write!(
                 f,
                 "{error}: a defect of qrt; the picture would prove nothing, so there is none"
@@ -195,6 +214,7 @@ impl std::error::Error for RenderError {
         match self {
             Self::Sampling(error) => Some(error),
             Self::Oracle(error) => Some(error),
+            Self::Search(error) => Some(error),
             Self::Defect(error) => Some(error),
             Self::Estimator(error) => Some(error),
             Self::Counting(error) => Some(error),
@@ -213,6 +233,12 @@ impl From<qrt_core::sampling::SamplingError> for RenderError {
 impl From<qrt_core::oracle::OracleError> for RenderError {
     fn from(error: qrt_core::oracle::OracleError) -> Self {
         Self::Oracle(error)
+    }
+}
+
+impl From<crate::search::RoundsError> for RenderError {
+    fn from(error: crate::search::RoundsError) -> Self {
+        Self::Search(error)
     }
 }
 

@@ -19,6 +19,9 @@ impl Rendered {
         metadata.set("scene", written.name.as_str())?;
         metadata.set("scene_hash", scene.fingerprint().to_string())?;
         metadata.set("model", self.model.name())?;
+        for (key, value) in self.visibility.written() {
+            metadata.set(&key, value)?;
+        }
         metadata.set("estimator", self.estimator.name())?;
         metadata.set("seed", self.seed.to_string())?;
         metadata.set("sequence", sampling.sequence.name())?;

@@ -18,6 +18,9 @@
 //! with `scale` the proven bound of a path's colour in that channel. A channel that is proven
 //! black takes no queries.
 //!
+//! [`Visibility`] says how a path's first hit is found: by the tracer like all others, or path by path
+//! with an oracle of nearest hits, whose queries are then the picture's.
+//!
 //! # What a picture depends on
 //!
 //! On the scene, the seed, the estimator and the version of qrt. Not on the number of threads, the
@@ -48,8 +51,10 @@ mod one_run;
 mod pixel;
 mod sum;
 mod tiles;
+mod visibility;
 
 pub use error::RenderError;
+pub use visibility::{DEFAULT_FAILURE, Searched, Visibility};
 
 use crate::checkpoint::{Checkpoint, Header, Tile};
 use crate::estimators::Noise;
@@ -133,6 +138,8 @@ pub struct Options<'a> {
     pub colour: Colour,
     /// Noise of the device that counts; none unless set.
     pub noise: Noise,
+    /// How first hits are found.
+    pub visibility: Visibility,
     /// Threads; as many as the machine has cores unless set.
     pub threads: Option<NonZeroUsize>,
     /// Lanes to trace on.
@@ -170,13 +177,18 @@ pub struct Rendered {
     /// Linear radiance. With a crop, of the crop's size.
     pub image: Image,
     /// Queries of the oracle by pixel, as the image's pixels; all channels together. 0 under
-    /// `exact`, which sums over all paths and asks no oracle.
+    /// `exact`, which sums over all paths and asks no oracle. Where first hits are searched for:
+    /// those of the oracle of nearest hits, all paths together.
     pub queries: Vec<u64>,
     /// S, the good ids of every pixel's channels, as the image's pixels; none of the real model,
     /// which has no ids but paths.
     pub good: Option<Vec<[u64; 3]>>,
     /// What traced the paths.
     pub model: Model,
+    /// How first hits were found.
+    pub visibility: Visibility,
+    /// What of, if they were not traced; none for a scene without faces, whose paths meet nothing.
+    pub searched: Option<Searched>,
     /// x, y, width and height on the film.
     pub crop: [u32; 4],
     /// The estimator.
@@ -300,7 +312,7 @@ fn render_by(
     let film = [written.film.width, written.film.height];
     let crop = options.crop.unwrap_or([0, 0, film[0], film[1]]);
     check_crop(crop, film)?;
-    let estimator = options.estimator.unwrap_or(written.counting.estimator);
+    let estimator = options.visibility.estimator(options, written)?;
     let paths = 1 << written.sampling.path_bits;
     let area = u64::from(crop[2]) * u64::from(crop[3]);
     let Some(all_paths) = area.checked_mul(paths) else {
@@ -309,7 +321,13 @@ fn render_by(
             path_bits: written.sampling.path_bits,
         });
     };
+    let mut searched = None;
     let source = match options.model {
+        _ if options.visibility != Visibility::Classical => {
+            let (machine, what) = visibility::machine(scene, options)?;
+            searched = what;
+            Source::Oracle(machine)
+        }
         Model::Real => {
             let real = Real::new(scene, options.seed)?.with_simd(options.simd);
             Source::Real(Box::new(real))
@@ -361,6 +379,8 @@ fn render_by(
             good: (options.model != Model::Real && options.colour == Colour::ThreeRuns)
                 .then_some(film.good),
             model: options.model,
+            visibility: options.visibility,
+            searched,
             crop,
             estimator,
             colour: options.colour,
@@ -406,7 +426,11 @@ fn header(scene: &ValidScene, asked: &Options<'_>, estimator: Estimator, crop: [
     Header {
         scene_hash: scene.fingerprint().to_string(),
         seed: asked.seed,
-        options: options.map(|(key, value)| (key.to_owned(), value)).into(),
+        options: options
+            .map(|(key, value)| (key.to_owned(), value))
+            .into_iter()
+            .chain(asked.visibility.written())
+            .collect(),
         width: scene.scene().film.width,
         height: scene.scene().film.height,
         crop,

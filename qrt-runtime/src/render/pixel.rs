@@ -29,6 +29,8 @@ pub(super) struct Totals {
     good: [u64; 3],
     /// Of the luminance, where it is counted.
     segments: Segments,
+    /// Queries that first hits took.
+    queries: u64,
     /// Paths out of bounds, and the colour of the first.
     stray: [(u64, f64); 3],
 }
@@ -166,6 +168,7 @@ impl Pixels {
                 if let Some(one_run) = self.one_run() {
                     one_run.take_counts(&mut totals.segments, finished.luminance);
                 }
+                totals.queries += finished.queries;
                 for (total, good) in totals.good.iter_mut().zip(finished.good) {
                     *total += good.iter().sum::<i64>().cast_unsigned();
                 }
@@ -253,7 +256,7 @@ impl Pixels {
     pub(super) fn finish(&self, pixel: [u32; 2], totals: &Totals) -> Result<Pixel, RenderError> {
         let mut finished = Pixel {
             colour: [0.0; 3],
-            queries: 0,
+            queries: totals.queries,
             good: match self.source {
                 Source::Real(_) => [0; 3],
                 Source::Oracle(_) => totals.good,
@@ -316,6 +319,7 @@ impl Totals {
     /// Adds the totals of later ids.
     fn append(&mut self, later: &Self) {
         self.segments.append(&later.segments);
+        self.queries += later.queries;
         for channel in 0..3 {
             self.colour[channel].append(&later.colour[channel]);
             self.good[channel] += later.good[channel];

@@ -62,6 +62,14 @@ impl Arith for Builder<'_> {
         }
         inside
     }
+    fn at_least(&mut self, value: Real, table: &[[f64; 1]], row: Index) -> Bool {
+        let (value, low) = self.beside(value, table, row, -1.0);
+        self.is_less(value, low).negated()
+    }
+    fn at_most(&mut self, value: Real, table: &[[f64; 1]], row: Index) -> Bool {
+        let (value, high) = self.beside(value, table, row, 1.0);
+        self.is_less(high, value).negated()
+    }
     fn inward(&mut self) -> f64 {
         4.0 * self.ulp()
     }

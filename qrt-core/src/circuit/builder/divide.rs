@@ -167,6 +167,10 @@ impl Builder<'_> {
             return (Bool::Constant(false), a);
         }
         if let Some(divisor) = b.as_constant() {
+            if divisor == 0.0 {
+                // A ray along the plane.
+                return (Bool::Constant(false), Real::constant(0.0));
+            }
             let quotient = self.times_constant(a, 1.0 / divisor);
             let behind = self.negative_sign(quotient);
             let reach = Real::constant(self.farthest(most));

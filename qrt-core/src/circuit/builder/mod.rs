@@ -25,6 +25,7 @@ mod arith;
 mod choice;
 mod divide;
 mod function;
+mod given;
 mod names;
 mod number;
 mod order;

@@ -21,13 +21,15 @@ pub enum Defect {
         /// What the qubit was last used for.
         register: String,
     },
-    /// A path whose id was changed.
+    /// A path whose id was changed, or what else it is given by.
     Id {
         /// Column and row of the path's pixel.
         pixel: [u32; 2],
         /// The path.
         id: u64,
     },
+    /// Paths whose first hits are inputs of the oracle, with nothing that finds them.
+    FirstHits,
     /// A sign that was turned, or not, against the comparison.
     Flip {
         /// 0 red, 1 green, 2 blue, 3 luminance.
@@ -72,8 +74,11 @@ impl fmt::Display for Defect {
                 dirty.qubit
             ),
             Self::Id { pixel: [x, y], id } => {
-                write!(f, "the id of path {id} of pixel ({x}, {y}) is changed")
+                write!(f, "an input of path {id} of pixel ({x}, {y}) is changed")
             }
+            Self::FirstHits => f.write_str(
+                "the paths' first hits are inputs of the oracle, and nothing finds them",
+            ),
             Self::Flip {
                 channel,
                 count,

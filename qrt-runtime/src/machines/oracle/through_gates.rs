@@ -16,7 +16,10 @@ impl OracleMachine {
     ) -> Result<(), Defect> {
         let count = block.ids.len();
         let id = parts.register(self.oracle.id).to_vec();
+        let nearest = self.oracle.nearest;
+        let hit = nearest.map_or(Vec::new(), |hit| parts.register(hit).to_vec());
         rows.set(&id, &block.ids);
+        rows.set(&hit, &block.hits);
         rows.set_parameters(spans);
         gates.run(0, rows);
         let mut bits = vec![0; count];
@@ -36,12 +39,12 @@ impl OracleMachine {
             let mut start = 0;
             let runs = block.runs.iter();
             let mut runs = runs.filter(|run| {
-                start += run.count;
+                start += run.paths.count;
                 lane < start
             });
-            runs.next().map_or([0, 0], |run| run.place)
+            runs.next().map_or([0, 0], |run| run.paths.pixel)
         };
-        if let Some(dirty) = rows.dirty(&id, count) {
+        if let Some(dirty) = rows.dirty(&[&id[..], &hit].concat(), count) {
             return Err(Defect::Dirty {
                 dirty,
                 pixel: place(dirty.lane),
@@ -49,13 +52,15 @@ impl OracleMachine {
                 register: parts.name(&self.oracle, dirty.qubit),
             });
         }
-        rows.get(&id, &mut bits);
-        match bits.iter().zip(&block.ids).position(|(is, was)| is != was) {
-            Some(lane) => Err(Defect::Id {
-                pixel: place(lane),
-                id: block.ids[lane],
-            }),
-            None => Ok(()),
+        for (qubits, contents) in [(&id, &block.ids), (&hit, &block.hits)] {
+            rows.get(qubits, &mut bits);
+            if let Some(lane) = bits.iter().zip(contents).position(|(is, was)| is != was) {
+                return Err(Defect::Id {
+                    pixel: place(lane),
+                    id: block.ids[lane],
+                });
+            }
         }
+        Ok(())
     }
 }

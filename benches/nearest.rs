@@ -1,0 +1,239 @@
+//! What finding first hits by quantum search takes: queries over the number of faces P.
+//!
+//! `cargo bench --bench nearest` prints, for scenes of 4 to 1,024 faces (parallelograms askew
+//! before a perspective camera; rectangles along the axes before an orthographic one, as in Alves
+//! 2019) and for example scenes, mean queries a ray
+//!
+//! * of a search that begins with nothing, and of one that begins with what the path before it met,
+//! * against P, which asking about every face takes, and against sqrt(P),
+//! * against 22.5 sqrt(N) + 1.4 (log2 N)^2, after which Durr & Hoyer (1996) have found the minimum
+//!   with probability 1/2;
+//!
+//! the rays whose nearest face was missed, beside the bound on their share; Toffolis and qubits of
+//! a query; and the exponents that fit best. It fails where a promise is broken.
+
+// A bench that cannot run has nothing to report.
+#![allow(clippy::unwrap_used, clippy::expect_used)]
+
+#[path = "common/growth.rs"]
+mod growth;
+
+use growth::{fit, quads};
+use qrt::core::front;
+use qrt::core::oracle::NearestOracle;
+use qrt::core::valid::ValidScene;
+use qrt::runtime::machines::{FirstHits, NearestMachine, PathRun};
+use qrt::runtime::search::{FoundHits, Guess, Method, Rounds};
+use std::fmt::Write;
+use std::path::Path;
+use std::process::ExitCode;
+use std::sync::Arc;
+
+/// The probability with which a ray's nearest face may be missed.
+const FAILURE: f64 = 1e-3;
+
+/// Paths of a pixel that are traced.
+const PATHS: usize = 16;
+
+/// Pixels of a film's side that are traced, from its middle.
+const SIDE: u32 = 16;
+
+fn main() -> ExitCode {
+    let mut kept = true;
+    let mut promise = |what: &str, kept_now: bool| {
+        println!("{} {what}", if kept_now { "kept  " } else { "BROKEN" });
+        kept &= kept_now;
+    };
+    println!("a search fails with probability {FAILURE} at most");
+    for (name, text) in [
+        ("askew", quads as fn(u32) -> String),
+        ("along the axes", rectangles),
+    ] {
+        println!("\nfaces {name}");
+        header();
+        let faces = (2..=10).map(|log| 1 << log);
+        let rows: Vec<Row> = faces.map(|faces| Row::new(&parsed(&text(faces)))).collect();
+        for row in &rows {
+            row.print();
+        }
+        for (which, guess) in ["random", "coherent"].into_iter().zip(0..) {
+            let points = rows.iter().map(|row| [row.faces, row.queries[guess]]);
+            let fit = fit(points);
+            let within = (0.45..=0.55).contains(&fit.exponent);
+            let text = format!(
+                "{name}, {which}: queries ~ P^{:.3}, up to {:.0} %",
+                fit.exponent,
+                100.0 * fit.residual
+            );
+            promise(&text, within);
+        }
+        promises(&rows, name, &mut promise);
+    }
+    println!("\nexample scenes");
+    header();
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let scenes = ["cornell-box", "cornell-mirror", "floor-and-light", "knot"];
+    let rows = scenes.map(|scene| {
+        let path = root.join("scenes-yaml").join(format!("{scene}.yaml"));
+        let row = Row::new(&front::load(&path, &[]).unwrap().valid);
+        row.print();
+        row
+    });
+    promises(&rows, "example scenes", &mut promise);
+    if kept {
+        ExitCode::SUCCESS
+    } else {
+        ExitCode::FAILURE
+    }
+}
+
+fn promises(rows: &[Row], name: &str, promise: &mut impl FnMut(&str, bool)) {
+    let bound = rows.iter().all(|row| row.queries[0] < row.durr_hoyer);
+    promise(
+        &format!("{name}: fewer queries than Durr & Hoyer's bound"),
+        bound,
+    );
+    for (which, guess) in ["random", "coherent"].into_iter().zip(0..) {
+        let missed: u64 = rows.iter().map(|row| row.missed[guess]).sum();
+        let rays: u64 = rows.iter().map(|row| row.rays).sum();
+        // Four standard deviations of so many rays.
+        let mean = FAILURE * rays as f64;
+        let text = format!("{name}, {which}: {missed} of {rays} rays missed, {mean:.0} allowed");
+        promise(&text, missed as f64 <= mean + 4.0 * mean.sqrt());
+    }
+}
+
+struct Row {
+    faces: f64,
+    states: usize,
+    rays: u64,
+    /// Without a first guess, and with one: mean queries of a ray.
+    queries: [f64; 2],
+    /// Rays of which another face than the nearest was found.
+    missed: [u64; 2],
+    durr_hoyer: f64,
+    toffoli: u64,
+    qubits: u32,
+}
+
+impl Row {
+    fn new(scene: &ValidScene) -> Self {
+        let oracle = Arc::new(NearestOracle::new(scene).unwrap().unwrap());
+        let (faces, states) = (oracle.faces(), oracle.states());
+        let (cost, qubits) = oracle.cost();
+        let film = scene.scene().film;
+        let from = |length: u32| {
+            let side = SIDE.min(length);
+            let first = (length - side) / 2;
+            first..first + side
+        };
+        let pixels = from(film.height).flat_map(|y| from(film.width).map(move |x| [x, y]));
+        let runs: Vec<PathRun> = pixels
+            .map(|pixel| PathRun {
+                pixel,
+                first: 0,
+                count: PATHS,
+            })
+            .collect();
+        let rays = runs.len() * PATHS;
+        let find = |method: Method| {
+            let machine = NearestMachine::fixed(oracle.clone(), 0);
+            let (mut hits, mut queries) = (vec![0; rays], vec![0; runs.len()]);
+            let hits_of = FoundHits::new(machine, method, 0);
+            hits_of.find(&runs, &mut hits, &mut queries).unwrap();
+            (hits, queries.iter().sum::<u64>() as f64 / rays as f64)
+        };
+        let (nearest, all) = find(Method::Exhaustive);
+        assert_eq!(all, faces as f64);
+        let rounds = Rounds::new(states, faces, FAILURE).unwrap();
+        let found = [Guess::Random, Guess::Coherent]
+            .map(|guess| find(Method::Grover(rounds.clone(), guess)));
+        let log = (states as f64).log2();
+        Self {
+            faces: faces as f64,
+            states,
+            rays: rays as u64,
+            queries: found.each_ref().map(|(_, queries)| *queries),
+            missed: found.each_ref().map(|(hits, _)| {
+                let pairs = hits.iter().zip(&nearest);
+                pairs.filter(|(hit, nearest)| hit != nearest).count() as u64
+            }),
+            durr_hoyer: 22.5 * (states as f64).sqrt() + 1.4 * log * log,
+            toffoli: cost.toffoli,
+            qubits,
+        }
+    }
+
+    fn print(&self) {
+        let [random, coherent] = self.queries;
+        println!(
+            "{:>6}{:>7}{random:>10.1}{coherent:>10.1}{:>9.2}{:>9.2}{:>8.3}{:>10.1}{:>8}{:>8}\
+             {:>10}{:>9}",
+            self.faces,
+            self.states,
+            random / self.faces.sqrt(),
+            coherent / self.faces.sqrt(),
+            coherent / self.faces,
+            self.durr_hoyer,
+            self.missed[0],
+            self.missed[1],
+            self.toffoli,
+            self.qubits,
+        );
+    }
+}
+
+fn header() {
+    println!(
+        "{:>6}{:>7}{:>10}{:>10}{:>18}{:>8}{:>10}{:>16}{:>10}{:>9}",
+        "P",
+        "N",
+        "random",
+        "coherent",
+        "over sqrt(P)",
+        "over P",
+        "D & H",
+        "missed",
+        "Toffolis",
+        "qubits"
+    );
+}
+
+fn parsed(text: &str) -> ValidScene {
+    front::parse(text, "scene.yaml", &[], "".as_ref())
+        .unwrap()
+        .valid
+}
+
+/// A scene of rectangles along the axes, all facing an orthographic camera that looks along -z.
+fn rectangles(count: u32) -> String {
+    let mut text = String::from(
+        "name: rectangles\n\
+         camera: { orthographic: { eye: [0, 0, 2], target: [0, 0, 0], height: 2 } }\n\
+         film: { width: 16, height: 16 }\n\
+         materials: { grey: { lambertian: { albedo: [0.7, 0.6, 0.5] } } }\n\
+         geometry:\n",
+    );
+    let mut state = 7_u64;
+    let mut draw = || {
+        let next = state.wrapping_mul(6_364_136_223_846_793_005);
+        state = next.wrapping_add(1_442_695_040_888_963_407);
+        (state >> 43) as f64 / f64::from(1 << 20) - 1.0
+    };
+    for _ in 0..count {
+        let [x, y, z] = [0.8 * draw(), 0.8 * draw(), 0.9 * draw()];
+        let [width, height] = [0.2 + 0.1 * draw(), 0.2 + 0.1 * draw()];
+        let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|[s, t]| {
+            let (x, y) = (x + s * width, y + t * height);
+            format!("[{x:.5}, {y:.5}, {z:.5}]")
+        });
+        let corners = corners.join(", ");
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            text,
+            "  - quad: {{ vertices: [{corners}], material: grey }}"
+        );
+    }
+    text.push_str("sampling: { path_bits: 8, depths: [{ bits: [8, 8] }] }\n");
+    text
+}

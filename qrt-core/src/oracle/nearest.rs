@@ -1,0 +1,233 @@
+//! The oracle of nearest hits: which faces does a ray meet nearer than the nearest known?
+//!
+//! For a path, whose id is a basis state, it flips the phase of every basis state (primitive) whose
+//! face the path's first ray meets before all that is known so far:
+//!
+//! ```text
+//! compute        id -> ray;  primitive -> face, by table;  (ray, face) -> meets, distance
+//! nearer         meets and (distance, primitive) < (best.distance, best.primitive)
+//! flip           Z on that bit
+//! undo compute
+//! ```
+//!
+//! Pairs are compared by their distances and, where these are equal, by their numbers: so the least
+//! of all is what a running nearest keeps that asks about the faces in turn. `best` is classical:
+//! what the search has measured last. Without one it reads the greatest distance there is, which
+//! nothing is nearer than by number, so that every face that the ray meets is marked.
+//!
+//! Grover's iterate over `primitive` finds a marked one (Lanzagorta & Uhlmann, *Quantum rendering*,
+//! 2005); searched again with what was found as `best`, the minimum (Durr & Hoyer 1996). The ray,
+//! the plane and the edges are those of the tracer (see [`crate::tracer::Listing`]), in fixed
+//! point. A face's data are rounded to the scene's fraction bits, where a circuit with a constant
+//! for each face can round products with it as a whole: the two may differ in a distance's last
+//! bits, and so at faces' edges.
+//!
+//! There are `2^m` basis states for P faces, m the least above 0 with `2^m >= P`. Those beyond P
+//! meet nothing.
+
+use super::recording::target;
+use super::{Options, OracleError, register_of};
+use crate::circuit::builder::Builder;
+use crate::circuit::lower::{self, Cost};
+use crate::circuit::{
+    self, Bit, Block, BlockId, Instruction, Op, Operand, Program, RegisterId, Role, Word,
+};
+use crate::sampling::PathPoints;
+use crate::scene::Uncompute;
+use crate::tracer::{Arith, Listing, Named, Part, Stage};
+use crate::valid::ValidScene;
+
+/// Most faces of a table that is looked up by a face's number: one number of 16 bits stands for
+/// none.
+pub const MOST_FACES: usize = (1 << 16) - 1;
+
+/// The oracle of a scene's nearest hits: see [the module](self).
+#[derive(Clone, Debug)]
+pub struct NearestOracle {
+    /// What computes [`NearestOracle::distance`] and [`NearestOracle::nearer`].
+    pub program: Program,
+    /// The path's id.
+    pub id: RegisterId,
+    /// The face's number: its place in [`Listing::labels`], which is the order in which a running
+    /// nearest asks about them.
+    pub primitive: RegisterId,
+    /// The distance of the nearest so far, in ulps.
+    pub best_distance: RegisterId,
+    /// Its number.
+    pub best_primitive: RegisterId,
+    /// The face's distance, in units of `2^-fraction` of the ray's direction; anything where the
+    /// ray does not meet it.
+    pub distance: Operand,
+    /// Is the face nearer than the nearest so far? None if no ray can meet any.
+    pub nearer: Option<Bit>,
+    /// What [`NearestOracle::best_distance`] holds where there is none; the number then is 0.
+    pub nowhere: u64,
+    /// By face, its label in the scene; and then that of none.
+    pub labels: Vec<u32>,
+    /// Fraction bits of every number.
+    pub fraction: u32,
+    /// The paths of a pixel.
+    pub points: PathPoints,
+}
+
+impl NearestOracle {
+    /// The oracle of a scene's primary rays; none if the scene has no faces.
+    ///
+    /// # Errors
+    /// A scene whose numbers no register can hold, or with more than [`MOST_FACES`] faces.
+    pub fn new(scene: &ValidScene) -> Result<Option<Self>, OracleError> {
+        let stage = Stage::<1>::new(scene, [0]);
+        let list = Listing::new(&stage);
+        if list.is_empty() {
+            return Ok(None);
+        }
+        listable(&list)?;
+        let points = PathPoints::new(&scene.scene().sampling)?;
+        let options = Options::default();
+        let target = target(scene, &stage, &points, options);
+        let fraction = target.fraction;
+        let mut builder = Builder::new(target);
+        let cx = &mut builder;
+        let width = index_bits(list.len());
+        let (primitive, face) = cx.given_index("primitive", Role::Id, width);
+        let reach = stage.camera.reach;
+        let nowhere = cx.nowhere(reach);
+        let most = cx.operand_of(nowhere).1[1];
+        let units = (1_u64 << fraction) as f64;
+        let (best_distance, least) =
+            cx.given_number("best.distance", Role::Comparator, most as f64 / units);
+        let (best_primitive, number) = cx.given_index("best.primitive", Role::Comparator, width);
+
+        cx.enter(Part::GenerateRay(0));
+        let ray = stage.camera.ray(cx, stage.film_bits);
+        cx.leave();
+        let named = |name| Named { depth: 0, name };
+        cx.named(named("origin"), &ray.origin);
+        cx.named(named("direction"), &ray.direction);
+        cx.enter(Part::FindIntersection(0));
+        let (meets, distance) = list.meet(cx, &ray, face);
+        let distance = cx.held(distance);
+        cx.leave();
+        cx.enter_nearer();
+        let before = cx.less(distance, least);
+        let after = cx.less(least, distance);
+        let lower = cx.index_less(face, number);
+        let tied = cx.not(after);
+        let first = cx.and(tied, lower);
+        let nearer = cx.or(before, first);
+        let nearer = cx.and(meets, nearer);
+        let nearer = cx.truth_bit(nearer);
+        cx.leave();
+
+        let distance = cx.operand_of(distance).0;
+        let id = builder.id();
+        let recorded = builder.finish()?;
+        let roots = register_of(distance)
+            .into_iter()
+            .chain(nearer.map(|bit| bit.register));
+        let (program, renamed) = circuit::assemble(
+            recorded,
+            &roots.collect::<Vec<_>>(),
+            options.passes,
+            scene.scene().circuit.uncompute == Uncompute::Scoped,
+            &[id, primitive, best_distance, best_primitive],
+            &mut circuit::Known::default(),
+        );
+        let rename = |register: RegisterId| *renamed.get(&register).unwrap_or(&register);
+        Ok(Some(Self {
+            program,
+            id,
+            primitive,
+            best_distance,
+            best_primitive,
+            distance: distance.of(rename),
+            nearer: nearer.map(|bit| bit.of(rename)),
+            nowhere: most.cast_unsigned(),
+            labels: list.labels().to_vec(),
+            fraction,
+            points,
+        }))
+    }
+
+    /// P, the faces.
+    pub fn faces(&self) -> usize {
+        self.labels.len() - 1
+    }
+
+    /// `2^m`, the basis states that are searched.
+    pub fn states(&self) -> usize {
+        1 << self.program.width(self.primitive)
+    }
+
+    /// Turns the sign where the face is nearer: what stands between compute and uncompute.
+    pub fn flip(&self) -> Program {
+        let mut program = self.program.clone();
+        let block = BlockId(program.blocks.len() as u32);
+        program.blocks.push(Block {
+            parent: Some(BlockId::ROOT),
+            name: "flip".to_owned(),
+            depth: None,
+            scope: false,
+        });
+        program.instructions.clear();
+        if let Some(bit) = self.nearer {
+            program.instructions.push(Instruction {
+                op: program.ops.len() as u32,
+                inverse: false,
+                block,
+            });
+            program.ops.push(Op::Phase { bit });
+        }
+        program.inputs = self.program.outputs();
+        program
+    }
+
+    /// All of it: compute, flip, undo. One query.
+    pub fn whole(&self) -> Program {
+        let mut whole = self.flip();
+        let undo = self.program.inverse().instructions;
+        let flip = std::mem::take(&mut whole.instructions);
+        whole.instructions.clone_from(&self.program.instructions);
+        whole.instructions.extend(flip);
+        whole.instructions.extend(undo);
+        whole.inputs.clone_from(&self.program.inputs);
+        whole
+    }
+
+    /// What one query costs, and the most qubits in use at any time.
+    pub fn cost(&self) -> (Cost, u32) {
+        let whole = self.whole();
+        let costs = lower::tally(&whole);
+        (costs.into_iter().sum(), lower::most_qubits(&whole))
+    }
+
+    /// The words that machines read of a program's end: the distance's and the mark's, as far as
+    /// they are not the same on all paths.
+    pub fn outputs(&self) -> [Option<Word>; 2] {
+        let distance = match self.distance {
+            Operand::Word(word) => Some(word),
+            Operand::Constant(_) => None,
+        };
+        let nearer = self.nearer.map(|bit| Word {
+            register: bit.register,
+            offset: bit.index,
+            width: 1,
+            signed: false,
+            shift: 0,
+        });
+        [distance, nearer]
+    }
+}
+
+/// Bits that count `faces`: the least above 0.
+fn index_bits(faces: usize) -> u32 {
+    (usize::BITS - faces.saturating_sub(1).leading_zeros()).max(1)
+}
+
+/// Refuses what no table holds.
+pub(super) fn listable(list: &Listing) -> Result<(), OracleError> {
+    if list.len() > MOST_FACES {
+        return Err(OracleError::TooManyFaces { faces: list.len() });
+    }
+    Ok(())
+}

@@ -1,0 +1,253 @@
+//! The faces as a list: one that is in superposition, looked up by its place.
+//!
+//! [`super::Geometry`] holds faces as constants: a machine that asks about all of them in turn
+//! folds them into its code. A [`Listing`] holds the same faces as rows of tables, for a machine
+//! that asks about one face whose number is a register's. The intersection is the same: where a ray
+//! crosses a plane ([`super::cross`]), and whether that lies within the edges.
+
+use super::geometry::{NO_FACE, Slab};
+use super::intersect::{Crossing, Edges, Hit, Nearest, Ray, Turned, cross, meets};
+use super::{Arith, Stage, vector};
+use std::cell::Cell;
+
+/// Faces in the order in which the running nearest asks about them: of those equally far, the first
+/// is the nearest. See [the module](self).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Listing {
+    /// Where rays start, if all of them start at one point: what of planes and edges depends on it
+    /// is in the tables.
+    viewpoint: [f64; 3],
+    /// By face: the main axis of its plane.
+    axes: Vec<u32>,
+    /// By face: its plane's form, and its offset as seen from the viewpoint.
+    planes: Vec<[f64; 3]>,
+    slots: Vec<Slot>,
+    /// By face, its label; and then [`NO_FACE`].
+    labels: Vec<u32>,
+}
+
+/// One slab of each face, as seen from the viewpoint: `low <= p[main] + slope p[other] <= high`.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Slot {
+    /// Is the main coordinate the second of the two?
+    second: Vec<u32>,
+    slope: Vec<[f64; 1]>,
+    low: Vec<[f64; 1]>,
+    high: Vec<[f64; 1]>,
+}
+
+impl Listing {
+    /// The faces that rays of `stage`'s camera may meet.
+    pub fn new<const C: usize>(stage: &Stage<C>) -> Self {
+        let geometry = stage.geometry();
+        let camera = &stage.camera;
+        let viewpoint = if camera.perspective {
+            camera.fixed
+        } else {
+            [0.0; 3]
+        };
+        let mut listing = Self {
+            viewpoint,
+            axes: Vec::new(),
+            planes: Vec::new(),
+            slots: Vec::new(),
+            labels: Vec::new(),
+        };
+        let most = geometry.faces.iter().map(|face| face.slabs.len()).max();
+        listing.slots.resize(most.unwrap_or(0), Slot::default());
+        for plane in &geometry.planes {
+            let seen = |k: usize| viewpoint[(plane.axis + k) % 3];
+            let [a, b] = plane.form;
+            let offset = plane.offset - (seen(0) + a * seen(1) + b * seen(2));
+            for face in &geometry.faces[plane.faces.clone()] {
+                listing.axes.push(plane.axis as u32);
+                listing.planes.push([a, b, offset]);
+                listing.labels.push(face.label);
+                let slabs = face.slabs.iter();
+                let slabs = slabs.map(|slab| Row::new(slab, [seen(1), seen(2)]));
+                let mut slabs: Vec<Row> = slabs.collect();
+                // Alike ones in one slot: a column of equal entries costs nothing.
+                slabs.sort_by_key(|row| row.second);
+                let mut slabs = slabs.into_iter();
+                for slot in &mut listing.slots {
+                    slot.push(&slabs.next().unwrap_or(Row::OPEN));
+                }
+            }
+        }
+        let away = viewpoint.map(f64::abs).into_iter().fold(0.0, f64::max);
+        for slot in &mut listing.slots {
+            // No point of a face is that far away.
+            slot.close(4.0 * (1.0 + away));
+        }
+        listing.labels.push(NO_FACE);
+        listing
+    }
+
+    /// Faces.
+    pub fn len(&self) -> usize {
+        self.axes.len()
+    }
+
+    /// Is there none?
+    pub fn is_empty(&self) -> bool {
+        self.axes.is_empty()
+    }
+
+    /// By face, its label in the scene; and after the last, [`NO_FACE`].
+    pub fn labels(&self) -> &[u32] {
+        &self.labels
+    }
+
+    /// Whether a ray of the camera meets face number `face`, and at which distance. A number beyond
+    /// the last face meets nothing.
+    #[inline(always)]
+    pub fn meet<A: Arith>(&self, cx: &mut A, ray: &Ray<A>, face: A::Index) -> (A::Bool, A::Real) {
+        let crossing = self.cross(cx, ray, face);
+        let meets = meets(cx, &crossing, &Looked { list: self, face });
+        let listed = cx.below(face, self.len() as u32);
+        (cx.and(meets, listed), crossing.distance)
+    }
+
+    /// The hit of a ray of the camera on face number `face`; none if that is the number of faces.
+    #[inline(always)]
+    fn hit<A: Arith>(&self, cx: &mut A, ray: &Ray<A>, face: A::Index, wanted: A::Bool) -> Hit<A> {
+        let crossing = self.cross(cx, ray, face);
+        let label = cx.entry(&self.labels, face);
+        Hit::new(cx, crossing.distance, label, wanted)
+    }
+
+    #[inline(always)]
+    fn cross<A: Arith>(&self, cx: &mut A, ray: &Ray<A>, face: A::Index) -> Crossing<A> {
+        let viewpoint = vector::constant(cx, self.viewpoint);
+        let seen = Ray {
+            origin: vector::sub(cx, &ray.origin, &viewpoint),
+            ..*ray
+        };
+        let axis = cx.entry(&self.axes, face);
+        let turned = Turned::looked_up(cx, &seen, axis);
+        let [a, b, offset] = cx.rows(&self.planes, face);
+        cross(cx, [a, b], offset, &turned)
+    }
+}
+
+/// The edges of a face whose number is a register's.
+struct Looked<'a, A: Arith> {
+    list: &'a Listing,
+    face: A::Index,
+}
+
+impl<A: Arith> Edges<A> for Looked<'_, A> {
+    #[inline(always)]
+    fn hold(&self, cx: &mut A, [first, second]: [A::Real; 2]) -> A::Bool {
+        let mut inside = cx.truth(true);
+        for slot in &self.list.slots {
+            let swap = cx.entry(&slot.second, self.face);
+            let swap = cx.is(swap, 1);
+            let main = cx.select(swap, second, first);
+            let other = cx.select(swap, first, second);
+            let [slope] = cx.rows(&slot.slope, self.face);
+            let along = cx.mul(other, slope);
+            let value = cx.add(main, along);
+            if slot.low.iter().any(|[low]| low.is_finite()) {
+                let above = cx.at_least(value, &slot.low, self.face);
+                inside = cx.and(inside, above);
+            }
+            if slot.high.iter().any(|[high]| high.is_finite()) {
+                let below = cx.at_most(value, &slot.high, self.face);
+                inside = cx.and(inside, below);
+            }
+        }
+        inside
+    }
+}
+
+/// The nearest intersection, found before: the first ray's is given, as a face's number in a
+/// [`Listing`] or the number of its faces for none; those of the others are looked for.
+pub struct FirstGiven<'a, A: Arith, N> {
+    list: &'a Listing,
+    first: Cell<Option<A::Index>>,
+    others: &'a N,
+}
+
+impl<'a, A: Arith, N: Nearest<A>> FirstGiven<'a, A, N> {
+    /// The first ray meets face number `first`; `others` finds what the others meet.
+    pub fn new(list: &'a Listing, first: A::Index, others: &'a N) -> Self {
+        Self {
+            list,
+            first: Cell::new(Some(first)),
+            others,
+        }
+    }
+}
+
+impl<A: Arith, N: Nearest<A>> Nearest<A> for FirstGiven<'_, A, N> {
+    #[inline(always)]
+    fn nearest(&self, cx: &mut A, ray: &Ray<A>, wanted: A::Bool) -> Hit<A> {
+        match self.first.take() {
+            Some(face) => self.list.hit(cx, ray, face, wanted),
+            None => self.others.nearest(cx, ray, wanted),
+        }
+    }
+
+    #[inline(always)]
+    fn emitter(&self, cx: &mut A, ray: &Ray<A>, wanted: A::Bool) -> Hit<A> {
+        match self.first.take() {
+            Some(face) => self.list.hit(cx, ray, face, wanted),
+            None => self.others.emitter(cx, ray, wanted),
+        }
+    }
+}
+
+/// A face's row of a [`Slot`].
+struct Row {
+    second: u32,
+    slope: f64,
+    low: f64,
+    high: f64,
+}
+
+impl Row {
+    /// What holds for every point.
+    const OPEN: Self = Self {
+        second: 0,
+        slope: 0.0,
+        low: f64::NEG_INFINITY,
+        high: f64::INFINITY,
+    };
+
+    /// `slab` of a plane of which `seen` is the viewpoint's place.
+    fn new(slab: &Slab, seen: [f64; 2]) -> Self {
+        let [a, b] = slab.form;
+        let away = a * seen[0] + b * seen[1];
+        // The greater of the two is 1.
+        let second = a != 1.0;
+        Self {
+            second: u32::from(second),
+            slope: if second { a } else { b },
+            low: slab.low - away,
+            high: slab.high - away,
+        }
+    }
+}
+
+impl Slot {
+    fn push(&mut self, row: &Row) {
+        self.second.push(row.second);
+        self.slope.push([row.slope]);
+        self.low.push([row.low]);
+        self.high.push([row.high]);
+    }
+
+    /// Gives every face a bound where some have one.
+    fn close(&mut self, far: f64) {
+        for (column, sign) in [(&mut self.low, -1.0), (&mut self.high, 1.0)] {
+            if column.iter().any(|[bound]| bound.is_finite()) {
+                for [bound] in column {
+                    if bound.is_infinite() {
+                        *bound = sign * far;
+                    }
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,362 @@
+//! The oracle of nearest hits, run by the fixed or the gates machine on every basis state of rays.
+//!
+//! Which faces are marked is what the circuit says of them, one basis state (ray, face) after the
+//! other; nothing else knows of it. The gates machine runs compute, flip and uncompute, and looks
+//! at every qubit and every sign: work must be zero again, inputs as they were.
+
+use super::fixed::{self, Fixed};
+use super::gates::{Gates, Rows};
+use super::oracle::Defect;
+use super::span::Span;
+use qrt_core::circuit::{Circuit, Operand, Qubit, RegisterId, Word, lower};
+use qrt_core::oracle::NearestOracle;
+use std::ops::Range;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// A face that a ray meets.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Candidate {
+    /// Its distance, in ulps.
+    pub distance: i64,
+    /// Its number.
+    pub primitive: u32,
+}
+
+/// A path's first ray, and the nearest that is known of it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Asked {
+    /// Column and row.
+    pub pixel: [u32; 2],
+    /// The path.
+    pub id: u64,
+    /// What marked faces are nearer than.
+    pub best: Option<Candidate>,
+}
+
+/// What the oracle does to all basis states of some rays.
+#[derive(Clone, Debug, Default)]
+pub struct Answers {
+    states: usize,
+    marks: Vec<bool>,
+    distances: Vec<i64>,
+}
+
+impl Answers {
+    /// By basis state of ray number `ray`: is its sign turned?
+    pub fn marks(&self, ray: usize) -> &[bool] {
+        &self.marks[ray * self.states..][..self.states]
+    }
+
+    /// By basis state of ray number `ray`: the face's distance in ulps, if it meets the face.
+    pub fn distances(&self, ray: usize) -> &[i64] {
+        &self.distances[ray * self.states..][..self.states]
+    }
+}
+
+/// An oracle of nearest hits on a machine.
+pub struct NearestMachine {
+    oracle: Arc<NearestOracle>,
+    seed: u64,
+    machine: Machine,
+}
+
+enum Machine {
+    Fixed {
+        fixed: Box<Fixed>,
+        lanes: Mutex<Vec<fixed::Lanes>>,
+    },
+    Gates {
+        gates: Box<Gates>,
+        rows: Mutex<Vec<Rows>>,
+        inputs: [Vec<Qubit>; 4],
+        distance: Vec<Qubit>,
+        compute: Box<Circuit>,
+    },
+}
+
+/// Basis states, a lane each.
+#[derive(Default)]
+struct Block {
+    /// By input: id, primitive, and the nearest so far.
+    inputs: [Vec<u64>; 4],
+    /// Lanes in turn that belong to one ray: whose, and how many.
+    runs: Vec<(Asked, usize)>,
+}
+
+impl NearestMachine {
+    /// The fixed machine.
+    pub fn fixed(oracle: Arc<NearestOracle>, seed: u64) -> Self {
+        let words: Vec<Word> = oracle.outputs().into_iter().flatten().collect();
+        let fixed = Box::new(Fixed::new(&oracle.program, &words));
+        Self {
+            machine: Machine::Fixed {
+                fixed,
+                lanes: Mutex::new(Vec::new()),
+            },
+            oracle,
+            seed,
+        }
+    }
+
+    /// The gates machine.
+    ///
+    /// # Errors
+    /// If the circuit is none: a defect of qrt.
+    pub fn gates(oracle: Arc<NearestOracle>, seed: u64) -> Result<Self, Defect> {
+        let whole = oracle.whole();
+        let compute = oracle.program.instructions.len();
+        let flip = whole.instructions.len() - compute;
+        let parts = lower::parts(&whole, &[compute, flip]);
+        Self::of_parts(oracle, parts, seed)
+    }
+
+    /// The gates machine on circuits that are given, such as ones that were tampered with: compute,
+    /// flip and uncompute, as [`lower::parts`] makes them.
+    ///
+    /// # Errors
+    /// As [`NearestMachine::gates`].
+    pub fn of_parts(
+        oracle: Arc<NearestOracle>,
+        parts: Vec<Circuit>,
+        seed: u64,
+    ) -> Result<Self, Defect> {
+        let gates = Gates::new(&parts.iter().collect::<Vec<_>>())?;
+        let compute = parts.into_iter().next().unwrap_or_default();
+        let held = |register: RegisterId| {
+            let mut held = compute.outputs.iter();
+            held.find(|(id, _)| *id == register)
+                .map(|(_, qubits)| qubits.clone())
+                .unwrap_or_default()
+        };
+        let distance = match oracle.outputs()[0] {
+            Some(word) => {
+                held(word.register)[word.offset as usize..][..word.width as usize].to_vec()
+            }
+            None => Vec::new(),
+        };
+        Ok(Self {
+            machine: Machine::Gates {
+                gates: Box::new(gates),
+                rows: Mutex::new(Vec::new()),
+                inputs: registers(&oracle).map(held),
+                distance,
+                compute: Box::new(compute),
+            },
+            oracle,
+            seed,
+        })
+    }
+
+    /// The oracle.
+    pub fn oracle(&self) -> &NearestOracle {
+        &self.oracle
+    }
+
+    /// What the oracle does to every basis state of every one of these rays.
+    ///
+    /// # Errors
+    /// The first defect that shows.
+    pub fn ask(&self, asked: &[Asked], answers: &mut Answers) -> Result<(), Defect> {
+        let states = self.oracle.states();
+        answers.states = states;
+        answers.marks.clear();
+        answers.marks.resize(states * asked.len(), false);
+        answers.distances.clear();
+        answers.distances.resize(states * asked.len(), 0);
+        let most = match &self.machine {
+            Machine::Fixed { .. } => Fixed::LANES,
+            Machine::Gates { .. } => Gates::LANES,
+        };
+        let mut marks = answers.marks.as_mut_slice();
+        let mut distances = answers.distances.as_mut_slice();
+        let mut block = Block::default();
+        for (place, ray) in asked.iter().enumerate() {
+            let mut first = 0;
+            while first < states {
+                let count = (states - first).min(most - block.lanes());
+                block.push(&self.oracle, ray, first..first + count);
+                first += count;
+                let last = first == states && place + 1 == asked.len();
+                if block.lanes() == most || last {
+                    let (now, later) = marks.split_at_mut(block.lanes());
+                    let (far, farther) = distances.split_at_mut(block.lanes());
+                    self.run(&block, now, far)?;
+                    (marks, distances) = (later, farther);
+                    block.clear();
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn run(&self, block: &Block, marks: &mut [bool], distances: &mut [i64]) -> Result<(), Defect> {
+        if let Operand::Constant(value) = self.oracle.distance {
+            distances.fill(value);
+        }
+        let words: Vec<Vec<u64>> = block.runs.iter().map(|(ray, _)| self.words(ray)).collect();
+        let spans = block.runs.iter().zip(&words);
+        let spans = spans.map(|(&(_, lanes), parameters)| Span { lanes, parameters });
+        let spans: Vec<Span<'_>> = spans.collect();
+        let [distance, nearer] = self.oracle.outputs();
+        match &self.machine {
+            Machine::Fixed { fixed, lanes } => {
+                let own = lanes.lock().unwrap_or_else(PoisonError::into_inner).pop();
+                let mut own = own.unwrap_or_else(|| fixed.lanes());
+                let mut bits = vec![0; marks.len()];
+                let mut wanted: Vec<&mut [i64]> = Vec::new();
+                if distance.is_some() {
+                    wanted.push(distances);
+                }
+                if nearer.is_some() {
+                    wanted.push(&mut bits);
+                }
+                let inputs = block.inputs.each_ref().map(Vec::as_slice);
+                fixed.run(&mut own, &inputs, &spans, &mut wanted);
+                let turned = self.oracle.nearer.is_some_and(|bit| bit.inverted);
+                for (mark, bit) in marks.iter_mut().zip(&bits) {
+                    *mark = (*bit == 1) != turned;
+                }
+                lanes
+                    .lock()
+                    .unwrap_or_else(PoisonError::into_inner)
+                    .push(own);
+                Ok(())
+            }
+            Machine::Gates { rows, gates, .. } => {
+                let own = rows.lock().unwrap_or_else(PoisonError::into_inner).pop();
+                let mut own = own.unwrap_or_else(|| gates.rows());
+                self.through_gates(&mut own, block, &spans, marks, distances)?;
+                // Rows that are not as they must be are not used again.
+                rows.lock()
+                    .unwrap_or_else(PoisonError::into_inner)
+                    .push(own);
+                Ok(())
+            }
+        }
+    }
+
+    fn through_gates(
+        &self,
+        rows: &mut Rows,
+        block: &Block,
+        spans: &[Span<'_>],
+        marks: &mut [bool],
+        distances: &mut [i64],
+    ) -> Result<(), Defect> {
+        let Machine::Gates {
+            gates,
+            inputs,
+            distance,
+            compute,
+            ..
+        } = &self.machine
+        else {
+            return Ok(());
+        };
+        let count = block.lanes();
+        rows.clear();
+        for (qubits, contents) in inputs.iter().zip(&block.inputs) {
+            rows.set(qubits, contents);
+        }
+        rows.set_parameters(spans);
+        gates.run(0, rows);
+        let mut bits = vec![0; count];
+        if let [Some(word), _] = self.oracle.outputs() {
+            rows.get(distance, &mut bits);
+            let alone = Word { offset: 0, ..word };
+            for (distance, bits) in distances.iter_mut().zip(&bits) {
+                *distance = alone.read(*bits);
+            }
+        }
+        gates.run(1, rows);
+        gates.run(2, rows);
+        for (lane, mark) in marks.iter_mut().enumerate() {
+            *mark = rows.signs()[lane / 64] >> (lane % 64) & 1 == 1;
+        }
+        let held: Vec<Qubit> = inputs.iter().flatten().copied().collect();
+        if let Some(dirty) = rows.dirty(&held, count) {
+            let ray = block.ray(dirty.lane);
+            let mut names = compute.outputs.iter();
+            let register = names.find(|(_, qubits)| qubits.contains(&dirty.qubit));
+            let program = &self.oracle.program;
+            return Err(Defect::Dirty {
+                dirty,
+                pixel: ray.pixel,
+                id: ray.id,
+                register: register.map_or_else(
+                    || "an ancilla".to_owned(),
+                    |(id, _)| program.registers[id.index()].name.clone(),
+                ),
+            });
+        }
+        for (qubits, contents) in inputs.iter().zip(&block.inputs) {
+            rows.get(qubits, &mut bits);
+            if let Some(lane) = bits.iter().zip(contents).position(|(is, was)| is != was) {
+                let Asked { pixel, id, .. } = block.ray(lane);
+                return Err(Defect::Id { pixel, id });
+            }
+        }
+        Ok(())
+    }
+
+    /// The classical words of a ray's pixel.
+    fn words(&self, ray: &Asked) -> Vec<u64> {
+        let parameters = self.oracle.program.parameters.iter();
+        parameters
+            .map(|parameter| parameter.value(&self.oracle.points, self.seed, ray.pixel))
+            .collect()
+    }
+}
+
+impl Block {
+    fn lanes(&self) -> usize {
+        self.inputs[0].len()
+    }
+
+    fn push(&mut self, oracle: &NearestOracle, ray: &Asked, primitives: Range<usize>) {
+        let (distance, number) = match ray.best {
+            Some(best) => (best.distance.cast_unsigned(), u64::from(best.primitive)),
+            None => (oracle.nowhere, 0),
+        };
+        let [id, primitive, best_distance, best_primitive] = &mut self.inputs;
+        let lanes = id.len() + primitives.len();
+        id.resize(lanes, ray.id);
+        best_distance.resize(lanes, distance);
+        best_primitive.resize(lanes, number);
+        self.runs.push((*ray, primitives.len()));
+        primitive.extend(primitives.map(|primitive| primitive as u64));
+    }
+
+    fn clear(&mut self) {
+        self.inputs.iter_mut().for_each(Vec::clear);
+        self.runs.clear();
+    }
+
+    /// The ray that a lane belongs to.
+    fn ray(&self, lane: usize) -> Asked {
+        let mut end = 0;
+        let mut runs = self.runs.iter();
+        let run = runs.find(|(_, lanes)| {
+            end += lanes;
+            lane < end
+        });
+        run.map_or(
+            Asked {
+                pixel: [0, 0],
+                id: 0,
+                best: None,
+            },
+            |(ray, _)| *ray,
+        )
+    }
+}
+
+/// The inputs, in their order.
+fn registers(oracle: &NearestOracle) -> [RegisterId; 4] {
+    [
+        oracle.id,
+        oracle.primitive,
+        oracle.best_distance,
+        oracle.best_primitive,
+    ]
+}

@@ -1,0 +1,25 @@
+//! What finds first hits that are inputs of an oracle.
+
+use super::Defect;
+
+/// Paths of a pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PathRun {
+    /// Column and row.
+    pub pixel: [u32; 2],
+    /// The first path.
+    pub first: u64,
+    /// How many.
+    pub count: usize,
+}
+
+/// What finds the first hits of paths, for an oracle that is given them
+/// ([`qrt_core::oracle::Oracle::given_first_hit`]).
+pub trait FirstHits: Send + Sync {
+    /// Sets `hits`, path after path and run after run, to the numbers of the faces that are met
+    /// first, or the number of all faces where none is; and adds to `queries`, by run, what it took.
+    ///
+    /// # Errors
+    /// The first defect that shows.
+    fn find(&self, runs: &[PathRun], hits: &mut [u64], queries: &mut [u64]) -> Result<(), Defect>;
+}

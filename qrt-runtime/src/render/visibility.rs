@@ -1,0 +1,142 @@
+//! How a path's first hit is found.
+//!
+//! Under [`Visibility::Grover`] that is a search of its own for every path, with an oracle of
+//! nearest hits (Lanzagorta & Uhlmann 2005; Alves 2019; Santos 2024), and integration is classical:
+//! paths are taken one by one, and the pixel is their mean. What follows the first hit is traced as
+//! ever, by the same program but for its first intersection, which is given: see
+//! [`qrt_core::oracle::Oracle::given_first_hit`].
+
+use super::{Model, Options, RenderError};
+use crate::machines::{FirstHits, NearestMachine, OracleMachine};
+use crate::search::{FoundHits, Guess, Method, Rounds};
+use qrt_core::oracle::{NearestOracle, Oracle};
+use qrt_core::scene::{Estimator, Scene};
+use qrt_core::valid::ValidScene;
+use std::sync::Arc;
+
+/// The probability with which a ray's search may miss the nearest face, unless another is asked
+/// for.
+pub const DEFAULT_FAILURE: f64 = 1e-3;
+
+/// How a path's first hit is found.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Visibility {
+    /// By the tracer, which asks about all faces, like all other hits.
+    #[default]
+    Classical,
+    /// By asking the oracle of nearest hits about every face, and taking the least: the picture of
+    /// a search that never fails.
+    Exhaustive,
+    /// By searching with that oracle.
+    Grover {
+        /// The probability with which a ray's search may miss the nearest face: above 0, below 1.
+        failure: f64,
+        /// What a search begins with.
+        guess: Guess,
+    },
+}
+
+/// What was searched, and what a query of it costs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Searched {
+    /// P: the faces.
+    pub faces: u64,
+    /// N: the basis states of a face's number.
+    pub states: u64,
+    /// The bound on the probability that a ray's nearest face is missed; 0 if all are asked about.
+    pub failure: f64,
+    /// Qubits of the oracle of nearest hits: the most in use at any time.
+    pub qubits: u64,
+    /// Toffoli gates of a query.
+    pub toffoli: u64,
+}
+
+impl Visibility {
+    /// A search that fails with [`DEFAULT_FAILURE`] and begins with what the path before it met.
+    pub const GROVER: Self = Self::Grover {
+        failure: DEFAULT_FAILURE,
+        guess: Guess::Coherent,
+    };
+
+    /// As it is written.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Classical => "classical",
+            Self::Exhaustive => "exhaustive",
+            Self::Grover { .. } => "grover",
+        }
+    }
+
+    /// What a picture or a checkpoint says of it: nothing if the tracer finds first hits.
+    pub(super) fn written(self) -> Vec<(String, String)> {
+        let mut written = Vec::new();
+        let mut say = |key: &str, value: String| written.push((key.to_owned(), value));
+        if self != Self::Classical {
+            say("visibility", self.name().to_owned());
+        }
+        if let Self::Grover { failure, guess } = self {
+            say("search_failure", failure.to_string());
+            say("first_guess", guess.name().to_owned());
+        }
+        written
+    }
+
+    /// The estimator: without a superposition of paths there is nothing to count, so that the
+    /// scene's own gives way to [`Estimator::Exact`].
+    pub(super) fn estimator(
+        self,
+        options: &Options<'_>,
+        scene: &Scene,
+    ) -> Result<Estimator, RenderError> {
+        match (self, options.estimator) {
+            (Self::Classical, asked) => Ok(asked.unwrap_or(scene.counting.estimator)),
+            (_, None | Some(Estimator::Exact)) => Ok(Estimator::Exact),
+            (_, Some(other)) => Err(RenderError::SearchEstimator(other)),
+        }
+    }
+}
+
+/// The machine that traces paths whose first hits are searched for, and what is searched.
+pub(super) fn machine(
+    scene: &ValidScene,
+    options: &Options<'_>,
+) -> Result<(OracleMachine, Option<Searched>), RenderError> {
+    let seed = options.seed;
+    if options.model == Model::Real {
+        return Err(RenderError::SearchModel);
+    }
+    let oracle = Arc::new(Oracle::given_first_hit(scene)?);
+    let gates = options.model == Model::Gates;
+    let machine = if gates {
+        OracleMachine::gates(oracle, seed, false)?
+    } else {
+        OracleMachine::fixed(oracle, seed, false)
+    };
+    let Some(nearest) = NearestOracle::new(scene)? else {
+        return Ok((machine, None));
+    };
+    let (faces, states) = (nearest.faces(), nearest.states());
+    let (failure, method) = match options.visibility {
+        Visibility::Grover { failure, guess } => {
+            let rounds = Rounds::new(states, faces, failure)?;
+            (rounds.failure(), Method::Grover(rounds, guess))
+        }
+        Visibility::Classical | Visibility::Exhaustive => (0.0, Method::Exhaustive),
+    };
+    let (cost, qubits) = nearest.cost();
+    let searched = Searched {
+        faces: faces as u64,
+        states: states as u64,
+        failure,
+        qubits: u64::from(qubits),
+        toffoli: cost.toffoli,
+    };
+    let nearest = Arc::new(nearest);
+    let nearest = if gates {
+        NearestMachine::gates(nearest, seed)?
+    } else {
+        NearestMachine::fixed(nearest, seed)
+    };
+    let first_hits: Box<dyn FirstHits> = Box::new(FoundHits::new(nearest, method, seed));
+    Ok((machine.with_first_hits(first_hits), Some(searched)))
+}

@@ -1,0 +1,150 @@
+//! Rounds of a search with an unknown number of marked states, and when to give up.
+
+use std::fmt;
+
+/// The factor by which the number of iterations that is drawn from grows from round to round.
+const GROWTH: f64 = 1.2;
+
+/// The least failure probability that can be asked for.
+pub const LEAST_FAILURE: f64 = 1e-15;
+
+/// Why there are no such rounds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum RoundsError {
+    /// A failure probability outside [`LEAST_FAILURE`]` .. 1`.
+    Failure(f64),
+}
+
+impl fmt::Display for RoundsError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Failure(failure) => write!(
+                f,
+                "a search cannot fail with probability {failure}: give one from {LEAST_FAILURE} on \
+                 and below 1"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for RoundsError {}
+
+/// The probability that k iterations end in a marked state, if `marked` of `states` are:
+/// `sin^2((2k + 1) theta)`.
+pub fn marked_probability(iterations: u64, marked: usize, states: usize) -> f64 {
+    let theta = angle(marked, states);
+    let sine = libm::sin((2.0 * iterations as f64 + 1.0) * theta);
+    sine * sine
+}
+
+/// The mean of [`marked_probability`] over `0 .. count` iterations, each as likely as another:
+/// `1/2 - sin(4 count theta) / (4 count sin(2 theta))` (Boyer et al. 1998, Lemma 2).
+pub fn success(count: u64, marked: usize, states: usize) -> f64 {
+    if marked == 0 || marked >= states {
+        // All or nothing, after any number of iterations.
+        return f64::from(u8::from(marked > 0));
+    }
+    let theta = angle(marked, states);
+    let count = count as f64;
+    0.5 - libm::sin(4.0 * count * theta) / (4.0 * count * libm::sin(2.0 * theta))
+}
+
+fn angle(marked: usize, states: usize) -> f64 {
+    libm::asin(libm::sqrt(marked as f64 / states as f64))
+}
+
+/// The rounds after which a search that found nothing says that there is nothing.
+///
+/// Round r iterates k times, k drawn from `0 .. c_r`, with `c_r = ceil(m_r)`, `m_0 = 1` and
+/// `m_{r+1} = min(6/5 m_r, sqrt(N))` (Boyer et al. 1998). So M marked states are all missed with
+/// probability exactly
+///
+/// ```text
+/// miss(M) = prod_r (1 - success(c_r, M, N)).
+/// ```
+///
+/// A minimum of P numbers is missed if the search gives up at any of the numbers on its way. It is
+/// at the number of rank M + 1, of which M are nearer, with probability at most `1 / (M + 1)`, as
+/// each of those still left is found alike; only where it starts it is for certain. Whatever the
+/// guess and the ray, it fails with probability at most
+///
+/// ```text
+/// failure = max_M miss(M) + sum_{M=1}^{P-1} miss(M) / (M + 1),
+/// ```
+///
+/// and there are as many rounds as keep this below what was asked: a termination criterion as in
+/// Santos (2024), with its constant derived.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rounds {
+    pub(super) states: usize,
+    pub(super) counts: Vec<u64>,
+    pub(super) failure: f64,
+}
+
+impl Rounds {
+    /// The fewest rounds with which the minimum of at most `faces` numbers among `states` is missed
+    /// with a probability of at most `failure`.
+    ///
+    /// # Errors
+    /// If that is not a probability above 0 and below 1, or too small to be computed.
+    pub fn new(states: usize, faces: usize, failure: f64) -> Result<Self, RoundsError> {
+        if !(LEAST_FAILURE..1.0).contains(&failure) {
+            return Err(RoundsError::Failure(failure));
+        }
+        let root = libm::sqrt(states as f64);
+        let mut missed = vec![1.0; faces];
+        let mut rounds = Self {
+            states,
+            counts: Vec::new(),
+            failure: 1.0,
+        };
+        let mut most: f64 = 1.0;
+        while rounds.failure > failure || rounds.counts.is_empty() {
+            let count = most.ceil() as u64;
+            rounds.counts.push(count);
+            most = (GROWTH * most).min(root);
+            let (mut worst, mut later) = (0.0_f64, 0.0);
+            for (place, missed) in missed.iter_mut().enumerate() {
+                let marked = place + 1;
+                *missed *= (1.0 - success(count, marked, states)).max(0.0);
+                worst = worst.max(*missed);
+                if marked < faces {
+                    later += *missed / (marked as f64 + 1.0);
+                }
+            }
+            rounds.failure = worst + later;
+        }
+        Ok(rounds)
+    }
+
+    /// N, the states that are searched.
+    pub fn states(&self) -> usize {
+        self.states
+    }
+
+    /// By round: iterations are drawn from the numbers below.
+    pub fn counts(&self) -> &[u64] {
+        &self.counts
+    }
+
+    /// The bound on the probability that the minimum is missed.
+    pub fn failure(&self) -> f64 {
+        self.failure
+    }
+
+    /// The probability that all rounds miss `marked` states.
+    pub fn miss(&self, marked: usize) -> f64 {
+        let counts = self.counts.iter();
+        counts.fold(1.0, |missed, &count| {
+            missed * (1.0 - success(count, marked, self.states))
+        })
+    }
+
+    /// The mean number of queries after which a search for nothing gives up.
+    pub fn fruitless(&self) -> f64 {
+        let counts = self.counts.iter();
+        // The mean of max(k, 1) over k below c.
+        let mean = |count: u64| (count as f64 - 1.0) / 2.0 + 1.0 / count as f64;
+        counts.map(|&count| mean(count)).sum()
+    }
+}
