@@ -83,8 +83,11 @@ impl AmplitudeEstimator for AbramsWilliams {
             let mut coin = Coin::new(interval, deepest.min(enough));
             let mut fails = failing(coin.queries);
             let mut shots = tosses(fails);
+            if coin.queries == deepest {
+                shots = shots.max(coin.tosses_for(error, fails, known_noise, device.total()));
+            }
             let cost = coin.queries.saturating_mul(shots);
-            let last = stage == STAGES || coin.queries == deepest || left / LAST < cost;
+            let last = stage == STAGES || left / LAST < cost;
             if last {
                 coin = coin.with_queries(coin.queries.min(left / FEWEST).max(1));
                 shots = left / coin.queries;

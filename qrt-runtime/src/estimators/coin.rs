@@ -49,6 +49,14 @@ impl Coin {
         Self { queries, ..self }
     }
 
+    /// Tosses that leave an interval of some half-width `error`, but for a probability of
+    /// `failure`, on a device with `noise` and `total` ids: Hoeffding's, twice.
+    pub(super) fn tosses_for(&self, error: f64, failure: f64, noise: Noise, total: u64) -> u64 {
+        let reach = noise.coin_intact(self.queries, total) * self.queries as f64 * error;
+        // A float beyond 2^64, or infinity, becomes the largest integer.
+        (libm::log(2.0 / failure) / (reach * reach)).ceil() as u64
+    }
+
     pub(super) fn toss(
         &self,
         device: &mut Device<'_>,
@@ -111,10 +119,13 @@ impl Tosses {
 }
 
 /// The most queries of a shot that are worth their noise: what a shot tells is the square of
-/// `m (1 - p)^m`, which for a given number of queries in all is largest at m = 1/(2p).
+/// `m (1 - p)^m`, which for a given number of queries in all is largest at m = 1/(2p). An odd
+/// number: such coins are at an end of what is possible, where heads are rare, and of destroyed
+/// states only those of an even number show heads.
 pub(super) fn most_queries(noise: Noise) -> u64 {
     // A float beyond 2^64, or infinity, becomes the largest integer.
-    ((0.5 / noise.depolarising) as u64).clamp(1, MAX_ITERATIONS)
+    let most = ((0.5 / noise.depolarising) as u64).clamp(2, MAX_ITERATIONS);
+    (most - 1) | 1
 }
 
 /// What both intervals hold; the first, if nothing is in both.

@@ -95,14 +95,16 @@ impl AmplitudeEstimator for QuantumCoin {
                 break;
             }
             let mut coin = Coin::new(limits, deepest.min(enough));
-            let cost = coin.queries.saturating_mul(self.tosses);
-            let last = step == steps || coin.queries == deepest || left / LAST < cost;
-            let shots = if last {
+            let mut shots = self.tosses;
+            if coin.queries == deepest {
+                shots = shots.max(coin.tosses_for(error, each, known_noise, device.total()));
+            }
+            let cost = coin.queries.saturating_mul(shots);
+            let last = step == steps || left / LAST < cost;
+            if last {
                 coin = coin.with_queries(coin.queries.min(left / self.tosses).max(1));
-                left / coin.queries
-            } else {
-                self.tosses
-            };
+                shots = left / coin.queries;
+            }
             let tosses = coin.toss(device, shots, known_noise)?;
             left = if last { 0 } else { left - cost };
             interval = intersection(limits, coin.interval(&tosses, each));

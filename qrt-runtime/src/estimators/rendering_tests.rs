@@ -137,6 +137,33 @@ fn an_asked_error_is_reached_and_not_much_more_is_spent() {
     }
 }
 
+/// Noise limits the queries of a toss, and so tosses must be many; but no more than it takes.
+#[test]
+fn an_asked_error_is_reached_in_spite_of_known_noise() {
+    let noise = Noise {
+        depolarising: 1e-2,
+        readout: 0.0,
+    };
+    for name in COINS {
+        for good in [0, 1 << 19, 54_321, 1 << 20] {
+            let settings = Settings {
+                queries: 1 << 50,
+                error: Some(1e-3),
+                known_noise: noise,
+                ..settings(5)
+            };
+            let problem = Problem {
+                good,
+                total: 1 << 20,
+            };
+            let found = run(name, &settings, problem, noise, 3);
+            let half_width = 0.5 * (found.interval.1 - found.interval.0);
+            assert!(half_width <= 1e-3, "{name} {good}: {half_width}");
+            assert!(found.queries < 1 << 26, "{name} {good}: {}", found.queries);
+        }
+    }
+}
+
 /// A single reading's likeliest S is what the paper's inference finds: the table holds the same.
 #[test]
 fn supersampling_looks_up_what_is_likeliest() {
