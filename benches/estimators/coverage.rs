@@ -4,6 +4,7 @@ use super::expected::{Expected, Verdicts};
 use super::runs::Run;
 use qrt::core::scene::Estimator;
 use qrt::runtime::estimators::Problem;
+use std::fmt::Write as _;
 
 /// Amplitudes that are hard for one estimator or another; none: spread evenly.
 const AMPLITUDES: [Option<f64>; 6] = [
@@ -46,7 +47,7 @@ pub(crate) fn table(names: &[Estimator], quick: bool, verdicts: &mut Verdicts) {
                 let held = outcomes.iter().filter(|outcome| outcome.held).count();
                 least = least.min(held as f64 / f64::from(runs));
             }
-            cells += &format!(" {:.1} % |", 100.0 * least);
+            write!(cells, " {:.1} % |", 100.0 * least).unwrap();
             // What few runs miss by chance.
             let slack = if quick { 0.04 } else { 0.01 };
             let about = amplitude.map_or("spread evenly".to_owned(), |a| format!("a = {a}"));

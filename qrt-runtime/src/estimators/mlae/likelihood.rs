@@ -136,7 +136,7 @@ impl Level {
         if first >= last {
             return None;
         }
-        let middle = (first + last) / 2;
+        let middle = u128::midpoint(first, last);
         let angle = (middle * half / multiple) as u64;
         (low < angle && angle < high).then_some(angle)
     }
@@ -161,10 +161,8 @@ impl Likelihood {
     /// Where to cut a range of angles: at a turning point of the shallowest level that has one
     /// inside; none within one section of all levels.
     pub(super) fn cut(&self, low: u64, high: u64) -> Option<u64> {
-        let telling = self.levels.iter().filter(|level| level.tells());
-        telling
-            .filter_map(|level| level.turning_point(low, high))
-            .next()
+        let mut telling = self.levels.iter().filter(|level| level.tells());
+        telling.find_map(|level| level.turning_point(low, high))
     }
 
     /// Whether it is concave between turning points.
