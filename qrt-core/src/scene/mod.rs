@@ -333,15 +333,16 @@ record! {
     /// How the good ids are counted.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub struct Counting = "counting";
-    /// T = 2^phase_bits; default 8.
+    /// T = 2^phase_bits; default 8. A run of the counting circuit takes T - 1 queries; estimators
+    /// without a counting register may spend as many as B runs.
     pub phase_bits: u32 = whole::<u32>(1, 40), or 8;
     /// B, the number of runs; default 1.
     pub repetitions: u32 = whole::<u32>(1, 1_000_000), or 1;
-    /// The window on the counting register, for estimators that leave it open: `paper` counts with the
+    /// The window on the counting register of `posterior-mean`; `paper` and `qss` count with the
     /// rectangular one and `sine` with the sine window, whatever stands here.
     pub window: Window = word::<Window>(), or Window::Sine;
-    /// How outcomes become an amplitude.
-    pub estimator: Estimator = word::<Estimator>(), or Estimator::Sine;
+    /// How measurements become an amplitude.
+    pub estimator: Estimator = word::<Estimator>(), or Estimator::AdaptiveBayes;
 }
 
 keyword! {
