@@ -79,14 +79,14 @@ pub(super) fn median_steps(window: Window, repetitions: u32, confidence: f64) ->
 /// `1 - whole` to `whole` for f >= off, to `whole - 1` for f < off. Over either range of f what is
 /// beyond is largest at one of its ends. A finite register with the rectangular window has less
 /// beyond than an infinite one, for its kernel is larger everywhere near; with the sine window it has
-/// up to a quarter more.
+/// less than twice as much.
 fn beyond(window: Window, whole: f64, off: f64) -> f64 {
     let both = |above: f64, f: f64| tail(window, above - f, f) + tail(window, whole + f, f);
     let few = both(whole, 0.0).max(both(whole, off));
     let many = both(whole + 1.0, off).max(both(whole + 1.0, 0.5));
     let finite = match window {
         Window::Rect => 1.0,
-        Window::Sine => 1.25,
+        Window::Sine => 2.0,
     };
     finite * few.max(many)
 }
