@@ -24,9 +24,8 @@ const ANYWHERE: f64 = 1e13;
 ///
 /// Such a region fails as often as it says on average over the prior, whatever was measured and
 /// when it stopped; at a given amplitude it may fail more often. Measured, at a nominal 5 %: 9 %
-/// for adaptive depths at an amplitude of 1/2, where every depth gives good and bad ids alike; 10 %
-/// for one outcome with the sine window on a grid point. With 2/5 of what may fail, these are
-/// at 5 %, and the average near 2 %.
+/// for adaptive depths at an amplitude of 1/2, where every depth gives good and bad ids alike. With
+/// 2/5 of what may fail, that is 5 %, and the average near 2 %.
 const CAUTION: f64 = 0.4;
 
 /// What a region of highest density must hold of the posterior to hold the amplitude with the
