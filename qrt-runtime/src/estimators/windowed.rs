@@ -79,7 +79,8 @@ impl WindowedCounting {
         })
     }
 
-    fn medians_interval(&self, outcomes: &[u64]) -> (f64, f64) {
+    /// The interval from the medians of the outcomes.
+    pub(super) fn medians_interval(&self, outcomes: &[u64]) -> (f64, f64) {
         let mut sorted = outcomes.to_vec();
         sorted.sort_unstable();
         let size = (1_u64 << self.phase_bits) as f64;

@@ -154,11 +154,12 @@ impl Posterior {
         }
     }
 
-    /// The most iterations after which the posterior can still be held: many modes call for many
-    /// points.
+    /// The most iterations that make sense: after which the posterior can still be held, for many
+    /// modes call for many points, or which tell neighbouring integers apart.
     pub(super) fn deepest(&self) -> f64 {
         let Some(step) = self.support.step() else {
-            return f64::INFINITY;
+            // Neighbours d apart differ most where `2 (2k + 1) d` is half a turn.
+            return 0.25 * PI / self.support.least_distance();
         };
         let length = step * self.support.len() as f64;
         let most = MOST_POINTS * COARSEST / length;
@@ -176,11 +177,7 @@ impl Posterior {
         }
         self.support.cosines(2 * iterations + 1, &mut self.cosines);
         let intact = self.intact(iterations);
-        if intact < 1.0 {
-            for (cosine, plain) in self.cosines.iter_mut().zip(&self.plain) {
-                *cosine = intact * *cosine + (1.0 - intact) * plain;
-            }
-        }
+        self.blend(intact);
         let mut sums = [[0.0; support::LANES]; 2];
         let terms = (self.tempered.mass.chunks(support::LANES))
             .zip(self.tempered.deviations.chunks(support::LANES))
@@ -287,11 +284,7 @@ impl Posterior {
     fn multiply(&mut self, shots: Shots, mass: &mut [f64]) {
         self.support.cosines(shots.multiple, &mut self.cosines);
         let intact = shots.intact;
-        if intact < 1.0 {
-            for (cosine, plain) in self.cosines.iter_mut().zip(&self.plain) {
-                *cosine = intact * *cosine + (1.0 - intact) * plain;
-            }
-        }
+        self.blend(intact);
         if shots.good + shots.bad == 1 {
             let sign = if shots.good == 1 { -0.5 } else { 0.5 };
             for (mass, cosine) in mass.iter_mut().zip(&self.cosines) {
@@ -300,6 +293,15 @@ impl Posterior {
             return;
         }
         multiply_many(shots, &self.cosines, mass);
+    }
+
+    /// Mixes the cosines with those of a destroyed state, which is good with probability S/N.
+    fn blend(&mut self, intact: f64) {
+        if intact < 1.0 {
+            for (cosine, plain) in self.cosines.iter_mut().zip(&self.plain) {
+                *cosine = intact * *cosine + (1.0 - intact) * plain;
+            }
+        }
     }
 
     fn summarise(&mut self) {

