@@ -27,8 +27,8 @@ pub struct Chebyshev {
 }
 
 impl Chebyshev {
-    /// Shots taken at once. The authors take 100 (queries times error at 95 %: 2.8 to 3.8, where an
-    /// error is asked); with a given number of queries fewer leave more for the last depth.
+    /// Shots taken at once. The authors take 100; with a given number of queries, fewer leave more
+    /// for the last depth.
     pub const SHOTS: u64 = 20;
 
     /// The authors' nu.

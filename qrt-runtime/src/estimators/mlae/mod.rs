@@ -65,10 +65,15 @@ impl Mlae {
         }
     }
 
-    /// What is likely after what was measured.
-    fn found(&self, likelihood: &Likelihood) -> Found {
+    /// What is likely after what was measured, and the interval of S/N.
+    fn found(&self, likelihood: &Likelihood) -> (Found, (f64, f64)) {
         let z = normal_quantile(0.5 * (1.0 - self.confidence));
-        search(likelihood, Self::REACH * 0.5 * z * z)
+        let found = search(likelihood, Self::REACH * 0.5 * z * z);
+        let interval = match likelihood.paths() {
+            Some((hits, shots)) => clopper_pearson(hits, shots, 1.0 - self.confidence),
+            None => (amplitude(found.low), amplitude(found.high)),
+        };
+        (found, interval)
     }
 
     /// Measures level by level.
@@ -98,7 +103,10 @@ impl Mlae {
                 shots,
                 intact: schedule.intact(iterations),
             });
-            let is_enough = |error| self.found(&likelihood).error() <= error;
+            let is_enough = |error| {
+                let (_, (low, high)) = self.found(&likelihood);
+                0.5 * (high - low) <= error
+            };
             if self.error.is_some_and(is_enough) {
                 break;
             }
@@ -111,11 +119,7 @@ impl AmplitudeEstimator for Mlae {
     fn estimate(&self, device: &mut Device<'_>) -> Result<Estimate, EstimatorError> {
         let start = device.spent();
         let likelihood = self.measured(device)?;
-        let found = self.found(&likelihood);
-        let interval = match likelihood.paths() {
-            Some((hits, shots)) => clopper_pearson(hits, shots, 1.0 - self.confidence),
-            None => found.amplitudes(),
-        };
+        let (found, interval) = self.found(&likelihood);
         Ok(Estimate {
             ln_likelihood: Some(likelihood.ln_probability(found.angle)),
             candidates: Some(found.ranges),

@@ -8,7 +8,7 @@
 //! parts are alive at a time.
 
 use super::likelihood::Likelihood;
-use crate::estimators::turns::{HALF, amplitude};
+use crate::estimators::turns::HALF;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
@@ -27,19 +27,6 @@ pub(super) struct Found {
     pub(super) high: u64,
     /// Separate ranges of such angles.
     pub(super) ranges: u32,
-}
-
-impl Found {
-    /// The interval of S/N.
-    pub(super) fn amplitudes(&self) -> (f64, f64) {
-        (amplitude(self.low), amplitude(self.high))
-    }
-
-    /// Its half-width.
-    pub(super) fn error(&self) -> f64 {
-        let (low, high) = self.amplitudes();
-        0.5 * (high - low)
-    }
 }
 
 /// Angles of `low ..= high`, of which none has a larger L than `bound`.
@@ -84,33 +71,36 @@ struct Peak {
 
 /// The largest value of `likelihood`, and all angles at which it is at most `reach` less.
 pub(super) fn search(likelihood: &Likelihood, reach: f64) -> Found {
-    let mut parts = BinaryHeap::new();
-    let add = |parts: &mut BinaryHeap<Part>, low: u64, high: u64| {
-        let bound = likelihood.bound(low, high);
-        parts.push(Part { low, high, bound });
+    let part = |low: u64, high: u64| Part {
+        low,
+        high,
+        bound: likelihood.bound(low, high),
     };
-    add(&mut parts, 0, HALF);
+    let mut parts = BinaryHeap::from([part(0, HALF)]);
     let mut peaks: Vec<Peak> = Vec::new();
     let mut best = f64::NEG_INFINITY;
     let mut looked = 0;
-    while let Some(part) = parts.pop() {
-        looked += 1;
-        let Part { low, high, bound } = part;
-        if bound < best - reach {
+    while let Some(mut next) = parts.pop() {
+        if next.bound < best - reach {
             break;
         }
-        if looked > MOST_PARTS && !peaks.is_empty() {
-            parts.push(part);
+        if looked > MOST_PARTS {
+            parts.push(next);
             break;
         }
-        if let Some(cut) = likelihood.cut(low, high) {
-            add(&mut parts, low, cut);
-            add(&mut parts, cut, high);
-        } else {
-            for peak in peaks_of(likelihood, low, high) {
-                best = best.max(peak.values[1]);
-                peaks.push(peak);
-            }
+        // Down to a peak, by the better halves, so that there is soon something to compare with.
+        while next.bound >= best - reach {
+            looked += 1;
+            let Some(cut) = likelihood.cut(next.low, next.high) else {
+                for peak in peaks_of(likelihood, next.low, next.high) {
+                    best = best.max(peak.values[1]);
+                    peaks.push(peak);
+                }
+                break;
+            };
+            let halves = [part(next.low, cut), part(cut, next.high)];
+            next = halves[0].max(halves[1]);
+            parts.push(halves[0].min(halves[1]));
         }
     }
     peaks.retain(|peak| peak.values[1] >= best - reach);

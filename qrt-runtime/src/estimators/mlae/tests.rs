@@ -76,7 +76,7 @@ fn paths_alone_give_their_share() {
             (share - h / n).abs() <= 1e-3 * (h / n).sqrt() / n.sqrt(),
             "{share}"
         );
-        let (low, high) = found.amplitudes();
+        let (low, high) = (amplitude(found.low), amplitude(found.high));
         for end in [low, high] {
             if end > 1e-9 && end < 1.0 - 1e-9 {
                 let part = |count: f64, share: f64| match count {
