@@ -103,7 +103,7 @@ fn a_file_that_cannot_be_read_is_an_error_like_others() {
 /// the third only a file of 256 MiB, the fourth only where the OBJ library disagrees with the checks
 /// before it, the last ones only when the scene's circuit is compiled. The unit tests of `valid`, of
 /// the OBJ reader and of `oracle`, and `inspect_command`, show them.
-const ELSEWHERE: [&str; 8] = [
+const ELSEWHERE: [&str; 9] = [
     codes::DUPLICATE_NAME,
     codes::BSDF_CHANNELS,
     codes::OBJ_TOO_LARGE,
@@ -112,6 +112,7 @@ const ELSEWHERE: [&str; 8] = [
     codes::BUDGET_TOFFOLI,
     codes::QUOTIENT_UNBOUNDED,
     codes::NUMBER_TOO_WIDE,
+    codes::TOO_MANY_FACES,
 ];
 
 #[test]

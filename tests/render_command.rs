@@ -298,11 +298,11 @@ fn wrong_requests_exit_with_2_and_leave_nothing() {
             "QRT0602",
         ),
         (
-            &["box.yaml", "--estimator", "mlae"],
-            "exact, monte-carlo, paper, sine",
+            &["box.yaml", "--estimator", "best"],
+            "exact, monte-carlo, paper, posterior-mean, sine, adaptive-bayes",
         ),
         (
-            &["box.yaml", "--set", "counting.estimator=mlae"],
+            &["box.yaml", "--set", "counting.estimator=best"],
             "`exact`, `monte-carlo`, `paper`",
         ),
         (&["box.yaml", "--stats", "box.yaml"], "two different things"),
