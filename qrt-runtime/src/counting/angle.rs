@@ -42,13 +42,17 @@ impl Angle {
         Ok(Self(double::theta(sine * sine, rest)))
     }
 
-    /// `sin^2(m pi theta)` and `cos^2(m pi theta)`, each to its own precision: absolute errors are
-    /// below `m 2^-100`.
+    /// `sin^2(m pi theta)` and `cos^2(m pi theta)`, each to a few units of its own last place, but
+    /// for what m magnifies: m 2^-100 of a turn. The turn itself needs more than an `f64`; once it
+    /// is folded, its sine does not.
     pub(crate) fn sine_squared(self, multiple: u64) -> (f64, f64) {
         let folded = self.folded(multiple);
-        let sine = double::sine_squared(folded);
-        let cosine = double::sine_squared(Double::from(0.5) - folded);
-        (sine.hi.clamp(0.0, 1.0), cosine.hi.clamp(0.0, 1.0))
+        let square = |turns: f64| {
+            let sine = libm::sin(std::f64::consts::PI * turns);
+            sine * sine
+        };
+        let rest = Double::from(0.5) - folded;
+        (square(folded.hi), square(rest.hi))
     }
 
     /// theta in units of 2^-64 turns, rounded down.

@@ -182,10 +182,14 @@ impl<'a> Device<'a> {
     /// Of `shots` measured ids, those that are good, if without noise one is with probability
     /// `good` = (p, 1 - p) after `queries`.
     fn measured_ids(&mut self, queries: u64, good: (f64, f64), shots: u64) -> u64 {
-        let right = self.intact(queries);
-        let any = self.theta.sine_squared(1);
-        let mixed = |ideal: f64, any: f64| right * ideal + (1.0 - right) * any;
-        let (p, q) = (mixed(good.0, any.0), mixed(good.1, any.1));
+        let (p, q) = if self.noise == Noise::NONE {
+            good
+        } else {
+            let right = self.intact(queries);
+            let any = self.theta.sine_squared(1);
+            let mixed = |ideal: f64, any: f64| right * ideal + (1.0 - right) * any;
+            (mixed(good.0, any.0), mixed(good.1, any.1))
+        };
         let found = binomial::draw_with(shots, p, q, self.stream);
         self.spent.good_ids += found;
         found

@@ -79,18 +79,17 @@ impl Tempered {
                 .zip(prior)
                 .map(|(mass, prior)| (mass * prior).sqrt()),
         );
-        let scale = 1.0 / self.mass.iter().sum::<f64>();
-        let mut mean = 0.0;
-        for (mass, deviation) in self.mass.iter_mut().zip(deviations) {
+        let scale = 1.0 / sum(&self.mass, &self.mass, |mass, _| mass);
+        for mass in &mut self.mass {
             *mass *= scale;
-            mean += *mass * deviation;
         }
+        let mean = sum(&self.mass, deviations, |mass, deviation| mass * deviation);
         self.deviations.clear();
         self.deviations
             .extend(deviations.iter().map(|deviation| deviation - mean));
-        self.variance = (self.mass.iter().zip(&self.deviations))
-            .map(|(mass, deviation)| mass * deviation * deviation)
-            .sum();
+        self.variance = sum(&self.mass, &self.deviations, |mass, deviation| {
+            mass * deviation * deviation
+        });
     }
 }
 
@@ -131,10 +130,8 @@ impl Posterior {
     /// The mean distance of `pi theta` from its mean, in units that make it the standard deviation
     /// where the posterior is normal. Far modes with little mass count less here than there.
     pub(super) fn width(&self) -> f64 {
-        let sum: f64 = (self.mass.iter().zip(&self.deviations))
-            .map(|(mass, deviation)| mass * deviation.abs())
-            .sum();
-        sum * (0.5 * PI).sqrt()
+        let distance = |mass: f64, deviation: f64| mass * deviation.abs();
+        sum(&self.mass, &self.deviations, distance) * (0.5 * PI).sqrt()
     }
 
     /// Whether an interval of this half-width could hold most of the mass: a wider posterior need
@@ -305,20 +302,19 @@ impl Posterior {
     }
 
     fn summarise(&mut self) {
-        let sum: f64 = self.mass.iter().sum();
-        let scale = 1.0 / sum;
-        let mut mean = 0.0;
-        self.support.places(&mut self.deviations);
-        for (mass, place) in self.mass.iter_mut().zip(&self.deviations) {
+        let scale = 1.0 / sum(&self.mass, &self.mass, |mass, _| mass);
+        for mass in &mut self.mass {
             *mass *= scale;
-            mean += *mass * place;
+        }
+        self.support.places(&mut self.deviations);
+        let mean = sum(&self.mass, &self.deviations, |mass, place| mass * place);
+        for deviation in &mut self.deviations {
+            *deviation -= mean;
         }
         self.mean = mean;
-        self.variance = 0.0;
-        for (mass, deviation) in self.mass.iter().zip(&mut self.deviations) {
-            *deviation -= mean;
-            self.variance += mass * *deviation * *deviation;
-        }
+        self.variance = sum(&self.mass, &self.deviations, |mass, deviation| {
+            mass * deviation * deviation
+        });
         self.tempered
             .update(&self.mass, &self.prior, &self.deviations);
     }
@@ -382,6 +378,24 @@ impl Posterior {
         let high = self.support.ends(last, self.total).1;
         (low, high)
     }
+}
+
+/// The sum of a term of two numbers each, in as many sums as run side by side.
+#[inline]
+fn sum(a: &[f64], b: &[f64], term: impl Fn(f64, f64) -> f64) -> f64 {
+    let mut sums = [0.0; support::LANES];
+    let (a, rest_a) = a.as_chunks::<{ support::LANES }>();
+    let (b, rest_b) = b.as_chunks::<{ support::LANES }>();
+    for (a, b) in a.iter().zip(b) {
+        for ((sum, a), b) in sums.iter_mut().zip(a).zip(b) {
+            *sum += term(*a, *b);
+        }
+    }
+    for ((sum, a), b) in sums.iter_mut().zip(rest_a).zip(rest_b) {
+        *sum += term(*a, *b);
+    }
+    let [a, b, c, d, e, f, g, h] = sums;
+    ((a + e) + (c + g)) + ((b + f) + (d + h))
 }
 
 fn rescale(mass: &mut [f64]) {
