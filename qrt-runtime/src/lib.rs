@@ -5,6 +5,7 @@ pub mod estimators;
 pub mod image;
 pub mod machines;
 pub mod peak_memory;
+pub mod plot;
 pub mod random;
 pub mod render;
 pub mod replace_file;
