@@ -9,6 +9,7 @@ pub mod plot;
 pub mod random;
 pub mod render;
 pub mod replace_file;
+pub mod sample;
 #[cfg(test)]
 mod scratch;
 pub mod verify;

@@ -49,6 +49,7 @@ mod sum;
 mod tiles;
 
 pub use error::RenderError;
+pub(crate) use sum::Sum;
 
 use crate::checkpoint::{Checkpoint, Header, Tile};
 use crate::estimators::Noise;
