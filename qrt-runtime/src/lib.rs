@@ -5,6 +5,7 @@ pub mod estimators;
 pub mod image;
 pub mod machines;
 pub mod peak_memory;
+pub mod plan;
 pub mod plot;
 pub mod random;
 pub mod render;
@@ -12,4 +13,5 @@ pub mod replace_file;
 pub mod sample;
 #[cfg(test)]
 mod scratch;
+pub mod trade;
 pub mod verify;

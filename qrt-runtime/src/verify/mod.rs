@@ -10,6 +10,7 @@
 mod paths;
 
 use crate::machines::{Defect, OracleMachine, Parts, Real};
+use crate::plan;
 use crate::render::{Progress, RenderError};
 use crate::sample::spread;
 use paths::{Found, Trio};
@@ -118,14 +119,19 @@ impl Report {
     }
 }
 
-/// Runs a scene on all three machines.
+/// Runs a scene on all three machines; one that asks for an accuracy with the knobs that are chosen
+/// for it.
 ///
 /// # Errors
 /// A scene without a circuit, and an interruption. What the machines find is in the report.
 pub fn verify(scene: &ValidScene, options: &Options<'_>) -> Result<Report, RenderError> {
-    if scene.scene().accuracy.is_some() {
-        return Err(RenderError::Accuracy);
-    }
+    let planning = plan::Options {
+        threads: options.threads,
+        cancel: options.cancel,
+        ..plan::Options::default()
+    };
+    let planned = plan::plan(scene, &planning)?;
+    let scene = planned.as_ref().map_or(scene, |plan| &plan.scene);
     let oracle = Arc::new(Oracle::rgb(scene, oracle::Options::default())?);
     let parts = Parts::new(&oracle);
     verify_parts(scene, &oracle, parts, options)

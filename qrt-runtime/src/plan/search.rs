@@ -1,0 +1,308 @@
+//! The cheapest knobs that will do.
+
+use super::pilot::{Errors, FEWEST, MOST_TRIED, Pilot, quantile, unreachable, valid};
+use super::{Figures, Parts, Plan};
+use crate::render::RenderError;
+use qrt_core::oracle::{DEFAULT_FRACTION, Spent};
+use qrt_core::scene::{Counting, Estimator, Sequence};
+
+/// Path bits that may be extrapolated to.
+const MOST_PATHS: u32 = 32;
+/// What a path bit must save of the queries to be worth it.
+const WORTH: f64 = 0.125;
+/// Standard errors that are kept free: one-sided, 95 %.
+const MARGIN: f64 = 1.645;
+/// The largest counting register.
+const MOST_PHASE: u32 = 40;
+/// Fraction bits that are tried.
+const FRACTIONS: std::ops::RangeInclusive<u32> = 8..=30;
+/// Polygons beyond which building a circuit takes long, so that fewer are tried.
+const MANY_POLYGONS: usize = 200;
+
+/// A counting block, and how it does.
+#[derive(Clone)]
+struct Counted {
+    counting: Counting,
+    errors: Vec<Errors>,
+    queries: f64,
+}
+
+pub(super) fn search(mut pilot: Pilot<'_>) -> Result<Plan, RenderError> {
+    if pilot.mean <= 0.0 {
+        // Proven black: nothing is counted, and nothing is wrong.
+        return finish(&mut pilot, pilot_bits(&pilot, FEWEST), None, None);
+    }
+    let (path_bits, counted) = choose_paths(&mut pilot)?;
+    let (width, counted) = choose_width(&mut pilot, path_bits, counted)?;
+    finish(&mut pilot, path_bits, width, Some(counted))
+}
+
+/// A lattice has the bits that it has.
+fn pilot_bits(pilot: &Pilot<'_>, bits: u32) -> u32 {
+    let sampling = &pilot.scene.scene().sampling;
+    match sampling.sequence {
+        Sequence::DigitalNet => bits,
+        Sequence::ProductLattice => sampling.path_bits,
+    }
+}
+
+/// Fewest paths of which twice as many would hardly save queries, at any width.
+fn choose_paths(pilot: &mut Pilot<'_>) -> Result<(u32, Counted), RenderError> {
+    let none = vec![[0.0; 3]; pilot.pixels.len()];
+    if pilot.is_lattice() {
+        let counted = cheapest(pilot, 0, &none)?.ok_or_else(|| out_of_reach(pilot, 0))?;
+        return Ok((pilot_bits(pilot, 0), counted));
+    }
+    let mut chosen: Option<(u32, Counted)> = None;
+    for bits in FEWEST..=MOST_PATHS {
+        if !alone_will_do(pilot, bits)? {
+            continue;
+        }
+        let Some(counted) = cheapest(pilot, bits, &none)? else {
+            continue;
+        };
+        if let Some((fewer, before)) = chosen {
+            let saves = counted.queries < (1.0 - WORTH) * before.queries;
+            if !saves || bits > MOST_TRIED {
+                return Ok((fewer, before));
+            }
+        }
+        let exact = pilot.estimator == Estimator::Exact;
+        chosen = Some((bits, counted));
+        if exact {
+            break;
+        }
+    }
+    chosen.ok_or_else(|| out_of_reach(pilot, MOST_PATHS))
+}
+
+/// Whether the paths' error alone leaves anything for counting.
+fn alone_will_do(pilot: &mut Pilot<'_>, bits: u32) -> Result<bool, RenderError> {
+    let (paths, _) = pilot.paths(bits)?;
+    Ok(will_do(pilot, &[&paths, &pilot.comparator_errors], None))
+}
+
+fn out_of_reach(pilot: &Pilot<'_>, bits: u32) -> RenderError {
+    let (error, confidence) = (pilot.accuracy.error, pilot.accuracy.confidence);
+    unreachable(if pilot.is_lattice() {
+        format!(
+            "the product lattice with these bits, and any number of queries of `{}`, do not reach an \
+             error of {error} with probability {confidence}: use `sequence: digital-net`, or more bits",
+            pilot.estimator
+        )
+    } else {
+        format!(
+            "neither 2^{bits} paths nor any number of queries of `{}` reach an error of {error} with \
+             probability {confidence}",
+            pilot.estimator
+        )
+    })
+}
+
+/// Numbers so wide that queries times Toffolis are least; none where there is no circuit.
+fn choose_width(
+    pilot: &mut Pilot<'_>,
+    path_bits: u32,
+    wide: Counted,
+) -> Result<(Option<(u32, Errors, Spent)>, Counted), RenderError> {
+    let many = pilot.scene.polygons().len() > MANY_POLYGONS;
+    let (first, step) = if many { (DEFAULT_FRACTION, 4) } else { (*FRACTIONS.start(), 1) };
+    let mut best: Option<(f64, u32, Errors, Spent, Counted)> = None;
+    let mut has_circuit = false;
+    for fraction in (first..=*FRACTIONS.end()).step_by(step) {
+        let Some((errors, spent)) = pilot.width(fraction)? else {
+            if has_circuit {
+                break;
+            }
+            continue;
+        };
+        has_circuit = true;
+        // With no error of width at all it would cost so much: wider ones cost more.
+        let least = spent.toffoli as f64 * wide.queries.max(1.0);
+        if best.as_ref().is_some_and(|best| best.0 <= least) {
+            break;
+        }
+        let Some(counted) = cheapest(pilot, path_bits, &errors)? else {
+            continue;
+        };
+        let cost = spent.toffoli as f64 * counted.queries.max(1.0);
+        if best.as_ref().is_none_or(|best| cost < best.0) {
+            best = Some((cost, fraction, errors, spent, counted));
+        }
+    }
+    match best {
+        Some((_, fraction, errors, spent, counted)) => {
+            Ok((Some((fraction, errors, spent)), counted))
+        }
+        None if has_circuit => Err(unreachable(format!(
+            "no width of numbers reaches an error of {} with probability {}",
+            pilot.accuracy.error, pilot.accuracy.confidence
+        ))),
+        None => Ok((None, wide)),
+    }
+}
+
+/// The counting block with the fewest queries that will do beside the errors of so many paths, of
+/// comparators and of `width`: the smallest register, or a smaller one repeated.
+fn cheapest(
+    pilot: &mut Pilot<'_>,
+    path_bits: u32,
+    width: &Errors,
+) -> Result<Option<Counted>, RenderError> {
+    let (paths, _) = pilot.paths(path_bits)?;
+    let pilot = &*pilot;
+    let attempt = |phase_bits: u32, repetitions: u32| {
+        let counting = Counting {
+            phase_bits,
+            repetitions,
+            estimator: pilot.estimator,
+            ..Counting::default()
+        };
+        let (errors, queries) = pilot.counted(&counting)?;
+        let others = [&paths, &pilot.comparator_errors, width];
+        let counted = Counted {
+            counting,
+            errors,
+            queries,
+        };
+        let good = will_do(pilot, &others, Some(&counted.errors));
+        Ok::<_, RenderError>(good.then_some(counted))
+    };
+    if pilot.estimator == Estimator::Exact {
+        let counting = Counting::default();
+        return attempt(counting.phase_bits, counting.repetitions);
+    }
+    // Nothing is gained by counting where everything else is too wrong already.
+    if !will_do(pilot, &[&paths, &pilot.comparator_errors, width], None) {
+        return Ok(None);
+    }
+    let mut best = None;
+    let mut most = 0;
+    for phase_bits in (2..=MOST_PHASE).step_by(2) {
+        if let Some(found) = attempt(phase_bits, 1)? {
+            (best, most) = (Some(found), phase_bits);
+            break;
+        }
+    }
+    let Some(mut best) = best else {
+        return Ok(None);
+    };
+    if let Some(found) = attempt(most - 1, 1)? {
+        (best, most) = (found, most - 1);
+    }
+    if most > 4 {
+        for repetitions in [7, 6, 5] {
+            match attempt(most - 3, repetitions)? {
+                Some(found) if found.queries < best.queries => best = found,
+                _ => break,
+            }
+        }
+    }
+    Ok(Some(best))
+}
+
+/// Whether channels are within the asked error as often as was asked, with what may be bad luck.
+fn will_do(pilot: &Pilot<'_>, others: &[&Errors], counted: Option<&[Errors]>) -> bool {
+    let (failing, deviation) = failing(pilot, others, counted);
+    let pixels = pilot.pixels.len() as f64;
+    failing + MARGIN * deviation / pixels.sqrt() <= 1.0 - pilot.accuracy.confidence
+}
+
+/// The share of channels beyond the asked error, and how it varies from pixel to pixel.
+fn failing(pilot: &Pilot<'_>, others: &[&Errors], counted: Option<&[Errors]>) -> (f64, f64) {
+    let error = pilot.accuracy.error;
+    let (mut sum, mut squares, mut count) = (0.0, 0.0, 0.0);
+    each_total(pilot, others, counted, |total| {
+        let share = total.iter().filter(|e| e.abs() > error).count() as f64 / 3.0;
+        sum += share;
+        squares += share * share;
+        count += 1.0;
+    });
+    let mean: f64 = sum / count;
+    (mean, (squares / count - mean * mean).max(0.0).sqrt())
+}
+
+/// All errors of a pixel together, run by run. The first of `others`, the difference of two nets, has
+/// either sign.
+fn each_total(
+    pilot: &Pilot<'_>,
+    others: &[&Errors],
+    counted: Option<&[Errors]>,
+    mut take: impl FnMut([f64; 3]),
+) {
+    let none = [vec![[0.0; 3]; pilot.pixels.len()]];
+    for errors in counted.unwrap_or(&none) {
+        for (pixel, counted) in errors.iter().enumerate() {
+            for sign in [1.0, -1.0] {
+                take(std::array::from_fn(|c| {
+                    let mut total = counted[c];
+                    for (number, other) in others.iter().enumerate() {
+                        total += if number == 0 { sign } else { 1.0 } * other[pixel][c];
+                    }
+                    total
+                }));
+            }
+        }
+    }
+}
+
+fn finish(
+    pilot: &mut Pilot<'_>,
+    path_bits: u32,
+    width: Option<(u32, Errors, Spent)>,
+    counted: Option<Counted>,
+) -> Result<Plan, RenderError> {
+    let none = vec![[0.0; 3]; pilot.pixels.len()];
+    let black = counted.is_none();
+    let (paths, extrapolated) = if black {
+        (none.clone(), false)
+    } else {
+        pilot.paths(path_bits)?
+    };
+    let counting = counted.as_ref().map_or_else(Counting::default, |c| c.counting);
+    let errors = counted.as_ref().map_or(&[][..], |c| &c.errors);
+    let width_errors = width.as_ref().map_or(&none, |(_, errors, _)| errors);
+    let mut totals = Vec::new();
+    let others = [&paths, &pilot.comparator_errors, width_errors];
+    each_total(pilot, &others, Some(errors), |total| totals.push(total));
+    let confidence = pilot.accuracy.confidence;
+    let parts = Parts {
+        paths: quantile(&paths, confidence),
+        comparators: quantile(&pilot.comparator_errors, confidence),
+        width: quantile(width_errors, confidence),
+        counting: quantile(&errors.concat(), confidence),
+        total: quantile(&totals, confidence),
+    };
+    let (failing, _) = if black { (0.0, 0.0) } else { failing(pilot, &others, Some(errors)) };
+    let fraction = width.as_ref().map(|(fraction, ..)| *fraction);
+    let mut knobs = pilot.scene.knobs();
+    knobs.sampling.path_bits = path_bits;
+    knobs.precision.fraction = fraction;
+    knobs.comparator.bits = pilot.comparator_bits;
+    knobs.counting = counting;
+    knobs.counting.estimator = pilot.estimator;
+    let film = pilot.scene.scene().film;
+    Ok(Plan {
+        scene: valid(pilot.scene, knobs)?,
+        figures: Figures {
+            accuracy: pilot.accuracy,
+            mean: pilot.mean,
+            pixels: [
+                pilot.pixels.len() as u64,
+                u64::from(film.width) * u64::from(film.height),
+            ],
+            sequence: pilot.scene.scene().sampling.sequence,
+            path_bits,
+            extrapolated,
+            fraction,
+            comparator_bits: pilot.comparator_bits,
+            estimator: pilot.estimator,
+            phase_bits: counting.phase_bits,
+            repetitions: counting.repetitions,
+            within: 1.0 - failing,
+            parts,
+            queries: counted.map_or(0.0, |c| c.queries),
+            spent: width.map(|(.., spent)| spent),
+        },
+    })
+}
