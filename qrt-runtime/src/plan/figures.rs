@@ -65,7 +65,11 @@ impl fmt::Display for Figures {
              tried on {pixels} of {film} pixels:",
             self.mean
         )?;
-        write!(f, "  sampling.path_bits {}, precision.fraction ", self.path_bits)?;
+        write!(
+            f,
+            "  sampling.path_bits {}, precision.fraction ",
+            self.path_bits
+        )?;
         match self.fraction {
             Some(fraction) => write!(f, "{fraction}")?,
             None => write!(f, "auto")?,

@@ -66,7 +66,9 @@ impl<'a> Pilot<'a> {
         let film = [scene.scene().film.width, scene.scene().film.height];
         let failing = 1.0 - accuracy.confidence;
         let pixels = spread(film, (12.0 / failing).clamp(256.0, 4096.0) as u64);
-        let draws = (20.0 / failing / pixels.len() as f64).ceil().clamp(4.0, 64.0) as u64;
+        let draws = (20.0 / failing / pixels.len() as f64)
+            .ceil()
+            .clamp(4.0, 64.0) as u64;
         if (draws * pixels.len() as u64) as f64 * failing < 3.0 {
             return Err(unreachable(format!(
                 "{} tries on each of {} pixels cannot show that at most a share of {failing:.1e} fails",
@@ -115,9 +117,8 @@ impl<'a> Pilot<'a> {
 
     fn relative(&self, a: &Means, b: &Means, factor: f64) -> Errors {
         let factor = factor / self.mean;
-        let differences = |(a, b): (&[f64; 3], &[f64; 3])| {
-            std::array::from_fn(|c| factor * (a[c] - b[c]))
-        };
+        let differences =
+            |(a, b): (&[f64; 3], &[f64; 3])| std::array::from_fn(|c| factor * (a[c] - b[c]));
         a.iter().zip(b).map(differences).collect()
     }
 
@@ -139,9 +140,8 @@ impl<'a> Pilot<'a> {
                 .map(|(a, b)| self.relative(a, b, std::f64::consts::FRAC_1_SQRT_2))
                 .collect();
             if let (Some(a), Some(b)) = (a.last(), b.last()) {
-                let middle = |(a, b): (&[f64; 3], &[f64; 3])| {
-                    std::array::from_fn(|c| 0.5 * (a[c] + b[c]))
-                };
+                let middle =
+                    |(a, b): (&[f64; 3], &[f64; 3])| std::array::from_fn(|c| 0.5 * (a[c] + b[c]));
                 self.values = a.iter().zip(b).map(middle).collect();
             }
         }
@@ -161,9 +161,9 @@ impl<'a> Pilot<'a> {
             libm::log10(sum.sqrt())
         };
         let last = self.nets.iter().rev().take(6).rev();
-        let points = (0..).zip(last).map(|(k, errors)| {
-            (f64::from(k) * std::f64::consts::LOG10_2, root(errors))
-        });
+        let points = (0..)
+            .zip(last)
+            .map(|(k, errors)| (f64::from(k) * std::f64::consts::LOG10_2, root(errors)));
         let fit = crate::plot::Fit::of(points.filter(|p| p.1.is_finite()));
         fit.map_or(0.0, |fit| (fit.slope + fit.slope_band).clamp(-1.0, 0.0))
     }
@@ -246,9 +246,8 @@ impl<'a> Pilot<'a> {
         let in_fixed = counted_tallies(&machine, &self.pixels, 0..paths, self.cancel)?;
         let ids = (paths << self.comparator_bits) as f64;
         let [a, b]: [Means; 2] = [in_fixed, in_real].map(|tallies| {
-            let value = |good: &[u64; 3]| {
-                std::array::from_fn(|c| self.bound[c] * (good[c] as f64 / ids))
-            };
+            let value =
+                |good: &[u64; 3]| std::array::from_fn(|c| self.bound[c] * (good[c] as f64 / ids));
             tallies.iter().map(|tally| value(&tally.good[0])).collect()
         });
         Ok(Some((self.relative(&a, &b, 1.0), spent)))
@@ -298,7 +297,10 @@ pub(super) fn quantile(errors: &[[f64; 3]], share: f64) -> f64 {
     let mut sizes: Vec<f64> = errors.iter().flatten().map(|e| e.abs()).collect();
     sizes.sort_by(f64::total_cmp);
     let at = (share * sizes.len() as f64).ceil() as usize;
-    sizes.get(at.clamp(1, sizes.len().max(1)) - 1).copied().unwrap_or(0.0)
+    sizes
+        .get(at.clamp(1, sizes.len().max(1)) - 1)
+        .copied()
+        .unwrap_or(0.0)
 }
 
 pub(super) fn unreachable(why: String) -> RenderError {

@@ -30,7 +30,8 @@ struct Counted {
 pub(super) fn search(mut pilot: Pilot<'_>) -> Result<Plan, RenderError> {
     if pilot.mean <= 0.0 {
         // Proven black: nothing is counted, and nothing is wrong.
-        return finish(&mut pilot, pilot_bits(&pilot, FEWEST), None, None);
+        let path_bits = pilot_bits(&pilot, FEWEST);
+        return finish(&mut pilot, path_bits, None, None);
     }
     let (path_bits, counted) = choose_paths(&mut pilot)?;
     let (width, counted) = choose_width(&mut pilot, path_bits, counted)?;
@@ -106,7 +107,11 @@ fn choose_width(
     wide: Counted,
 ) -> Result<(Option<(u32, Errors, Spent)>, Counted), RenderError> {
     let many = pilot.scene.polygons().len() > MANY_POLYGONS;
-    let (first, step) = if many { (DEFAULT_FRACTION, 4) } else { (*FRACTIONS.start(), 1) };
+    let (first, step) = if many {
+        (DEFAULT_FRACTION, 4)
+    } else {
+        (*FRACTIONS.start(), 1)
+    };
     let mut best: Option<(f64, u32, Errors, Spent, Counted)> = None;
     let mut has_circuit = false;
     for fraction in (first..=*FRACTIONS.end()).step_by(step) {
@@ -259,7 +264,9 @@ fn finish(
     } else {
         pilot.paths(path_bits)?
     };
-    let counting = counted.as_ref().map_or_else(Counting::default, |c| c.counting);
+    let counting = counted
+        .as_ref()
+        .map_or_else(Counting::default, |c| c.counting);
     let errors = counted.as_ref().map_or(&[][..], |c| &c.errors);
     let width_errors = width.as_ref().map_or(&none, |(_, errors, _)| errors);
     let mut totals = Vec::new();
@@ -273,7 +280,11 @@ fn finish(
         counting: quantile(&errors.concat(), confidence),
         total: quantile(&totals, confidence),
     };
-    let (failing, _) = if black { (0.0, 0.0) } else { failing(pilot, &others, Some(errors)) };
+    let (failing, _) = if black {
+        (0.0, 0.0)
+    } else {
+        failing(pilot, &others, Some(errors))
+    };
     let fraction = width.as_ref().map(|(fraction, ..)| *fraction);
     let mut knobs = pilot.scene.knobs();
     knobs.sampling.path_bits = path_bits;

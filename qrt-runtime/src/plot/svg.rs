@@ -1,4 +1,4 @@
-//! A plot as SVG: 560 units wide, which a telephone shows at some 0.65 and a page at 1.
+//! A plot as SVG: 580 units wide, which a telephone shows at some 0.75 and a page at 1.
 
 use super::axis::Tick;
 use super::labels::apart;
@@ -6,9 +6,9 @@ use super::style::{CSS, class, hollow, mark};
 use super::{Axis, Drawn, Fit, Plot, Series};
 use std::fmt::Write as _;
 
-const WIDTH: f64 = 560.0;
-const LEFT: f64 = 68.0;
-const RIGHT: f64 = WIDTH - 130.0;
+const WIDTH: f64 = 580.0;
+const LEFT: f64 = 76.0;
+const RIGHT: f64 = WIDTH - 144.0;
 const TOP: f64 = 40.0;
 const BOTTOM: f64 = TOP + 300.0;
 /// From a series' last point to its name.
@@ -141,7 +141,7 @@ fn axes(svg: &mut String, frame: &Frame<'_>) {
         svg,
         "<path class=\"axis\" d=\"M{LEFT} {TOP}V{BOTTOM}H{RIGHT}\"/>\
          <text x=\"{:.1}\" y=\"{}\" text-anchor=\"middle\">{}</text>\
-         <text transform=\"translate(17 {:.1}) rotate(-90)\" text-anchor=\"middle\">{}</text>",
+         <text transform=\"translate(16 {:.1}) rotate(-90)\" text-anchor=\"middle\">{}</text>",
         0.5 * (LEFT + RIGHT),
         BOTTOM + 40.0,
         escaped(&x.label),

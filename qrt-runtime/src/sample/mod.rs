@@ -41,7 +41,11 @@ pub fn prefix_means(
             }
         }
         first = paths;
-        means.push(sums.iter().map(|sum| sum.map(|s| s / paths as f64)).collect());
+        means.push(
+            sums.iter()
+                .map(|sum| sum.map(|s| s / paths as f64))
+                .collect(),
+        );
     }
     Ok(means)
 }

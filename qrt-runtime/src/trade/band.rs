@@ -75,7 +75,10 @@ mod tests {
     #[test]
     fn equal_pictures_do_not_differ() {
         let picture = [[0.1, 0.2, 0.3]; 5];
-        assert_eq!(Band::of_difference(&picture, &picture, 0.2), Band::default());
+        assert_eq!(
+            Band::of_difference(&picture, &picture, 0.2),
+            Band::default()
+        );
         let other = [[0.2, 0.3, 0.4]; 5];
         let band = Band::of_difference(&picture, &other, 0.2);
         for value in [band.value, band.low, band.high] {

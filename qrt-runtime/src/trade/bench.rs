@@ -101,7 +101,10 @@ impl<'a> Bench<'a> {
     /// That the scene as it is has a circuit.
     pub(super) fn check(&mut self) -> Result<(), TradeError> {
         let knobs = Setting::of(&self.knobs).knobs(&self.knobs);
-        let scene = self.scene.with_knobs(knobs.clone()).map_err(TradeError::Knobs)?;
+        let scene = self
+            .scene
+            .with_knobs(knobs.clone())
+            .map_err(TradeError::Knobs)?;
         self.built(&scene, &knobs)?;
         Real::new(&scene, self.seed).map_err(RenderError::from)?;
         Ok(())
@@ -131,9 +134,8 @@ impl<'a> Bench<'a> {
             .stage()
             .bound();
         let ids = (1_u64 << knobs.sampling.path_bits) << knobs.comparator.bits;
-        let value = |good: &[u64; 3]| {
-            std::array::from_fn(|c| bound[c] * (good[c] as f64 / ids as f64))
-        };
+        let value =
+            |good: &[u64; 3]| std::array::from_fn(|c| bound[c] * (good[c] as f64 / ids as f64));
         let [in_real, in_model]: [Means; 2] =
             [&real.good, &counted.good].map(|good| good.iter().map(value).collect());
         let estimated = self.estimated(&knobs, &bound, &counted.good, ids)?;
@@ -332,9 +334,7 @@ impl<'a> Bench<'a> {
             Ok(EstimatedPixel { values, queries })
         };
         let pairs = self.pixels.par_iter().zip(good);
-        let pixels = pairs
-            .map(pixel)
-            .collect::<Result<Vec<_>, RenderError>>()?;
+        let pixels = pairs.map(pixel).collect::<Result<Vec<_>, RenderError>>()?;
         Ok(Estimated {
             pixels,
             seconds: start.elapsed().as_secs_f64(),
@@ -342,16 +342,13 @@ impl<'a> Bench<'a> {
     }
 
     /// E_T and the total error: of all draws, against S/N and against the limit.
-    fn drawn(
-        &self,
-        estimated: &Estimated,
-        counted: &Means,
-        truth: &Means,
-        mean: f64,
-    ) -> [Band; 2] {
+    fn drawn(&self, estimated: &Estimated, counted: &Means, truth: &Means, mean: f64) -> [Band; 2] {
         [counted, truth].map(|other| {
             let square = |(pixel, other): (&EstimatedPixel, &[f64; 3])| {
-                let values = pixel.values.iter().flat_map(|value| value.iter().zip(other));
+                let values = pixel
+                    .values
+                    .iter()
+                    .flat_map(|value| value.iter().zip(other));
                 let sum: f64 = values.map(|(a, b)| ((a - b) / mean).powi(2)).sum();
                 sum / (3 * pixel.values.len()).max(1) as f64
             };

@@ -4,7 +4,6 @@ use super::setting::Sweep;
 use super::table::Row;
 use super::{Band, Trade, pareto};
 use crate::plot::{Axis, Drawn, Plot, Point, Series};
-use crate::render::Model;
 use qrt_core::scene::{Estimator, Sequence};
 
 /// A plot, and what is said of it.
@@ -36,10 +35,26 @@ const NAMES: [&str; 6] = [
 
 /// All of them, in the page's order.
 pub(super) fn all(trade: &Trade) -> Vec<Figure> {
-    let mut figures = vec![split(trade), counting(trade), repetitions(trade), paths(trade)];
-    figures.extend([comparators(trade), fraction(trade), price(trade), depth(trade)]);
+    let mut figures = vec![
+        split(trade),
+        counting(trade),
+        repetitions(trade),
+        paths(trade),
+    ];
+    figures.extend([
+        comparators(trade),
+        fraction(trade),
+        price(trade),
+        depth(trade),
+    ]);
     figures.extend(fronts(trade));
-    figures.retain(|figure| figure.plot.series.iter().any(|series| !series.points.is_empty()));
+    figures.retain(|figure| {
+        figure
+            .plot
+            .series
+            .iter()
+            .any(|series| !series.points.is_empty())
+    });
     figures
 }
 
@@ -91,7 +106,15 @@ fn split(trade: &Trade) -> Figure {
         rows.filter(move |row| Some(row.setting.estimator) == own)
     };
     let parts = [TOTAL, COUNTING, PATHS, COMPARATORS, WIDTH, DEPTH];
-    let of = |error: usize| series(NAMES[error], rows(), |row| row.queries, error, Drawn::Joined);
+    let of = |error: usize| {
+        series(
+            NAMES[error],
+            rows(),
+            |row| row.queries,
+            error,
+            Drawn::Joined,
+        )
+    };
     Figure {
         name: "split",
         plot: Plot {
@@ -110,7 +133,13 @@ fn counting(trade: &Trade) -> Figure {
     let of = |estimator: Estimator| {
         let rows = trade.of(Sweep::Counting);
         let rows = rows.filter(|row| row.setting.estimator == estimator);
-        series(estimator.name(), rows, |row| row.queries, COUNTING, Drawn::Fit)
+        series(
+            estimator.name(),
+            rows,
+            |row| row.queries,
+            COUNTING,
+            Drawn::Fit,
+        )
     };
     Figure {
         name: "counting",
@@ -118,7 +147,10 @@ fn counting(trade: &Trade) -> Figure {
             title: "Counting: every estimator".to_owned(),
             x: Axis::log("queries of a pixel"),
             y: Axis::log("E_T: RMSE / mean radiance"),
-            series: estimators(trade, Sweep::Counting).into_iter().map(of).collect(),
+            series: estimators(trade, Sweep::Counting)
+                .into_iter()
+                .map(of)
+                .collect(),
         },
         says: "How far estimates are from S/N. Classical sampling falls with the square root of the \
                queries, a slope of \u{2212}0.5; a quantum estimator without outliers with a slope of \
@@ -179,7 +211,13 @@ fn comparators(trade: &Trade) -> Figure {
             title: "Comparators".to_owned(),
             x: Axis::bits("comparator bits"),
             y: Axis::log("E_C: RMSE / mean radiance"),
-            series: vec![series(NAMES[COMPARATORS], rows, bits, COMPARATORS, Drawn::Fit)],
+            series: vec![series(
+                NAMES[COMPARATORS],
+                rows,
+                bits,
+                COMPARATORS,
+                Drawn::Fit,
+            )],
         },
         says: "Counts of thresholds against the mean of the same paths. Slopes are over the number of \
                comparators.",
@@ -195,7 +233,9 @@ fn fraction(trade: &Trade) -> Figure {
             title: "Width of the circuit's numbers".to_owned(),
             x: Axis::bits("fraction bits"),
             y: relative(),
-            series: [(WIDTH, Drawn::Fit), (TOTAL, Drawn::Joined)].map(of).to_vec(),
+            series: [(WIDTH, Drawn::Fit), (TOTAL, Drawn::Joined)]
+                .map(of)
+                .to_vec(),
         },
         says: "The circuit's numbers against real ones, on the same paths and comparators. Beyond some \
                width the total no longer falls.",
@@ -242,7 +282,8 @@ fn depth(trade: &Trade) -> Figure {
 /// Rows that a front may hold: of the scene's own length of paths, which is what was asked.
 pub(super) fn candidates(trade: &Trade) -> Vec<&Row> {
     let rows = trade.rows.iter();
-    rows.filter(|row| row.setting.sweep != Sweep::Depth).collect()
+    rows.filter(|row| row.setting.sweep != Sweep::Depth)
+        .collect()
 }
 
 /// A price of a row.
@@ -250,12 +291,24 @@ pub(super) type Price = fn(&Row) -> f64;
 
 /// What is paid: the figure's name, the title, the axis, and the price.
 pub(super) const PRICES: [(&str, &str, &str, Price); 4] = [
-    ("front-queries", "queries", "queries of a pixel", |row| row.queries),
-    ("front-toffoli", "Toffoli \u{d7} queries", "Toffoli \u{d7} queries of a pixel", |row| {
-        row.toffoli_x_queries()
+    ("front-queries", "queries", "queries of a pixel", |row| {
+        row.queries
     }),
-    ("front-qubits", "qubits", "qubits of the oracle", |row| row.spent.qubits as f64),
-    ("front-seconds", "seconds of simulation", "seconds of a pixel", |row| row.seconds),
+    (
+        "front-toffoli",
+        "Toffoli \u{d7} queries",
+        "Toffoli \u{d7} queries of a pixel",
+        |row| row.toffoli_x_queries(),
+    ),
+    ("front-qubits", "qubits", "qubits of the oracle", |row| {
+        row.spent.qubits as f64
+    }),
+    (
+        "front-seconds",
+        "seconds of simulation",
+        "seconds of a pixel",
+        |row| row.seconds,
+    ),
 ];
 
 /// The front of all rows under a price, from the cheapest on.
@@ -271,7 +324,7 @@ fn fronts(trade: &Trade) -> impl Iterator<Item = Figure> {
     PRICES.into_iter().map(|(name, title, axis, price)| {
         let rows = candidates(trade);
         let best = front(&rows, price);
-        let of_model = |row: &&&Row| row.setting.model != Model::Gates;
+        let others = rows.iter().map(|row| (price(row), row.errors[TOTAL].value));
         Figure {
             name,
             plot: Plot {
@@ -279,18 +332,12 @@ fn fronts(trade: &Trade) -> impl Iterator<Item = Figure> {
                 x: Axis::log(axis),
                 y: Axis::log("total: RMSE / mean radiance"),
                 series: vec![
+                    Series::of("all settings", others, Drawn::Points),
                     series("the front", best.into_iter(), price, TOTAL, Drawn::Steps),
-                    series(
-                        "other settings",
-                        rows.iter().filter(of_model).copied(),
-                        price,
-                        TOTAL,
-                        Drawn::Points,
-                    ),
                 ],
             },
-            says: "Settings that no other beats in both, from the cheapest to the best, and all the \
-                   others.",
+            says: "Settings that no other beats in both, from the cheapest to the best, among all \
+                   settings.",
         }
     })
 }

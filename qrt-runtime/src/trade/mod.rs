@@ -109,7 +109,9 @@ impl Trade {
 
     /// The rows about one knob.
     pub fn of(&self, sweep: Sweep) -> impl Iterator<Item = &Row> {
-        self.rows.iter().filter(move |row| row.setting.sweep == sweep)
+        self.rows
+            .iter()
+            .filter(move |row| row.setting.sweep == sweep)
     }
 
     /// What a reader with little time wants to know.
@@ -147,14 +149,12 @@ pub fn trade(
     Ok(measured)
 }
 
-fn measure(
-    scene: &ValidScene,
-    folder: &Path,
-    options: &Options<'_>,
-) -> Result<Trade, TradeError> {
+fn measure(scene: &ValidScene, folder: &Path, options: &Options<'_>) -> Result<Trade, TradeError> {
     let written = scene.scene();
     let film = [written.film.width, written.film.height];
-    let asked = options.pixels.unwrap_or(if options.quick { 32 } else { 256 });
+    let asked = options
+        .pixels
+        .unwrap_or(if options.quick { 32 } else { 256 });
     let pixels = spread(film, asked.max(1));
     let settings = sweep::settings(&scene.knobs(), options.quick);
     let longest = settings.iter().map(|setting| setting.path_bits).max();

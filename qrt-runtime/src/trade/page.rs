@@ -26,7 +26,7 @@ font:16px/1.5 system-ui,-apple-system,'Segoe UI','DejaVu Sans',sans-serif}
 h1{font-size:1.5rem;margin:.5rem 0}h2{font-size:1.2rem;margin:2rem 0 .5rem}
 p,figcaption{max-width:46rem}figcaption,.soft{color:var(--soft)}figcaption{font-size:.9rem}
 .figures{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,520px),1fr));gap:1.5rem}
-figure{margin:0;min-width:0}.wide{overflow-x:auto}.wide svg{display:block;min-width:440px;width:100%}
+figure{margin:0;min-width:0}.wide{overflow-x:auto}.wide svg{display:block;min-width:460px;width:100%}
 table{border-collapse:collapse;font-size:.875rem;font-variant-numeric:tabular-nums}
 th,td{padding:.25rem .6rem;text-align:right;border-bottom:1px solid var(--line);white-space:nowrap}
 th{font-weight:600;text-align:right;color:var(--soft)}.left,th.left{text-align:left}

@@ -42,7 +42,14 @@ pub(super) fn text(trade: &Trade) -> String {
     let best = front(&candidates(trade), price);
     let _ = writeln!(out, "least total error by {title} of a pixel:");
     let step = best.len().div_ceil(SHOWN).max(1);
-    for row in best.iter().rev().step_by(step).collect::<Vec<_>>().iter().rev() {
+    for row in best
+        .iter()
+        .rev()
+        .step_by(step)
+        .collect::<Vec<_>>()
+        .iter()
+        .rev()
+    {
         let _ = writeln!(
             out,
             "  {:>9.0}  {:>7.2} %  {}",

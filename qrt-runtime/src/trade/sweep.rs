@@ -23,12 +23,16 @@ pub(super) fn settings(knobs: &Knobs, quick: bool) -> Vec<Setting> {
         if estimator == Estimator::Exact {
             continue;
         }
-        rows.extend((least..=most.min(40)).step_by(step).map(|phase_bits| Setting {
-            estimator,
-            phase_bits,
-            repetitions: 1,
-            ..of(Sweep::Counting)
-        }));
+        rows.extend(
+            (least..=most.min(40))
+                .step_by(step)
+                .map(|phase_bits| Setting {
+                    estimator,
+                    phase_bits,
+                    repetitions: 1,
+                    ..of(Sweep::Counting)
+                }),
+        );
     }
     let mut repeated = vec![Estimator::Paper];
     if ![Estimator::Paper, Estimator::Exact].contains(&scene.estimator) {

@@ -182,7 +182,10 @@ impl Table {
 
 /// `# qrt trade: scene_hash=..., seed=0`.
 fn first_line(header: &Header) -> String {
-    let parts: Vec<String> = header.iter().map(|(name, value)| format!("{name}={value}")).collect();
+    let parts: Vec<String> = header
+        .iter()
+        .map(|(name, value)| format!("{name}={value}"))
+        .collect();
     format!("# qrt trade: {}", parts.join(", "))
 }
 
