@@ -28,8 +28,6 @@
 mod figures;
 mod pilot;
 mod search;
-#[cfg(test)]
-mod tests;
 
 pub use figures::{Figures, Parts};
 pub use pilot::MOST_TRIED;

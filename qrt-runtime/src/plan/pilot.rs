@@ -224,10 +224,14 @@ impl<'a> Pilot<'a> {
         Ok([r?, g?, b?])
     }
 
-    /// The error of numbers with so many fraction bits, and what a call costs then; none where there
+    /// The error of numbers with so many fraction bits, and what a call costs with so many paths; none where there
     /// is no circuit.
-    pub(super) fn width(&self, fraction: u32) -> Result<Option<(Errors, Spent)>, RenderError> {
-        let mut knobs = net_knobs(self.scene, COMPARED);
+    pub(super) fn width(
+        &self,
+        path_bits: u32,
+        fraction: u32,
+    ) -> Result<Option<(Errors, Spent)>, RenderError> {
+        let mut knobs = net_knobs(self.scene, path_bits);
         if self.is_lattice() {
             knobs = self.scene.knobs();
         }

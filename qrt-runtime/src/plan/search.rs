@@ -1,6 +1,6 @@
 //! The cheapest knobs that will do.
 
-use super::pilot::{Errors, FEWEST, MOST_TRIED, Pilot, quantile, unreachable, valid};
+use super::pilot::{Errors, FEWEST, Pilot, quantile, unreachable, valid};
 use super::{Figures, Parts, Plan};
 use crate::render::RenderError;
 use qrt_core::oracle::{DEFAULT_FRACTION, Spent};
@@ -12,6 +12,8 @@ const MOST_PATHS: u32 = 32;
 const WORTH: f64 = 0.125;
 /// Standard errors that are kept free: one-sided, 95 %.
 const MARGIN: f64 = 1.645;
+/// The counting register that a search begins with.
+const START: u32 = 6;
 /// The largest counting register.
 const MOST_PHASE: u32 = 40;
 /// Fraction bits that are tried.
@@ -51,7 +53,7 @@ fn pilot_bits(pilot: &Pilot<'_>, bits: u32) -> u32 {
 fn choose_paths(pilot: &mut Pilot<'_>) -> Result<(u32, Counted), RenderError> {
     let none = vec![[0.0; 3]; pilot.pixels.len()];
     if pilot.is_lattice() {
-        let counted = cheapest(pilot, 0, &none)?.ok_or_else(|| out_of_reach(pilot, 0))?;
+        let counted = cheapest(pilot, 0, &none, START)?.ok_or_else(|| out_of_reach(pilot, 0))?;
         return Ok((pilot_bits(pilot, 0), counted));
     }
     let mut chosen: Option<(u32, Counted)> = None;
@@ -59,12 +61,15 @@ fn choose_paths(pilot: &mut Pilot<'_>) -> Result<(u32, Counted), RenderError> {
         if !alone_will_do(pilot, bits)? {
             continue;
         }
-        let Some(counted) = cheapest(pilot, bits, &none)? else {
+        let start = chosen
+            .as_ref()
+            .map_or(START, |(_, before)| before.counting.phase_bits);
+        let Some(counted) = cheapest(pilot, bits, &none, start)? else {
             continue;
         };
         if let Some((fewer, before)) = chosen {
             let saves = counted.queries < (1.0 - WORTH) * before.queries;
-            if !saves || bits > MOST_TRIED {
+            if !saves {
                 return Ok((fewer, before));
             }
         }
@@ -115,7 +120,7 @@ fn choose_width(
     let mut best: Option<(f64, u32, Errors, Spent, Counted)> = None;
     let mut has_circuit = false;
     for fraction in (first..=*FRACTIONS.end()).step_by(step) {
-        let Some((errors, spent)) = pilot.width(fraction)? else {
+        let Some((errors, spent)) = pilot.width(path_bits, fraction)? else {
             if has_circuit {
                 break;
             }
@@ -127,7 +132,8 @@ fn choose_width(
         if best.as_ref().is_some_and(|best| best.0 <= least) {
             break;
         }
-        let Some(counted) = cheapest(pilot, path_bits, &errors)? else {
+        let start = wide.counting.phase_bits;
+        let Some(counted) = cheapest(pilot, path_bits, &errors, start)? else {
             continue;
         };
         let cost = spent.toffoli as f64 * counted.queries.max(1.0);
@@ -148,11 +154,13 @@ fn choose_width(
 }
 
 /// The counting block with the fewest queries that will do beside the errors of so many paths, of
-/// comparators and of `width`: the smallest register, or a smaller one repeated.
+/// comparators and of `width`: the smallest register, or a smaller one repeated. The search begins
+/// with a register of `start` bits.
 fn cheapest(
     pilot: &mut Pilot<'_>,
     path_bits: u32,
     width: &Errors,
+    start: u32,
 ) -> Result<Option<Counted>, RenderError> {
     let (paths, _) = pilot.paths(path_bits)?;
     let pilot = &*pilot;
@@ -181,23 +189,26 @@ fn cheapest(
     if !will_do(pilot, &[&paths, &pilot.comparator_errors, width], None) {
         return Ok(None);
     }
-    let mut best = None;
-    let mut most = 0;
-    for phase_bits in (2..=MOST_PHASE).step_by(2) {
-        if let Some(found) = attempt(phase_bits, 1)? {
-            (best, most) = (Some(found), phase_bits);
-            break;
+    // From where a like search ended, down as long as it will do, or up until it does.
+    let mut found = attempt(start, 1)?;
+    let mut phase_bits = start;
+    if found.is_some() {
+        while phase_bits > 1
+            && let Some(smaller) = attempt(phase_bits - 1, 1)?
+        {
+            (found, phase_bits) = (Some(smaller), phase_bits - 1);
         }
     }
-    let Some(mut best) = best else {
+    while found.is_none() && phase_bits < MOST_PHASE {
+        phase_bits += 1;
+        found = attempt(phase_bits, 1)?;
+    }
+    let Some(mut best) = found else {
         return Ok(None);
     };
-    if let Some(found) = attempt(most - 1, 1)? {
-        (best, most) = (found, most - 1);
-    }
-    if most > 4 {
+    if phase_bits > 4 {
         for repetitions in [7, 6, 5] {
-            match attempt(most - 3, repetitions)? {
+            match attempt(phase_bits - 3, repetitions)? {
                 Some(found) if found.queries < best.queries => best = found,
                 _ => break,
             }

@@ -22,6 +22,25 @@
 //! The total is measured, too: it is no sum of the others. `E_D` is not in it, for it changes with no
 //! other knob than the length of paths. Intervals are a bootstrap's over pixels.
 
+//!
+//! # The table
+//!
+//! `trade.csv` begins with a line that names what its rows depend on: version, scene hash, seed,
+//! pixels, quick. Its columns:
+//!
+//! * the setting: `sweep` (the knob that the row is about), `model`, `estimator`, `phase_bits`,
+//!   `repetitions`, `sequence`, `path_bits`, `depths`, `fraction`, `comparator_bits`, `uncompute`,
+//!   `nearest`;
+//! * its price: `queries` of a pixel, all channels together, on average; `toffoli` and `qubits` of one
+//!   call of the dearest channel's oracle, as `qrt inspect` counts them (a counting register's own
+//!   qubits are not among them); `toffoli_x_queries`;
+//! * `mean`: the mean radiance, over pixels and channels, that errors are relative to;
+//! * `e_r`, `e_c`, `e_w`, `e_t`, `e_d`, `e_total`, each followed by the ends of its interval at 95 %
+//!   (`e_r_low`, `e_r_high`, ...);
+//! * `seconds`: wall time of tracing and counting a pixel. It alone differs from run to run.
+//!
+//! Rows are written as they are finished, and not measured again when they are there.
+
 mod band;
 mod bench;
 mod error;

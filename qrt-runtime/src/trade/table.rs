@@ -1,11 +1,7 @@
 //! `trade.csv`: one row a setting, written as each is finished.
 //!
 //! The first line names what the rows depend on; a table of anything else is refused. The second
-//! names the columns: those of the setting; `queries` (of a pixel, all channels together, on
-//! average), `toffoli` and `qubits` (of one call of the dearest channel's oracle),
-//! `toffoli_x_queries`; `mean`, the radiance that errors are relative to; of each error its root
-//! mean square over pixels and channels with the interval's ends at 95 %; and `seconds`, the wall
-//! time of tracing and counting a pixel, which alone differs from run to run.
+//! names the columns, which the module above describes.
 
 use super::band::Band;
 use super::error::TradeError;

@@ -1,10 +1,14 @@
-//! What a plan must keep.
+//! An asked accuracy is kept, as cheaply as can be, or refused.
+#![allow(clippy::unwrap_used)]
 
-use super::*;
-use crate::machines::Real;
-use crate::render::{Model, render};
-use crate::sample::{prefix_means, radiance, spread};
-use qrt_core::front::parse;
+use qrt::core::front::parse;
+use qrt::core::scene::Estimator;
+use qrt::core::valid::{ValidScene, validate};
+use qrt::runtime::machines::Real;
+use qrt::runtime::plan::{Options, Plan, plan};
+use qrt::runtime::render::{self, Model, render};
+use qrt::runtime::sample::{prefix_means, radiance, spread};
+use std::num::NonZeroUsize;
 
 /// A lamp over a floor, seen obliquely; two rays.
 fn lit(accuracy: &str, more: &str) -> ValidScene {
@@ -47,7 +51,7 @@ fn the_asked_share_of_channels_is_within_the_asked_error() {
         let mean = radiance(&truth[0]);
         assert!((plan.figures.mean / mean - 1.0).abs() < 0.01);
         for seed in [0, 1, 2] {
-            let options = crate::render::Options {
+            let options = render::Options {
                 seed,
                 model: Model::Fixed,
                 plan: Some(&plan),
@@ -130,6 +134,6 @@ fn what_cannot_be_kept_is_refused_with_the_reason() {
         depth.bits = [2, 1];
     }
     coarse.sampling.path_bits = 6;
-    let coarse = qrt_core::valid::validate(coarse, "".as_ref()).unwrap();
+    let coarse = validate(coarse, "".as_ref()).unwrap();
     refused(&coarse, "sequence: digital-net");
 }
