@@ -8,8 +8,9 @@
 // A bench that cannot run has nothing to report.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
-use qrt_core::scene::{Accuracy, Counting, Estimator, Film, Precision, Sampling};
-use qrt_core::scene::{Comparator, Scene};
+use qrt_core::scene::{
+    Accuracy, Comparator, Counting, Estimator, Film, Precision, Sampling, Scene,
+};
 use qrt_core::valid::{ValidScene, validate};
 use qrt_runtime::estimators::{Device, Noise, Problem, Settings, estimator};
 use qrt_runtime::machines::Real;
@@ -80,48 +81,44 @@ fn by_hand(
 ) -> Option<(f64, [u32; 3])> {
     let pixels = spread([SIDE; 2], u64::MAX);
     let total = 1_u64 << 40;
-    let mut best: Option<(f64, [u32; 3])> = None;
-    for phase_bits in 3..=18 {
-        for repetitions in [1, 2, 3, 5, 7] {
-            let queries = f64::from(((1 << phase_bits) - 1) * repetitions);
-            if best.is_some_and(|best| 3.0 * queries >= 2.0 * best.0) {
-                continue;
+    let mut registers: Vec<[u32; 2]> = (3..=18)
+        .flat_map(|phase_bits| [1, 2, 3, 5, 7].map(|repetitions| [phase_bits, repetitions]))
+        .collect();
+    registers.sort_by_key(|[phase_bits, repetitions]| ((1 << phase_bits) - 1) * repetitions);
+    for [phase_bits, repetitions] in registers {
+        let counting = Counting {
+            phase_bits,
+            repetitions,
+            ..Counting::default()
+        };
+        let made = estimator(name, &Settings::of(&counting).unwrap()).unwrap();
+        for (means, bits) in means.iter().zip(PATHS) {
+            let (mut kept, mut spent) = (0.0, 0);
+            for draw in 0..DRAWS {
+                let pixel = |(&[x, y], mean): (&[u32; 2], &[f64; 3])| -> [f64; 3] {
+                    std::array::from_fn(|c| {
+                        if bound[c] == 0.0 {
+                            return 0.0;
+                        }
+                        let good = (mean[c] / bound[c] * total as f64) as u64;
+                        let mut stream = Stream::new(1000 + draw, x, y, c as u8);
+                        let problem = Problem { good, total };
+                        let mut device = Device::new(problem, Noise::NONE, &mut stream).unwrap();
+                        let estimate = made.estimate(&mut device).unwrap();
+                        spent += estimate.queries;
+                        bound[c] * estimate.amplitude
+                    })
+                };
+                let values: Means = pixels.iter().zip(means).map(pixel).collect();
+                kept += share(&values, truth, error) / DRAWS as f64;
             }
-            let counting = Counting {
-                phase_bits,
-                repetitions,
-                ..Counting::default()
-            };
-            let made = estimator(name, &Settings::of(&counting).unwrap()).unwrap();
-            for (means, bits) in means.iter().zip(PATHS) {
-                let (mut kept, mut spent) = (0.0, 0);
-                for draw in 0..DRAWS {
-                    let pixel = |(&[x, y], mean): (&[u32; 2], &[f64; 3])| -> [f64; 3] {
-                        std::array::from_fn(|c| {
-                            if bound[c] == 0.0 {
-                                return 0.0;
-                            }
-                            let good = (mean[c] / bound[c] * total as f64) as u64;
-                            let mut stream = Stream::new(1000 + draw, x, y, c as u8);
-                            let problem = Problem { good, total };
-                            let mut device =
-                                Device::new(problem, Noise::NONE, &mut stream).unwrap();
-                            let estimate = made.estimate(&mut device).unwrap();
-                            spent += estimate.queries;
-                            bound[c] * estimate.amplitude
-                        })
-                    };
-                    let values: Means = pixels.iter().zip(means).map(pixel).collect();
-                    kept += share(&values, truth, error) / DRAWS as f64;
-                }
+            if kept >= CONFIDENCE {
                 let spent = spent as f64 / (DRAWS * pixels.len() as u64) as f64;
-                if kept >= CONFIDENCE && best.is_none_or(|best| spent < best.0) {
-                    best = Some((spent, [bits, phase_bits, repetitions]));
-                }
+                return Some((spent, [bits, phase_bits, repetitions]));
             }
         }
     }
-    best
+    None
 }
 
 fn main() -> ExitCode {

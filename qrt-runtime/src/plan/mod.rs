@@ -25,9 +25,11 @@
 //!
 //! The seed of a picture plays no part: a scene always gets the same knobs.
 
+mod counted;
 mod figures;
 mod pilot;
 mod search;
+mod together;
 
 pub use figures::{Figures, Parts};
 pub use pilot::MOST_TRIED;

@@ -2,16 +2,14 @@
 
 use super::Options;
 use crate::counting::Comparators;
-use crate::estimators::{Device, Noise, Problem, Settings, estimator};
+use crate::estimators::Noise;
 use crate::machines::{OracleMachine, Real};
-use crate::random::Stream;
 use crate::render::RenderError;
 use crate::sample::{Means, counted_tallies, prefix_means, radiance, spread, tallies};
 use qrt_core::oracle::{Oracle, Spent, spent};
 use qrt_core::sampling::MAX_PATH_BITS;
-use qrt_core::scene::{Accuracy, Comparator, Counting, Estimator, Sequence};
+use qrt_core::scene::{Accuracy, Comparator, Estimator, Sequence};
 use qrt_core::valid::{Knobs, ValidScene};
-use rayon::prelude::*;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
@@ -20,11 +18,11 @@ pub const MOST_TRIED: u32 = 18;
 /// Path bits of the smallest net that is tried.
 pub(super) const FEWEST: u32 = 4;
 /// Path bits on which comparators and widths are tried.
-const COMPARED: u32 = 11;
+pub(super) const COMPARED: u32 = 11;
 /// The mean is that of at most so many pixels, and so many path bits.
 const MEAN: (u64, u32) = (1 << 12, 8);
 /// Keys the shifts of the two nets, and of a third to compare a lattice with.
-const SHIFTS: [u64; 3] = [0x706c_616e_2041, 0x706c_616e_2042, 0x706c_616e_2043];
+pub(super) const SHIFTS: [u64; 3] = [0x706c_616e_2041, 0x706c_616e_2042, 0x706c_616e_2043];
 /// Comparator bits that are tried.
 const COMPARATORS: std::ops::RangeInclusive<u32> = 2..=26;
 /// What comparators may take of the error.
@@ -50,7 +48,7 @@ pub(super) struct Pilot<'a> {
     /// Of the comparators that were chosen.
     pub(super) comparator_errors: Errors,
     /// The best known value of every channel.
-    values: Means,
+    pub(super) values: Means,
     /// By path bits, from [`FEWEST`] on; of a lattice the only one.
     nets: Vec<Errors>,
     cancel: Option<&'a AtomicBool>,
@@ -255,44 +253,6 @@ impl<'a> Pilot<'a> {
             tallies.iter().map(|tally| value(&tally.good[0])).collect()
         });
         Ok(Some((self.relative(&a, &b, 1.0), spent)))
-    }
-
-    /// What the estimator is off by, run by run and channel by channel, and its queries of a pixel.
-    pub(super) fn counted(&self, counting: &Counting) -> Result<(Vec<Errors>, f64), RenderError> {
-        if self.estimator == Estimator::Exact {
-            let none = vec![vec![[0.0; 3]; self.pixels.len()]; self.draws as usize];
-            return Ok((none, 0.0));
-        }
-        let made = estimator(self.estimator, &Settings::of(counting)?)?;
-        // As many ids as the scene will have, or almost: more make no difference.
-        let total = 1_u64 << (COMPARED + self.comparator_bits);
-        let pixel = |(&[x, y], value): (&[u32; 2], &[f64; 3])| {
-            let mut errors = vec![[0.0; 3]; self.draws as usize];
-            let mut queries = 0;
-            for (draw, errors) in (0_u64..).zip(&mut errors) {
-                let seed = SHIFTS[2] ^ draw.wrapping_mul(0x9E37_79B9_7F4A_7C15);
-                for channel in (0..3).filter(|&c| self.bound[c] > 0.0) {
-                    let bound = self.bound[channel];
-                    let good = (value[channel] / bound * total as f64).round() as u64;
-                    let good = good.min(total);
-                    let mut stream = Stream::new(seed, x, y, channel as u8);
-                    let problem = Problem { good, total };
-                    let mut device = Device::new(problem, self.noise, &mut stream)?;
-                    let estimate = made.estimate(&mut device)?;
-                    let off = estimate.amplitude - good as f64 / total as f64;
-                    errors[channel] = bound * off / self.mean;
-                    queries += estimate.queries;
-                }
-            }
-            Ok((errors, queries))
-        };
-        let pairs = self.pixels.par_iter().zip(&self.values);
-        let found = pairs.map(pixel).collect::<Result<Vec<_>, RenderError>>()?;
-        let queries: u64 = found.iter().map(|(_, queries)| queries).sum();
-        let by_draw = |draw: usize| found.iter().map(|(errors, _)| errors[draw]).collect();
-        let errors = (0..self.draws as usize).map(by_draw).collect();
-        let runs = self.draws as f64 * self.pixels.len() as f64;
-        Ok((errors, queries as f64 / runs))
     }
 }
 

@@ -1,6 +1,7 @@
 //! The cheapest knobs that will do.
 
 use super::pilot::{Errors, FEWEST, Pilot, quantile, unreachable, valid};
+use super::together::{each_total, failing, will_do};
 use super::{Figures, Parts, Plan};
 use crate::render::RenderError;
 use qrt_core::oracle::{DEFAULT_FRACTION, Spent};
@@ -10,8 +11,6 @@ use qrt_core::scene::{Counting, Estimator, Sequence};
 const MOST_PATHS: u32 = 32;
 /// What a path bit must save of the queries to be worth it.
 const WORTH: f64 = 0.125;
-/// Standard errors that are kept free: one-sided, 95 %.
-const MARGIN: f64 = 1.645;
 /// The counting register that a search begins with.
 const START: u32 = 6;
 /// The largest counting register.
@@ -20,6 +19,9 @@ const MOST_PHASE: u32 = 40;
 const FRACTIONS: std::ops::RangeInclusive<u32> = 8..=30;
 /// Polygons beyond which building a circuit takes long, so that fewer are tried.
 const MANY_POLYGONS: usize = 200;
+
+/// Fraction bits, the error that they leave, and what a call costs then.
+type Width = (u32, Errors, Spent);
 
 /// A counting block, and how it does.
 #[derive(Clone)]
@@ -110,14 +112,14 @@ fn choose_width(
     pilot: &mut Pilot<'_>,
     path_bits: u32,
     wide: Counted,
-) -> Result<(Option<(u32, Errors, Spent)>, Counted), RenderError> {
+) -> Result<(Option<Width>, Counted), RenderError> {
     let many = pilot.scene.polygons().len() > MANY_POLYGONS;
     let (first, step) = if many {
         (DEFAULT_FRACTION, 4)
     } else {
         (*FRACTIONS.start(), 1)
     };
-    let mut best: Option<(f64, u32, Errors, Spent, Counted)> = None;
+    let mut best: Option<(f64, Width, Counted)> = None;
     let mut has_circuit = false;
     for fraction in (first..=*FRACTIONS.end()).step_by(step) {
         let Some((errors, spent)) = pilot.width(path_bits, fraction)? else {
@@ -138,13 +140,11 @@ fn choose_width(
         };
         let cost = spent.toffoli as f64 * counted.queries.max(1.0);
         if best.as_ref().is_none_or(|best| cost < best.0) {
-            best = Some((cost, fraction, errors, spent, counted));
+            best = Some((cost, (fraction, errors, spent), counted));
         }
     }
     match best {
-        Some((_, fraction, errors, spent, counted)) => {
-            Ok((Some((fraction, errors, spent)), counted))
-        }
+        Some((_, width, counted)) => Ok((Some(width), counted)),
         None if has_circuit => Err(unreachable(format!(
             "no width of numbers reaches an error of {} with probability {}",
             pilot.accuracy.error, pilot.accuracy.confidence
@@ -217,55 +217,10 @@ fn cheapest(
     Ok(Some(best))
 }
 
-/// Whether channels are within the asked error as often as was asked, with what may be bad luck.
-fn will_do(pilot: &Pilot<'_>, others: &[&Errors], counted: Option<&[Errors]>) -> bool {
-    let (failing, deviation) = failing(pilot, others, counted);
-    let pixels = pilot.pixels.len() as f64;
-    failing + MARGIN * deviation / pixels.sqrt() <= 1.0 - pilot.accuracy.confidence
-}
-
-/// The share of channels beyond the asked error, and how it varies from pixel to pixel.
-fn failing(pilot: &Pilot<'_>, others: &[&Errors], counted: Option<&[Errors]>) -> (f64, f64) {
-    let error = pilot.accuracy.error;
-    let (mut sum, mut squares, mut count) = (0.0, 0.0, 0.0);
-    each_total(pilot, others, counted, |total| {
-        let share = total.iter().filter(|e| e.abs() > error).count() as f64 / 3.0;
-        sum += share;
-        squares += share * share;
-        count += 1.0;
-    });
-    let mean: f64 = sum / count;
-    (mean, (squares / count - mean * mean).max(0.0).sqrt())
-}
-
-/// All errors of a pixel together, run by run. The first of `others`, the difference of two nets, has
-/// either sign.
-fn each_total(
-    pilot: &Pilot<'_>,
-    others: &[&Errors],
-    counted: Option<&[Errors]>,
-    mut take: impl FnMut([f64; 3]),
-) {
-    let none = [vec![[0.0; 3]; pilot.pixels.len()]];
-    for errors in counted.unwrap_or(&none) {
-        for (pixel, counted) in errors.iter().enumerate() {
-            for sign in [1.0, -1.0] {
-                take(std::array::from_fn(|c| {
-                    let mut total = counted[c];
-                    for (number, other) in others.iter().enumerate() {
-                        total += if number == 0 { sign } else { 1.0 } * other[pixel][c];
-                    }
-                    total
-                }));
-            }
-        }
-    }
-}
-
 fn finish(
     pilot: &mut Pilot<'_>,
     path_bits: u32,
-    width: Option<(u32, Errors, Spent)>,
+    width: Option<Width>,
     counted: Option<Counted>,
 ) -> Result<Plan, RenderError> {
     let none = vec![[0.0; 3]; pilot.pixels.len()];

@@ -88,7 +88,7 @@ impl Axis {
 /// Whole numbers of a range, at a step of 1, 2, 3, 4, 6, ...
 fn whole(low: f64, high: f64, most: usize) -> Vec<f64> {
     let steps = [1.0, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 16.0, 24.0];
-    let fits = |step: &&f64| ((high - low) / **step) as usize + 1 <= most.max(2);
+    let fits = |step: &&f64| (((high - low) / **step) as usize) < most.max(2);
     let step = steps.iter().find(fits).copied().unwrap_or(32.0);
     let first = (low / step).ceil();
     let count = ((high / step).floor() - first) as i64;

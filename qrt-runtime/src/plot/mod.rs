@@ -22,6 +22,7 @@
 mod axis;
 mod fit;
 mod labels;
+mod legend;
 mod series;
 mod style;
 mod svg;

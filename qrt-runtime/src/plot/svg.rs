@@ -1,38 +1,32 @@
 //! A plot as SVG: 580 units wide, which a telephone shows at some 0.75 and a page at 1.
 
 use super::axis::Tick;
-use super::labels::apart;
-use super::style::{CSS, class, hollow, mark};
+use super::legend::{COLUMNS, LINE, legend, names, put_mark};
+use super::style::{CSS, class, hollow};
 use super::{Axis, Drawn, Fit, Plot, Series};
 use std::fmt::Write as _;
 
-const WIDTH: f64 = 580.0;
+pub(super) const WIDTH: f64 = 580.0;
 const LEFT: f64 = 76.0;
-const RIGHT: f64 = WIDTH - 144.0;
-const TOP: f64 = 40.0;
-const BOTTOM: f64 = TOP + 300.0;
-/// From a series' last point to its name.
-const GAP: f64 = 16.0;
-/// Between names, and between lines of the legend.
-const LINE: f64 = 17.0;
-/// Of the legend.
-const COLUMNS: usize = 2;
+pub(super) const RIGHT: f64 = WIDTH - 144.0;
+pub(super) const TOP: f64 = 40.0;
+pub(super) const BOTTOM: f64 = TOP + 300.0;
 /// Of fits drawn as curves.
 const BAND_STEPS: i32 = 24;
 
 /// Where places on the axes are on the drawing.
-struct Frame<'a> {
+pub(super) struct Frame<'a> {
     plot: &'a Plot,
     x: (f64, f64),
     y: (f64, f64),
 }
 
 impl Frame<'_> {
-    fn x(&self, place: f64) -> f64 {
+    pub(super) fn x(&self, place: f64) -> f64 {
         LEFT + (RIGHT - LEFT) * (place - self.x.0) / (self.x.1 - self.x.0)
     }
 
-    fn y(&self, place: f64) -> f64 {
+    pub(super) fn y(&self, place: f64) -> f64 {
         BOTTOM - (BOTTOM - TOP) * (place - self.y.0) / (self.y.1 - self.y.0)
     }
 
@@ -43,11 +37,11 @@ impl Frame<'_> {
 }
 
 /// One series, ready to be drawn.
-struct Curve<'a> {
-    number: usize,
-    series: &'a Series,
-    places: Vec<[f64; 4]>,
-    fit: Option<Fit>,
+pub(super) struct Curve<'a> {
+    pub(super) number: usize,
+    pub(super) series: &'a Series,
+    pub(super) places: Vec<[f64; 4]>,
+    pub(super) fit: Option<Fit>,
 }
 
 pub(super) fn draw(plot: &Plot, whole: bool) -> String {
@@ -242,72 +236,8 @@ fn lines(svg: &mut String, frame: &Frame<'_>, curve: &Curve<'_>) {
     }
 }
 
-fn put_mark(svg: &mut String, number: usize, x: f64, y: f64) {
-    let fill = if hollow(number) { "hollow" } else { "ink" };
-    let _ = writeln!(
-        svg,
-        "<path class=\"mark {fill} s{}\" transform=\"translate({x:.1} {y:.1})\" d=\"{}\"/>",
-        class(number),
-        mark(number)
-    );
-}
-
-/// The name of each series beside its last point, moved apart where they would overlap.
-fn names(svg: &mut String, frame: &Frame<'_>, curves: &[Curve<'_>]) {
-    let last = |curve: &Curve<'_>| {
-        curve
-            .places
-            .iter()
-            .fold([f64::NEG_INFINITY, 0.0], |last, p| {
-                if p[0] >= last[0] { [p[0], p[1]] } else { last }
-            })
-    };
-    let wanted: Vec<f64> = curves.iter().map(|curve| frame.y(last(curve)[1])).collect();
-    for (curve, y) in curves
-        .iter()
-        .zip(apart(&wanted, LINE, TOP + 4.0, BOTTOM - 4.0))
-    {
-        let [x, at] = last(curve);
-        let (x, at) = (frame.x(x) + 7.0, frame.y(at));
-        let _ = writeln!(
-            svg,
-            "<path class=\"lead\" d=\"M{x:.1} {at:.1}L{:.1} {y:.1}\"/>\
-             <text x=\"{:.1}\" y=\"{:.1}\">{}</text>",
-            RIGHT + GAP - 4.0,
-            RIGHT + GAP,
-            y + 5.0,
-            escaped(&curve.series.name)
-        );
-    }
-}
-
-/// Marks, names and slopes below the plot.
-fn legend(svg: &mut String, curves: &[Curve<'_>]) {
-    let rows = curves.len().div_ceil(COLUMNS).max(1);
-    for (k, curve) in curves.iter().enumerate() {
-        let x = 22.0 + (WIDTH - 16.0) / COLUMNS as f64 * (k / rows) as f64;
-        let y = BOTTOM + 64.0 + LINE * (k % rows) as f64;
-        put_mark(svg, curve.number, x, y - 5.0);
-        let slope = curve.fit.map_or_else(String::new, |fit| {
-            let band = if fit.slope_band.is_finite() {
-                format!(" \u{b1} {:.2}", fit.slope_band)
-            } else {
-                String::new()
-            };
-            let slope = format!("{:.2}", fit.slope).replace('-', "\u{2212}");
-            format!(" <tspan class=\"soft\">slope {slope}{band}</tspan>")
-        });
-        let _ = writeln!(
-            svg,
-            "<text x=\"{:.1}\" y=\"{y:.1}\">{}{slope}</text>",
-            x + 12.0,
-            escaped(&curve.series.name)
-        );
-    }
-}
-
 /// Text that holds none of XML's own characters.
-fn escaped(text: &str) -> String {
+pub(super) fn escaped(text: &str) -> String {
     let plain = text.chars().map(|c| if c.is_control() { ' ' } else { c });
     let mut out = String::new();
     for c in plain {

@@ -2,28 +2,21 @@
 
 use super::band::Band;
 use super::error::TradeError;
-use super::setting::{Setting, depths};
+use super::setting::Setting;
 use super::table::Row;
 use crate::counting::Comparators;
 use crate::estimators::{Device, Noise, Problem, Settings, estimator};
 use crate::machines::{OracleMachine, Real};
 use crate::random::Stream;
 use crate::render::{Model, RenderError};
-use crate::sample::{self, Means, Tally, counted_tallies, prefix_means, tallies};
+use crate::sample::{self, Means, Tally, counted_tallies, tallies};
 use qrt_core::oracle::{Oracle, Spent, spent};
-use qrt_core::scene::{Circuit, Comparator, Estimator, Sampling, Sequence};
-use qrt_core::valid::{Knobs, MAX_NET_DEPTHS, ValidScene};
+use qrt_core::scene::{Circuit, Comparator, Estimator, Sampling};
+use qrt_core::valid::{Knobs, ValidScene};
 use rayon::prelude::*;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
-
-/// Keys the reference's shifts, beside the seed.
-const REFERENCE: u64 = 0x5265_6665_7265_6e63;
-/// Of a deeper ray's share in what all deeper rays bring, where depths end.
-const NEGLIGIBLE: f64 = 0.02;
-/// Depths beyond the scene's own, at most.
-const DEEPER: usize = 16;
 
 /// How much is measured.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,8 +37,8 @@ pub(super) struct Bench<'a> {
     pub(super) seed: u64,
     pub(super) effort: Effort,
     pub(super) cancel: Option<&'a AtomicBool>,
-    references: Vec<(usize, Means)>,
-    depths: Option<Vec<Means>>,
+    pub(super) references: Vec<(usize, Means)>,
+    pub(super) depths: Option<Vec<Means>>,
     real: Vec<((Sampling, Comparator), Traced)>,
     circuits: Vec<(CircuitKey, Built)>,
     counted: Vec<((CircuitKey, Model), Traced)>,
@@ -139,7 +132,7 @@ impl<'a> Bench<'a> {
         let [in_real, in_model]: [Means; 2] =
             [&real.good, &counted.good].map(|good| good.iter().map(value).collect());
         let estimated = self.estimated(&knobs, &bound, &counted.good, ids)?;
-        let drawn = self.drawn(&estimated, &in_model, &truth, mean);
+        let drawn = drawn(&estimated, &in_model, &truth, mean);
         let pixels = self.pixels.len() as f64;
         let queries: u64 = estimated.pixels.iter().map(|pixel| pixel.queries).sum();
         let depth = self.depth_error(setting.depths, mean)?;
@@ -158,72 +151,6 @@ impl<'a> Bench<'a> {
             ],
             seconds: (counted.seconds + estimated.seconds / self.effort.draws as f64) / pixels,
         }))
-    }
-
-    /// The pictures' limit at so many rays: far more paths, with other shifts.
-    fn reference(&mut self, rays: usize) -> Result<&Means, TradeError> {
-        let at = self.references.iter().position(|(of, _)| *of == rays);
-        let at = match at {
-            Some(at) => at,
-            None => {
-                let means = self.net_means(rays, self.effort.reference_bits, REFERENCE)?;
-                self.references.push((rays, means));
-                self.references.len() - 1
-            }
-        };
-        Ok(&self.references[at].1)
-    }
-
-    /// Means over `2^bits` paths of the net, of so many rays.
-    fn net_means(&self, rays: usize, bits: u32, key: u64) -> Result<Means, TradeError> {
-        let mut knobs = self.knobs.clone();
-        knobs.sampling = Sampling {
-            sequence: Sequence::DigitalNet,
-            path_bits: bits,
-            depths: depths(&self.knobs.sampling, rays),
-        };
-        // Ids need not be counted here.
-        knobs.comparator.bits = 1;
-        let scene = self.scene.with_knobs(knobs).map_err(TradeError::Knobs)?;
-        let real = Real::new(&scene, self.seed ^ key).map_err(RenderError::from)?;
-        let mut means = prefix_means(&real, &self.pixels, &[bits], self.cancel)?;
-        Ok(means.pop().unwrap_or_default())
-    }
-
-    /// E_D: against a length of paths beyond which almost nothing comes, on the same paths.
-    fn depth_error(&mut self, rays: usize, mean: f64) -> Result<Band, TradeError> {
-        let pictures = match self.depths.take() {
-            Some(pictures) => pictures,
-            None => self.pictures_by_depth()?,
-        };
-        let band = match (pictures.get(rays - 1), pictures.last()) {
-            (Some(picture), Some(limit)) => Band::of_difference(picture, limit, mean),
-            _ => Band::default(),
-        };
-        self.depths = Some(pictures);
-        Ok(band)
-    }
-
-    fn pictures_by_depth(&self) -> Result<Vec<Means>, TradeError> {
-        let own = self.knobs.sampling.depths.len();
-        let most = (own + DEEPER).min(MAX_NET_DEPTHS).max(own);
-        let mut pictures: Vec<Means> = Vec::new();
-        for rays in 1..=most {
-            if rays > MAX_NET_DEPTHS {
-                break;
-            }
-            pictures.push(self.net_means(rays, self.effort.depth_bits, 0)?);
-            let [.., before, last] = &pictures[..] else {
-                continue;
-            };
-            let step = Band::of_difference(before, last, 1.0).value;
-            let own = pictures.get(own - 1);
-            let all = own.map_or(0.0, |own| Band::of_difference(own, last, 1.0).value);
-            if rays > self.knobs.sampling.depths.len() + 2 && step <= NEGLIGIBLE * all {
-                break;
-            }
-        }
-        Ok(pictures)
     }
 
     fn real(&mut self, scene: &ValidScene, knobs: &Knobs) -> Result<Traced, TradeError> {
@@ -340,22 +267,6 @@ impl<'a> Bench<'a> {
             seconds: start.elapsed().as_secs_f64(),
         })
     }
-
-    /// E_T and the total error: of all draws, against S/N and against the limit.
-    fn drawn(&self, estimated: &Estimated, counted: &Means, truth: &Means, mean: f64) -> [Band; 2] {
-        [counted, truth].map(|other| {
-            let square = |(pixel, other): (&EstimatedPixel, &[f64; 3])| {
-                let values = pixel
-                    .values
-                    .iter()
-                    .flat_map(|value| value.iter().zip(other));
-                let sum: f64 = values.map(|(a, b)| ((a - b) / mean).powi(2)).sum();
-                sum / (3 * pixel.values.len()).max(1) as f64
-            };
-            let pairs = estimated.pixels.iter().zip(other);
-            Band::of_squares(&pairs.map(square).collect::<Vec<_>>())
-        })
-    }
 }
 
 struct Estimated {
@@ -384,4 +295,20 @@ fn means(tallies: &[Tally], paths: u64) -> Means {
 fn good(tallies: &[Tally]) -> Vec<[u64; 3]> {
     let good = |tally: &Tally| tally.good.first().copied().unwrap_or_default();
     tallies.iter().map(good).collect()
+}
+
+/// E_T and the total error: of all draws, against S/N and against the limit.
+fn drawn(estimated: &Estimated, counted: &Means, truth: &Means, mean: f64) -> [Band; 2] {
+    [counted, truth].map(|other| {
+        let square = |(pixel, other): (&EstimatedPixel, &[f64; 3])| {
+            let values = pixel
+                .values
+                .iter()
+                .flat_map(|value| value.iter().zip(other));
+            let sum: f64 = values.map(|(a, b)| ((a - b) / mean).powi(2)).sum();
+            sum / (3 * pixel.values.len()).max(1) as f64
+        };
+        let pairs = estimated.pixels.iter().zip(other);
+        Band::of_squares(&pairs.map(square).collect::<Vec<_>>())
+    })
 }

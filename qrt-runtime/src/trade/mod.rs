@@ -45,6 +45,8 @@ mod band;
 mod bench;
 mod error;
 mod figures;
+mod fronts;
+mod limits;
 mod page;
 mod pareto;
 mod setting;

@@ -1,6 +1,7 @@
 //! `index.html`: tables and plots together, in one file that asks nobody for anything.
 
-use super::figures::{Figure, PRICES, candidates, front};
+use super::figures::Figure;
+use super::fronts::{PRICES, candidates, front};
 use super::summary::differs;
 use super::table::{ERRORS, Row};
 use super::{Band, Sweep, Trade};

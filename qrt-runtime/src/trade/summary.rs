@@ -1,6 +1,7 @@
 //! The measured, in a few lines.
 
-use super::figures::{PRICES, TOTAL, candidates, front};
+use super::figures::{COUNTING, TOTAL};
+use super::fronts::{PRICES, candidates, front};
 use super::setting::Setting;
 use super::table::ERRORS;
 use super::{Sweep, Trade};
@@ -75,7 +76,7 @@ fn slopes(trade: &Trade) -> Vec<String> {
     let slope = |name| {
         let rows = trade.of(Sweep::Counting);
         let points = rows.filter(|row| row.setting.estimator == name).map(|row| {
-            let error = row.errors[super::figures::COUNTING].value;
+            let error = row.errors[COUNTING].value;
             (libm::log10(row.queries), libm::log10(error))
         });
         let fit = Fit::of(points.filter(|(x, y)| x.is_finite() && y.is_finite()))?;
