@@ -127,6 +127,17 @@ fn nothing_is_black_and_takes_no_queries() {
     }
 }
 
+/// What is proven black has no error that anything could be relative to, and needs none.
+#[test]
+fn nothing_is_black_to_any_accuracy() {
+    let scene = scene(NOTHING, &["accuracy={ error: 0.01, confidence: 0.9 }"]);
+    let rendered = render(&scene, &Options::default()).unwrap();
+    assert_eq!(rendered.image.pixels, [[0.0; 3]; 6]);
+    assert_eq!(rendered.total_queries(), 0);
+    let plan = rendered.plan.unwrap();
+    assert_eq!((plan.within, plan.mean, plan.queries), (1.0, 0.0, 0.0));
+}
+
 #[test]
 fn a_single_pixel_of_a_single_path_is_that_path() {
     let sets = ["film={ width: 1, height: 1 }", "sampling.path_bits=0"];
@@ -148,11 +159,6 @@ fn what_cannot_be_rendered_is_refused_before_it_costs_anything() {
         assert!(error.to_string().contains(words), "{error}");
     };
     let default = Options::default();
-    refused(
-        &["accuracy={ error: 0.01, confidence: 0.9 }"],
-        &default,
-        "sampling.path_bits",
-    );
     let film = "film={ width: 65536, height: 65536 }";
     refused(&[film, "sampling.path_bits=52"], &default, "2^64");
     for crop in [

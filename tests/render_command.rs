@@ -323,21 +323,87 @@ fn wrong_requests_exit_with_2_and_leave_nothing() {
     );
 }
 
-#[test]
-fn an_accuracy_is_refused_with_the_knobs_to_set() {
+/// The box without the knobs that an accuracy replaces.
+fn accurate(error: f64, confidence: f64) -> Folder {
     let text = BOX.replace("  path_bits: 10\n", "");
     let text = text.lines().filter(|line| !line.starts_with("counting"));
-    let text =
-        text.collect::<Vec<_>>().join("\n") + "\naccuracy: { error: 0.01, confidence: 0.9 }\n";
-    let folder = Folder::with("box.yaml", &text);
-    let errors = folder.fails(2, &["render", "box.yaml"]);
+    let text = text.collect::<Vec<_>>().join("\n");
+    let text = format!("{text}\naccuracy: {{ error: {error}, confidence: {confidence} }}\n");
+    Folder::with("box.yaml", &text)
+}
+
+#[test]
+fn an_accuracy_takes_the_knobs_that_keep_it_and_says_which() {
+    let folder = accurate(0.3, 0.9);
+    let options = ["-o", "p.exr", "--stats", "s.json"];
+    let output = folder.qrt(&[&["render", "box.yaml"], &options[..]].concat());
+    assert!(output.status.success());
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(
+        said.contains("plan for an error of 0.3 of the mean radiance"),
+        "{said}"
+    );
+    let stats = stats(&folder, "s.json");
+    let (knobs, plan) = (&stats["knobs"], &stats["plan"]);
     for knob in [
-        "sampling.path_bits",
-        "comparator.bits",
-        "counting.phase_bits",
+        "path_bits",
+        "fraction",
+        "comparator_bits",
+        "phase_bits",
+        "repetitions",
     ] {
-        assert!(errors.contains(knob), "{errors}");
+        assert_eq!(knobs[knob], plan[knob], "{knob}");
+        assert!(knobs[knob].as_u64().unwrap() > 0, "{knob}");
     }
+    assert!(plan["errors"]["total"].as_f64().unwrap() <= 0.3);
+    assert!(plan["within"].as_f64().unwrap() >= 0.9);
+    let (_, _, metadata) = read_exr(&folder.path("p.exr"));
+    assert_eq!(metadata["accuracy_error"], "0.3");
+    for knob in ["path_bits", "comparator_bits", "phase_bits", "fraction"] {
+        assert_eq!(metadata[knob], knobs[knob].to_string(), "{knob}");
+    }
+    // The same knobs whatever the seed and the threads; the same picture as of the knobs alone.
+    let other = [
+        "--seed",
+        "5",
+        "--threads",
+        "1",
+        "-q",
+        "-o",
+        "q.exr",
+        "--stats",
+        "t.json",
+    ];
+    folder.works(&[&["render", "box.yaml"], &other[..]].concat());
+    assert_eq!(self::stats(&folder, "t.json")["plan"], *plan);
+    let knob = |key: &str, name: &str| format!("{key}={}", knobs[name]);
+    let estimator = format!("counting.estimator={}", plan["estimator"].as_str().unwrap());
+    let sets = [
+        estimator,
+        knob("sampling.path_bits", "path_bits"),
+        knob("precision.fraction", "fraction"),
+        knob("comparator.bits", "comparator_bits"),
+        knob("counting.phase_bits", "phase_bits"),
+        knob("counting.repetitions", "repetitions"),
+    ];
+    std::fs::write(folder.path("box.yaml"), BOX).unwrap();
+    let sets = sets.iter().flat_map(|set| ["--set", set.as_str()]);
+    let plain = ["render", "box.yaml", "-q", "-o", "r.exr"]
+        .into_iter()
+        .chain(sets);
+    folder.works(&plain.collect::<Vec<_>>());
+    assert_eq!(
+        read_exr(&folder.path("p.exr")).1,
+        read_exr(&folder.path("r.exr")).1
+    );
+}
+
+#[test]
+fn an_accuracy_that_cannot_be_shown_is_refused() {
+    let folder = accurate(0.3, 0.999_999_9);
+    let errors = folder.fails(2, &["render", "box.yaml"]);
+    assert!(errors.contains("`accuracy` cannot be kept"), "{errors}");
+    assert_eq!(folder.names(), ["box.yaml"]);
 }
 
 #[test]

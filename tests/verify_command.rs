@@ -127,12 +127,27 @@ fn threads_do_not_change_the_answer_and_seeds_do() {
 }
 
 #[test]
-fn wrong_requests_exit_with_2() {
-    let folder = folder();
+fn an_accuracy_is_checked_with_the_knobs_that_keep_it() {
     let accurate = CORNER.replace("  path_bits: 5\n", "");
     let accurate = accurate.replace("precision: { fraction: 8 }\ncomparator: { bits: 4 }\n", "");
-    let accurate = accurate + "accuracy: { error: 0.01, confidence: 0.9 }\n";
-    std::fs::write(folder.path("accurate.yaml"), accurate).unwrap();
+    let accurate = accurate + "accuracy: { error: 0.5, confidence: 0.7 }\n";
+    let folder = Folder::with("accurate.yaml", &accurate);
+    let found = folder.works(&["verify", "accurate.yaml", "--pixels", "1", "--json"]);
+    let found: Value = serde_json::from_str(&found).unwrap();
+    let inspected = folder.works(&["inspect", "accurate.yaml", "--json"]);
+    let inspected: Value = serde_json::from_str(&inspected).unwrap();
+    assert_eq!(
+        found["paths"],
+        1_u64 << inspected["plan"]["path_bits"].as_u64().unwrap()
+    );
+    assert_eq!(inspected["fraction_bits"], inspected["plan"]["fraction"]);
+    let text = folder.works(&["inspect", "accurate.yaml"]);
+    assert!(text.starts_with("plan for an error of 0.5"), "{text}");
+}
+
+#[test]
+fn wrong_requests_exit_with_2() {
+    let folder = folder();
     for (arguments, words) in [
         (&["missing.yaml"][..], "QRT0101"),
         (&["corner.yaml", "--set", "film.widt=3"], "QRT0120"),
@@ -141,13 +156,12 @@ fn wrong_requests_exit_with_2() {
         (&["corner.yaml", "--threads", "0"], "--threads"),
         (&["corner.yaml", "--seed=-1"], "--seed"),
         (&["corner.yaml", "--model", "real"], "--model"),
-        (&["accurate.yaml"], "sampling.path_bits"),
         (&[], "<SCENE>"),
     ] {
         let errors = folder.fails(2, &[&["verify"], arguments].concat());
         assert!(errors.contains(words), "{arguments:?}: {errors}");
     }
-    assert_eq!(folder.names(), ["accurate.yaml", "corner.yaml"]);
+    assert_eq!(folder.names(), ["corner.yaml"]);
 }
 
 #[cfg(unix)]

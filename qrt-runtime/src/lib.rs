@@ -5,10 +5,14 @@ pub mod estimators;
 pub mod image;
 pub mod machines;
 pub mod peak_memory;
+pub mod plan;
+pub mod plot;
 pub mod random;
 pub mod render;
 pub mod replace_file;
+pub mod sample;
 #[cfg(test)]
 mod scratch;
 pub mod search;
+pub mod trade;
 pub mod verify;

@@ -10,11 +10,13 @@ mod files;
 mod inspect;
 mod interrupt;
 mod new;
+mod plan;
 mod progress;
 mod render;
 mod schema;
 mod stats;
 mod terminal;
+mod trade;
 mod verify;
 
 use clap::{Parser, Subcommand};
@@ -35,6 +37,7 @@ Examples:
   qrt render box.yaml       render it to box.png
   qrt render --help         all about rendering
   qrt inspect box.yaml      what its circuit costs, and where
+  qrt trade box.yaml -o out what its accuracy costs, knob by knob
 
 Exit codes: 0; 1 the job failed or was interrupted; 2 the command line or the scene is at fault."
 )]
@@ -49,6 +52,7 @@ enum Command {
     Inspect(inspect::InspectArgs),
     Count(count::CountArgs),
     Verify(verify::VerifyArgs),
+    Trade(trade::TradeArgs),
     New(new::NewArgs),
     Schema(schema::SchemaArgs),
     Completions(completions::CompletionsArgs),
@@ -60,6 +64,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Inspect(args) => inspect::run(&args),
         Command::Count(args) => count::run(&args),
         Command::Verify(args) => verify::run(&args),
+        Command::Trade(args) => trade::run(&args),
         Command::New(args) => new::run(&args),
         Command::Schema(_) => schema::run(),
         Command::Completions(args) => completions::run(args),

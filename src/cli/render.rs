@@ -4,7 +4,7 @@ use super::failure::Failure;
 use super::files::{can_be_written, is_device, keep_apart};
 use super::inspect::check_circuit;
 use super::progress::Bar;
-use super::{interrupt, stats, terminal};
+use super::{interrupt, plan, stats, terminal};
 use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueEnum};
 use qrt_core::front;
@@ -26,6 +26,9 @@ pub(crate) const MAX_THREADS: u64 = 4096;
 /// Traces every path of every pixel, lets the scene's estimator count them, and writes the
 /// picture. The same scene, seed and estimator give the same bytes, on any machine and any number
 /// of threads.
+///
+/// For a scene that asks for an `accuracy`, the cheapest knobs that keep it are chosen first, and the
+/// plan is shown.
 ///
 /// Ctrl-C stops and keeps what is finished in FILE.qrt-partial, beside the picture; the exit code
 /// is then 1. With --resume the same command goes on from there, to the same bytes.
@@ -217,9 +220,6 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
         can_be_written(file)?;
     }
     let loaded = front::load(&args.scene, &args.sets)?;
-    if args.model != Model::Real {
-        check_circuit(&loaded)?;
-    }
     let scene = &loaded.valid;
     // Known before the work, not after it.
     Metadata::new().set("scene", scene.scene().name.as_str())?;
@@ -236,7 +236,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     let cancel = interrupt::cancel_on_interrupt()?;
     let bar = Bar::new(!args.quiet);
     let show = |progress: Progress| bar.show(progress);
-    let options = Options {
+    let mut options = Options {
         seed: args.seed,
         crop: args.crop,
         model: args.model.into(),
@@ -251,6 +251,11 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
         progress: Some(&show),
         ..Options::default()
     };
+    let planned = plan::of(scene, &options.planning(), args.quiet)?;
+    options.plan = planned.as_ref();
+    if args.model != Model::Real {
+        check_circuit(&loaded, planned.as_ref().map_or(scene, |plan| &plan.scene))?;
+    }
     let rendered = render(scene, &options);
     bar.clear();
     let rendered = rendered.map_err(|error| match &error {

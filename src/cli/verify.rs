@@ -3,7 +3,7 @@
 use super::failure::Failure;
 use super::progress::Bar;
 use super::render::MAX_THREADS;
-use super::{interrupt, terminal};
+use super::{interrupt, plan, terminal};
 use clap::Args;
 use qrt_core::front;
 use qrt_core::valid::ValidScene;
@@ -25,6 +25,8 @@ const CHANNELS: [&str; 3] = ["red", "green", "blue"];
 /// qubit that the circuit borrows must be zero again; the phase must be turned for exactly the
 /// comparators below the colour. How far floating point (real) is from the integers is measured:
 /// E_W, the error that the registers' width leaves in a pixel.
+///
+/// A scene that asks for an `accuracy` is checked with the knobs that are chosen for it.
 ///
 /// Exits with 0 if all of it holds, and with 1 if not, naming the path, its pixel and the register.
 #[derive(Clone, Debug, Args)]
@@ -68,8 +70,15 @@ pub(crate) struct VerifyArgs {
 /// # Errors
 /// A wrong scene, an interruption, and whatever does not hold.
 pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
-    let scene = front::load(&args.scene, &args.sets)?.valid;
+    let loaded = front::load(&args.scene, &args.sets)?.valid;
     let cancel = interrupt::cancel_on_interrupt()?;
+    let planning = qrt_runtime::plan::Options {
+        threads: args.threads.and_then(|n| NonZeroUsize::new(n as usize)),
+        cancel: Some(&cancel),
+        ..Default::default()
+    };
+    let planned = plan::of(&loaded, &planning, args.json)?;
+    let scene = planned.map_or(loaded, |plan| plan.scene);
     let bar = Bar::new(!args.json);
     let show = |progress: Progress| bar.show(progress);
     let options = Options {

@@ -419,9 +419,9 @@ record! {
     /// Asked accuracy; qrt chooses the knobs.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Accuracy = "accuracy";
-    /// Relative to the colour scale.
+    /// Of a channel of a pixel, relative to the picture's mean radiance over pixels and channels.
     pub error: f64 = number(0.0, 1.0).above().below();
-    /// The probability that the error holds.
+    /// The probability that a channel of a pixel is within the error.
     pub confidence: f64 = number(0.0, 1.0).above().below();
 }
 

@@ -7,8 +7,10 @@
 pub mod bsdf;
 mod camera;
 mod geometry;
+mod knobs;
 mod sampling;
 
+pub use knobs::Knobs;
 pub use sampling::{MAX_ID_BITS, MAX_NET_DEPTHS};
 
 use crate::expr::Expr;

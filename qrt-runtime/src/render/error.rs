@@ -11,8 +11,8 @@ use std::path::PathBuf;
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum RenderError {
-    /// The scene asks for an accuracy, which this version can't turn into knobs.
-    Accuracy,
+    /// The scene asks for an accuracy that no knobs reach, or that cannot be shown: why.
+    Unreachable(String),
     /// One run for all channels, and an estimator that measures no paths.
     NothingMeasured,
     /// A crop without pixels, or not within the film.
@@ -92,7 +92,7 @@ impl RenderError {
     /// attempt will fail alike.
     pub fn is_refusal(&self) -> bool {
         match self {
-            Self::Accuracy
+            Self::Unreachable(_)
             | Self::NothingMeasured
             | Self::Crop { .. }
             | Self::TooManyPaths { .. }
@@ -124,12 +124,7 @@ fn name(channel: usize) -> &'static str {
 impl fmt::Display for RenderError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Accuracy => write!(
-                f,
-                "the scene asks for an `accuracy`, and this version of qrt does not choose the \
-                 knobs for it: in its place set `sampling.path_bits`, `comparator.bits`, \
-                 `counting.phase_bits` and `counting.repetitions`"
-            ),
+            Self::Unreachable(why) => write!(f, "the scene's `accuracy` cannot be kept: {why}"),
             Self::NothingMeasured => write!(
                 f,
                 "colour from one run is that of the paths which are measured, and the estimator \

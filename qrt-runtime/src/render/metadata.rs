@@ -12,7 +12,7 @@ impl Rendered {
     /// A scene whose name holds a NUL, which no picture can hold.
     pub fn metadata(&self, scene: &ValidScene) -> Result<Metadata, ImageError> {
         let written = scene.scene();
-        let sampling = &written.sampling;
+        let sampling = &self.knobs.sampling;
         let [x, y, width, height] = self.crop;
         let mut metadata = Metadata::new();
         metadata.set("version", env!("CARGO_PKG_VERSION"))?;
@@ -33,13 +33,21 @@ impl Rendered {
         )?;
         metadata.set("crop", format!("{x},{y},{width},{height}"))?;
         if self.estimator != Estimator::Exact {
-            let (comparator, counting) = (&written.comparator, &written.counting);
+            let (comparator, counting) = (&self.knobs.comparator, &self.knobs.counting);
             metadata.set("comparator_bits", comparator.bits.to_string())?;
             metadata.set("comparator_at", comparator.at.name())?;
             metadata.set("phase_bits", counting.phase_bits.to_string())?;
             metadata.set("repetitions", counting.repetitions.to_string())?;
             metadata.set("colour", self.colour.name())?;
             metadata.set("noise", self.noise.to_string())?;
+        }
+        if let Some(plan) = &self.plan {
+            metadata.set("accuracy_error", plan.accuracy.error.to_string())?;
+            metadata.set("accuracy_confidence", plan.accuracy.confidence.to_string())?;
+            metadata.set("accuracy_within", plan.within.to_string())?;
+            if let Some(fraction) = plan.fraction {
+                metadata.set("fraction", fraction.to_string())?;
+            }
         }
         metadata.set("queries", self.total_queries().to_string())?;
         Ok(metadata)

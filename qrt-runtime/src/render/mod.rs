@@ -21,6 +21,8 @@
 //! [`Visibility`] says how a path's first hit is found: by the tracer like all others, or path by path
 //! with an oracle of nearest hits, whose queries are then the picture's.
 //!
+//! A scene that asks for an `accuracy` is rendered with the knobs that [`crate::plan`] chooses for it.
+//!
 //! # What a picture depends on
 //!
 //! On the scene, the seed, the estimator and the version of qrt. Not on the number of threads, the
@@ -54,16 +56,18 @@ mod tiles;
 mod visibility;
 
 pub use error::RenderError;
+pub(crate) use sum::Sum;
 pub use visibility::{DEFAULT_FAILURE, Searched, Visibility};
 
 use crate::checkpoint::{Checkpoint, Header, Tile};
 use crate::estimators::Noise;
 use crate::image::{Count, Image};
 use crate::machines::{NativeOracle, OracleMachine, Real, Simd};
+use crate::plan::{self, Figures, Plan, plan};
 use pixel::{Pixels, Source, Totals};
 use qrt_core::oracle::Oracle;
 use qrt_core::scene::Estimator;
-use qrt_core::valid::ValidScene;
+use qrt_core::valid::{Knobs, ValidScene};
 use rayon::prelude::*;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -140,6 +144,8 @@ pub struct Options<'a> {
     pub noise: Noise,
     /// How first hits are found.
     pub visibility: Visibility,
+    /// The knobs of a scene that asks for an accuracy, where they are chosen already.
+    pub plan: Option<&'a Plan>,
     /// Threads; as many as the machine has cores unless set.
     pub threads: Option<NonZeroUsize>,
     /// Lanes to trace on.
@@ -155,6 +161,18 @@ pub struct Options<'a> {
     pub cancel: Option<&'a AtomicBool>,
     /// Told how far the work is, from any thread.
     pub progress: Option<&'a (dyn Fn(Progress) + Sync)>,
+}
+
+impl<'a> Options<'a> {
+    /// How the knobs of a scene that asks for an accuracy are chosen for this picture.
+    pub fn planning(&self) -> plan::Options<'a> {
+        plan::Options {
+            estimator: self.estimator,
+            noise: self.noise,
+            threads: self.threads,
+            cancel: self.cancel,
+        }
+    }
 }
 
 /// How far a picture is.
@@ -199,6 +217,10 @@ pub struct Rendered {
     pub noise: Noise,
     /// The seed.
     pub seed: u64,
+    /// The knobs: the scene's, or those that its accuracy takes.
+    pub knobs: Knobs,
+    /// How these were chosen, if they were.
+    pub plan: Option<Figures>,
     /// The proven bound on a path's colour per channel: the radiance of S = N.
     pub bound: [f64; 3],
     /// N, the ids of a pixel's channel: paths times comparators.
@@ -255,20 +277,28 @@ impl Rendered {
 /// # Errors
 /// See [`RenderError`]. An interruption is one: what is finished then is in the checkpoint.
 pub fn render(scene: &ValidScene, options: &Options<'_>) -> Result<Rendered, RenderError> {
-    render_by(scene, options, |model| compiled(scene, options, model))
+    render_by(scene, options, |scene, model| {
+        compiled(scene, options, model)
+    })
 }
 
 /// Renders a scene of `qrt!` by the circuit that was compiled with it: the same picture as
 /// [`render`]'s, without building its circuit again, and under [`Model::Fixed`] by native code: see
 /// [`OracleMachine::native`].
 ///
+/// The circuit of a scene that asks for an accuracy is compiled with the default knobs. Its picture
+/// takes those that are chosen for it, by a circuit that is built anew.
+///
 /// # Errors
 /// As [`render`].
 pub fn render_compiled<C: NativeOracle>(options: &Options<'_>) -> Result<Rendered, RenderError> {
-    render_by(C::scene(), options, |model| {
+    if C::scene().scene().accuracy.is_some() {
+        return render(C::scene(), options);
+    }
+    render_by(C::scene(), options, |scene, model| {
         // Its luminance was not compiled.
         if options.colour == Colour::OneRun {
-            return compiled(C::scene(), options, model);
+            return compiled(scene, options, model);
         }
         let oracle = C::oracle()
             .map_err(qrt_core::oracle::OracleError::from)?
@@ -303,15 +333,24 @@ fn compiled(
 fn render_by(
     scene: &ValidScene,
     options: &Options<'_>,
-    machine: impl FnOnce(Model) -> Result<OracleMachine, RenderError>,
+    machine: impl FnOnce(&ValidScene, Model) -> Result<OracleMachine, RenderError>,
 ) -> Result<Rendered, RenderError> {
-    let written = scene.scene();
-    if written.accuracy.is_some() {
-        return Err(RenderError::Accuracy);
-    }
-    let film = [written.film.width, written.film.height];
+    let film = [scene.scene().film.width, scene.scene().film.height];
     let crop = options.crop.unwrap_or([0, 0, film[0], film[1]]);
     check_crop(crop, film)?;
+    let planned;
+    let (scene, chosen) = match (scene.scene().accuracy, options.plan) {
+        (None, _) => (scene, None),
+        (Some(_), Some(plan)) => (&plan.scene, Some(plan.figures)),
+        (Some(_), None) => {
+            planned = plan(scene, &options.planning())?;
+            match &planned {
+                Some(plan) => (&plan.scene, Some(plan.figures)),
+                None => (scene, None),
+            }
+        }
+    };
+    let written = scene.scene();
     let estimator = options.visibility.estimator(options, written)?;
     let paths = 1 << written.sampling.path_bits;
     let area = u64::from(crop[2]) * u64::from(crop[3]);
@@ -332,7 +371,7 @@ fn render_by(
             let real = Real::new(scene, options.seed)?.with_simd(options.simd);
             Source::Real(Box::new(real))
         }
-        model @ (Model::Fixed | Model::Gates) => Source::Oracle(machine(model)?),
+        model @ (Model::Fixed | Model::Gates) => Source::Oracle(machine(scene, model)?),
     };
     let Options {
         noise,
@@ -386,6 +425,8 @@ fn render_by(
             colour: options.colour,
             noise: options.noise,
             seed: options.seed,
+            knobs: scene.knobs(),
+            plan: chosen,
             bound,
             ids: paths << written.comparator.bits,
             paths: all_paths,

@@ -10,7 +10,7 @@ const BLOCK: usize = 256;
 
 /// A sum of colours, handed over in the order of their ids.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Sum {
+pub(crate) struct Sum {
     /// Of whole blocks.
     total: f64,
     /// Of the block under way.
@@ -21,7 +21,7 @@ pub(super) struct Sum {
 
 impl Sum {
     /// Adds the next colours.
-    pub(super) fn add(&mut self, mut colours: &[f64]) {
+    pub(crate) fn add(&mut self, mut colours: &[f64]) {
         while !colours.is_empty() {
             let (now, later) = colours.split_at(colours.len().min(BLOCK - self.filled));
             let lane = self.filled % LANES;
@@ -45,7 +45,7 @@ impl Sum {
     }
 
     /// The sum so far.
-    pub(super) fn value(&self) -> f64 {
+    pub(crate) fn value(&self) -> f64 {
         let [a, b, c, d, e, f, g, h] = self.lanes;
         self.total + (((a + e) + (c + g)) + ((b + f) + (d + h)))
     }

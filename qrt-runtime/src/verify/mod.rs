@@ -8,11 +8,11 @@
 //! * `fixed` and `real` differ by E_W, the error of a finite width: measured, pixel by pixel.
 
 mod paths;
-#[cfg(test)]
-mod tests;
 
 use crate::machines::{Defect, OracleMachine, Parts, Real};
+use crate::plan;
 use crate::render::{Progress, RenderError};
+use crate::sample::spread;
 use paths::{Found, Trio};
 use qrt_core::oracle::{self, Oracle};
 use qrt_core::valid::ValidScene;
@@ -119,14 +119,19 @@ impl Report {
     }
 }
 
-/// Runs a scene on all three machines.
+/// Runs a scene on all three machines; one that asks for an accuracy with the knobs that are chosen
+/// for it.
 ///
 /// # Errors
 /// A scene without a circuit, and an interruption. What the machines find is in the report.
 pub fn verify(scene: &ValidScene, options: &Options<'_>) -> Result<Report, RenderError> {
-    if scene.scene().accuracy.is_some() {
-        return Err(RenderError::Accuracy);
-    }
+    let planning = plan::Options {
+        threads: options.threads,
+        cancel: options.cancel,
+        ..plan::Options::default()
+    };
+    let planned = plan::plan(scene, &planning)?;
+    let scene = planned.as_ref().map_or(scene, |plan| &plan.scene);
     let oracle = Arc::new(Oracle::rgb(scene, oracle::Options::default())?);
     let parts = Parts::new(&oracle);
     verify_parts(scene, &oracle, parts, options)
@@ -187,33 +192,6 @@ pub fn verify_parts(
     };
     pool.install(|| report.compare(&trio, options))?;
     Ok(report)
-}
-
-/// Pixels of a film, different ones and in its row-by-row order: multiples of a step that is about
-/// the golden section of the film, so that rows and columns are met evenly whatever the number.
-fn spread(film: [u32; 2], count: u64) -> Vec<[u32; 2]> {
-    let width = u64::from(film[0]);
-    let area = width * u64::from(film[1]);
-    // Without a common divisor no place comes twice before all have come.
-    let mut step = ((area as f64 * 0.618_033_988_75) as u64).max(1);
-    while common_divisor(step, area) > 1 {
-        step += 1;
-    }
-    let place = |k: u64| ((u128::from(k) * u128::from(step)) % u128::from(area)) as u64;
-    let first = area / 3;
-    let mut places: Vec<u64> = (0..count).map(|k| (first + place(k)) % area).collect();
-    places.sort_unstable();
-    let pixels = places.into_iter();
-    pixels
-        .map(|place| [(place % width) as u32, (place / width) as u32])
-        .collect()
-}
-
-fn common_divisor(mut a: u64, mut b: u64) -> u64 {
-    while b > 0 {
-        (a, b) = (b, a % b);
-    }
-    a
 }
 
 impl Report {

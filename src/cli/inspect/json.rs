@@ -11,6 +11,7 @@ pub(super) fn json(shown: &Shown<'_>) -> Value {
         scene,
         inspection,
         passes,
+        plan,
     } = *shown;
     let written = scene.scene();
     let oracle = &inspection.oracle;
@@ -77,6 +78,7 @@ pub(super) fn json(shown: &Shown<'_>) -> Value {
         "fraction_bits": oracle.fraction,
         "comparator_bits": oracle.comparator_bits(),
         "path_bits": oracle.points.path_bits(),
+        "plan": plan.map(crate::cli::plan::json),
         "depths": written.sampling.depths.len(),
         "strategy": written.circuit.uncompute.name(),
         "nearest": written.circuit.nearest.name(),

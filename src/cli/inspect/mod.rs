@@ -11,6 +11,7 @@ use qrt_core::front::{self, Loaded};
 use qrt_core::inspect::{Frame, Inspection, PassFigures, frame_text, svg};
 use qrt_core::oracle::{Options, Spent, check_budget};
 use qrt_core::valid::ValidScene;
+use qrt_runtime::plan::{Figures, Options as PlanOptions, plan};
 use qrt_runtime::replace_file::replace_file;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -20,6 +21,9 @@ use std::path::{Path, PathBuf};
 /// Compiles the scene's oracle for one channel and counts one whole call of it: compute the
 /// colours of all paths in superposition, compare and flip the phase, uncompute. Nothing is
 /// rendered.
+///
+/// A scene that asks for an `accuracy` is shown with the knobs that are chosen for it, and the plan
+/// with what is expected of it.
 ///
 /// A scene's `budget` is checked; beyond it the figures are still shown and the exit code is 2.
 #[derive(Clone, Debug, Args)]
@@ -69,6 +73,7 @@ struct Shown<'a> {
     scene: &'a ValidScene,
     inspection: &'a Inspection,
     passes: &'a [PassFigures],
+    plan: Option<&'a Figures>,
 }
 
 pub(crate) fn run(args: &InspectArgs) -> Result<(), Failure> {
@@ -84,7 +89,8 @@ pub(crate) fn run(args: &InspectArgs) -> Result<(), Failure> {
         can_be_written(file)?;
     }
     let loaded = front::load(&args.scene, &args.sets)?;
-    let scene = &loaded.valid;
+    let planned = plan(&loaded.valid, &PlanOptions::default())?;
+    let scene = planned.as_ref().map_or(&loaded.valid, |plan| &plan.scene);
     let channel = args.channel.map(|channel| channel as usize);
     let refused = |error: qrt_core::oracle::OracleError| loaded.report(vec![error.problem()]);
     let inspection = Inspection::new(scene, channel, Options::default()).map_err(refused)?;
@@ -101,6 +107,7 @@ pub(crate) fn run(args: &InspectArgs) -> Result<(), Failure> {
         scene,
         inspection: &inspection,
         passes: &passes,
+        plan: planned.as_ref().map(|plan| &plan.figures),
     };
     let mut out = if args.json {
         format!("{:#}\n", json::json(&shown))
@@ -115,15 +122,15 @@ pub(crate) fn run(args: &InspectArgs) -> Result<(), Failure> {
     keep_budget(&loaded, &inspection)
 }
 
-/// That a scene has a circuit, and one within its budget.
+/// That `scene`, under whatever knobs, has a circuit, and one within its budget.
 ///
 /// # Errors
 /// What stands in the way, at its place in the scene.
-pub(super) fn check_circuit(loaded: &Loaded) -> Result<(), Failure> {
-    if loaded.valid.scene().budget.is_none() {
+pub(super) fn check_circuit(loaded: &Loaded, scene: &ValidScene) -> Result<(), Failure> {
+    if scene.scene().budget.is_none() {
         return Ok(());
     }
-    let inspection = Inspection::new(&loaded.valid, None, Options::default())
+    let inspection = Inspection::new(scene, None, Options::default())
         .map_err(|error| loaded.report(vec![error.problem()]))?;
     keep_budget(loaded, &inspection)
 }

@@ -12,6 +12,9 @@ const NAME: usize = 28;
 /// The figures; with `planes`, each plane of each search.
 pub(super) fn text(shown: &Shown<'_>, planes: bool) -> String {
     let mut out = String::new();
+    if let Some(plan) = shown.plan {
+        let _ = writeln!(out, "{plan}");
+    }
     headline(&mut out, shown);
     out.push('\n');
     costs(&mut out, shown.inspection, planes);

@@ -1,0 +1,207 @@
+//! Whether an asked accuracy is kept, and at what price.
+//!
+//! `cargo bench --bench accuracy` asks four scenes for three errors each, renders what the plan says
+//! on the circuit's numbers, and compares with 2^20 paths of another seed. It fails unless the asked
+//! share of channels is within the asked error, at no more than twice the queries of the best knobs
+//! that a sweep by hand finds: every register and number of repetitions, over any number of paths.
+
+// A bench that cannot run has nothing to report.
+#![allow(clippy::unwrap_used, clippy::expect_used)]
+
+use qrt_core::scene::{
+    Accuracy, Comparator, Counting, Estimator, Film, Precision, Sampling, Scene,
+};
+use qrt_core::valid::{ValidScene, validate};
+use qrt_runtime::estimators::{Device, Noise, Problem, Settings, estimator};
+use qrt_runtime::machines::Real;
+use qrt_runtime::plan::{self, Plan};
+use qrt_runtime::random::Stream;
+use qrt_runtime::render::{Model, Options, render};
+use qrt_runtime::sample::{Means, prefix_means, radiance, spread};
+use std::path::Path;
+use std::process::ExitCode;
+use std::time::Instant;
+
+const SCENES: [&str; 4] = [
+    "floor-and-light",
+    "cornell-box",
+    "cornell-mirror",
+    "cornell-ggx",
+];
+const ERRORS: [f64; 3] = [0.1, 0.03, 0.01];
+const CONFIDENCE: f64 = 0.95;
+const SIDE: u32 = 20;
+/// Paths of the truth, and its seed; that of pictures.
+const TRUTH: (u32, u64) = (20, 77);
+const SEED: u64 = 1;
+/// Path bits of the sweep.
+const PATHS: [u32; 5] = [12, 14, 16, 18, 20];
+/// Pictures over which the sweep's shares are averaged.
+const DRAWS: u64 = 4;
+
+fn scene(name: &str, error: f64) -> ValidScene {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes-yaml");
+    let loaded = qrt_core::front::load(&root.join(format!("{name}.yaml")), &[]);
+    let scene: Scene = loaded.unwrap().valid.scene().clone();
+    let scene = Scene {
+        film: Film {
+            width: SIDE,
+            height: SIDE,
+        },
+        sampling: Sampling {
+            path_bits: Sampling::default().path_bits,
+            ..scene.sampling
+        },
+        precision: Precision::default(),
+        comparator: Comparator::default(),
+        counting: Counting::default(),
+        accuracy: Some(Accuracy {
+            error,
+            confidence: CONFIDENCE,
+        }),
+        ..scene
+    };
+    validate(scene, &root).unwrap()
+}
+
+/// Of `values`, the share that is within `error` of the truth.
+fn share(values: &[[f64; 3]], truth: &[[f64; 3]], error: f64) -> f64 {
+    let pairs = values.iter().flatten().zip(truth.iter().flatten());
+    let within = pairs.filter(|(a, b)| (*a - *b).abs() <= error).count();
+    within as f64 / (3 * truth.len()) as f64
+}
+
+/// The fewest queries a pixel with which counting over one of `means` keeps the error, and the knobs.
+fn by_hand(
+    means: &[Means],
+    truth: &Means,
+    bound: [f64; 3],
+    error: f64,
+    name: Estimator,
+) -> Option<(f64, [u32; 3])> {
+    let pixels = spread([SIDE; 2], u64::MAX);
+    let total = 1_u64 << 40;
+    let mut registers: Vec<[u32; 2]> = (3..=18)
+        .flat_map(|phase_bits| [1, 2, 3, 5, 7].map(|repetitions| [phase_bits, repetitions]))
+        .collect();
+    registers.sort_by_key(|[phase_bits, repetitions]| ((1 << phase_bits) - 1) * repetitions);
+    for [phase_bits, repetitions] in registers {
+        let counting = Counting {
+            phase_bits,
+            repetitions,
+            ..Counting::default()
+        };
+        let made = estimator(name, &Settings::of(&counting).unwrap()).unwrap();
+        for (means, bits) in means.iter().zip(PATHS) {
+            let (mut kept, mut spent) = (0.0, 0);
+            for draw in 0..DRAWS {
+                let pixel = |(&[x, y], mean): (&[u32; 2], &[f64; 3])| -> [f64; 3] {
+                    std::array::from_fn(|c| {
+                        if bound[c] == 0.0 {
+                            return 0.0;
+                        }
+                        let good = (mean[c] / bound[c] * total as f64) as u64;
+                        let mut stream = Stream::new(1000 + draw, x, y, c as u8);
+                        let problem = Problem { good, total };
+                        let mut device = Device::new(problem, Noise::NONE, &mut stream).unwrap();
+                        let estimate = made.estimate(&mut device).unwrap();
+                        spent += estimate.queries;
+                        bound[c] * estimate.amplitude
+                    })
+                };
+                let values: Means = pixels.iter().zip(means).map(pixel).collect();
+                kept += share(&values, truth, error) / DRAWS as f64;
+            }
+            if kept >= CONFIDENCE {
+                let spent = spent as f64 / (DRAWS * pixels.len() as u64) as f64;
+                return Some((spent, [bits, phase_bits, repetitions]));
+            }
+        }
+    }
+    None
+}
+
+fn main() -> ExitCode {
+    let mut fine = true;
+    println!(
+        "{:<16}{:>6} {:>4} {:>4} {:>4} {:>3} {:>2} {:>9} {:>8} {:>8} {:>9}  by hand",
+        "scene",
+        "error",
+        "2^R",
+        "frac",
+        "2^C",
+        "t",
+        "B",
+        "queries",
+        "expected",
+        "measured",
+        "plan, s"
+    );
+    for name in SCENES {
+        let any = scene(name, ERRORS[0]);
+        let mut knobs = any.knobs();
+        knobs.sampling.path_bits = TRUTH.0;
+        let wide = any.with_knobs(knobs).unwrap();
+        let pixels = spread([SIDE; 2], u64::MAX);
+        let truth = Real::new(&wide, TRUTH.1).unwrap();
+        let truth = prefix_means(&truth, &pixels, &[TRUTH.0], None)
+            .unwrap()
+            .remove(0);
+        let real = Real::new(&wide, SEED).unwrap();
+        let means = prefix_means(&real, &pixels, &PATHS, None).unwrap();
+        let bound = real.stage().bound();
+        let mean = radiance(&truth);
+        for error in ERRORS {
+            let asked = scene(name, error);
+            let start = Instant::now();
+            let planned: Plan = match plan::plan(&asked, &plan::Options::default()) {
+                Ok(planned) => planned.unwrap(),
+                Err(failed) => {
+                    println!("{name:<16}{error:>6} {failed}");
+                    fine = false;
+                    continue;
+                }
+            };
+            let seconds = start.elapsed().as_secs_f64();
+            let options = Options {
+                seed: SEED,
+                model: Model::Fixed,
+                plan: Some(&planned),
+                ..Options::default()
+            };
+            let picture = render(&asked, &options).unwrap();
+            let measured = share(&picture.image.pixels, &truth, error * mean);
+            let queries = picture.total_queries() as f64 / pixels.len() as f64;
+            let figures = planned.figures;
+            let hand = by_hand(&means, &truth, bound, error * mean, figures.estimator);
+            let hand_text = hand.map_or("none".to_owned(), |(queries, [r, t, b])| {
+                format!("{queries:.0} (2^{r}, t={t}, B={b})")
+            });
+            println!(
+                "{name:<16}{error:>6} {:>4} {:>4} {:>4} {:>3} {:>2} {queries:>9.0} {:>8.4} \
+                 {measured:>8.4} {seconds:>9.1}  {hand_text}",
+                figures.path_bits,
+                figures
+                    .fraction
+                    .map_or("-".to_owned(), |bits| bits.to_string()),
+                figures.comparator_bits,
+                figures.phase_bits,
+                figures.repetitions,
+                figures.within,
+            );
+            if measured < CONFIDENCE {
+                println!("  the promise is broken");
+                fine = false;
+            }
+            if hand.is_some_and(|(best, _)| queries > 2.0 * best) {
+                println!("  more than twice the queries of the best knobs");
+                fine = false;
+            }
+        }
+    }
+    if fine {
+        ExitCode::SUCCESS
+    } else {
+        ExitCode::FAILURE
+    }
+}

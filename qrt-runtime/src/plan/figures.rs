@@ -1,0 +1,116 @@
+//! What a plan chose, and what it expects.
+
+use qrt_core::inspect::grouped;
+use qrt_core::oracle::Spent;
+use qrt_core::scene::{Accuracy, Estimator, Sequence};
+use std::fmt;
+
+/// Errors that hold with the asked confidence, in units of the mean radiance.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Parts {
+    /// Of a finite number of paths.
+    pub paths: f64,
+    /// Of comparing with a finite number of thresholds.
+    pub comparators: f64,
+    /// Of numbers of finite width.
+    pub width: f64,
+    /// Of estimating.
+    pub counting: f64,
+    /// Of all together.
+    pub total: f64,
+}
+
+/// What a plan chose, and what it expects.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Figures {
+    /// What was asked.
+    pub accuracy: Accuracy,
+    /// The picture's mean radiance, as far as it was tried.
+    pub mean: f64,
+    /// Pixels that were tried, and those of the film.
+    pub pixels: [u64; 2],
+    /// How path ids become points; as the scene says.
+    pub sequence: Sequence,
+    /// Chosen: R = 2^path_bits.
+    pub path_bits: u32,
+    /// Whether that many were not tried, but follow from how the error falls.
+    pub extrapolated: bool,
+    /// Chosen: fraction bits; none where the scene has no circuit.
+    pub fraction: Option<u32>,
+    /// Chosen: C = 2^comparator_bits.
+    pub comparator_bits: u32,
+    /// What will count.
+    pub estimator: Estimator,
+    /// Chosen: T = 2^phase_bits.
+    pub phase_bits: u32,
+    /// Chosen: B.
+    pub repetitions: u32,
+    /// The share of channels that is expected to be within the asked error.
+    pub within: f64,
+    /// The errors behind it.
+    pub parts: Parts,
+    /// Queries of a pixel, all channels together, on average.
+    pub queries: f64,
+    /// One call of the dearest channel's oracle; none where the scene has no circuit.
+    pub spent: Option<Spent>,
+}
+
+impl fmt::Display for Figures {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Accuracy { error, confidence } = self.accuracy;
+        let [pixels, film] = self.pixels.map(grouped);
+        writeln!(
+            f,
+            "plan for an error of {error} of the mean radiance {:.4} with probability {confidence}, \
+             tried on {pixels} of {film} pixels:",
+            self.mean
+        )?;
+        write!(
+            f,
+            "  sampling.path_bits {}, precision.fraction ",
+            self.path_bits
+        )?;
+        match self.fraction {
+            Some(fraction) => write!(f, "{fraction}")?,
+            None => write!(f, "auto")?,
+        }
+        writeln!(
+            f,
+            ", comparator.bits {}, counting.phase_bits {}, repetitions {}, estimator {}",
+            self.comparator_bits, self.phase_bits, self.repetitions, self.estimator
+        )?;
+        let Parts {
+            paths,
+            comparators,
+            width,
+            counting,
+            total,
+        } = self.parts;
+        writeln!(
+            f,
+            "  errors at that probability: paths {paths:.2e}, comparators {comparators:.2e}, width \
+             {width:.2e}, counting {counting:.2e}; all together {total:.2e}, within {error} for {:.1} \
+             % of channels",
+            100.0 * self.within
+        )?;
+        if self.extrapolated {
+            writeln!(
+                f,
+                "  the error of 2^{} paths follows from how it falls up to 2^{}",
+                self.path_bits,
+                super::MOST_TRIED
+            )?;
+        }
+        let queries = grouped(self.queries.round() as u64);
+        match self.spent {
+            Some(Spent { qubits, toffoli }) => writeln!(
+                f,
+                "  {queries} queries a pixel x {} Toffoli = {:.2e}, on {} qubits",
+                grouped(toffoli),
+                self.queries * toffoli as f64,
+                grouped(qubits)
+            ),
+            None => writeln!(f, "  {queries} queries a pixel; the scene has no circuit"),
+        }
+    }
+}

@@ -1,0 +1,83 @@
+//! From an asked accuracy to the cheapest knobs.
+//!
+//! `accuracy: { error, confidence }` asks that a channel of a pixel be within `error` times the
+//! picture's mean radiance of its limit (infinitely many paths of the scene's length, real numbers,
+//! nothing counted) with probability `confidence`: that share of a picture's channels is.
+//!
+//! # How knobs are chosen
+//!
+//! By trying them on a sample of pixels, each part of the error apart:
+//!
+//! * *paths*: the difference between two independently shifted nets of `2^k` paths, over the square
+//!   root of 2, for growing k; beyond [`MOST_TRIED`] bits by the power law that they show;
+//! * *comparators*: counted thresholds against the mean of the same paths;
+//! * *width*: the circuit's counts against those of real numbers on the same paths;
+//! * *counting*: runs of the estimator on each channel's own S/N.
+//!
+//! They are added up channel by channel, run by run, so that what counts is how they really combine.
+//! Knobs will do if the share of channels that are off by more, and 1.64 times its standard error
+//! over pixels (what another sample, or one picture's luck, may add), stay below 1 - confidence.
+//!
+//! Among knobs that will do, the product of queries and Toffolis is made least: queries against the
+//! width of numbers. A path bit costs a qubit and no Toffoli, but twice the time of a simulation;
+//! path bits are added as long as each saves an eighth of the queries. Comparators are so many that
+//! they take a twentieth of the error.
+//!
+//! The seed of a picture plays no part: a scene always gets the same knobs.
+
+mod counted;
+mod figures;
+mod pilot;
+mod search;
+mod together;
+
+pub use figures::{Figures, Parts};
+pub use pilot::MOST_TRIED;
+
+use crate::estimators::Noise;
+use crate::render::RenderError;
+use pilot::Pilot;
+use qrt_core::scene::{Counting, Estimator};
+use qrt_core::valid::ValidScene;
+use std::num::NonZeroUsize;
+use std::sync::atomic::AtomicBool;
+
+/// How to plan. What isn't set follows from the scene.
+#[derive(Clone, Copy, Default)]
+pub struct Options<'a> {
+    /// The estimator; the default one unless set.
+    pub estimator: Option<Estimator>,
+    /// Noise of the device that will count.
+    pub noise: Noise,
+    /// Threads; as many as the machine has cores unless set.
+    pub threads: Option<NonZeroUsize>,
+    /// Set it, from any thread, to stop.
+    pub cancel: Option<&'a AtomicBool>,
+}
+
+/// A scene with chosen knobs.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// The scene with the chosen knobs in place of its accuracy.
+    pub scene: ValidScene,
+    /// What was chosen, and what is expected of it.
+    pub figures: Figures,
+}
+
+/// Chooses the knobs of a scene that asks for an accuracy; `None` for one that doesn't.
+///
+/// # Errors
+/// An accuracy that cannot be reached or shown, and what [`crate::render::render`] refuses.
+pub fn plan(scene: &ValidScene, options: &Options<'_>) -> Result<Option<Plan>, RenderError> {
+    let Some(accuracy) = scene.scene().accuracy else {
+        return Ok(None);
+    };
+    let estimator = options.estimator.unwrap_or(Counting::default().estimator);
+    let threads = options.threads.map_or(0, NonZeroUsize::get);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+    let pool = pool.map_err(|error| RenderError::Threads(error.to_string()))?;
+    pool.install(|| {
+        let pilot = Pilot::new(scene, accuracy, estimator, options)?;
+        search::search(pilot).map(Some)
+    })
+}

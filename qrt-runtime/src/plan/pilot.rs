@@ -1,0 +1,309 @@
+//! The errors of a sample of pixels, part by part.
+
+use super::Options;
+use crate::counting::Comparators;
+use crate::estimators::Noise;
+use crate::machines::{OracleMachine, Real};
+use crate::render::RenderError;
+use crate::sample::{Means, counted_tallies, prefix_means, radiance, spread, tallies};
+use qrt_core::oracle::{Oracle, Spent, spent};
+use qrt_core::sampling::MAX_PATH_BITS;
+use qrt_core::scene::{Accuracy, Comparator, Estimator, Sequence};
+use qrt_core::valid::{Knobs, ValidScene};
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+/// Path bits beyond which errors are extrapolated.
+pub const MOST_TRIED: u32 = 18;
+/// Path bits of the smallest net that is tried.
+pub(super) const FEWEST: u32 = 4;
+/// Path bits on which comparators and widths are tried.
+pub(super) const COMPARED: u32 = 11;
+/// The mean is that of at most so many pixels, and so many path bits.
+const MEAN: (u64, u32) = (1 << 12, 8);
+/// Keys the shifts of the two nets, and of a third to compare a lattice with.
+pub(super) const SHIFTS: [u64; 3] = [0x706c_616e_2041, 0x706c_616e_2042, 0x706c_616e_2043];
+/// Comparator bits that are tried.
+const COMPARATORS: std::ops::RangeInclusive<u32> = 2..=26;
+/// What comparators may take of the error.
+const COMPARATORS_SHARE: f64 = 0.05;
+
+/// An error of every channel that is tried, in units of the mean radiance.
+pub(super) type Errors = Vec<[f64; 3]>;
+
+/// A sample of pixels, and what was found on it.
+pub(super) struct Pilot<'a> {
+    pub(super) scene: &'a ValidScene,
+    pub(super) accuracy: Accuracy,
+    pub(super) estimator: Estimator,
+    pub(super) noise: Noise,
+    /// The picture's mean radiance.
+    pub(super) mean: f64,
+    pub(super) pixels: Vec<[u32; 2]>,
+    /// Runs of an estimator for every channel and sign of the paths' error.
+    pub(super) draws: u64,
+    /// Of a path's colour, by channel.
+    pub(super) bound: [f64; 3],
+    pub(super) comparator_bits: u32,
+    /// Of the comparators that were chosen.
+    pub(super) comparator_errors: Errors,
+    /// The best known value of every channel.
+    pub(super) values: Means,
+    /// By path bits, from [`FEWEST`] on; of a lattice the only one.
+    nets: Vec<Errors>,
+    cancel: Option<&'a AtomicBool>,
+}
+
+impl<'a> Pilot<'a> {
+    pub(super) fn new(
+        scene: &'a ValidScene,
+        accuracy: Accuracy,
+        estimator: Estimator,
+        options: &Options<'a>,
+    ) -> Result<Self, RenderError> {
+        let film = [scene.scene().film.width, scene.scene().film.height];
+        let failing = 1.0 - accuracy.confidence;
+        let pixels = spread(film, (12.0 / failing).clamp(256.0, 4096.0) as u64);
+        let draws = (20.0 / failing / pixels.len() as f64)
+            .ceil()
+            .clamp(4.0, 64.0) as u64;
+        if (draws * pixels.len() as u64) as f64 * failing < 3.0 {
+            return Err(unreachable(format!(
+                "{} tries on each of {} pixels cannot show that at most a share of {failing:.1e} fails",
+                draws,
+                pixels.len()
+            )));
+        }
+        let cancel = options.cancel;
+        let bound = real(&of_bits(scene, MEAN.1)?, 0)?.stage().bound();
+        let mean_of = |key: u64| {
+            let machine = real(&net(scene, MEAN.1)?, key)?;
+            let means = prefix_means(&machine, &spread(film, MEAN.0), &[MEAN.1], cancel)?;
+            Ok::<f64, RenderError>(means.first().map_or(0.0, |means| radiance(means)))
+        };
+        let mean = 0.5 * (mean_of(SHIFTS[0])? + mean_of(SHIFTS[1])?);
+        if mean <= 0.0 && bound != [0.0; 3] {
+            let why = "every pixel that was tried is black, and errors are relative to the mean";
+            return Err(unreachable(why.to_owned()));
+        }
+        let mut pilot = Self {
+            scene,
+            accuracy,
+            estimator,
+            noise: options.noise,
+            mean,
+            pixels,
+            draws,
+            bound,
+            comparator_bits: 0,
+            comparator_errors: Vec::new(),
+            values: Vec::new(),
+            nets: Vec::new(),
+            cancel,
+        };
+        pilot.choose_comparators()?;
+        if pilot.is_lattice() {
+            pilot.compare_lattice()?;
+        }
+        Ok(pilot)
+    }
+
+    /// Whether the scene's path bits follow from those of its coordinates.
+    pub(super) fn is_lattice(&self) -> bool {
+        self.scene.scene().sampling.sequence == Sequence::ProductLattice
+    }
+
+    fn relative(&self, a: &Means, b: &Means, factor: f64) -> Errors {
+        let factor = factor / self.mean;
+        let differences =
+            |(a, b): (&[f64; 3], &[f64; 3])| std::array::from_fn(|c| factor * (a[c] - b[c]));
+        a.iter().zip(b).map(differences).collect()
+    }
+
+    /// The error of `2^bits` paths, and whether it is an extrapolation.
+    pub(super) fn paths(&mut self, bits: u32) -> Result<(Errors, bool), RenderError> {
+        if self.is_lattice() {
+            return Ok((self.nets[0].clone(), false));
+        }
+        let tried = bits.min(MOST_TRIED);
+        let have = FEWEST + self.nets.len() as u32;
+        if tried >= have {
+            let all: Vec<u32> = (FEWEST..=tried).collect();
+            let scene = net(self.scene, tried)?;
+            let [a, b] = [SHIFTS[0], SHIFTS[1]]
+                .map(|key| prefix_means(&real(&scene, key)?, &self.pixels, &all, self.cancel));
+            let (a, b) = (a?, b?);
+            let pairs = a.iter().zip(&b);
+            self.nets = pairs
+                .map(|(a, b)| self.relative(a, b, std::f64::consts::FRAC_1_SQRT_2))
+                .collect();
+            if let (Some(a), Some(b)) = (a.last(), b.last()) {
+                let middle =
+                    |(a, b): (&[f64; 3], &[f64; 3])| std::array::from_fn(|c| 0.5 * (a[c] + b[c]));
+                self.values = a.iter().zip(b).map(middle).collect();
+            }
+        }
+        let errors = self.nets[(tried - FEWEST) as usize].clone();
+        if bits <= tried {
+            return Ok((errors, false));
+        }
+        let shrink = libm::exp2(self.slope() * f64::from(bits - tried));
+        let scaled = errors.into_iter().map(|e| e.map(|e| e * shrink)).collect();
+        Ok((scaled, true))
+    }
+
+    /// Of log2 error over path bits, over the last six nets; no steeper than is certain.
+    fn slope(&self) -> f64 {
+        let root = |errors: &Errors| {
+            let sum: f64 = errors.iter().flatten().map(|e| e * e).sum();
+            libm::log10(sum.sqrt())
+        };
+        let last = self.nets.iter().rev().take(6).rev();
+        let points = (0..)
+            .zip(last)
+            .map(|(k, errors)| (f64::from(k) * std::f64::consts::LOG10_2, root(errors)));
+        let fit = crate::plot::Fit::of(points.filter(|p| p.1.is_finite()));
+        fit.map_or(0.0, |fit| (fit.slope + fit.slope_band).clamp(-1.0, 0.0))
+    }
+
+    fn compare_lattice(&mut self) -> Result<(), RenderError> {
+        let own = real(&of_bits(self.scene, 0)?, 0)?;
+        let bits = own.paths().ilog2();
+        let means = prefix_means(&own, &self.pixels, &[bits], self.cancel)?;
+        let limit_bits = (bits + 4).min(MOST_TRIED).max(bits);
+        let limit = real(&net(self.scene, limit_bits)?, SHIFTS[2])?;
+        let limits = prefix_means(&limit, &self.pixels, &[limit_bits], self.cancel)?;
+        self.nets = vec![self.relative(&means[0], &limits[0], 1.0)];
+        self.values.clone_from(&means[0]);
+        Ok(())
+    }
+
+    fn choose_comparators(&mut self) -> Result<(), RenderError> {
+        let machine = real(&net(self.scene, COMPARED)?, SHIFTS[0])?;
+        let mut comparators = Vec::new();
+        for bits in COMPARATORS {
+            comparators.push(self.comparators(bits)?);
+        }
+        let paths = 1_u64 << COMPARED;
+        let found = tallies(&machine, &self.pixels, 0..paths, &comparators, self.cancel)?;
+        let means: Means = found
+            .iter()
+            .map(|tally| tally.colour.map(|sum| sum / paths as f64))
+            .collect();
+        for (number, bits) in COMPARATORS.enumerate() {
+            let ids = (paths << bits) as f64;
+            let counted: Means = found
+                .iter()
+                .map(|tally| {
+                    std::array::from_fn(|c| self.bound[c] * (tally.good[number][c] as f64 / ids))
+                })
+                .collect();
+            self.comparator_errors = if self.mean > 0.0 {
+                self.relative(&counted, &means, 1.0)
+            } else {
+                vec![[0.0; 3]; counted.len()]
+            };
+            self.comparator_bits = bits;
+            let error = quantile(&self.comparator_errors, self.accuracy.confidence);
+            if error <= COMPARATORS_SHARE * self.accuracy.error {
+                break;
+            }
+        }
+        self.values = means;
+        Ok(())
+    }
+
+    fn comparators(&self, bits: u32) -> Result<[Comparators; 3], RenderError> {
+        let comparator = Comparator {
+            bits,
+            ..Comparator::default()
+        };
+        let [r, g, b] = self.bound.map(|scale| Comparators::new(scale, comparator));
+        Ok([r?, g?, b?])
+    }
+
+    /// The error of numbers with so many fraction bits, and what a call costs with so many paths; none where there
+    /// is no circuit.
+    pub(super) fn width(
+        &self,
+        path_bits: u32,
+        fraction: u32,
+    ) -> Result<Option<(Errors, Spent)>, RenderError> {
+        let mut knobs = net_knobs(self.scene, path_bits);
+        if self.is_lattice() {
+            knobs = self.scene.knobs();
+        }
+        knobs.precision.fraction = Some(fraction);
+        knobs.comparator.bits = self.comparator_bits;
+        let scene = valid(self.scene, knobs)?;
+        let Ok((channels, oracle)) = Oracle::all(&scene) else {
+            return Ok(None);
+        };
+        let spent = spent(&channels);
+        let machine = OracleMachine::fixed(Arc::new(oracle), SHIFTS[0], false);
+        let paths = machine.paths().min(1 << COMPARED);
+        let own = real(&scene, SHIFTS[0])?;
+        let comparators = [self.comparators(self.comparator_bits)?];
+        let in_real = tallies(&own, &self.pixels, 0..paths, &comparators, self.cancel)?;
+        let in_fixed = counted_tallies(&machine, &self.pixels, 0..paths, self.cancel)?;
+        let ids = (paths << self.comparator_bits) as f64;
+        let [a, b]: [Means; 2] = [in_fixed, in_real].map(|tallies| {
+            let value =
+                |good: &[u64; 3]| std::array::from_fn(|c| self.bound[c] * (good[c] as f64 / ids));
+            tallies.iter().map(|tally| value(&tally.good[0])).collect()
+        });
+        Ok(Some((self.relative(&a, &b, 1.0), spent)))
+    }
+}
+
+/// The `share` quantile of the sizes of errors.
+pub(super) fn quantile(errors: &[[f64; 3]], share: f64) -> f64 {
+    let mut sizes: Vec<f64> = errors.iter().flatten().map(|e| e.abs()).collect();
+    sizes.sort_by(f64::total_cmp);
+    let at = (share * sizes.len() as f64).ceil() as usize;
+    sizes
+        .get(at.clamp(1, sizes.len().max(1)) - 1)
+        .copied()
+        .unwrap_or(0.0)
+}
+
+pub(super) fn unreachable(why: String) -> RenderError {
+    RenderError::Unreachable(why)
+}
+
+fn real(scene: &ValidScene, seed: u64) -> Result<Real, RenderError> {
+    Ok(Real::new(scene, seed)?)
+}
+
+/// The scene's knobs under a net of `2^bits` paths.
+fn net_knobs(scene: &ValidScene, bits: u32) -> Knobs {
+    let mut knobs = scene.knobs();
+    if knobs.sampling.sequence == Sequence::ProductLattice {
+        knobs.sampling.sequence = Sequence::DigitalNet;
+        for depth in &mut knobs.sampling.depths {
+            depth.bits = [16; 2];
+        }
+    }
+    knobs.sampling.path_bits = bits.min(MAX_PATH_BITS);
+    knobs
+}
+
+fn net(scene: &ValidScene, bits: u32) -> Result<ValidScene, RenderError> {
+    valid(scene, net_knobs(scene, bits))
+}
+
+/// The scene's own sequence: of `2^bits` paths if it is a net.
+fn of_bits(scene: &ValidScene, bits: u32) -> Result<ValidScene, RenderError> {
+    let mut knobs = scene.knobs();
+    if knobs.sampling.sequence == Sequence::DigitalNet {
+        knobs.sampling.path_bits = bits;
+    }
+    valid(scene, knobs)
+}
+
+pub(super) fn valid(scene: &ValidScene, knobs: Knobs) -> Result<ValidScene, RenderError> {
+    scene.with_knobs(knobs).map_err(|problems| {
+        let first = problems.into_iter().next();
+        unreachable(first.map_or_else(String::new, |problem| problem.message))
+    })
+}

@@ -1,0 +1,285 @@
+//! The cheapest knobs that will do.
+
+use super::pilot::{Errors, FEWEST, Pilot, quantile, unreachable, valid};
+use super::together::{each_total, failing, will_do};
+use super::{Figures, Parts, Plan};
+use crate::render::RenderError;
+use qrt_core::oracle::{DEFAULT_FRACTION, Spent};
+use qrt_core::scene::{Counting, Estimator, Sequence};
+
+/// Path bits that may be extrapolated to.
+const MOST_PATHS: u32 = 32;
+/// What a path bit must save of the queries to be worth it.
+const WORTH: f64 = 0.125;
+/// The counting register that a search begins with.
+const START: u32 = 6;
+/// The largest counting register.
+const MOST_PHASE: u32 = 40;
+/// Fraction bits that are tried.
+const FRACTIONS: std::ops::RangeInclusive<u32> = 8..=30;
+/// Polygons beyond which building a circuit takes long, so that fewer are tried.
+const MANY_POLYGONS: usize = 200;
+
+/// Fraction bits, the error that they leave, and what a call costs then.
+type Width = (u32, Errors, Spent);
+
+/// A counting block, and how it does.
+#[derive(Clone)]
+struct Counted {
+    counting: Counting,
+    errors: Vec<Errors>,
+    queries: f64,
+}
+
+pub(super) fn search(mut pilot: Pilot<'_>) -> Result<Plan, RenderError> {
+    if pilot.mean <= 0.0 {
+        // Proven black: nothing is counted, and nothing is wrong.
+        let path_bits = pilot_bits(&pilot, FEWEST);
+        return finish(&mut pilot, path_bits, None, None);
+    }
+    let (path_bits, counted) = choose_paths(&mut pilot)?;
+    let (width, counted) = choose_width(&mut pilot, path_bits, counted)?;
+    finish(&mut pilot, path_bits, width, Some(counted))
+}
+
+/// A lattice has the bits that it has.
+fn pilot_bits(pilot: &Pilot<'_>, bits: u32) -> u32 {
+    let sampling = &pilot.scene.scene().sampling;
+    match sampling.sequence {
+        Sequence::DigitalNet => bits,
+        Sequence::ProductLattice => sampling.path_bits,
+    }
+}
+
+/// Fewest paths of which twice as many would hardly save queries, at any width.
+fn choose_paths(pilot: &mut Pilot<'_>) -> Result<(u32, Counted), RenderError> {
+    let none = vec![[0.0; 3]; pilot.pixels.len()];
+    if pilot.is_lattice() {
+        let counted = cheapest(pilot, 0, &none, START)?.ok_or_else(|| out_of_reach(pilot, 0))?;
+        return Ok((pilot_bits(pilot, 0), counted));
+    }
+    let mut chosen: Option<(u32, Counted)> = None;
+    for bits in FEWEST..=MOST_PATHS {
+        if !alone_will_do(pilot, bits)? {
+            continue;
+        }
+        let start = chosen
+            .as_ref()
+            .map_or(START, |(_, before)| before.counting.phase_bits);
+        let Some(counted) = cheapest(pilot, bits, &none, start)? else {
+            continue;
+        };
+        if let Some((fewer, before)) = chosen {
+            let saves = counted.queries < (1.0 - WORTH) * before.queries;
+            if !saves {
+                return Ok((fewer, before));
+            }
+        }
+        let exact = pilot.estimator == Estimator::Exact;
+        chosen = Some((bits, counted));
+        if exact {
+            break;
+        }
+    }
+    chosen.ok_or_else(|| out_of_reach(pilot, MOST_PATHS))
+}
+
+/// Whether the paths' error alone leaves anything for counting.
+fn alone_will_do(pilot: &mut Pilot<'_>, bits: u32) -> Result<bool, RenderError> {
+    let (paths, _) = pilot.paths(bits)?;
+    Ok(will_do(pilot, &[&paths, &pilot.comparator_errors], None))
+}
+
+fn out_of_reach(pilot: &Pilot<'_>, bits: u32) -> RenderError {
+    let (error, confidence) = (pilot.accuracy.error, pilot.accuracy.confidence);
+    unreachable(if pilot.is_lattice() {
+        format!(
+            "the product lattice with these bits, and any number of queries of `{}`, do not reach an \
+             error of {error} with probability {confidence}: use `sequence: digital-net`, or more bits",
+            pilot.estimator
+        )
+    } else {
+        format!(
+            "neither 2^{bits} paths nor any number of queries of `{}` reach an error of {error} with \
+             probability {confidence}",
+            pilot.estimator
+        )
+    })
+}
+
+/// Numbers so wide that queries times Toffolis are least; none where there is no circuit.
+fn choose_width(
+    pilot: &mut Pilot<'_>,
+    path_bits: u32,
+    wide: Counted,
+) -> Result<(Option<Width>, Counted), RenderError> {
+    let many = pilot.scene.polygons().len() > MANY_POLYGONS;
+    let (first, step) = if many {
+        (DEFAULT_FRACTION, 4)
+    } else {
+        (*FRACTIONS.start(), 1)
+    };
+    let mut best: Option<(f64, Width, Counted)> = None;
+    let mut has_circuit = false;
+    for fraction in (first..=*FRACTIONS.end()).step_by(step) {
+        let Some((errors, spent)) = pilot.width(path_bits, fraction)? else {
+            if has_circuit {
+                break;
+            }
+            continue;
+        };
+        has_circuit = true;
+        // With no error of width at all it would cost so much: wider ones cost more.
+        let least = spent.toffoli as f64 * wide.queries.max(1.0);
+        if best.as_ref().is_some_and(|best| best.0 <= least) {
+            break;
+        }
+        let start = wide.counting.phase_bits;
+        let Some(counted) = cheapest(pilot, path_bits, &errors, start)? else {
+            continue;
+        };
+        let cost = spent.toffoli as f64 * counted.queries.max(1.0);
+        if best.as_ref().is_none_or(|best| cost < best.0) {
+            best = Some((cost, (fraction, errors, spent), counted));
+        }
+    }
+    match best {
+        Some((_, width, counted)) => Ok((Some(width), counted)),
+        None if has_circuit => Err(unreachable(format!(
+            "no width of numbers reaches an error of {} with probability {}",
+            pilot.accuracy.error, pilot.accuracy.confidence
+        ))),
+        None => Ok((None, wide)),
+    }
+}
+
+/// The counting block with the fewest queries that will do beside the errors of so many paths, of
+/// comparators and of `width`: the smallest register, or a smaller one repeated. The search begins
+/// with a register of `start` bits.
+fn cheapest(
+    pilot: &mut Pilot<'_>,
+    path_bits: u32,
+    width: &Errors,
+    start: u32,
+) -> Result<Option<Counted>, RenderError> {
+    let (paths, _) = pilot.paths(path_bits)?;
+    let pilot = &*pilot;
+    let attempt = |phase_bits: u32, repetitions: u32| {
+        let counting = Counting {
+            phase_bits,
+            repetitions,
+            estimator: pilot.estimator,
+            ..Counting::default()
+        };
+        let (errors, queries) = pilot.counted(&counting)?;
+        let others = [&paths, &pilot.comparator_errors, width];
+        let counted = Counted {
+            counting,
+            errors,
+            queries,
+        };
+        let good = will_do(pilot, &others, Some(&counted.errors));
+        Ok::<_, RenderError>(good.then_some(counted))
+    };
+    if pilot.estimator == Estimator::Exact {
+        let counting = Counting::default();
+        return attempt(counting.phase_bits, counting.repetitions);
+    }
+    // Nothing is gained by counting where everything else is too wrong already.
+    if !will_do(pilot, &[&paths, &pilot.comparator_errors, width], None) {
+        return Ok(None);
+    }
+    // From where a like search ended, down as long as it will do, or up until it does.
+    let mut found = attempt(start, 1)?;
+    let mut phase_bits = start;
+    if found.is_some() {
+        while phase_bits > 1
+            && let Some(smaller) = attempt(phase_bits - 1, 1)?
+        {
+            (found, phase_bits) = (Some(smaller), phase_bits - 1);
+        }
+    }
+    while found.is_none() && phase_bits < MOST_PHASE {
+        phase_bits += 1;
+        found = attempt(phase_bits, 1)?;
+    }
+    let Some(mut best) = found else {
+        return Ok(None);
+    };
+    if phase_bits > 4 {
+        for repetitions in [7, 6, 5] {
+            match attempt(phase_bits - 3, repetitions)? {
+                Some(found) if found.queries < best.queries => best = found,
+                _ => break,
+            }
+        }
+    }
+    Ok(Some(best))
+}
+
+fn finish(
+    pilot: &mut Pilot<'_>,
+    path_bits: u32,
+    width: Option<Width>,
+    counted: Option<Counted>,
+) -> Result<Plan, RenderError> {
+    let none = vec![[0.0; 3]; pilot.pixels.len()];
+    let black = counted.is_none();
+    let (paths, extrapolated) = if black {
+        (none.clone(), false)
+    } else {
+        pilot.paths(path_bits)?
+    };
+    let counting = counted
+        .as_ref()
+        .map_or_else(Counting::default, |c| c.counting);
+    let errors = counted.as_ref().map_or(&[][..], |c| &c.errors);
+    let width_errors = width.as_ref().map_or(&none, |(_, errors, _)| errors);
+    let mut totals = Vec::new();
+    let others = [&paths, &pilot.comparator_errors, width_errors];
+    each_total(pilot, &others, Some(errors), |total| totals.push(total));
+    let confidence = pilot.accuracy.confidence;
+    let parts = Parts {
+        paths: quantile(&paths, confidence),
+        comparators: quantile(&pilot.comparator_errors, confidence),
+        width: quantile(width_errors, confidence),
+        counting: quantile(&errors.concat(), confidence),
+        total: quantile(&totals, confidence),
+    };
+    let (failing, _) = if black {
+        (0.0, 0.0)
+    } else {
+        failing(pilot, &others, Some(errors))
+    };
+    let fraction = width.as_ref().map(|(fraction, ..)| *fraction);
+    let mut knobs = pilot.scene.knobs();
+    knobs.sampling.path_bits = path_bits;
+    knobs.precision.fraction = fraction;
+    knobs.comparator.bits = pilot.comparator_bits;
+    knobs.counting = counting;
+    knobs.counting.estimator = pilot.estimator;
+    let film = pilot.scene.scene().film;
+    Ok(Plan {
+        scene: valid(pilot.scene, knobs)?,
+        figures: Figures {
+            accuracy: pilot.accuracy,
+            mean: pilot.mean,
+            pixels: [
+                pilot.pixels.len() as u64,
+                u64::from(film.width) * u64::from(film.height),
+            ],
+            sequence: pilot.scene.scene().sampling.sequence,
+            path_bits,
+            extrapolated,
+            fraction,
+            comparator_bits: pilot.comparator_bits,
+            estimator: pilot.estimator,
+            phase_bits: counting.phase_bits,
+            repetitions: counting.repetitions,
+            within: 1.0 - failing,
+            parts,
+            queries: counted.map_or(0.0, |c| c.queries),
+            spent: width.map(|(.., spent)| spent),
+        },
+    })
+}

@@ -1,0 +1,146 @@
+//! Logarithmic axes and their ticks.
+
+/// What an axis' numbers are written as.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scale {
+    /// Decades: 0.01, 0.1, 1.
+    Log,
+    /// A number of bits b, which stands at `2^b`: a slope over it is one over `2^b`.
+    Bits,
+}
+
+/// An axis.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Axis {
+    /// What it measures.
+    pub label: String,
+    /// See [`Scale`].
+    pub scale: Scale,
+}
+
+/// A tick: where it stands, and what it says; nothing on ticks between.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Tick {
+    pub(super) value: f64,
+    pub(super) label: String,
+}
+
+impl Axis {
+    /// Of decades.
+    pub fn log(label: &str) -> Self {
+        Self {
+            label: label.to_owned(),
+            scale: Scale::Log,
+        }
+    }
+
+    /// Of bits.
+    pub fn bits(label: &str) -> Self {
+        Self {
+            label: label.to_owned(),
+            scale: Scale::Bits,
+        }
+    }
+
+    /// What a point's coordinate is as a number on this axis.
+    pub(super) fn place(&self, value: f64) -> Option<f64> {
+        let place = match self.scale {
+            Scale::Log => libm::log10(value),
+            Scale::Bits => value,
+        };
+        place.is_finite().then_some(place)
+    }
+
+    /// The logarithm whose slope is fitted: to the base 10.
+    pub(super) fn logarithm(&self, place: f64) -> f64 {
+        match self.scale {
+            Scale::Log => place,
+            Scale::Bits => place * std::f64::consts::LOG10_2,
+        }
+    }
+
+    /// The range shown of places between `low` and `high`, a little wider, and never empty.
+    pub(super) fn range(&self, low: f64, high: f64) -> (f64, f64) {
+        let least = match self.scale {
+            Scale::Log => 0.6,
+            Scale::Bits => 2.0,
+        };
+        let middle = 0.5 * (low + high);
+        let half = (0.5 * (high - low)).max(0.5 * least) * 1.06;
+        (middle - half, middle + half)
+    }
+
+    /// Ticks within a range of places, at most about `most` with labels.
+    pub(super) fn ticks(&self, (low, high): (f64, f64), most: usize) -> Vec<Tick> {
+        match self.scale {
+            Scale::Bits => whole(low, high, most)
+                .into_iter()
+                .map(|value| Tick {
+                    value,
+                    label: format!("{value}"),
+                })
+                .collect(),
+            Scale::Log => decades(low, high, most),
+        }
+    }
+}
+
+/// Whole numbers of a range, at a step of 1, 2, 3, 4, 6, ...
+fn whole(low: f64, high: f64, most: usize) -> Vec<f64> {
+    let steps = [1.0, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 16.0, 24.0];
+    let fits = |step: &&f64| (((high - low) / **step) as usize) < most.max(2);
+    let step = steps.iter().find(fits).copied().unwrap_or(32.0);
+    let first = (low / step).ceil();
+    let count = ((high / step).floor() - first) as i64;
+    (0..=count).map(|k| (first + k as f64) * step).collect()
+}
+
+fn decades(low: f64, high: f64, most: usize) -> Vec<Tick> {
+    let whole = whole(low, high, most);
+    let mut ticks: Vec<Tick> = Vec::new();
+    if whole.len() > 2 {
+        for value in whole {
+            let label = written(1.0, value);
+            ticks.push(Tick { value, label });
+        }
+        return ticks;
+    }
+    for decade in low.floor() as i64..=high.ceil() as i64 {
+        for digit in [1.0, 2.0, 5.0] {
+            let value = decade as f64 + libm::log10(digit);
+            if (low..=high).contains(&value) {
+                let label = written(digit, decade as f64);
+                ticks.push(Tick { value, label });
+            }
+        }
+    }
+    ticks
+}
+
+/// `digit 10^exponent` as people write it.
+fn written(digit: f64, exponent: f64) -> String {
+    let exponent = exponent as i32;
+    if (-4..=4).contains(&exponent) {
+        let decimals = usize::try_from(-exponent).unwrap_or(0);
+        return format!("{:.decimals$}", digit * libm::exp10(f64::from(exponent)));
+    }
+    let power: String = exponent.to_string().chars().map(superscript).collect();
+    if digit == 1.0 {
+        format!("10{power}")
+    } else {
+        format!("{digit}\u{b7}10{power}")
+    }
+}
+
+fn superscript(c: char) -> char {
+    match c {
+        '-' => '\u{207b}',
+        '1' => '\u{b9}',
+        '2' => '\u{b2}',
+        '3' => '\u{b3}',
+        _ => c
+            .to_digit(10)
+            .and_then(|d| char::from_u32(0x2070 + d))
+            .unwrap_or(c),
+    }
+}

@@ -1,0 +1,132 @@
+//! Sums over the paths of pixels, on all threads.
+
+use crate::counting::Comparators;
+use crate::machines::{OracleMachine, Real};
+use crate::render::{RenderError, Sum};
+use rayon::prelude::*;
+use std::ops::Range;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Paths that a thread traces at a time.
+const RUN: u64 = 1 << 15;
+
+/// What paths of a pixel sum to.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Tally {
+    /// By channel: the sum of their colours, in radiance.
+    pub colour: [f64; 3],
+    /// By register of comparators, and by channel: the good ids.
+    pub good: Vec<[u64; 3]>,
+}
+
+impl Tally {
+    fn add(&mut self, later: &Self) {
+        for (sum, more) in self.colour.iter_mut().zip(later.colour) {
+            *sum += more;
+        }
+        self.good.resize(later.good.len(), [0; 3]);
+        for (sum, more) in self.good.iter_mut().zip(&later.good) {
+            for (sum, more) in sum.iter_mut().zip(more) {
+                *sum += more;
+            }
+        }
+    }
+}
+
+/// The paths `ids` of `pixels` in real arithmetic; counted against each of `comparators`, channel by
+/// channel.
+///
+/// # Errors
+/// Cancelled.
+pub fn tallies(
+    real: &Real,
+    pixels: &[[u32; 2]],
+    ids: Range<u64>,
+    comparators: &[[Comparators; 3]],
+    cancel: Option<&AtomicBool>,
+) -> Result<Vec<Tally>, RenderError> {
+    in_runs(pixels, ids, cancel, |pixels, ids| {
+        let mut sums = vec![[Sum::default(); 3]; pixels.len()];
+        let mut good = vec![vec![[0_u64; 3]; comparators.len()]; pixels.len()];
+        real.trace_range(pixels, ids, |block| {
+            for (channel, colours) in block.colours.into_iter().enumerate() {
+                sums[block.pixel][channel].add(colours);
+                for (good, comparators) in good[block.pixel].iter_mut().zip(comparators) {
+                    good[channel] += comparators[channel].good_total(colours);
+                }
+            }
+        });
+        let tally = |(sums, good): ([Sum; 3], Vec<[u64; 3]>)| Tally {
+            colour: sums.map(|sum| sum.value()),
+            good,
+        };
+        Ok(sums.into_iter().zip(good).map(tally).collect())
+    })
+}
+
+/// The paths `ids` of `pixels` as a scene's oracle counts them: one register of comparators, the
+/// oracle's own, and no colours.
+///
+/// # Errors
+/// Cancelled, and a circuit that is not as it must be.
+pub fn counted_tallies(
+    machine: &OracleMachine,
+    pixels: &[[u32; 2]],
+    ids: Range<u64>,
+    cancel: Option<&AtomicBool>,
+) -> Result<Vec<Tally>, RenderError> {
+    in_runs(pixels, ids, cancel, |pixels, ids| {
+        let mut tallies = vec![Tally::default(); pixels.len()];
+        for tally in &mut tallies {
+            tally.good = vec![[0; 3]];
+        }
+        machine.trace(pixels, ids, |finished| {
+            let sums = &mut tallies[finished.pixel].good[0];
+            for (sum, good) in sums.iter_mut().zip(finished.good) {
+                *sum += good.iter().sum::<i64>().cast_unsigned();
+            }
+        })?;
+        Ok(tallies)
+    })
+}
+
+/// Cuts the work into runs of paths, or of pixels with few paths, and adds them up in order.
+fn in_runs(
+    pixels: &[[u32; 2]],
+    ids: Range<u64>,
+    cancel: Option<&AtomicBool>,
+    run: impl Fn(&[[u32; 2]], Range<u64>) -> Result<Vec<Tally>, RenderError> + Sync,
+) -> Result<Vec<Tally>, RenderError> {
+    let length = ids.end.saturating_sub(ids.start);
+    let together = (RUN / length.max(1)).max(1) as usize;
+    let runs = length.div_ceil(RUN).max(1);
+    let groups: Vec<&[[u32; 2]]> = pixels.chunks(together).collect();
+    let all = groups.len() as u64 * runs;
+    let cancelled = || cancel.is_some_and(|flag| flag.load(Ordering::Relaxed));
+    let parts: Vec<Vec<Tally>> = (0..all)
+        .into_par_iter()
+        .map(|number| {
+            if cancelled() {
+                return Err(RenderError::Interrupted {
+                    finished: 0,
+                    pixels: pixels.len() as u64,
+                    checkpoint: None,
+                });
+            }
+            let start = ids.start + number % runs * RUN;
+            let part = start..(start + RUN).min(ids.end);
+            run(groups[(number / runs) as usize], part)
+        })
+        .collect::<Result<_, _>>()?;
+    let mut whole = Vec::with_capacity(pixels.len());
+    for parts in parts.chunks(runs as usize) {
+        let mut group = vec![Tally::default(); parts.first().map_or(0, Vec::len)];
+        for part in parts {
+            for (sum, more) in group.iter_mut().zip(part) {
+                sum.add(more);
+            }
+        }
+        whole.append(&mut group);
+    }
+    Ok(whole)
+}

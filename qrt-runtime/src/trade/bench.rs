@@ -1,0 +1,314 @@
+//! What is measured on the sample of pixels, each thing once.
+
+use super::band::Band;
+use super::error::TradeError;
+use super::setting::Setting;
+use super::table::Row;
+use crate::counting::Comparators;
+use crate::estimators::{Device, Noise, Problem, Settings, estimator};
+use crate::machines::{OracleMachine, Real};
+use crate::random::Stream;
+use crate::render::{Model, RenderError};
+use crate::sample::{self, Means, Tally, counted_tallies, tallies};
+use qrt_core::oracle::{Oracle, Spent, spent};
+use qrt_core::scene::{Circuit, Comparator, Estimator, Sampling};
+use qrt_core::valid::{Knobs, ValidScene};
+use rayon::prelude::*;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+use std::time::Instant;
+
+/// How much is measured.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Effort {
+    /// Paths of the reference: a power of two.
+    pub(super) reference_bits: u32,
+    /// Paths of the pictures that differ in depth.
+    pub(super) depth_bits: u32,
+    /// Runs of an estimator for each channel of a pixel.
+    pub(super) draws: u64,
+}
+
+/// All that rows have in common.
+pub(super) struct Bench<'a> {
+    pub(super) scene: &'a ValidScene,
+    pub(super) knobs: Knobs,
+    pub(super) pixels: Vec<[u32; 2]>,
+    pub(super) seed: u64,
+    pub(super) effort: Effort,
+    pub(super) cancel: Option<&'a AtomicBool>,
+    pub(super) references: Vec<(usize, Means)>,
+    pub(super) depths: Option<Vec<Means>>,
+    real: Vec<((Sampling, Comparator), Traced)>,
+    circuits: Vec<(CircuitKey, Built)>,
+    counted: Vec<((CircuitKey, Model), Traced)>,
+}
+
+type CircuitKey = (Sampling, u32, Comparator, Circuit);
+
+/// What a model found.
+#[derive(Clone)]
+struct Traced {
+    /// By pixel and channel: the mean of its paths; of the circuit's models none.
+    means: Means,
+    /// By pixel and channel: S.
+    good: Vec<[u64; 3]>,
+    /// Wall time.
+    seconds: f64,
+}
+
+#[derive(Clone)]
+struct Built {
+    oracle: Arc<Oracle>,
+    spent: Spent,
+}
+
+impl<'a> Bench<'a> {
+    pub(super) fn new(
+        scene: &'a ValidScene,
+        pixels: Vec<[u32; 2]>,
+        seed: u64,
+        effort: Effort,
+        cancel: Option<&'a AtomicBool>,
+    ) -> Self {
+        Self {
+            knobs: scene.knobs(),
+            scene,
+            pixels,
+            seed,
+            effort,
+            cancel,
+            references: Vec::new(),
+            depths: None,
+            real: Vec::new(),
+            circuits: Vec::new(),
+            counted: Vec::new(),
+        }
+    }
+
+    /// The scene under a setting; `None` where there can be no such scene.
+    fn scene_of(&self, knobs: Knobs) -> Option<ValidScene> {
+        self.scene.with_knobs(knobs).ok()
+    }
+
+    /// That the scene as it is has a circuit.
+    pub(super) fn check(&mut self) -> Result<(), TradeError> {
+        let knobs = Setting::of(&self.knobs).knobs(&self.knobs);
+        let scene = self
+            .scene
+            .with_knobs(knobs.clone())
+            .map_err(TradeError::Knobs)?;
+        self.built(&scene, &knobs)?;
+        Real::new(&scene, self.seed).map_err(RenderError::from)?;
+        Ok(())
+    }
+
+    /// Measures a row. None where the setting has no circuit.
+    pub(super) fn row(&mut self, setting: Setting) -> Result<Option<Row>, TradeError> {
+        let knobs = setting.knobs(&self.knobs);
+        let Some(scene) = self.scene_of(knobs.clone()) else {
+            return Ok(None);
+        };
+        let Some(built) = self.built(&scene, &knobs)? else {
+            return Ok(None);
+        };
+        let mean = sample::radiance(self.reference(self.knobs.sampling.depths.len())?);
+        if mean <= 0.0 {
+            return Err(TradeError::Black);
+        }
+        let truth = self.reference(setting.depths)?.clone();
+        let real = self.real(&scene, &knobs)?;
+        let counted = match setting.model {
+            Model::Real => real.clone(),
+            model => self.counted(&knobs, &built, model)?,
+        };
+        let bound = Real::new(&scene, self.seed)
+            .map_err(RenderError::from)?
+            .stage()
+            .bound();
+        let ids = (1_u64 << knobs.sampling.path_bits) << knobs.comparator.bits;
+        let value =
+            |good: &[u64; 3]| std::array::from_fn(|c| bound[c] * (good[c] as f64 / ids as f64));
+        let [in_real, in_model]: [Means; 2] =
+            [&real.good, &counted.good].map(|good| good.iter().map(value).collect());
+        let estimated = self.estimated(&knobs, &bound, &counted.good, ids)?;
+        let drawn = drawn(&estimated, &in_model, &truth, mean);
+        let pixels = self.pixels.len() as f64;
+        let queries: u64 = estimated.pixels.iter().map(|pixel| pixel.queries).sum();
+        let depth = self.depth_error(setting.depths, mean)?;
+        Ok(Some(Row {
+            setting,
+            queries: queries as f64 / pixels / self.effort.draws as f64,
+            spent: built.spent,
+            mean,
+            errors: [
+                Band::of_difference(&real.means, &truth, mean),
+                Band::of_difference(&in_real, &real.means, mean),
+                Band::of_difference(&in_model, &in_real, mean),
+                drawn[0],
+                depth,
+                drawn[1],
+            ],
+            seconds: (counted.seconds + estimated.seconds / self.effort.draws as f64) / pixels,
+        }))
+    }
+
+    fn real(&mut self, scene: &ValidScene, knobs: &Knobs) -> Result<Traced, TradeError> {
+        let key = (knobs.sampling.clone(), knobs.comparator);
+        if let Some((_, found)) = self.real.iter().find(|(of, _)| *of == key) {
+            return Ok(found.clone());
+        }
+        let start = Instant::now();
+        let real = Real::new(scene, self.seed).map_err(RenderError::from)?;
+        let mut comparators = Vec::new();
+        for scale in real.stage().bound() {
+            let made = Comparators::new(scale, knobs.comparator);
+            comparators.push(made.map_err(RenderError::from)?);
+        }
+        let comparators: [Comparators; 3] = std::array::from_fn(|c| comparators[c]);
+        let paths = real.paths();
+        let found = tallies(&real, &self.pixels, 0..paths, &[comparators], self.cancel)?;
+        let traced = Traced {
+            means: means(&found, paths),
+            good: good(&found),
+            seconds: start.elapsed().as_secs_f64(),
+        };
+        self.real.push((key, traced.clone()));
+        Ok(traced)
+    }
+
+    fn built(&mut self, scene: &ValidScene, knobs: &Knobs) -> Result<Option<Built>, TradeError> {
+        let key = circuit_key(knobs);
+        if let Some((_, found)) = self.circuits.iter().find(|(of, _)| *of == key) {
+            return Ok(Some(found.clone()));
+        }
+        let own = Setting::of(&self.knobs).knobs(&self.knobs);
+        let (channels, oracle) = match Oracle::all(scene) {
+            Ok(all) => all,
+            // A row without a circuit is left out; a scene without one has no table.
+            Err(_) if circuit_key(&own) != key => return Ok(None),
+            Err(error) => return Err(RenderError::from(error).into()),
+        };
+        let built = Built {
+            oracle: Arc::new(oracle),
+            spent: spent(&channels),
+        };
+        // One is large, and rows of a circuit stand together, but for the scene's own.
+        self.circuits.retain(|(of, _)| *of == circuit_key(&own));
+        self.circuits.push((key, built.clone()));
+        Ok(Some(built))
+    }
+
+    fn counted(
+        &mut self,
+        knobs: &Knobs,
+        built: &Built,
+        model: Model,
+    ) -> Result<Traced, TradeError> {
+        let key = (circuit_key(knobs), model);
+        if let Some((_, found)) = self.counted.iter().find(|(of, _)| *of == key) {
+            return Ok(found.clone());
+        }
+        let start = Instant::now();
+        let oracle = Arc::clone(&built.oracle);
+        let machine = match model {
+            Model::Gates => {
+                OracleMachine::gates(oracle, self.seed, false).map_err(RenderError::from)?
+            }
+            Model::Real | Model::Fixed => OracleMachine::fixed(oracle, self.seed, false),
+        };
+        let found = counted_tallies(&machine, &self.pixels, 0..machine.paths(), self.cancel)?;
+        let traced = Traced {
+            means: Means::new(),
+            good: good(&found),
+            seconds: start.elapsed().as_secs_f64(),
+        };
+        self.counted.push((key, traced.clone()));
+        Ok(traced)
+    }
+
+    /// What the estimator says of every channel of every pixel, several times.
+    fn estimated(
+        &self,
+        knobs: &Knobs,
+        bound: &[f64; 3],
+        good: &[[u64; 3]],
+        total: u64,
+    ) -> Result<Estimated, TradeError> {
+        let start = Instant::now();
+        let made = Settings::of(&knobs.counting)
+            .and_then(|settings| estimator(knobs.counting.estimator, &settings))
+            .map_err(RenderError::from)?;
+        let exact = knobs.counting.estimator == Estimator::Exact;
+        let pixel = |(&[x, y], good): (&[u32; 2], &[u64; 3])| {
+            let mut values = vec![[0.0; 3]; self.effort.draws as usize];
+            let mut queries = 0;
+            for (draw, values) in (0_u64..).zip(&mut values) {
+                // The first draw is the picture's own.
+                let seed = self.seed ^ draw.wrapping_mul(0x9E37_79B9_7F4A_7C15);
+                for channel in (0..3).filter(|&c| bound[c] > 0.0) {
+                    let problem = Problem {
+                        good: good[channel],
+                        total,
+                    };
+                    let mut stream = Stream::new(seed, x, y, channel as u8);
+                    let mut device = Device::new(problem, Noise::NONE, &mut stream)?;
+                    let estimate = made.estimate(&mut device)?;
+                    values[channel] = bound[channel] * estimate.amplitude;
+                    queries += if exact { 0 } else { estimate.queries };
+                }
+            }
+            Ok(EstimatedPixel { values, queries })
+        };
+        let pairs = self.pixels.par_iter().zip(good);
+        let pixels = pairs.map(pixel).collect::<Result<Vec<_>, RenderError>>()?;
+        Ok(Estimated {
+            pixels,
+            seconds: start.elapsed().as_secs_f64(),
+        })
+    }
+}
+
+struct Estimated {
+    pixels: Vec<EstimatedPixel>,
+    seconds: f64,
+}
+
+struct EstimatedPixel {
+    /// By draw.
+    values: Vec<[f64; 3]>,
+    /// Of all draws.
+    queries: u64,
+}
+
+fn circuit_key(knobs: &Knobs) -> CircuitKey {
+    let fraction = knobs.precision.fraction.unwrap_or_default();
+    let sampling = knobs.sampling.clone();
+    (sampling, fraction, knobs.comparator, knobs.circuit)
+}
+
+fn means(tallies: &[Tally], paths: u64) -> Means {
+    let mean = |tally: &Tally| tally.colour.map(|sum| sum / paths as f64);
+    tallies.iter().map(mean).collect()
+}
+
+fn good(tallies: &[Tally]) -> Vec<[u64; 3]> {
+    let good = |tally: &Tally| tally.good.first().copied().unwrap_or_default();
+    tallies.iter().map(good).collect()
+}
+
+/// E_T and the total error: of all draws, against S/N and against the limit.
+fn drawn(estimated: &Estimated, counted: &Means, truth: &Means, mean: f64) -> [Band; 2] {
+    [counted, truth].map(|other| {
+        let square = |(pixel, other): (&EstimatedPixel, &[f64; 3])| {
+            let values = pixel
+                .values
+                .iter()
+                .flat_map(|value| value.iter().zip(other));
+            let sum: f64 = values.map(|(a, b)| ((a - b) / mean).powi(2)).sum();
+            sum / (3 * pixel.values.len()).max(1) as f64
+        };
+        let pairs = estimated.pixels.iter().zip(other);
+        Band::of_squares(&pairs.map(square).collect::<Vec<_>>())
+    })
+}

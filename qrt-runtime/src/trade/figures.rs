@@ -1,0 +1,281 @@
+//! The plots.
+
+use super::fronts::fronts;
+use super::setting::Sweep;
+use super::table::Row;
+use super::{Band, Trade};
+use crate::plot::{Axis, Drawn, Plot, Point, Series};
+use qrt_core::scene::{Estimator, Sequence};
+
+/// A plot, and what is said of it.
+pub(super) struct Figure {
+    /// Of its file, without the extension.
+    pub(super) name: &'static str,
+    pub(super) plot: Plot,
+    /// What to see there.
+    pub(super) says: &'static str,
+}
+
+/// Places of errors in a row.
+pub(super) const PATHS: usize = 0;
+pub(super) const COMPARATORS: usize = 1;
+pub(super) const WIDTH: usize = 2;
+pub(super) const COUNTING: usize = 3;
+pub(super) const DEPTH: usize = 4;
+pub(super) const TOTAL: usize = 5;
+
+/// What errors are called on plots.
+const NAMES: [&str; 6] = [
+    "paths, E_R",
+    "comparators, E_C",
+    "width, E_W",
+    "counting, E_T",
+    "depth, E_D",
+    "total",
+];
+
+/// All of them, in the page's order.
+pub(super) fn all(trade: &Trade) -> Vec<Figure> {
+    let mut figures = vec![
+        split(trade),
+        counting(trade),
+        repetitions(trade),
+        paths(trade),
+    ];
+    figures.extend([
+        comparators(trade),
+        fraction(trade),
+        price(trade),
+        depth(trade),
+    ]);
+    figures.extend(fronts(trade));
+    figures.retain(|figure| {
+        figure
+            .plot
+            .series
+            .iter()
+            .any(|series| !series.points.is_empty())
+    });
+    figures
+}
+
+fn point(x: f64, band: Band) -> Point {
+    Point {
+        x,
+        y: band.value,
+        low: band.low,
+        high: band.high,
+    }
+}
+
+/// Errors number `error` of rows, over whatever `x` says.
+pub(super) fn series<'a>(
+    name: &str,
+    rows: impl Iterator<Item = &'a Row>,
+    x: impl Fn(&Row) -> f64,
+    error: usize,
+    drawn: Drawn,
+) -> Series {
+    let mut points: Vec<Point> = rows.map(|row| point(x(row), row.errors[error])).collect();
+    points.sort_by(|a, b| a.x.total_cmp(&b.x));
+    Series {
+        name: name.to_owned(),
+        points,
+        drawn,
+    }
+}
+
+fn relative() -> Axis {
+    Axis::log("RMSE / mean radiance")
+}
+
+/// Estimators of a sweep, in its order.
+fn estimators(trade: &Trade, sweep: Sweep) -> Vec<Estimator> {
+    let mut found: Vec<Estimator> = Vec::new();
+    for row in trade.of(sweep) {
+        if !found.contains(&row.setting.estimator) {
+            found.push(row.setting.estimator);
+        }
+    }
+    found
+}
+
+fn split(trade: &Trade) -> Figure {
+    let own = trade.scene().map(|row| row.setting.estimator);
+    let rows = || {
+        let rows = trade.of(Sweep::Counting);
+        rows.filter(move |row| Some(row.setting.estimator) == own)
+    };
+    let parts = [TOTAL, COUNTING, PATHS, COMPARATORS, WIDTH, DEPTH];
+    let of = |error: usize| {
+        series(
+            NAMES[error],
+            rows(),
+            |row| row.queries,
+            error,
+            Drawn::Joined,
+        )
+    };
+    Figure {
+        name: "split",
+        plot: Plot {
+            title: "Where the error comes from".to_owned(),
+            x: Axis::log("queries of a pixel"),
+            y: relative(),
+            series: parts.map(of).to_vec(),
+        },
+        says: "The scene's own estimator with more and more queries, and every other part of the \
+               error, which queries do not change. More queries pay until counting is no longer the \
+               largest part. The error of depth is not in the total.",
+    }
+}
+
+fn counting(trade: &Trade) -> Figure {
+    let of = |estimator: Estimator| {
+        let rows = trade.of(Sweep::Counting);
+        let rows = rows.filter(|row| row.setting.estimator == estimator);
+        series(
+            estimator.name(),
+            rows,
+            |row| row.queries,
+            COUNTING,
+            Drawn::Fit,
+        )
+    };
+    Figure {
+        name: "counting",
+        plot: Plot {
+            title: "Counting: every estimator".to_owned(),
+            x: Axis::log("queries of a pixel"),
+            y: Axis::log("E_T: RMSE / mean radiance"),
+            series: estimators(trade, Sweep::Counting)
+                .into_iter()
+                .map(of)
+                .collect(),
+        },
+        says: "How far estimates are from S/N. Classical sampling falls with the square root of the \
+               queries, a slope of \u{2212}0.5; a quantum estimator without outliers with a slope of \
+               \u{2212}1.",
+    }
+}
+
+fn repetitions(trade: &Trade) -> Figure {
+    let mut all = Vec::new();
+    for estimator in estimators(trade, Sweep::Repetitions) {
+        for (sweep, name) in [
+            (Sweep::Counting, format!("{estimator}, larger")),
+            (Sweep::Repetitions, format!("{estimator}, again")),
+        ] {
+            let rows = trade.of(sweep);
+            let rows = rows.filter(|row| row.setting.estimator == estimator);
+            all.push(series(&name, rows, |row| row.queries, COUNTING, Drawn::Fit));
+        }
+    }
+    Figure {
+        name: "repetitions",
+        plot: Plot {
+            title: "A larger counting register, or the same one again".to_owned(),
+            x: Axis::log("queries of a pixel"),
+            y: Axis::log("E_T: RMSE / mean radiance"),
+            series: all,
+        },
+        says: "The same queries spent on more phase bits (larger) or on more repetitions (again).",
+    }
+}
+
+fn paths(trade: &Trade) -> Figure {
+    let of = |sequence: Sequence| {
+        let rows = trade.of(Sweep::Paths);
+        let rows = rows.filter(|row| row.setting.sequence == sequence);
+        let bits = |row: &Row| f64::from(row.setting.path_bits);
+        series(sequence.name(), rows, bits, PATHS, Drawn::Fit)
+    };
+    Figure {
+        name: "paths",
+        plot: Plot {
+            title: "Paths, by their sequence".to_owned(),
+            x: Axis::bits("path bits"),
+            y: Axis::log("E_R: RMSE / mean radiance"),
+            series: Sequence::ALL.iter().copied().map(of).collect(),
+        },
+        says: "A path bit is one qubit and hardly a gate, but it doubles what a simulation traces. \
+               Slopes are over the number of paths.",
+    }
+}
+
+fn comparators(trade: &Trade) -> Figure {
+    let bits = |row: &Row| f64::from(row.setting.comparator_bits);
+    let rows = trade.of(Sweep::Comparator);
+    Figure {
+        name: "comparators",
+        plot: Plot {
+            title: "Comparators".to_owned(),
+            x: Axis::bits("comparator bits"),
+            y: Axis::log("E_C: RMSE / mean radiance"),
+            series: vec![series(
+                NAMES[COMPARATORS],
+                rows,
+                bits,
+                COMPARATORS,
+                Drawn::Fit,
+            )],
+        },
+        says: "Counts of thresholds against the mean of the same paths. Slopes are over the number of \
+               comparators.",
+    }
+}
+
+fn fraction(trade: &Trade) -> Figure {
+    let bits = |row: &Row| f64::from(row.setting.fraction);
+    let of = |(error, drawn)| series(NAMES[error], trade.of(Sweep::Fraction), bits, error, drawn);
+    Figure {
+        name: "fraction",
+        plot: Plot {
+            title: "Width of the circuit's numbers".to_owned(),
+            x: Axis::bits("fraction bits"),
+            y: relative(),
+            series: [(WIDTH, Drawn::Fit), (TOTAL, Drawn::Joined)]
+                .map(of)
+                .to_vec(),
+        },
+        says: "The circuit's numbers against real ones, on the same paths and comparators. Beyond some \
+               width the total no longer falls.",
+    }
+}
+
+fn price(trade: &Trade) -> Figure {
+    let of = |name: &str, y: fn(&Row) -> u64| {
+        let rows = trade.of(Sweep::Fraction);
+        let points = rows.map(|row| (f64::from(row.setting.fraction), y(row) as f64));
+        Series::of(name, points, Drawn::Joined)
+    };
+    Figure {
+        name: "price",
+        plot: Plot {
+            title: "What width costs".to_owned(),
+            x: Axis::bits("fraction bits"),
+            y: Axis::log("one call of the oracle"),
+            series: vec![
+                of("Toffoli", |row| row.spent.toffoli),
+                of("qubits", |row| row.spent.qubits),
+            ],
+        },
+        says: "Gates and qubits of the dearest channel's oracle.",
+    }
+}
+
+fn depth(trade: &Trade) -> Figure {
+    let rays = |row: &Row| row.setting.depths as f64;
+    let rows = trade.of(Sweep::Depth);
+    Figure {
+        name: "depth",
+        plot: Plot {
+            title: "Length of paths".to_owned(),
+            x: Axis::bits("D, rays of a path"),
+            y: Axis::log("E_D: RMSE / mean radiance"),
+            series: vec![series(NAMES[DEPTH], rows, rays, DEPTH, Drawn::Joined)],
+        },
+        says: "Light that longer paths would bring, in units of the scene's own mean radiance. It is \
+               not an error of the circuit but of what it was asked.",
+    }
+}

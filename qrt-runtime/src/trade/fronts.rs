@@ -1,0 +1,70 @@
+//! What is not beaten: the fronts of the total error against each price.
+
+use super::figures::{Figure, TOTAL, series};
+use super::setting::Sweep;
+use super::table::Row;
+use super::{Trade, pareto};
+use crate::plot::{Axis, Drawn, Plot, Series};
+
+/// Rows that a front may hold: of the scene's own length of paths, which is what was asked.
+pub(super) fn candidates(trade: &Trade) -> Vec<&Row> {
+    let rows = trade.rows.iter();
+    rows.filter(|row| row.setting.sweep != Sweep::Depth)
+        .collect()
+}
+
+/// A price of a row.
+pub(super) type Price = fn(&Row) -> f64;
+
+/// What is paid: the figure's name, the title, the axis, and the price.
+pub(super) const PRICES: [(&str, &str, &str, Price); 4] = [
+    ("front-queries", "queries", "queries of a pixel", |row| {
+        row.queries
+    }),
+    (
+        "front-toffoli",
+        "Toffoli \u{d7} queries",
+        "Toffoli \u{d7} queries of a pixel",
+        |row| row.toffoli_x_queries(),
+    ),
+    ("front-qubits", "qubits", "qubits of the oracle", |row| {
+        row.spent.qubits as f64
+    }),
+    (
+        "front-seconds",
+        "seconds of simulation",
+        "seconds of a pixel",
+        |row| row.seconds,
+    ),
+];
+
+/// The front of all rows under a price, from the cheapest on.
+pub(super) fn front<'a>(rows: &[&'a Row], price: Price) -> Vec<&'a Row> {
+    let points: Vec<(f64, f64)> = rows
+        .iter()
+        .map(|row| (price(row), row.errors[TOTAL].value))
+        .collect();
+    pareto(&points).into_iter().map(|at| rows[at]).collect()
+}
+
+pub(super) fn fronts(trade: &Trade) -> impl Iterator<Item = Figure> {
+    PRICES.into_iter().map(|(name, title, axis, price)| {
+        let rows = candidates(trade);
+        let best = front(&rows, price);
+        let others = rows.iter().map(|row| (price(row), row.errors[TOTAL].value));
+        Figure {
+            name,
+            plot: Plot {
+                title: format!("Total error against {title}"),
+                x: Axis::log(axis),
+                y: Axis::log("total: RMSE / mean radiance"),
+                series: vec![
+                    Series::of("all settings", others, Drawn::Points),
+                    series("the front", best.into_iter(), price, TOTAL, Drawn::Steps),
+                ],
+            },
+            says: "Settings that no other beats in both, from the cheapest to the best, among all \
+                   settings.",
+        }
+    })
+}

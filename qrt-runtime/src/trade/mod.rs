@@ -1,0 +1,232 @@
+//! Speed against accuracy, measured.
+//!
+//! [`trade`] turns the knobs of a scene one at a time, and estimators and queries together, renders
+//! a sample of its pixels under each setting, and writes what that cost and how far it is from the
+//! picture's limit: a table, plots and a page that shows both.
+//!
+//! # Errors
+//!
+//! Each part of a pixel's error is the difference between two pictures of the same pixels that
+//! differ in one thing only, as a root mean square over pixels and channels, relative to the mean
+//! radiance:
+//!
+//! | | of | against |
+//! |---|---|---|
+//! | `E_R` | the exact mean over R paths | over far more paths, with other shifts |
+//! | `E_C` | S of the same paths in real arithmetic | the exact mean of these paths |
+//! | `E_W` | S of the circuit's numbers | S of the same paths and comparators in real arithmetic |
+//! | `E_T` | what the estimator says | S/N |
+//! | `E_D` | paths of D rays | paths so long that almost nothing more comes, on the same ids |
+//! | total | what the estimator says | the exact mean over far more paths, of D rays |
+//!
+//! The total is measured, too: it is no sum of the others. `E_D` is not in it, for it changes with no
+//! other knob than the length of paths. Intervals are a bootstrap's over pixels.
+
+//!
+//! # The table
+//!
+//! `trade.csv` begins with a line that names what its rows depend on: version, scene hash, seed,
+//! pixels, quick. Its columns:
+//!
+//! * the setting: `sweep` (the knob that the row is about), `model`, `estimator`, `phase_bits`,
+//!   `repetitions`, `sequence`, `path_bits`, `depths`, `fraction`, `comparator_bits`, `uncompute`,
+//!   `nearest`;
+//! * its price: `queries` of a pixel, all channels together, on average; `toffoli` and `qubits` of one
+//!   call of the dearest channel's oracle, as `qrt inspect` counts them (a counting register's own
+//!   qubits are not among them); `toffoli_x_queries`;
+//! * `mean`: the mean radiance, over pixels and channels, that errors are relative to;
+//! * `e_r`, `e_c`, `e_w`, `e_t`, `e_d`, `e_total`, each followed by the ends of its interval at 95 %
+//!   (`e_r_low`, `e_r_high`, ...);
+//! * `seconds`: wall time of tracing and counting a pixel. It alone differs from run to run.
+//!
+//! Rows are written as they are finished, and not measured again when they are there.
+
+mod band;
+mod bench;
+mod error;
+mod figures;
+mod fronts;
+mod limits;
+mod page;
+mod pareto;
+mod setting;
+mod summary;
+mod sweep;
+mod table;
+#[cfg(test)]
+mod tests;
+
+pub use band::Band;
+pub use error::TradeError;
+pub use pareto::pareto;
+pub use setting::{Setting, Sweep};
+pub use table::{ERRORS, Row};
+
+use crate::render::RenderError;
+use crate::replace_file::replace_file;
+use crate::sample::spread;
+use bench::{Bench, Effort};
+use qrt_core::valid::ValidScene;
+use std::io::Write as _;
+use std::num::NonZeroUsize;
+use std::path::Path;
+use std::sync::atomic::AtomicBool;
+
+/// What to measure, and how.
+#[derive(Clone, Copy, Default)]
+pub struct Options<'a> {
+    /// Pixels, spread over the film; all of them if it has no more. 256 unless set, 32 if quick.
+    pub pixels: Option<u64>,
+    /// Keys the shifts of the digital net and every draw.
+    pub seed: u64,
+    /// Fewer settings, pixels and reference paths.
+    pub quick: bool,
+    /// Threads; as many as the machine has cores unless set.
+    pub threads: Option<NonZeroUsize>,
+    /// Set it, from any thread, to stop.
+    pub cancel: Option<&'a AtomicBool>,
+    /// Told how far the work is.
+    pub progress: Option<&'a (dyn Fn(Progress) + Sync)>,
+}
+
+/// How far the work is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Progress {
+    /// Once, at the beginning.
+    Started {
+        /// Rows of the table.
+        rows: u64,
+        /// Of these, those that an earlier run has left.
+        resumed: u64,
+    },
+    /// One more row is finished.
+    Row,
+}
+
+/// What was measured.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Trade {
+    /// The scene's name.
+    pub name: String,
+    /// Pixels that were rendered, and those of the film.
+    pub pixels: [u64; 2],
+    /// The seed.
+    pub seed: u64,
+    /// Paths of the reference: `2^reference_bits`.
+    pub reference_bits: u32,
+    /// All rows, in their order.
+    pub rows: Vec<Row>,
+    /// Rows that an earlier run had left.
+    pub resumed: usize,
+    /// Settings that have no circuit.
+    pub without_circuit: Vec<Setting>,
+}
+
+impl Trade {
+    /// The row of the scene as it is.
+    pub fn scene(&self) -> Option<&Row> {
+        self.rows.first()
+    }
+
+    /// The rows about one knob.
+    pub fn of(&self, sweep: Sweep) -> impl Iterator<Item = &Row> {
+        self.rows
+            .iter()
+            .filter(move |row| row.setting.sweep == sweep)
+    }
+
+    /// What a reader with little time wants to know.
+    pub fn summary(&self) -> String {
+        summary::text(self)
+    }
+}
+
+/// Measures a scene's knobs and writes `trade.csv`, plots and `index.html` to `folder`, which is made
+/// if it is not there. A table that an interrupted run has left is gone on with.
+///
+/// # Errors
+/// See [`TradeError`].
+pub fn trade(
+    scene: &ValidScene,
+    folder: &Path,
+    options: &Options<'_>,
+) -> Result<Trade, TradeError> {
+    let threads = options.threads.map_or(0, NonZeroUsize::get);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+    let pool = pool.map_err(|error| RenderError::Threads(error.to_string()))?;
+    std::fs::create_dir_all(folder)
+        .map_err(|error| TradeError::File(folder.to_path_buf(), error))?;
+    let measured = pool.install(|| measure(scene, folder, options))?;
+    let write = |name: &str, text: &str| {
+        let path = folder.join(name);
+        replace_file(&path, |out| out.write_all(text.as_bytes()))
+            .map_err(|error: std::io::Error| TradeError::File(path.clone(), error))
+    };
+    let figures = figures::all(&measured);
+    for figure in &figures {
+        write(&format!("{}.svg", figure.name), &figure.plot.svg())?;
+    }
+    write("index.html", &page::html(&measured, &figures))?;
+    Ok(measured)
+}
+
+fn measure(scene: &ValidScene, folder: &Path, options: &Options<'_>) -> Result<Trade, TradeError> {
+    let written = scene.scene();
+    let film = [written.film.width, written.film.height];
+    let asked = options
+        .pixels
+        .unwrap_or(if options.quick { 32 } else { 256 });
+    let pixels = spread(film, asked.max(1));
+    let settings = sweep::settings(&scene.knobs(), options.quick);
+    let longest = settings.iter().map(|setting| setting.path_bits).max();
+    let more = if options.quick { 3 } else { 4 };
+    let effort = Effort {
+        reference_bits: (longest.unwrap_or(0) + more).min(qrt_core::sampling::MAX_PATH_BITS),
+        depth_bits: written.sampling.path_bits.clamp(8, 12),
+        draws: if options.quick { 2 } else { 4 },
+    };
+    let header = vec![
+        ("version", env!("CARGO_PKG_VERSION").to_owned()),
+        ("scene_hash", scene.fingerprint().to_string()),
+        ("seed", options.seed.to_string()),
+        ("pixels", pixels.len().to_string()),
+        ("quick", options.quick.to_string()),
+    ];
+    let count = pixels.len() as u64;
+    let mut bench = Bench::new(scene, pixels, options.seed, effort, options.cancel);
+    // What cannot be measured at all is told before a file is written.
+    bench.check()?;
+    let mut table = table::Table::open(&folder.join("trade.csv"), &header)?;
+    let found = table.found(&settings)?;
+    let resumed = found.iter().flatten().count();
+    let say = |progress| {
+        if let Some(tell) = options.progress {
+            tell(progress);
+        }
+    };
+    say(Progress::Started {
+        rows: settings.len() as u64,
+        resumed: resumed as u64,
+    });
+    let mut measured = Trade {
+        name: written.name.clone(),
+        pixels: [count, u64::from(film[0]) * u64::from(film[1])],
+        seed: options.seed,
+        reference_bits: effort.reference_bits,
+        rows: Vec::new(),
+        resumed,
+        without_circuit: Vec::new(),
+    };
+    for (setting, found) in settings.into_iter().zip(found) {
+        if let Some(row) = found {
+            measured.rows.push(row);
+            continue;
+        }
+        match bench.row(setting)? {
+            Some(row) => measured.rows.push(table.append(&row)?),
+            None => measured.without_circuit.push(setting),
+        }
+        say(Progress::Row);
+    }
+    Ok(measured)
+}

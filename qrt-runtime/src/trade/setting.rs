@@ -1,0 +1,219 @@
+//! What stands in a row: one value of every knob.
+
+use crate::render::Model;
+use qrt_core::oracle::DEFAULT_FRACTION;
+use qrt_core::scene::{
+    Counting, DepthSampling, Estimator, Map, Nearest, Sampling, Sequence, Uncompute,
+};
+use qrt_core::valid::Knobs;
+
+/// Which knob a row belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sweep {
+    /// The scene as it is.
+    Scene,
+    /// Every estimator with registers of every size.
+    Counting,
+    /// Repetitions of a smaller register.
+    Repetitions,
+    /// Comparators.
+    Comparator,
+    /// The width of numbers.
+    Fraction,
+    /// Paths of either sequence.
+    Paths,
+    /// When registers are uncomputed, and how the nearest hit is kept.
+    Circuit,
+    /// What traces the paths.
+    Model,
+    /// The length of paths.
+    Depth,
+}
+
+impl Sweep {
+    /// All of them, in the order of their rows.
+    pub const ALL: [Self; 9] = [
+        Self::Scene,
+        Self::Counting,
+        Self::Repetitions,
+        Self::Comparator,
+        Self::Fraction,
+        Self::Paths,
+        Self::Circuit,
+        Self::Model,
+        Self::Depth,
+    ];
+
+    /// As it is written.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Scene => "scene",
+            Self::Counting => "counting",
+            Self::Repetitions => "repetitions",
+            Self::Comparator => "comparator",
+            Self::Fraction => "fraction",
+            Self::Paths => "paths",
+            Self::Circuit => "circuit",
+            Self::Model => "model",
+            Self::Depth => "depth",
+        }
+    }
+}
+
+/// One value of every knob.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Setting {
+    /// The knob that the row is about.
+    pub sweep: Sweep,
+    /// What traces the paths.
+    pub model: Model,
+    /// How good ids are counted.
+    pub estimator: Estimator,
+    /// t, of T = 2^t.
+    pub phase_bits: u32,
+    /// B.
+    pub repetitions: u32,
+    /// How path ids become points.
+    pub sequence: Sequence,
+    /// R = 2^path_bits.
+    pub path_bits: u32,
+    /// D, the rays of a path.
+    pub depths: usize,
+    /// Fraction bits of every number.
+    pub fraction: u32,
+    /// C = 2^comparator_bits.
+    pub comparator_bits: u32,
+    /// When registers are uncomputed.
+    pub uncompute: Uncompute,
+    /// How the nearest hit is kept.
+    pub nearest: Nearest,
+}
+
+/// Columns of a setting.
+pub(super) const KEY: [&str; 12] = [
+    "sweep",
+    "model",
+    "estimator",
+    "phase_bits",
+    "repetitions",
+    "sequence",
+    "path_bits",
+    "depths",
+    "fraction",
+    "comparator_bits",
+    "uncompute",
+    "nearest",
+];
+
+impl Setting {
+    /// The knobs as the scene has them, on the fixed machine: the circuit's own numbers.
+    pub(super) fn of(knobs: &Knobs) -> Self {
+        Self {
+            sweep: Sweep::Scene,
+            model: Model::Fixed,
+            estimator: knobs.counting.estimator,
+            phase_bits: knobs.counting.phase_bits,
+            repetitions: knobs.counting.repetitions,
+            sequence: knobs.sampling.sequence,
+            path_bits: knobs.sampling.path_bits,
+            depths: knobs.sampling.depths.len(),
+            fraction: knobs.precision.fraction.unwrap_or(DEFAULT_FRACTION),
+            comparator_bits: knobs.comparator.bits,
+            uncompute: knobs.circuit.uncompute,
+            nearest: knobs.circuit.nearest,
+        }
+    }
+
+    /// Its values, as in [`KEY`].
+    pub(super) fn values(&self) -> [String; KEY.len()] {
+        [
+            self.sweep.name().to_owned(),
+            self.model.name().to_owned(),
+            self.estimator.to_string(),
+            self.phase_bits.to_string(),
+            self.repetitions.to_string(),
+            self.sequence.to_string(),
+            self.path_bits.to_string(),
+            self.depths.to_string(),
+            self.fraction.to_string(),
+            self.comparator_bits.to_string(),
+            self.uncompute.to_string(),
+            self.nearest.to_string(),
+        ]
+    }
+
+    /// The scene's knobs with these values.
+    pub(super) fn knobs(&self, scene: &Knobs) -> Knobs {
+        let mut knobs = scene.clone();
+        knobs.sampling = self.sampling(&scene.sampling);
+        knobs.precision.fraction = Some(self.fraction);
+        knobs.comparator.bits = self.comparator_bits;
+        knobs.counting = Counting {
+            phase_bits: self.phase_bits,
+            repetitions: self.repetitions,
+            estimator: self.estimator,
+            ..scene.counting
+        };
+        knobs.circuit.uncompute = self.uncompute;
+        knobs.circuit.nearest = self.nearest;
+        knobs
+    }
+
+    fn sampling(&self, scene: &Sampling) -> Sampling {
+        let depths = depths(scene, self.depths);
+        match self.sequence {
+            Sequence::DigitalNet => Sampling {
+                sequence: self.sequence,
+                path_bits: self.path_bits,
+                depths,
+            },
+            // The scene's own distribution of its bits, or an even one of others.
+            Sequence::ProductLattice
+                if scene.sequence == self.sequence
+                    && scene.path_bits == self.path_bits
+                    && scene.depths.len() == self.depths =>
+            {
+                scene.clone()
+            }
+            Sequence::ProductLattice => Sampling {
+                sequence: self.sequence,
+                path_bits: self.path_bits,
+                depths: even(&depths, self.path_bits),
+            },
+        }
+    }
+}
+
+/// Bits of a coordinate where the scene's are those of a lattice.
+const FINE: u32 = 16;
+
+/// Coordinates of a net: the scene's own, or fine ones where the scene has a lattice; paths beyond
+/// the scene's length go on as its last ray does.
+pub(super) fn depths(scene: &Sampling, count: usize) -> Vec<DepthSampling> {
+    let last = scene.depths.last().cloned();
+    let more = std::iter::repeat_n(last, count.saturating_sub(scene.depths.len())).flatten();
+    let all = scene.depths.iter().cloned().chain(more).take(count);
+    let mut depths: Vec<DepthSampling> = all.collect();
+    if scene.sequence == Sequence::ProductLattice {
+        for depth in &mut depths {
+            depth.bits = [FINE; 2];
+        }
+    }
+    // The primary ray has no map, but the ray after it may be its repetition.
+    if let Some(first) = depths.first_mut() {
+        first.map = Map::Auto;
+    }
+    depths
+}
+
+/// A lattice's bits, the earlier coordinates first.
+fn even(depths: &[DepthSampling], bits: u32) -> Vec<DepthSampling> {
+    let coordinates = 2 * depths.len() as u32;
+    let of = |k: u32| bits / coordinates + u32::from(k < bits % coordinates);
+    let numbered = depths.iter().zip(0_u32..);
+    let depth = |(depth, k): (&DepthSampling, u32)| DepthSampling {
+        bits: [of(2 * k), of(2 * k + 1)],
+        map: depth.map,
+    };
+    numbered.map(depth).collect()
+}

@@ -1,0 +1,102 @@
+//! The measured, in a few lines.
+
+use super::figures::{COUNTING, TOTAL};
+use super::fronts::{PRICES, candidates, front};
+use super::setting::Setting;
+use super::table::ERRORS;
+use super::{Sweep, Trade};
+use crate::plot::Fit;
+use std::fmt::Write as _;
+
+/// Lines of a front that are shown.
+const SHOWN: usize = 6;
+
+pub(super) fn text(trade: &Trade) -> String {
+    let mut out = String::new();
+    let [pixels, film] = trade.pixels;
+    let _ = writeln!(
+        out,
+        "{}: {} settings on {pixels} of {film} pixels, seed {}, against 2^{} paths of another seed",
+        trade.name.escape_debug(),
+        trade.rows.len(),
+        trade.seed,
+        trade.reference_bits,
+    );
+    if let Some(row) = trade.scene() {
+        let errors: Vec<String> = ERRORS
+            .iter()
+            .zip(row.errors)
+            .map(|(name, band)| format!("{name} {:.2} %", 100.0 * band.value))
+            .collect();
+        let _ = writeln!(out, "as it is: {}", errors.join(", "));
+        let _ = writeln!(
+            out,
+            "          {:.0} queries a pixel, {} Toffoli, {} qubits",
+            row.queries, row.spent.toffoli, row.spent.qubits
+        );
+    }
+    let slopes = slopes(trade);
+    if !slopes.is_empty() {
+        let _ = writeln!(out, "slope of E_T over queries: {}", slopes.join(", "));
+    }
+    let (_, title, _, price) = PRICES[0];
+    let best = front(&candidates(trade), price);
+    let _ = writeln!(out, "least total error by {title} of a pixel:");
+    let step = best.len().div_ceil(SHOWN).max(1);
+    for row in best
+        .iter()
+        .rev()
+        .step_by(step)
+        .collect::<Vec<_>>()
+        .iter()
+        .rev()
+    {
+        let _ = writeln!(
+            out,
+            "  {:>9.0}  {:>7.2} %  {}",
+            row.queries,
+            100.0 * row.errors[TOTAL].value,
+            differs(&row.setting)
+        );
+    }
+    for setting in &trade.without_circuit {
+        let _ = writeln!(out, "no circuit: {}", differs(setting));
+    }
+    out
+}
+
+/// By estimator: the slope of its error over its queries.
+fn slopes(trade: &Trade) -> Vec<String> {
+    let mut names = Vec::new();
+    for row in trade.of(Sweep::Counting) {
+        if !names.contains(&row.setting.estimator) {
+            names.push(row.setting.estimator);
+        }
+    }
+    let slope = |name| {
+        let rows = trade.of(Sweep::Counting);
+        let points = rows.filter(|row| row.setting.estimator == name).map(|row| {
+            let error = row.errors[COUNTING].value;
+            (libm::log10(row.queries), libm::log10(error))
+        });
+        let fit = Fit::of(points.filter(|(x, y)| x.is_finite() && y.is_finite()))?;
+        Some(format!("{name} {:.2}", fit.slope))
+    };
+    names.into_iter().filter_map(slope).collect()
+}
+
+/// A setting by what matters of it.
+pub(super) fn differs(setting: &Setting) -> String {
+    format!(
+        "{} t={} B={}, {} 2^{} paths, {} comparator bits, {} fraction bits, {} {}",
+        setting.estimator,
+        setting.phase_bits,
+        setting.repetitions,
+        setting.sequence,
+        setting.path_bits,
+        setting.comparator_bits,
+        setting.fraction,
+        setting.uncompute,
+        setting.nearest,
+    )
+}

@@ -1,0 +1,197 @@
+//! What a table must hold.
+
+use super::*;
+use crate::scratch::Scratch;
+use qrt_core::front::parse;
+use qrt_core::scene::{Estimator, Sequence};
+
+/// A lamp over a floor, seen obliquely; two rays.
+const LIT: &str = "
+name: lit & \"floor\"
+camera: { perspective: { eye: [0, 1, 2], target: [0, 0.4, 0], vfov: 60 } }
+film: { width: 6, height: 4 }
+materials:
+  floor: { lambertian: { albedo: [0.8, 0.5, 0.2] } }
+  lamp: { emitter: { radiance: [3, 2, 1] } }
+geometry:
+  - quad: { vertices: [[-2, 0, 2], [2, 0, 2], [2, 0, -2], [-2, 0, -2]], material: floor }
+  - quad: { vertices: [[-1, 1.5, -1], [1, 1.5, -1], [1, 1.5, 1], [-1, 1.5, 1]], material: lamp }
+sampling: { path_bits: 6, depths: [{ bits: [8, 8] }, { bits: [8, 8] }] }
+precision: { fraction: 10 }
+comparator: { bits: 6 }
+counting: { phase_bits: 5, estimator: sine }
+";
+
+fn scene(text: &str) -> ValidScene {
+    parse(text, "lit.yaml", &[], "".as_ref()).unwrap().valid
+}
+
+fn quick() -> Options<'static> {
+    Options {
+        quick: true,
+        pixels: Some(8),
+        ..Options::default()
+    }
+}
+
+/// A table's lines without their seconds.
+fn timeless(folder: &Scratch) -> Vec<String> {
+    let text = std::fs::read_to_string(folder.path("trade.csv")).unwrap();
+    let without = |line: &str| line.rsplit_once(',').map(|(line, _)| line.to_owned());
+    text.lines().filter_map(without).collect()
+}
+
+#[test]
+fn parts_of_the_error_fall_with_their_own_knob_alone() {
+    let folder = Scratch::new();
+    let measured = trade(&scene(LIT), &folder.path(""), &quick()).unwrap();
+    assert!(measured.without_circuit.is_empty());
+    let error = |sweep: Sweep, at: usize| -> Vec<f64> {
+        measured.of(sweep).map(|row| row.errors[at].value).collect()
+    };
+    let falls = |errors: &[f64]| errors[0] > 4.0 * errors[errors.len() - 1];
+    let same = |errors: &[f64]| errors.windows(2).all(|pair| pair[0] == pair[1]);
+    let [paths, comparators, width, counting, depth] = [0, 1, 2, 3, 4];
+    for (sweep, own) in [
+        (Sweep::Comparator, comparators),
+        (Sweep::Fraction, width),
+        (Sweep::Depth, depth),
+    ] {
+        assert!(
+            falls(&error(sweep, own)),
+            "{sweep:?}: {:?}",
+            error(sweep, own)
+        );
+    }
+    assert!(same(&error(Sweep::Comparator, paths)) && same(&error(Sweep::Comparator, depth)));
+    assert!(same(&error(Sweep::Fraction, paths)) && same(&error(Sweep::Fraction, comparators)));
+    for other in [paths, comparators, width, depth] {
+        assert!(same(&error(Sweep::Counting, other)), "{other}");
+    }
+    let sine = measured.of(Sweep::Counting);
+    let sine = sine.filter(|row| row.setting.estimator == Estimator::Sine);
+    let sine: Vec<f64> = sine.map(|row| row.errors[counting].value).collect();
+    assert!(falls(&sine), "{sine:?}");
+    let net = measured.of(Sweep::Paths);
+    let net = net.filter(|row| row.setting.sequence == Sequence::DigitalNet);
+    let net: Vec<f64> = net.map(|row| row.errors[paths].value).collect();
+    assert!(falls(&net), "{net:?}");
+    // Machines: numbers of finite width are no part of the real model, and the circuit's are the
+    // fixed machine's.
+    let [real, fixed, gates] = error(Sweep::Model, width)[..] else {
+        panic!("three models");
+    };
+    assert!(real == 0.0 && fixed > 0.0 && fixed == gates);
+    // Two rays see the lamp's light; no third is brighter than the last.
+    assert_eq!(measured.of(Sweep::Depth).count(), 4);
+}
+
+#[test]
+fn the_total_is_measured_against_the_limit() {
+    let folder = Scratch::new();
+    let measured = trade(&scene(LIT), &folder.path(""), &quick()).unwrap();
+    let row = measured.scene().unwrap();
+    let [r, c, w, t, _, total] = row.errors.map(|band| band.value);
+    // Independent parts add up in squares, and none cancels another altogether.
+    assert!(total <= r + c + w + t && total > 0.3 * (r * r + c * c + w * w + t * t).sqrt());
+    assert_eq!(row.queries, 3.0 * 31.0);
+    assert_eq!(row.toffoli_x_queries(), 93.0 * row.spent.toffoli as f64);
+    // What `render` makes of the same pixels is what was measured.
+    let knobs = row.setting.knobs(&scene(LIT).knobs());
+    let same = scene(LIT).with_knobs(knobs).unwrap();
+    let inspected = qrt_core::inspect::Inspection::new(&same, None, Default::default()).unwrap();
+    assert_eq!(row.spent.toffoli, inspected.total().toffoli);
+    assert_eq!(row.spent.qubits, u64::from(inspected.qubits));
+}
+
+#[test]
+fn an_interrupted_table_is_gone_on_with_to_the_same_table() {
+    let (whole, cut) = (Scratch::new(), Scratch::new());
+    let all = trade(&scene(LIT), &whole.path(""), &quick()).unwrap();
+    let text = std::fs::read_to_string(whole.path("trade.csv")).unwrap();
+    assert_eq!(all.resumed, 0);
+    // After some rows, in the middle of one.
+    let end = text.match_indices('\n').nth(20).unwrap().0 + 30;
+    std::fs::write(cut.path("trade.csv"), &text[..end]).unwrap();
+    let rest = trade(&scene(LIT), &cut.path(""), &quick()).unwrap();
+    assert_eq!(rest.resumed, 19);
+    assert_eq!(timeless(&cut), timeless(&whole));
+    let names = folder_names(&whole);
+    assert_eq!(names, folder_names(&cut));
+    // What does not tell of seconds has the same bytes.
+    for name in names.iter().filter(|name| name.ends_with(".svg")) {
+        if name != "front-seconds.svg" {
+            let [a, b] = [&whole, &cut].map(|folder| std::fs::read(folder.path(name)).unwrap());
+            assert_eq!(a, b, "{name}");
+        }
+    }
+    let again = trade(&scene(LIT), &cut.path(""), &quick()).unwrap();
+    assert_eq!(again.resumed, again.rows.len());
+}
+
+fn folder_names(folder: &Scratch) -> Vec<String> {
+    let mut names = folder.names();
+    names.sort();
+    names
+}
+
+#[test]
+fn the_table_of_something_else_is_refused() {
+    let folder = Scratch::new();
+    let path = folder.path("trade.csv");
+    let refused = |words: &str, options: &Options<'_>, text: &str| {
+        let error = trade(&scene(text), &folder.path(""), options).unwrap_err();
+        assert!(error.is_refusal(), "{error}");
+        assert!(error.to_string().contains(words), "{error}");
+    };
+    std::fs::write(&path, "x,y\n1,2\n").unwrap();
+    refused("line 1 is no row", &quick(), LIT);
+    let header = |seed: u64, text: &str| {
+        format!(
+            "# qrt trade: version={}, scene_hash={}, seed={seed}, pixels=8, quick=true\n",
+            env!("CARGO_PKG_VERSION"),
+            scene(text).fingerprint()
+        )
+    };
+    std::fs::write(&path, header(1, LIT)).unwrap();
+    refused("another seed: 1, not 0", &quick(), LIT);
+    let other = LIT.replace("radiance: [3", "radiance: [4");
+    std::fs::write(&path, header(0, &other)).unwrap();
+    refused("another scene hash", &quick(), LIT);
+    std::fs::write(&path, header(0, LIT)).unwrap();
+    let more = Options {
+        pixels: Some(9),
+        ..quick()
+    };
+    refused("another pixels: 8, not 9", &more, LIT);
+    let black = LIT.replace("[3, 2, 1]", "[0, 0, 0]");
+    std::fs::remove_file(&path).unwrap();
+    refused("is black", &quick(), &black);
+}
+
+#[test]
+fn the_page_is_whole_and_asks_nobody() {
+    let folder = Scratch::new();
+    let measured = trade(&scene(LIT), &folder.path(""), &quick()).unwrap();
+    let page = std::fs::read_to_string(folder.path("index.html")).unwrap();
+    assert!(page.contains("lit &amp; &quot;floor&quot;: speed against accuracy"));
+    assert!(!page.contains("NaN") && !page.contains(">inf"));
+    // Only the names of formats are addresses.
+    for part in page.split("http").skip(1) {
+        assert!(part.starts_with("://www.w3.org/2000/svg"), "{part:.60}");
+    }
+    for name in folder.names() {
+        if let Some(figure) = name.strip_suffix(".svg") {
+            assert!(
+                page.contains(&format!("<figure id=\"{figure}\">")),
+                "{figure}"
+            );
+        }
+    }
+    assert_eq!(page.matches("<figure").count(), 12);
+    let summary = measured.summary();
+    assert!(
+        summary.contains("slope of E_T over queries: monte-carlo -0."),
+        "{summary}"
+    );
+}

@@ -1,0 +1,52 @@
+//! The knobs of a scene that asks for an accuracy.
+
+use super::failure::Failure;
+use super::terminal;
+use qrt_core::valid::ValidScene;
+use qrt_runtime::plan::{Figures, Options, Plan, plan};
+use serde_json::{Value, json};
+
+/// Chooses the knobs of a scene that asks for an accuracy, and says on standard error which, unless
+/// all is to be `quiet`.
+///
+/// # Errors
+/// An accuracy that cannot be kept.
+pub(crate) fn of(
+    scene: &ValidScene,
+    options: &Options<'_>,
+    quiet: bool,
+) -> Result<Option<Plan>, Failure> {
+    let planned = plan(scene, options)?;
+    if let Some(plan) = planned.as_ref().filter(|_| !quiet) {
+        terminal::note(plan.figures.to_string().trim_end());
+    }
+    Ok(planned)
+}
+
+/// What was chosen, and what is expected of it.
+pub(crate) fn json(figures: &Figures) -> Value {
+    let parts = figures.parts;
+    json!({
+        "error": figures.accuracy.error,
+        "confidence": figures.accuracy.confidence,
+        "mean_radiance": figures.mean,
+        "pixels": figures.pixels[0],
+        "path_bits": figures.path_bits,
+        "fraction": figures.fraction,
+        "comparator_bits": figures.comparator_bits,
+        "estimator": figures.estimator.name(),
+        "phase_bits": figures.phase_bits,
+        "repetitions": figures.repetitions,
+        "within": figures.within,
+        "errors": {
+            "paths": parts.paths,
+            "comparators": parts.comparators,
+            "width": parts.width,
+            "counting": parts.counting,
+            "total": parts.total,
+        },
+        "queries": figures.queries,
+        "toffoli": figures.spent.map(|spent| spent.toffoli),
+        "qubits": figures.spent.map(|spent| spent.qubits),
+    })
+}

@@ -1,0 +1,105 @@
+//! `qrt trade`: what accuracy costs.
+
+use super::failure::Failure;
+use super::progress::Rows;
+use super::render::MAX_THREADS;
+use super::{interrupt, plan, terminal};
+use clap::Args;
+use qrt_core::front;
+use qrt_runtime::render::RenderError;
+use qrt_runtime::trade::{Options, TradeError, trade};
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+
+/// Measure what a scene's accuracy costs, knob by knob
+///
+/// Turns the scene's knobs around their values, one at a time, and every estimator with every number
+/// of queries; renders a sample of its pixels under each setting; and writes to DIR: trade.csv, one
+/// row a setting, plots (.svg), and index.html, which shows tables and plots together.
+///
+/// Every part of a pixel's error is measured: of paths (e_r), comparators (e_c), the width of numbers
+/// (e_w), counting (e_t) and the length of paths (e_d), as a root mean square over pixels and
+/// channels, relative to the mean radiance; and the total of all but the last.
+///
+/// Rows are written as they are finished. After Ctrl-C, the same command goes on from there.
+#[derive(Clone, Debug, Args)]
+#[command(after_help = "\
+Examples:
+  qrt trade box.yaml -o box-trade                 everything, in some minutes
+  qrt trade box.yaml -o box-trade --quick         the outlines, in less than one
+  qrt trade box.yaml -o wide --set precision.fraction=20")]
+pub(crate) struct TradeArgs {
+    /// The scene, a YAML file
+    #[arg(value_name = "SCENE")]
+    scene: PathBuf,
+    /// The folder to write to; it is made if it is not there
+    #[arg(short, long, value_name = "DIR")]
+    output: PathBuf,
+    /// Fewer settings, pixels and reference paths
+    #[arg(long)]
+    quick: bool,
+    /// Pixels to try, spread over the film [default: 256; with --quick 32]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    pixels: Option<u64>,
+    /// Another seed gives other paths and other noise
+    #[arg(long, value_name = "S", default_value_t = 0)]
+    seed: u64,
+    /// Threads [default: one for each core]
+    #[arg(
+        long,
+        value_name = "N",
+        value_parser = clap::value_parser!(u64).range(1..=MAX_THREADS)
+    )]
+    threads: Option<u64>,
+    /// Override a key of the scene; may be repeated
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    sets: Vec<String>,
+    /// Neither progress nor summary
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+pub(crate) fn run(args: &TradeArgs) -> Result<(), Failure> {
+    if args.output.exists() && !args.output.is_dir() {
+        let message = format!("`{}` is no folder", args.output.display());
+        return Err(Failure::Usage(message));
+    }
+    let loaded = front::load(&args.scene, &args.sets)?;
+    let cancel = interrupt::cancel_on_interrupt()?;
+    let threads = args.threads.and_then(|n| NonZeroUsize::new(n as usize));
+    let planning = qrt_runtime::plan::Options {
+        threads,
+        cancel: Some(&cancel),
+        ..Default::default()
+    };
+    let planned = plan::of(&loaded.valid, &planning, args.quiet)?;
+    let scene = planned.as_ref().map_or(&loaded.valid, |plan| &plan.scene);
+    let bar = Rows::new(!args.quiet);
+    let show = |progress| bar.show(progress);
+    let options = Options {
+        pixels: args.pixels,
+        seed: args.seed,
+        quick: args.quick,
+        threads,
+        cancel: Some(&cancel),
+        progress: Some(&show),
+    };
+    let measured = trade(scene, &args.output, &options);
+    bar.clear();
+    let measured = measured.map_err(|error| match &error {
+        TradeError::Render(RenderError::Oracle(error)) => {
+            loaded.report(vec![error.problem()]).into()
+        }
+        TradeError::Render(RenderError::Interrupted { .. }) => Failure::Job(format!(
+            "interrupted; the same command goes on from what `{}` has",
+            args.output.join("trade.csv").display()
+        )),
+        _ if error.is_refusal() => Failure::Usage(error.to_string()),
+        _ => Failure::Job(error.to_string()),
+    })?;
+    if args.quiet {
+        return Ok(());
+    }
+    let page = args.output.join("index.html");
+    terminal::print(&format!("{}{}\n", measured.summary(), page.display()))
+}
