@@ -259,10 +259,10 @@ fn peer(tool: &str, problem: &Problem) -> Result<(f64, Vec<f64>), String> {
 
 /// The circuit as the script reads it.
 fn circuit(counting: &Counting<'_>) -> Value {
-    type Sink<'a> = dyn FnMut(QuantumGate<'_>) -> Result<(), Infallible> + 'a;
-    let list = |emit: &dyn Fn(&mut &mut Sink<'_>) -> Result<(), Infallible>| {
+    type Sink<'a> = Box<dyn FnMut(QuantumGate<'_>) -> Result<(), Infallible> + 'a>;
+    let list = |emit: &dyn Fn(&mut Sink<'_>) -> Result<(), Infallible>| {
         let mut gates = Vec::new();
-        let mut push = |gate: QuantumGate<'_>| {
+        let mut push: Sink<'_> = Box::new(|gate: QuantumGate<'_>| {
             gates.push(match gate {
                 QuantumGate::X(t) => json!(["x", t]),
                 QuantumGate::Cx(a, t) => json!(["cx", a, t]),
@@ -272,8 +272,9 @@ fn circuit(counting: &Counting<'_>) -> Value {
                 QuantumGate::Phase { turns, on } => json!(["p", turns.as_f64(), on]),
             });
             Ok(())
-        };
-        let Ok(()) = emit(&mut (&mut push as &mut Sink<'_>));
+        });
+        let Ok(()) = emit(&mut push);
+        drop(push);
         Value::Array(gates)
     };
     let bits = counting.counter().len() as u32;
