@@ -11,6 +11,8 @@ use qrt_core::scene::{Counting, Estimator, Sequence};
 const MOST_PATHS: u32 = 32;
 /// What a path bit must save of the queries to be worth it.
 const WORTH: f64 = 0.125;
+/// Path bits that are looked ahead: registers double, so that a saving may need more than one.
+const AHEAD: u32 = 3;
 /// The counting register that a search begins with.
 const START: u32 = 6;
 /// The largest counting register.
@@ -51,7 +53,7 @@ fn pilot_bits(pilot: &Pilot<'_>, bits: u32) -> u32 {
     }
 }
 
-/// Fewest paths of which twice as many would hardly save queries, at any width.
+/// Fewest paths of which more would hardly save queries, at any width.
 fn choose_paths(pilot: &mut Pilot<'_>) -> Result<(u32, Counted), RenderError> {
     let none = vec![[0.0; 3]; pilot.pixels.len()];
     if pilot.is_lattice() {
@@ -69,10 +71,14 @@ fn choose_paths(pilot: &mut Pilot<'_>) -> Result<(u32, Counted), RenderError> {
         let Some(counted) = cheapest(pilot, bits, &none, start)? else {
             continue;
         };
-        if let Some((fewer, before)) = chosen {
-            let saves = counted.queries < (1.0 - WORTH) * before.queries;
-            if !saves {
-                return Ok((fewer, before));
+        if let Some((fewer, before)) = &chosen {
+            let more = bits - fewer;
+            let worth = (1.0 - WORTH).powi(more as i32);
+            if counted.queries >= worth * before.queries {
+                if more >= AHEAD {
+                    break;
+                }
+                continue;
             }
         }
         let exact = pilot.estimator == Estimator::Exact;
