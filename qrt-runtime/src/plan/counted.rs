@@ -1,15 +1,27 @@
 //! The error of estimating.
 
-use super::pilot::{COMPARED, Errors, Pilot, SHIFTS};
+use super::pilot::{COMPARED, Pilot, Runs, SHIFTS};
 use crate::estimators::{Device, Problem, Settings, estimator};
 use crate::random::Stream;
 use crate::render::RenderError;
 use qrt_core::scene::{Counting, Estimator};
 use rayon::prelude::*;
+use std::sync::PoisonError;
 
 impl Pilot<'_> {
     /// What the estimator is off by, run by run and channel by channel, and its queries of a pixel.
-    pub(super) fn counted(&self, counting: &Counting) -> Result<(Vec<Errors>, f64), RenderError> {
+    pub(super) fn counted(&self, counting: &Counting) -> Result<Runs, RenderError> {
+        let key = (counting.phase_bits, counting.repetitions);
+        let known = || self.counted.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(runs) = known().get(&key) {
+            return Ok(runs.clone());
+        }
+        let runs = self.count(counting)?;
+        known().insert(key, runs.clone());
+        Ok(runs)
+    }
+
+    fn count(&self, counting: &Counting) -> Result<Runs, RenderError> {
         if self.estimator == Estimator::Exact {
             let none = vec![vec![[0.0; 3]; self.pixels.len()]; self.draws as usize];
             return Ok((none, 0.0));

@@ -10,7 +10,9 @@ use qrt_core::oracle::{Oracle, Spent, spent};
 use qrt_core::sampling::MAX_PATH_BITS;
 use qrt_core::scene::{Accuracy, Comparator, Estimator, Sequence};
 use qrt_core::valid::{Knobs, ValidScene};
+use std::collections::BTreeMap;
 use std::sync::Arc;
+use std::sync::Mutex;
 use std::sync::atomic::AtomicBool;
 
 /// Path bits beyond which errors are extrapolated.
@@ -30,6 +32,9 @@ const COMPARATORS_SHARE: f64 = 0.05;
 
 /// An error of every channel that is tried, in units of the mean radiance.
 pub(super) type Errors = Vec<[f64; 3]>;
+
+/// Run by run, the errors of an estimator; and its queries of a pixel.
+pub(super) type Runs = (Vec<Errors>, f64);
 
 /// A sample of pixels, and what was found on it.
 pub(super) struct Pilot<'a> {
@@ -51,6 +56,10 @@ pub(super) struct Pilot<'a> {
     pub(super) values: Means,
     /// By path bits, from [`FEWEST`] on; of a lattice the only one.
     nets: Vec<Errors>,
+    /// What estimators were off by, by phase bits and repetitions. Counting is tried only where paths
+    /// alone keep the asked error, and so [`Self::values`] do: what more paths change of them hardly
+    /// changes this.
+    pub(super) counted: Mutex<BTreeMap<(u32, u32), Runs>>,
     cancel: Option<&'a AtomicBool>,
 }
 
@@ -99,6 +108,7 @@ impl<'a> Pilot<'a> {
             comparator_errors: Vec::new(),
             values: Vec::new(),
             nets: Vec::new(),
+            counted: Mutex::new(BTreeMap::new()),
             cancel,
         };
         pilot.choose_comparators()?;

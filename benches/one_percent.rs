@@ -1,0 +1,52 @@
+//! What counting costs beside tracing, at an error of one percent.
+//!
+//! `cargo bench --bench one_percent` asks the Cornell box for an error of 1 % of its mean with
+//! probability 95 %, takes the knobs that are chosen for it, and renders a film of 8 x 8 pixels with
+//! and without counting. A film of 64 x 64 takes 64 times as long for both. Fails if drawing
+//! measurements and estimating from them take longer than tracing the paths.
+
+// A bench that cannot run has nothing to report.
+#![allow(clippy::unwrap_used, clippy::expect_used)]
+
+use qrt_core::front::parse;
+use qrt_core::scene::Estimator;
+use qrt_runtime::plan::plan;
+use qrt_runtime::render::{Options, Rendered, render};
+use std::path::Path;
+
+fn main() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes-yaml");
+    let text = std::fs::read_to_string(folder.join("cornell-box.yaml")).unwrap();
+    // What is chosen may not be written.
+    let chosen = ["  path_bits", "comparator:", "counting:"];
+    let kept = text
+        .lines()
+        .filter(|line| !chosen.iter().any(|key| line.starts_with(key)));
+    let text: String = kept.flat_map(|line| [line, "\n"]).collect();
+    let text = text + "accuracy: { error: 0.01, confidence: 0.95 }\n";
+    let sets = ["film={ width: 8, height: 8 }".to_owned()];
+    let scene = parse(&text, "box.yaml", &sets, &folder).unwrap().valid;
+    let options = Options::default();
+    let plan = plan(&scene, &options.planning()).unwrap().unwrap();
+    print!("{}", plan.figures);
+
+    // The quicker of two each, for others may be at work.
+    let quickest = |estimator: Option<Estimator>| -> Rendered {
+        let options = Options {
+            estimator,
+            plan: Some(&plan),
+            ..Options::default()
+        };
+        let runs = (0..2).map(|_| render(&scene, &options).unwrap());
+        runs.min_by(|a, b| a.seconds.total_cmp(&b.seconds)).unwrap()
+    };
+    let traced = quickest(Some(Estimator::Exact)).seconds;
+    let counted = quickest(None);
+    let counting = counted.seconds - traced;
+    println!(
+        "{}: {traced:.2} s of tracing, {counting:.2} s of counting, {} queries a pixel",
+        counted.estimator,
+        counted.total_queries() / 64
+    );
+    assert!(counting < traced, "counting takes longer than tracing");
+}
