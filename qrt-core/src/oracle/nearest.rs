@@ -1,29 +1,4 @@
 //! The oracle of nearest hits: which faces does a ray meet nearer than the nearest known?
-//!
-//! For a path, whose id is a basis state, it flips the phase of every basis state (primitive) whose
-//! face the path's first ray meets before all that is known so far:
-//!
-//! ```text
-//! compute        id -> ray;  primitive -> face, by table;  (ray, face) -> meets, distance
-//! nearer         meets and (distance, primitive) < (best.distance, best.primitive)
-//! flip           Z on that bit
-//! undo compute
-//! ```
-//!
-//! Pairs are compared by their distances and, where these are equal, by their numbers: so the least
-//! of all is what a running nearest keeps that asks about the faces in turn. `best` is classical:
-//! what the search has measured last. Without one it reads the greatest distance there is, which
-//! nothing is nearer than by number, so that every face that the ray meets is marked.
-//!
-//! Grover's iterate over `primitive` finds a marked one (Lanzagorta & Uhlmann, *Quantum rendering*,
-//! 2005); searched again with what was found as `best`, the minimum (Durr & Hoyer 1996). The ray,
-//! the plane and the edges are those of the tracer (see [`crate::tracer::Listing`]), in fixed
-//! point. A face's data are rounded to the scene's fraction bits, where a circuit with a constant
-//! for each face can round products with it as a whole: the two may differ in a distance's last
-//! bits, and so at faces' edges.
-//!
-//! There are `2^m` basis states for P faces, m the least above 0 with `2^m >= P`. Those beyond P
-//! meet nothing.
 
 use super::recording::target;
 use super::{Options, OracleError, register_of};
@@ -41,7 +16,32 @@ use crate::valid::ValidScene;
 /// none.
 pub const MOST_FACES: usize = (1 << 16) - 1;
 
-/// The oracle of a scene's nearest hits: see [the module](self).
+/// The oracle of a scene's nearest hits.
+///
+/// For a path, whose id is a basis state, it flips the phase of every basis state (primitive) whose
+/// face the path's first ray meets before all that is known so far:
+///
+/// ```text
+/// compute        id -> ray;  primitive -> face, by table;  (ray, face) -> meets, distance
+/// nearer         meets and (distance, primitive) < (best.distance, best.primitive)
+/// flip           Z on that bit
+/// undo compute
+/// ```
+///
+/// Pairs are compared by their distances and, where these are equal, by their numbers: so the least
+/// of all is what a running nearest keeps that asks about the faces in turn. `best` is classical:
+/// what the search has measured last. Without one it reads the greatest distance there is, which
+/// nothing is nearer than by number, so that every face that the ray meets is marked.
+///
+/// Grover's iterate over `primitive` finds a marked one (Lanzagorta & Uhlmann, *Quantum rendering*,
+/// 2005); searched again with what was found as `best`, the minimum (Durr & Hoyer 1996). The ray,
+/// the plane and the edges are those of the tracer (see [`crate::tracer::Listing`]), in fixed
+/// point. A face's data are rounded to the scene's fraction bits, where a circuit with a constant
+/// for each face can round products with it as a whole: the two may differ in a distance's last
+/// bits, and so at faces' edges.
+///
+/// There are `2^m` basis states for P faces, m the least above 0 with `2^m >= P`. Those beyond P
+/// meet nothing.
 #[derive(Clone, Debug)]
 pub struct NearestOracle {
     /// What computes [`NearestOracle::distance`] and [`NearestOracle::nearer`].

@@ -11,7 +11,7 @@ use super::{Arith, Stage, vector};
 use std::cell::Cell;
 
 /// Faces in the order in which the running nearest asks about them: of those equally far, the first
-/// is the nearest. See [the module](self).
+/// is the nearest.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Listing {
     /// Where rays start, if all of them start at one point: what of planes and edges depends on it

@@ -12,7 +12,7 @@ use crate::estimators::{
 /// After Lu & Lin, *Random-depth quantum amplitude estimation* (2023): with the fixed depths of
 /// MLAE there are critical amplitudes, at which a depth tells nothing and the likelihood has two
 /// equal peaks; random depths have none. Theirs maximise the likelihood of many shots per range;
-/// here every shot has a depth of its own, the range grows by [`GROWTH`] with each, and the
+/// here every shot has a depth of its own, the range grows by a factor of 1.09 with each, and the
 /// estimate is the mean of the whole posterior under a prior uniform in the amplitude. What was
 /// measured does not decide what is measured next, except when to stop, and that the range does
 /// not grow while more modes are left than can be held.
