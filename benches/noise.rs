@@ -20,7 +20,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
 use qrt_core::scene::{Counting, Estimator, Window};
-use qrt_runtime::estimators::{AVAILABLE, Device, Noise, Problem, Settings, estimator};
+use qrt_runtime::estimators::{Device, Noise, Problem, Settings, estimator};
 use qrt_runtime::random::Stream;
 
 const TOTAL: u64 = 1 << 20;
@@ -97,7 +97,9 @@ fn survives(errors: &[f64; 4]) -> bool {
 }
 
 fn tables() {
-    let estimators = AVAILABLE.iter().filter(|&&name| name != Estimator::Exact);
+    let estimators = Estimator::ALL
+        .iter()
+        .filter(|&&name| name != Estimator::Exact);
     for &name in estimators {
         for amplitude in [None, Some(0.02)] {
             let what = amplitude.map_or("uniform".into(), |a| format!("{a}"));
@@ -190,7 +192,10 @@ fn bars() {
         known,
         amplitude: None,
     };
-    for &name in AVAILABLE.iter().filter(|&&name| name != Estimator::Exact) {
+    for &name in Estimator::ALL
+        .iter()
+        .filter(|&&name| name != Estimator::Exact)
+    {
         let errors = case(name, false, Noise::NONE, false).errors();
         assert!(survives(&errors), "{name}: {errors:?}");
     }

@@ -7,7 +7,6 @@ use qrt::core::front::parse;
 use qrt::core::oracle::{self, Oracle, luminance};
 use qrt::core::scene::Estimator;
 use qrt::core::valid::ValidScene;
-use qrt::runtime::estimators::AVAILABLE;
 use qrt::runtime::machines::OracleMachine;
 use qrt::runtime::render::{Colour, Model, Options, Rendered, render};
 
@@ -98,7 +97,7 @@ geometry:
 sampling: { path_bits: 5 }
 ";
     let scene = scene(wall, &[]);
-    for estimator in AVAILABLE {
+    for &estimator in Estimator::ALL {
         if estimator == Estimator::Exact {
             continue;
         }

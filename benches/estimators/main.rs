@@ -25,7 +25,6 @@ mod runs;
 use expected::{Expected, Verdicts};
 use problems::Problems;
 use qrt::core::scene::Estimator;
-use qrt::runtime::estimators::AVAILABLE;
 use runs::{Point, Run};
 use std::fmt::Write as _;
 use std::process::ExitCode;
@@ -57,7 +56,7 @@ impl Arguments {
 
 fn main() -> ExitCode {
     let asked = Arguments::of_command_line();
-    let names = AVAILABLE.into_iter().filter(|&estimator| {
+    let names = Estimator::ALL.iter().copied().filter(|&estimator| {
         let asked = asked.name.as_ref();
         estimator != Estimator::Exact && asked.is_none_or(|name| estimator.name().contains(name))
     });

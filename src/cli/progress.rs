@@ -11,30 +11,12 @@ pub(crate) struct Bar(ProgressBar);
 
 impl Bar {
     pub(crate) fn new(wanted: bool) -> Self {
-        // Hidden by itself where there is no terminal.
-        let target = if wanted {
-            ProgressDrawTarget::stderr()
-        } else {
-            ProgressDrawTarget::hidden()
-        };
-        let bar = ProgressBar::with_draw_target(Some(0), target);
-        let style = "{bar:40} {percent:>3} %  {human_pos} of {human_len} paths, {left} to go";
-        // A template that doesn't parse leaves the library's own.
-        if let Ok(style) = ProgressStyle::with_template(style) {
-            bar.set_style(style.with_key("left", left).progress_chars("=> "));
-        }
-        Self(bar)
+        Self(bar(wanted, "{human_pos} of {human_len} paths"))
     }
 
     pub(crate) fn show(&self, progress: Progress) {
         match progress {
-            Progress::Started { paths, resumed } => {
-                self.0.set_length(paths);
-                self.0.set_position(resumed);
-                // What was done before says nothing about the time that the rest takes.
-                self.0.reset_eta();
-                self.0.enable_steady_tick(Duration::from_millis(250));
-            }
+            Progress::Started { paths, resumed } => start(&self.0, paths, resumed),
             Progress::Traced(paths) => self.0.inc(paths),
         }
     }
@@ -50,27 +32,12 @@ pub(crate) struct Rows(ProgressBar);
 
 impl Rows {
     pub(crate) fn new(wanted: bool) -> Self {
-        let target = if wanted {
-            ProgressDrawTarget::stderr()
-        } else {
-            ProgressDrawTarget::hidden()
-        };
-        let bar = ProgressBar::with_draw_target(Some(0), target);
-        let style = "{bar:40} {percent:>3} %  {pos} of {len} settings, {left} to go";
-        if let Ok(style) = ProgressStyle::with_template(style) {
-            bar.set_style(style.with_key("left", left).progress_chars("=> "));
-        }
-        Self(bar)
+        Self(bar(wanted, "{pos} of {len} settings"))
     }
 
     pub(crate) fn show(&self, progress: trade::Progress) {
         match progress {
-            trade::Progress::Started { rows, resumed } => {
-                self.0.set_length(rows);
-                self.0.set_position(resumed);
-                self.0.reset_eta();
-                self.0.enable_steady_tick(Duration::from_millis(250));
-            }
+            trade::Progress::Started { rows, resumed } => start(&self.0, rows, resumed),
             trade::Progress::Row => self.0.inc(1),
         }
     }
@@ -79,6 +46,32 @@ impl Rows {
     pub(crate) fn clear(&self) {
         self.0.finish_and_clear();
     }
+}
+
+/// A bar that counts `what`.
+fn bar(wanted: bool, what: &str) -> ProgressBar {
+    // Hidden by itself where there is no terminal.
+    let target = if wanted {
+        ProgressDrawTarget::stderr()
+    } else {
+        ProgressDrawTarget::hidden()
+    };
+    let bar = ProgressBar::with_draw_target(Some(0), target);
+    let style = format!("{{bar:40}} {{percent:>3}} %  {what}, {{left}} to go");
+    // A template that doesn't parse leaves the library's own.
+    if let Ok(style) = ProgressStyle::with_template(&style) {
+        bar.set_style(style.with_key("left", left).progress_chars("=> "));
+    }
+    bar
+}
+
+/// Shows a bar of so many, of which some were done before.
+fn start(bar: &ProgressBar, length: u64, resumed: u64) {
+    bar.set_length(length);
+    bar.set_position(resumed);
+    // What was done before says nothing about the time that the rest takes.
+    bar.reset_eta();
+    bar.enable_steady_tick(Duration::from_millis(250));
 }
 
 /// The time left, once something is finished to judge by.

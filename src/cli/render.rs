@@ -10,7 +10,7 @@ use clap::{Args, ValueEnum};
 use qrt_core::front;
 use qrt_core::inspect::grouped;
 use qrt_core::scene::Estimator;
-use qrt_runtime::estimators::{AVAILABLE, Noise, NoiseError};
+use qrt_runtime::estimators::{Noise, NoiseError};
 use qrt_runtime::image::{self, Encoding, Metadata};
 use qrt_runtime::render::{self, Options, Progress, RenderError, Rendered, render};
 use qrt_runtime::search::Guess;
@@ -53,7 +53,7 @@ pub(crate) struct RenderArgs {
     #[arg(long, value_enum, default_value_t = Model::Real)]
     model: Model,
     /// How the good ids are counted; exact takes them all, without noise [default: the scene's]
-    #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(estimators()))]
+    #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(Estimator::NAMES))]
     estimator: Option<String>,
     /// How pixels get their colours
     #[arg(long, value_enum, default_value_t = Colour::ThreeRuns)]
@@ -187,10 +187,6 @@ impl From<Colour> for render::Colour {
             Colour::OneRun => Self::OneRun,
         }
     }
-}
-
-fn estimators() -> [&'static str; AVAILABLE.len()] {
-    AVAILABLE.map(Estimator::name)
 }
 
 fn noise(text: &str) -> Result<Noise, String> {

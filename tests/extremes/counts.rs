@@ -3,7 +3,7 @@
 use super::Extreme;
 use qrt::core::scene::{Counting, Estimator, Window};
 use qrt::runtime::counting::PhaseDistribution;
-use qrt::runtime::estimators::{AVAILABLE, Estimate, Problem, estimate};
+use qrt::runtime::estimators::{Estimate, Problem, estimate};
 use qrt::runtime::random::Stream;
 
 /// One run of an estimator; it must be sound whatever was asked.
@@ -32,7 +32,7 @@ fn truth(problem: Problem) -> f64 {
 /// run.
 fn ends() -> Extreme {
     let (mut runs, mut covered, mut worst) = (0, 0, (0.0_f64, ""));
-    for name in AVAILABLE {
+    for &name in Estimator::ALL {
         for total in [1, 2, 16, 1 << 22, 1 << 60] {
             for good in [0, 1, total - 1, total] {
                 let problem = Problem { good, total };
@@ -149,7 +149,7 @@ fn budgets() -> Extreme {
         total: 1 << 60,
     };
     let mut worst = (0.0_f64, "");
-    for name in AVAILABLE {
+    for &name in Estimator::ALL {
         if name == Estimator::Exact {
             continue;
         }

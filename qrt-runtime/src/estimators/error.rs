@@ -12,15 +12,15 @@ pub enum EstimatorError {
     /// No query may be spent.
     NoQueries,
     /// The asked error is not in (0, 1).
-    ErrorOutOfRange(f64),
+    AskedError(f64),
     /// The asked confidence is not in (0, 1).
-    ConfidenceOutOfRange(f64),
+    Confidence(f64),
     /// A probability of noise that is not in [0, 1].
-    NoiseOutOfRange(f64),
+    Noise(f64),
     /// More Grover iterations between preparation and measurement than can be told apart.
     TooManyIterations(u64),
     /// A reference from which amplitudes are measured that is not in [0, 1].
-    ReferenceOutOfRange(f64),
+    Reference(f64),
 }
 
 impl fmt::Display for EstimatorError {
@@ -28,13 +28,13 @@ impl fmt::Display for EstimatorError {
         match *self {
             Self::Counting(error) => error.fmt(f),
             Self::NoQueries => write!(f, "an estimator needs at least one query"),
-            Self::ErrorOutOfRange(error) => {
+            Self::AskedError(error) => {
                 write!(f, "an error of {error} is not between 0 and 1")
             }
-            Self::ConfidenceOutOfRange(confidence) => {
+            Self::Confidence(confidence) => {
                 write!(f, "a confidence of {confidence} is not between 0 and 1")
             }
-            Self::NoiseOutOfRange(probability) => {
+            Self::Noise(probability) => {
                 write!(
                     f,
                     "noise with probability {probability}; a probability is in 0..=1"
@@ -45,7 +45,7 @@ impl fmt::Display for EstimatorError {
                 "{iterations} Grover iterations before a measurement; at most {}",
                 super::MAX_ITERATIONS
             ),
-            Self::ReferenceOutOfRange(reference) => {
+            Self::Reference(reference) => {
                 write!(f, "a reference of {reference} is not in [0, 1]")
             }
         }

@@ -55,24 +55,6 @@ pub use windowed::WindowedCounting;
 use crate::random::Stream;
 use qrt_core::scene::{Counting, Estimator};
 
-/// All estimators, by their names in scenes.
-pub const AVAILABLE: [Estimator; 14] = [
-    Estimator::Exact,
-    Estimator::MonteCarlo,
-    Estimator::Paper,
-    Estimator::PosteriorMean,
-    Estimator::Sine,
-    Estimator::AdaptiveBayes,
-    Estimator::RandomDepth,
-    Estimator::Mlae,
-    Estimator::Iqae,
-    Estimator::Miqae,
-    Estimator::Chebyshev,
-    Estimator::Qss,
-    Estimator::Qcoin,
-    Estimator::AbramsWilliams,
-];
-
 /// An estimated amplitude, and what it took.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {

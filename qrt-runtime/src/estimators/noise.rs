@@ -34,7 +34,7 @@ impl Noise {
     pub(crate) fn check(&self) -> Result<(), EstimatorError> {
         for probability in [self.depolarising, self.readout] {
             if !(0.0..=1.0).contains(&probability) {
-                return Err(EstimatorError::NoiseOutOfRange(probability));
+                return Err(EstimatorError::Noise(probability));
             }
         }
         Ok(())

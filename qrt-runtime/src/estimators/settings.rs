@@ -56,10 +56,10 @@ impl Settings {
         }
         let inside = |value: f64| value > 0.0 && value < 1.0;
         if let Some(error) = self.error.filter(|&error| !inside(error)) {
-            return Err(EstimatorError::ErrorOutOfRange(error));
+            return Err(EstimatorError::AskedError(error));
         }
         if !inside(self.confidence) {
-            return Err(EstimatorError::ConfidenceOutOfRange(self.confidence));
+            return Err(EstimatorError::Confidence(self.confidence));
         }
         self.known_noise.check()
     }

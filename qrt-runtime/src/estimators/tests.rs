@@ -1,9 +1,7 @@
 //! What all estimators promise.
 
 use crate::counting::CountingError;
-use crate::estimators::{
-    AVAILABLE, Device, EstimatorError, Noise, Problem, Settings, estimate, estimator,
-};
+use crate::estimators::{Device, EstimatorError, Noise, Problem, Settings, estimate, estimator};
 use crate::random::Stream;
 use qrt_core::scene::{Counting, Estimator, Window};
 
@@ -104,7 +102,7 @@ fn exact_is_exact_and_extremes_are_never_missed() {
     let exact = [Estimator::Paper, Estimator::MonteCarlo];
     for total in [1, 2, 1000, 1 << 60] {
         for good in [0, 1, total - 1, total] {
-            for name in AVAILABLE {
+            for &name in Estimator::ALL {
                 for (bits, repetitions) in [(1, 1), (2, 3), (10, 2), (40, 1)] {
                     let settings = counting(bits, repetitions);
                     let found =
@@ -124,7 +122,7 @@ fn exact_is_exact_and_extremes_are_never_missed() {
 #[test]
 fn what_cannot_be_estimated_is_refused_with_what_can() {
     let mut stream = Stream::new(0, 0, 0, 0);
-    for name in AVAILABLE {
+    for &name in Estimator::ALL {
         assert!(!name.name().is_empty());
         assert_eq!(
             estimate(
@@ -287,7 +285,7 @@ fn settings_and_noise_out_of_range_are_refused() {
             ..settings
         },
     ] {
-        for name in AVAILABLE {
+        for &name in Estimator::ALL {
             assert!(estimator(name, &wrong).is_err(), "{name} {wrong:?}");
         }
     }

@@ -2,7 +2,6 @@
 //! every number of queries.
 
 use super::setting::{Setting, Sweep};
-use crate::estimators::AVAILABLE;
 use crate::render::Model;
 use qrt_core::scene::{Estimator, Nearest, Sequence, Uncompute};
 use qrt_core::valid::{Knobs, MAX_NET_DEPTHS};
@@ -19,7 +18,7 @@ pub(super) fn settings(knobs: &Knobs, quick: bool) -> Vec<Setting> {
 
     let most = scene.phase_bits.max(12) + if quick { 0 } else { 2 };
     let least = if quick { 4 } else { 2 };
-    for estimator in AVAILABLE {
+    for &estimator in Estimator::ALL {
         if estimator == Estimator::Exact {
             continue;
         }

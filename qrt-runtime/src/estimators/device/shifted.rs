@@ -62,7 +62,7 @@ impl Device<'_> {
         shots: u64,
     ) -> Result<u64, EstimatorError> {
         if !(0.0..=1.0).contains(&reference) {
-            return Err(EstimatorError::ReferenceOutOfRange(reference));
+            return Err(EstimatorError::Reference(reference));
         }
         if queries > MAX_ITERATIONS {
             return Err(EstimatorError::TooManyIterations(queries));
