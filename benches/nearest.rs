@@ -4,7 +4,8 @@
 //! before a perspective camera; rectangles along the axes before an orthographic one, as in Alves
 //! 2019) and for example scenes, mean queries a ray
 //!
-//! * of a search that begins with nothing, and of one that begins with what the path before it met,
+//! * of a search that begins with nothing, and of one that begins with what the path before it met
+//!   or, with one path a pixel, what the pixel beside it met,
 //! * against P, which asking about every face takes, and against sqrt(P),
 //! * against 22.5 sqrt(N) + 1.4 (log2 N)^2, after which Durr & Hoyer (1996) have found the minimum
 //!   with probability 1/2;
@@ -52,7 +53,9 @@ fn main() -> ExitCode {
         println!("\nfaces {name}");
         header();
         let faces = (2..=10).map(|log| 1 << log);
-        let rows: Vec<Row> = faces.map(|faces| Row::new(&parsed(&text(faces)))).collect();
+        let rows: Vec<Row> = faces
+            .map(|faces| Row::new(&parsed(&text(faces)), PATHS))
+            .collect();
         for row in &rows {
             row.print();
         }
@@ -69,17 +72,24 @@ fn main() -> ExitCode {
         }
         promises(&rows, name, &mut promise);
     }
-    println!("\nexample scenes");
-    header();
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let scenes = ["cornell-box", "cornell-mirror", "floor-and-light", "knot"];
-    let rows = scenes.map(|scene| {
-        let path = root.join("scenes-yaml").join(format!("{scene}.yaml"));
-        let row = Row::new(&front::load(&path, &[]).unwrap().valid);
-        row.print();
-        row
-    });
-    promises(&rows, "example scenes", &mut promise);
+    for (paths, name) in [
+        (PATHS, "example scenes"),
+        (1, "example scenes, one path a pixel"),
+    ] {
+        println!("\n{name}");
+        header();
+        let rows = scenes.map(|scene| {
+            let path = root.join("scenes-yaml").join(format!("{scene}.yaml"));
+            let row = Row::new(&front::load(&path, &[]).unwrap().valid, paths);
+            row.print();
+            row
+        });
+        promises(&rows, name, &mut promise);
+        let coherent = rows.iter().all(|row| row.queries[1] < row.queries[0]);
+        promise(&format!("{name}: guesses save queries"), coherent);
+    }
     if kept {
         ExitCode::SUCCESS
     } else {
@@ -117,7 +127,7 @@ struct Row {
 }
 
 impl Row {
-    fn new(scene: &ValidScene) -> Self {
+    fn new(scene: &ValidScene, paths: usize) -> Self {
         let oracle = Arc::new(NearestOracle::new(scene).unwrap().unwrap());
         let (faces, states) = (oracle.faces(), oracle.states());
         let (cost, qubits) = oracle.cost();
@@ -132,10 +142,10 @@ impl Row {
             .map(|pixel| PathRun {
                 pixel,
                 first: 0,
-                count: PATHS,
+                count: paths,
             })
             .collect();
-        let rays = runs.len() * PATHS;
+        let rays = runs.len() * paths;
         let find = |method: Method| {
             let machine = NearestMachine::fixed(oracle.clone(), 0);
             let (mut hits, mut queries) = (vec![0; rays], vec![0; runs.len()]);

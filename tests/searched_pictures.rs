@@ -160,6 +160,44 @@ fn neither_threads_nor_tiles_nor_crops_change_a_search() {
 }
 
 #[test]
+fn neighbouring_pixels_guess_for_each_other_however_the_film_is_cut() {
+    // One path a pixel: there is no path before it to guess from.
+    let room = scene("tests/scenes/box.yaml", &["sampling.path_bits=0"]);
+    let with = |guess: Guess, tile: Option<[u32; 2]>, crop: Option<[u32; 4]>| {
+        let visibility = Visibility::Grover {
+            failure: 1e-3,
+            guess,
+        };
+        let options = Options {
+            tile,
+            crop,
+            ..options(Model::Fixed, visibility)
+        };
+        render(&room, &options).unwrap()
+    };
+    let [random, coherent] = [Guess::Random, Guess::Coherent].map(|guess| with(guess, None, None));
+    let queries = |rendered: &Rendered| rendered.total_queries() as f64;
+    assert!(
+        queries(&coherent) < 0.95 * queries(&random),
+        "{} of {}",
+        queries(&coherent),
+        queries(&random)
+    );
+    for tile in [[1, 1], [3, 2], [7, 11], [13, 1]] {
+        let cut = with(Guess::Coherent, Some(tile), None);
+        assert!((&cut.image, &cut.queries) == (&coherent.image, &coherent.queries));
+    }
+    // A part whose left neighbours are not in the picture.
+    let part = with(Guess::Coherent, None, Some([6, 2, 5, 4]));
+    for row in 0..4 {
+        assert_eq!(
+            part.queries[5 * row..][..5],
+            coherent.queries[13 * (row + 2) + 6..][..5]
+        );
+    }
+}
+
+#[test]
 fn a_checkpoint_of_another_search_is_not_gone_on_from() {
     let blocks = scene("tests/scenes/blocks.yaml", &["sampling.path_bits=2"]);
     let path = std::env::temp_dir().join(format!("qrt-searched-{}", std::process::id()));

@@ -131,7 +131,7 @@ enum Visibility {
 enum FirstGuess {
     /// Whatever its first round measures
     Random,
-    /// What the path before it met
+    /// What the path before it met, or the pixel beside it
     Coherent,
 }
 
