@@ -1,0 +1,78 @@
+//! Small things about HTML that several modules need.
+
+/// Text as it stands between tags, or within a quoted attribute.
+pub(crate) fn escape(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len() + text.len() / 8);
+    for c in text.chars() {
+        match c {
+            '&' => escaped.push_str("&amp;"),
+            '<' => escaped.push_str("&lt;"),
+            '>' => escaped.push_str("&gt;"),
+            '"' => escaped.push_str("&quot;"),
+            _ => escaped.push(c),
+        }
+    }
+    escaped
+}
+
+/// The same HTML on one line, with nothing in it that Markdown would read as its own.
+///
+/// Between tags, each character that means something in Markdown becomes a character reference;
+/// a `|`, which would end a table's cell, does so everywhere.
+pub(crate) fn within_markdown(html: &str) -> String {
+    let mut safe = String::with_capacity(html.len() + 64);
+    let mut in_tag = false;
+    let mut previous = ' ';
+    for c in html.chars() {
+        match c {
+            '<' => {
+                in_tag = true;
+                safe.push('<');
+            }
+            '>' => {
+                in_tag = false;
+                safe.push('>');
+            }
+            '\n' | '\r' => safe.push(' '),
+            '|' => safe.push_str("&#124;"),
+            '\\' | '`' | '*' | '_' | '{' | '}' | '[' | ']' | '~' | '$' | '\'' | '"' | '!' | ':'
+                if !in_tag =>
+            {
+                reference(&mut safe, c);
+            }
+            // Smart punctuation makes dashes and an ellipsis of these.
+            '-' | '.' if !in_tag && previous == c => reference(&mut safe, c),
+            _ => safe.push(c),
+        }
+        previous = c;
+    }
+    safe
+}
+
+fn reference(html: &mut String, c: char) {
+    html.push_str("&#");
+    html.push_str(&u32::from(c).to_string());
+    html.push(';');
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn markdown_finds_nothing_of_its_own_in_what_is_made_safe() {
+        let safe = within_markdown("<i title='a*b|'>*a* | b_c [d]\n-- ...</i>");
+        assert!(!safe.contains('\n'));
+        let mut html = String::new();
+        let parser = pulldown_cmark::Parser::new_ext(
+            &safe,
+            pulldown_cmark::Options::ENABLE_SMART_PUNCTUATION
+                | pulldown_cmark::Options::ENABLE_TABLES,
+        );
+        pulldown_cmark::html::push_html(&mut html, parser);
+        assert_eq!(
+            html.replace("&#124;", "|"),
+            "<p><i title='a*b|'>*a* | b_c [d] -- ...</i></p>\n"
+        );
+    }
+}

@@ -1,0 +1,117 @@
+//! Interactive figures: their WebAssembly is built if it can be, and put where mdBook finds it.
+
+use crate::complaint::Complaint;
+use anyhow::{Context as _, Result};
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+/// What the script that builds the WebAssembly exits with if there is nothing to build it with.
+const NO_TOOLS: i32 = 3;
+
+/// The WebAssembly's name, in `interactive/dist` and in the book.
+const WASM: &str = "qrt_figures.wasm";
+
+/// What the figures are driven by.
+const SCRIPT: &str = "figures.js";
+
+/// Builds the figures and copies them into the book's sources, for mdBook to take along. Says
+/// whether they can be used: without WebAssembly, readers see the static pictures.
+pub(crate) fn prepare(book: &Path, src: &Path, complaints: &mut Vec<Complaint>) -> Result<bool> {
+    let script = book.join("widgets/build.sh");
+    let built = script.exists() && build(&script, complaints)?;
+    let mut files = BTreeMap::new();
+    let folder = book.join("interactive");
+    let wasm = folder.join("dist").join(WASM);
+    if built && wasm.exists() && folder.join(SCRIPT).exists() {
+        files.insert(WASM.to_owned(), std::fs::read(&wasm)?);
+        for entry in std::fs::read_dir(&folder)? {
+            let path = entry?.path();
+            if path
+                .extension()
+                .is_some_and(|kind| kind == "js" || kind == "css")
+            {
+                files.insert(
+                    crate::files::relative(&folder, &path),
+                    std::fs::read(&path)?,
+                );
+            }
+        }
+    }
+    crate::files::write_all(&src.join("interactive"), &files)
+        .context("cannot copy the interactive figures")?;
+    Ok(!files.is_empty())
+}
+
+fn build(script: &Path, complaints: &mut Vec<Complaint>) -> Result<bool> {
+    let output = Command::new("bash")
+        .arg(script)
+        .stdin(Stdio::null())
+        .output()
+        .with_context(|| format!("cannot run {}", script.display()))?;
+    match output.status.code() {
+        Some(0) => Ok(true),
+        Some(NO_TOOLS) => {
+            eprintln!("figures: no tools for WebAssembly, so that they stay still");
+            Ok(false)
+        }
+        _ => {
+            complaints.push(Complaint::about(
+                "book/widgets/build.sh",
+                format!(
+                    "failed ({})\n{}{}",
+                    output.status,
+                    String::from_utf8_lossy(&output.stdout),
+                    String::from_utf8_lossy(&output.stderr)
+                ),
+            ));
+            Ok(false)
+        }
+    }
+}
+
+/// What a page with an interactive figure loads; `depth` folders below the book's root.
+pub(crate) fn scripts(depth: usize) -> String {
+    let root = "../".repeat(depth);
+    format!(
+        "\n\n<link rel=\"stylesheet\" href=\"{root}interactive/figures.css\">\n\
+         <script type=\"module\" src=\"{root}interactive/{SCRIPT}\"></script>\n"
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What a book whose script says this has in `src/interactive`, and how many complaints.
+    fn prepared(script: Option<&str>) -> (bool, usize, usize) {
+        let folder = tempfile::tempdir().unwrap();
+        let book = folder.path();
+        for name in ["interactive/dist", "src", "widgets"] {
+            std::fs::create_dir_all(book.join(name)).unwrap();
+        }
+        for name in [
+            "figures.js",
+            "figures.css",
+            "notes.md",
+            "dist/qrt_figures.wasm",
+        ] {
+            std::fs::write(book.join("interactive").join(name), name).unwrap();
+        }
+        if let Some(script) = script {
+            std::fs::write(book.join("widgets/build.sh"), script).unwrap();
+        }
+        let mut complaints = Vec::new();
+        let used = prepare(book, &book.join("src"), &mut complaints).unwrap();
+        let files = crate::files::all(&book.join("src/interactive")).unwrap();
+        (used, files.len(), complaints.len())
+    }
+
+    #[test]
+    fn figures_come_along_if_their_webassembly_can_be_built() {
+        assert_eq!(prepared(Some("exit 0")), (true, 3, 0));
+        assert_eq!(prepared(Some("exit 3")), (false, 0, 0));
+        assert_eq!(prepared(Some("echo no; exit 1")), (false, 0, 1));
+        assert_eq!(prepared(None), (false, 0, 0));
+    }
+}

@@ -1,0 +1,207 @@
+//! Builds and checks the book of qrt: `cargo book`, from the repository's root.
+//!
+//! mdBook does most of it. Before it, a [preprocessor] turns formulas into HTML, numbers the
+//! paper's equations and links them to their code and tests, and makes pages of the source files
+//! that chapters refer to. After it, a [check] follows every link of the finished book, and sees
+//! that nothing is loaded from another host and that no page is large.
+//!
+//! The preprocessor also speaks mdBook's protocol, so that plain `mdbook build book` does the same
+//! but for the check.
+
+mod chapter;
+mod check;
+mod complaint;
+mod equation;
+mod files;
+mod formula;
+mod html;
+mod interactive;
+mod log;
+mod preprocessor;
+mod serve;
+mod source;
+
+use anyhow::{Context as _, Result, bail};
+use complaint::Complaint;
+use log::Log;
+use mdbook_driver::MDBook;
+use mdbook_driver::config::Config;
+use mdbook_preprocessor::Preprocessor as _;
+use mdbook_summary::{Summary, SummaryItem};
+use preprocessor::QrtBook;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::Instant;
+
+const USAGE: &str = "\
+Builds and checks the book.
+
+Usage: cargo book [COMMAND] [--draft]
+
+  build               builds the book into book/book and checks it (the default)
+  check               checks the book that is built: links, other hosts, sizes
+  serve [PORT]        builds it and serves it on this machine (port 3000)
+  preprocess          speaks mdBook's protocol, for `mdbook build book`
+
+  --draft             chapters may be missing, and what is wrong is said but is no failure
+";
+
+fn main() -> ExitCode {
+    match run() {
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => ExitCode::FAILURE,
+        Err(error) => {
+            eprintln!("error: {error:#}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// Whether all is well.
+fn run() -> Result<bool> {
+    let mut arguments: Vec<String> = std::env::args().skip(1).collect();
+    let before = arguments.len();
+    arguments.retain(|argument| argument != "--draft");
+    let draft = arguments.len() < before;
+    let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    match arguments[..] {
+        [] | ["build"] => build(&book()?, draft),
+        ["check"] => checked(&book()?, draft, Vec::new()),
+        ["serve"] => serve(&book()?, draft, "3000"),
+        ["serve", port] => serve(&book()?, draft, port),
+        ["preprocess"] => preprocess(draft),
+        ["preprocess", "supports", renderer] => QrtBook::default().supports_renderer(renderer),
+        ["help" | "--help" | "-h"] => {
+            print!("{USAGE}");
+            Ok(true)
+        }
+        _ => bail!("`{}` is no command\n\n{USAGE}", arguments.join(" ")),
+    }
+}
+
+/// The folder of the book, here or above.
+fn book() -> Result<PathBuf> {
+    let here = std::env::current_dir()?;
+    here.ancestors()
+        .map(|folder| folder.join("book"))
+        .find(|folder| folder.join("book.toml").is_file())
+        .context("there is no book/book.toml here or above")
+}
+
+/// Builds the book, and checks it.
+fn build(root: &Path, draft: bool) -> Result<bool> {
+    let started = Instant::now();
+    let log = Log::default();
+    // Nobody else has set one.
+    let _ = tracing::subscriber::set_global_default(log.clone());
+    let config = Config::from_disk(root.join("book.toml"))?;
+    let ours = QrtBook {
+        draft,
+        ..QrtBook::default()
+    };
+    // It is run in this process instead, after all others.
+    let config = without(&config, ours.name())?;
+    let mut book = if draft {
+        let src = root.join(&config.book.src);
+        let mut summary =
+            mdbook_summary::parse_summary(&std::fs::read_to_string(src.join("SUMMARY.md"))?)?;
+        leave_out_missing(&mut summary, &src);
+        MDBook::load_with_config_and_summary(root, config, summary)?
+    } else {
+        MDBook::load_with_config(root, config)?
+    };
+    book.with_preprocessor(ours.clone());
+    book.build()?;
+    let mut complaints = ours.complaints.take();
+    complaints.extend(log.complaints());
+    let well = checked(root, draft, complaints)?;
+    println!(
+        "{} in {:.1} s",
+        root.join("book/index.html").display(),
+        started.elapsed().as_secs_f64()
+    );
+    Ok(well)
+}
+
+/// The book's configuration without one of its preprocessors.
+fn without(config: &Config, preprocessor: &str) -> Result<Config> {
+    let mut config = serde_json::to_value(config)?;
+    if let Some(table) = config
+        .get_mut("preprocessor")
+        .and_then(serde_json::Value::as_object_mut)
+    {
+        table.remove(preprocessor);
+    }
+    Ok(serde_json::from_value(config)?)
+}
+
+/// Chapters whose files are not there become drafts, which mdBook lists without a link.
+fn leave_out_missing(summary: &mut Summary, src: &Path) {
+    fn visit(items: &mut [SummaryItem], src: &Path) {
+        for item in items {
+            if let SummaryItem::Link(link) = item {
+                let missing = link.location.take_if(|file| !src.join(file).exists());
+                if let Some(file) = missing {
+                    eprintln!("draft: there is no {}", file.display());
+                }
+                visit(&mut link.nested_items, src);
+            }
+        }
+    }
+    visit(&mut summary.prefix_chapters, src);
+    visit(&mut summary.numbered_chapters, src);
+    visit(&mut summary.suffix_chapters, src);
+}
+
+/// Checks the built book, and says everything that is wrong.
+fn checked(root: &Path, draft: bool, mut complaints: Vec<Complaint>) -> Result<bool> {
+    let report = check::check(&root.join("book"), "book/book")?;
+    complaints.extend(report.complaints);
+    for complaint in &complaints {
+        eprintln!("{complaint}");
+    }
+    println!(
+        "{} pages, {} links, largest page {} with {} bytes: {}",
+        report.pages,
+        report.links,
+        report.largest.0,
+        report.largest.1,
+        match complaints.len() {
+            0 => "all well".to_owned(),
+            1 => "one thing is wrong".to_owned(),
+            many => format!("{many} things are wrong"),
+        }
+    );
+    Ok(complaints.is_empty() || draft)
+}
+
+fn serve(root: &Path, draft: bool, port: &str) -> Result<bool> {
+    let port = port
+        .parse()
+        .with_context(|| format!("`{port}` is no port"))?;
+    if !build(root, draft)? {
+        return Ok(false);
+    }
+    serve::serve(&root.join("book"), port)?;
+    Ok(true)
+}
+
+/// One exchange of mdBook's protocol: the book comes in, and goes out worked on.
+fn preprocess(draft: bool) -> Result<bool> {
+    let (mut context, book) = mdbook_preprocessor::parse_input(std::io::stdin())?;
+    if context.root.is_relative() {
+        // It was relative to where mdBook was called; mdBook runs us in the book's folder.
+        context.root = std::env::current_dir()?;
+    }
+    let ours = QrtBook {
+        draft,
+        ..QrtBook::default()
+    };
+    let book = ours.run(&context, book)?;
+    let complaints = ours.complaints.take();
+    for complaint in &complaints {
+        eprintln!("{complaint}");
+    }
+    serde_json::to_writer(std::io::stdout(), &book)?;
+    Ok(complaints.is_empty() || draft)
+}

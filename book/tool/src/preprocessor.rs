@@ -1,0 +1,157 @@
+//! The book as a whole: mdBook's preprocessor.
+
+use crate::chapter::{Chapter, Indexed, Workshop};
+use crate::complaint::Complaint;
+use crate::equation;
+use crate::formula::Formulas;
+use crate::interactive;
+use crate::source::Sources;
+use anyhow::{Context as _, Result};
+use mdbook_preprocessor::book::{Book, BookItem};
+use mdbook_preprocessor::{Preprocessor, PreprocessorContext};
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::rc::Rc;
+
+/// In place of this line of a chapter comes the index of equations.
+const INDEX: &str = "{{#equations}}";
+
+/// Our preprocessor, and what it has to complain about.
+#[derive(Clone, Default)]
+pub(crate) struct QrtBook {
+    /// Chapters are still being written: equations may be missing.
+    pub(crate) draft: bool,
+    /// What is wrong with the chapters, once they have been worked on.
+    pub(crate) complaints: Rc<RefCell<Vec<Complaint>>>,
+}
+
+impl Preprocessor for QrtBook {
+    fn name(&self) -> &'static str {
+        "qrt-book"
+    }
+
+    fn run(&self, context: &PreprocessorContext, mut book: Book) -> Result<Book> {
+        let repository = context
+            .root
+            .parent()
+            .context("the book has no folder above it")?;
+        let src = context.root.join(&context.config.book.src);
+        let seen = crate::files::relative(repository, &src);
+        let mut workshop = Workshop {
+            formulas: Formulas::kept_in(&context.root.join(".cache")),
+            sources: Sources::new(repository),
+            complaints: Vec::new(),
+        };
+        let assets = interactive::prepare(&context.root, &src, &mut workshop.complaints)?;
+
+        let mut equations: BTreeMap<u32, Indexed> = BTreeMap::new();
+        let mut indices = Vec::new();
+        each(&mut book, &mut |chapter| {
+            let Some(path) = chapter.source_path.clone() else {
+                return;
+            };
+            let of = Names::new(&seen, &path, &chapter.name, &src);
+            let processed = workshop.process(&of.chapter(), &chapter.content);
+            chapter.content = processed.markdown;
+            for (equation, line) in processed.equations {
+                let number = equation.number;
+                let indexed = Indexed {
+                    equation,
+                    page: of.page.clone(),
+                    name: of.name.clone(),
+                    file: of.file.clone(),
+                    line,
+                };
+                if let Some(first) = equations.get(&number) {
+                    workshop.complaints.push(Complaint::at(
+                        &of.file,
+                        line,
+                        format!(
+                            "equation {number} is restated in {}:{} already",
+                            first.file, first.line
+                        ),
+                    ));
+                } else {
+                    equations.insert(number, indexed);
+                }
+            }
+            if processed.interactive && assets {
+                chapter
+                    .content
+                    .push_str(&interactive::scripts(path.components().count() - 1));
+            }
+            if chapter.content.lines().any(|line| line.trim() == INDEX) {
+                indices.push(path);
+            }
+        });
+
+        let equations: Vec<Indexed> = equations.into_values().collect();
+        if !indices.is_empty()
+            && let Some(missing) = equation::missing(equations.iter().map(|e| e.equation.number))
+        {
+            let message = format!("no chapter restates the paper's equations {missing}");
+            if self.draft {
+                eprintln!("draft: {message}");
+            } else {
+                workshop.complaints.push(Complaint::about(&seen, message));
+            }
+        }
+        each(&mut book, &mut |chapter| {
+            if let Some(path) = chapter.source_path.clone()
+                && indices.contains(&path)
+            {
+                let of = Names::new(&seen, &path, &chapter.name, &src);
+                let index = workshop.index(&of.chapter(), &equations);
+                chapter.content = chapter.content.replace(INDEX, &index);
+            }
+        });
+
+        workshop.sources.write(&src.join("source"))?;
+        workshop.formulas.keep()?;
+        workshop.complaints.sort();
+        workshop.complaints.dedup();
+        *self.complaints.borrow_mut() = workshop.complaints;
+        Ok(book)
+    }
+
+    fn supports_renderer(&self, renderer: &str) -> Result<bool> {
+        Ok(renderer == "html")
+    }
+}
+
+fn each(book: &mut Book, work: &mut impl FnMut(&mut mdbook_preprocessor::book::Chapter)) {
+    book.for_each_mut(|item| {
+        if let BookItem::Chapter(chapter) = item {
+            work(chapter);
+        }
+    });
+}
+
+/// What a chapter is called, here and there.
+struct Names {
+    file: String,
+    page: String,
+    name: String,
+    original: String,
+}
+
+impl Names {
+    fn new(seen: &str, path: &Path, name: &str, src: &Path) -> Self {
+        Self {
+            file: format!("{seen}/{}", path.display()),
+            page: path.with_extension("html").display().to_string(),
+            name: name.to_owned(),
+            original: std::fs::read_to_string(src.join(path)).unwrap_or_default(),
+        }
+    }
+
+    fn chapter(&self) -> Chapter<'_> {
+        Chapter {
+            file: &self.file,
+            page: &self.page,
+            name: &self.name,
+            original: &self.original,
+        }
+    }
+}

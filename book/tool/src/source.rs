@@ -1,0 +1,237 @@
+//! Links into the repository's sources, and the pages that show them.
+
+use crate::equation::Place;
+use crate::html::escape;
+use anyhow::{Context as _, Result};
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write as _;
+use std::path::{Component, Path, PathBuf};
+
+/// Larger files are not shown: their pages would be too large.
+const LARGEST: u64 = 280_000;
+
+/// The look of these pages.
+const STYLE: &str = include_str!("source.css");
+
+/// The theme that the reader chose in the book, on these pages too.
+const THEME: &str = "try { const theme = localStorage.getItem('mdbook-theme'); \
+    if (theme) document.documentElement.dataset.theme = \
+    ['light', 'rust'].includes(theme) ? 'light' : 'dark'; } catch (e) {}";
+
+/// The files that the book refers to.
+pub(crate) struct Sources {
+    root: PathBuf,
+    files: BTreeMap<String, File>,
+}
+
+struct File {
+    text: String,
+    /// Chapters that refer to it: their page and name.
+    chapters: BTreeSet<(String, String)>,
+}
+
+impl Sources {
+    /// Sources of the repository at this root.
+    pub(crate) fn new(root: &Path) -> Self {
+        Self {
+            root: root.to_owned(),
+            files: BTreeMap::new(),
+        }
+    }
+
+    /// The page of a file, and the line where it defines the symbol, if one is named; as a path from
+    /// the book's root. `chapter` is the page and the name of the chapter that refers to it.
+    pub(crate) fn link(
+        &mut self,
+        path: &str,
+        symbol: Option<&str>,
+        chapter: (&str, &str),
+    ) -> Result<String, String> {
+        if !self.files.contains_key(path) {
+            let text = self.read(path)?;
+            let chapters = BTreeSet::new();
+            self.files.insert(path.to_owned(), File { text, chapters });
+        }
+        let Some(file) = self.files.get_mut(path) else {
+            return Err(format!("no file {path}"));
+        };
+        file.chapters
+            .insert((chapter.0.to_owned(), chapter.1.to_owned()));
+        let page = format!("source/{}", page_of(path));
+        match symbol {
+            None => Ok(page),
+            Some(symbol) => match line_of(&file.text, symbol) {
+                Some(line) => Ok(format!("{page}#L{line}")),
+                None => Err(format!("{path} does not define `{symbol}`")),
+            },
+        }
+    }
+
+    /// As [`link`](Self::link), of an equation's place.
+    pub(crate) fn place(&mut self, place: &Place, chapter: (&str, &str)) -> Result<String, String> {
+        self.link(&place.path, Some(&place.symbol), chapter)
+    }
+
+    fn read(&self, path: &str) -> Result<String, String> {
+        let inside = Path::new(path)
+            .components()
+            .all(|part| matches!(part, Component::Normal(_)));
+        let file = self.root.join(path);
+        let Some(size) = file
+            .metadata()
+            .ok()
+            .filter(|data| inside && data.is_file())
+            .map(|data| data.len())
+        else {
+            return Err(format!("no file {path} in the repository"));
+        };
+        if size > LARGEST {
+            return Err(format!(
+                "{path} has {size} bytes; pages are made of files up to {LARGEST}"
+            ));
+        }
+        std::fs::read_to_string(&file).map_err(|error| format!("cannot read {path}: {error}"))
+    }
+
+    /// Writes the pages of all files that were linked to, and removes those of earlier builds.
+    pub(crate) fn write(&self, folder: &Path) -> Result<()> {
+        let mut wanted = BTreeMap::new();
+        wanted.insert("style.css".to_owned(), STYLE.to_owned());
+        for (path, file) in &self.files {
+            wanted.insert(page_of(path), page(path, file));
+        }
+        crate::files::write_all(folder, &wanted).context("cannot write the pages of source files")
+    }
+}
+
+/// What a file's page is called. mdBook takes `.md` in a link for one of its own pages.
+fn page_of(path: &str) -> String {
+    format!(
+        "{}.html",
+        path.strip_suffix(".md")
+            .map_or(path.to_owned(), |path| format!("{path}-md"))
+    )
+}
+
+/// The first line, counted from 1, on which a symbol is defined.
+fn line_of(text: &str, symbol: &str) -> Option<usize> {
+    const KEYWORDS: [&str; 11] = [
+        "fn",
+        "struct",
+        "enum",
+        "trait",
+        "mod",
+        "const",
+        "static",
+        "type",
+        "union",
+        "macro_rules",
+        "macro",
+    ];
+    let defines = |line: &str| {
+        if line.trim_start().starts_with("//") {
+            return false;
+        }
+        let mut words = line
+            .split(|c: char| !(c.is_alphanumeric() || c == '_'))
+            .filter(|word| !word.is_empty());
+        let mut previous = "";
+        words.any(|word| {
+            let found = word == symbol && KEYWORDS.contains(&previous);
+            // `static mut NAME`.
+            if word != "mut" {
+                previous = word;
+            }
+            found
+        })
+    };
+    text.lines().position(defines).map(|index| index + 1)
+}
+
+fn page(path: &str, file: &File) -> String {
+    let root = "../".repeat(path.split('/').count());
+    let mut page = format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>{path}</title>\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+         <link rel=\"stylesheet\" href=\"{root}source/style.css\">\n<script>{THEME}</script>\n\
+         </head>\n<body>\n<header><h1>{path}</h1>\n<p>The book refers to it in ",
+        path = escape(path)
+    );
+    for (index, (chapter, name)) in file.chapters.iter().enumerate() {
+        let comma = if index == 0 { "" } else { ", " };
+        let _ = write!(
+            page,
+            "{comma}<a href=\"{root}{chapter}\">{}</a>",
+            escape(name)
+        );
+    }
+    page.push_str(".</p></header>\n<pre>");
+    for (index, line) in file.text.lines().enumerate() {
+        let _ = writeln!(page, "<b id=L{}></b>{}", index + 1, escape(line));
+    }
+    page.push_str("</pre>\n</body>\n</html>\n");
+    page
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn symbols_are_found_where_they_are_defined() {
+        let text = "// fn probability\nuse x::probability;\nlet y = probability(3);\n\
+                    pub(crate) const fn probability<T>(x: T) {}\nimpl Probability {}\n\
+                    pub struct Probability;\nmacro_rules! probable {\nfn probability() {}\n\
+                    static mut COUNT: u32 = 0;\npub mod tests;";
+        assert_eq!(line_of(text, "probability"), Some(4));
+        assert_eq!(line_of(text, "Probability"), Some(6));
+        assert_eq!(line_of(text, "probable"), Some(7));
+        assert_eq!(line_of(text, "COUNT"), Some(9));
+        assert_eq!(line_of(text, "tests"), Some(10));
+        assert_eq!(line_of(text, "T"), None);
+        assert_eq!(line_of(text, "prob"), None);
+    }
+
+    #[test]
+    fn a_link_leads_to_the_line_and_a_page_is_made() {
+        let root = tempfile::tempdir().unwrap();
+        std::fs::create_dir_all(root.path().join("a")).unwrap();
+        std::fs::write(root.path().join("a/b.rs"), "\nfn f() -> Vec<u8> {}\n").unwrap();
+        let mut sources = Sources::new(root.path());
+        let chapter = ("x.html", "A & B");
+        assert_eq!(
+            sources.link("a/b.rs", Some("f"), chapter).unwrap(),
+            "source/a/b.rs.html#L2"
+        );
+        let refused = |path, symbol| Sources::new(root.path()).link(path, symbol, chapter);
+        assert_eq!(
+            refused("a/b.rs", Some("g")).unwrap_err(),
+            "a/b.rs does not define `g`"
+        );
+        for outside in ["a/c.rs", "a", "../etc/passwd", "/etc/passwd", ""] {
+            let error = refused(outside, None).unwrap_err();
+            assert_eq!(error, format!("no file {outside} in the repository"));
+        }
+        std::fs::write(root.path().join("large.txt"), "x".repeat(280_001)).unwrap();
+        assert!(
+            refused("large.txt", None)
+                .unwrap_err()
+                .contains("280001 bytes")
+        );
+
+        std::fs::write(root.path().join("a/README.md"), "").unwrap();
+        assert_eq!(
+            sources.link("a/README.md", None, chapter).unwrap(),
+            "source/a/README-md.html"
+        );
+
+        let folder = root.path().join("source");
+        std::fs::create_dir_all(&folder).unwrap();
+        std::fs::write(folder.join("old.rs.html"), "").unwrap();
+        sources.write(&folder).unwrap();
+        let page = std::fs::read_to_string(folder.join("a/b.rs.html")).unwrap();
+        assert!(page.contains("<b id=L2></b>fn f() -&gt; Vec&lt;u8&gt; {}"));
+        assert!(page.contains("<a href=\"../../x.html\">A &amp; B</a>"));
+        assert!(folder.join("style.css").exists() && !folder.join("old.rs.html").exists());
+    }
+}
