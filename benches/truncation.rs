@@ -2,8 +2,9 @@
 //!
 //! `cargo bench --bench truncation` compares the digital net, independent random paths and the
 //! paper's product lattice on the Cornell box at D = 3 with an independent renderer's picture,
-//! prints the table, draws `book/src/figures/truncation.svg`, and fails unless the net beats random
-//! paths and random paths beat the lattice.
+//! prints the table, writes it to `book/data/truncation.csv`, from which `cargo run --release
+//! --example book-figures` draws the book's figure, and fails unless the net beats random paths and
+//! random paths beat the lattice.
 
 // A bench that cannot run has nothing to report.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
@@ -30,28 +31,22 @@ const LATTICES: [(u32, [[u32; 2]; 3]); 5] = [
 /// One way of choosing paths: (path bits, RMSE over the mean), away from the lamp and over all.
 struct Series {
     name: &'static str,
-    class: &'static str,
     dark: Vec<(u32, f64)>,
     all: Vec<(u32, f64)>,
 }
 
 impl Series {
-    fn new(name: &'static str, class: &'static str) -> Self {
+    fn new(name: &'static str) -> Self {
         let (dark, all) = (Vec::new(), Vec::new());
-        Self {
-            name,
-            class,
-            dark,
-            all,
-        }
+        Self { name, dark, all }
     }
 
     fn at(&self, bits: u32) -> Option<f64> {
         self.dark.iter().find(|p| p.0 == bits).map(|p| p.1)
     }
 
-    /// The least-squares line of log2(error) over log2(paths): slope and value at 0.
-    fn line(&self) -> (f64, f64) {
+    /// The slope of the least-squares line of log2(error) over log2(paths).
+    fn slope(&self) -> f64 {
         let points = self
             .dark
             .iter()
@@ -63,7 +58,7 @@ impl Series {
         let (xx, xy) = points.fold((0.0, 0.0), |s, p| {
             (s.0 + (p.0 - x) * (p.0 - x), s.1 + (p.0 - x) * (p.1 - y))
         });
-        (xy / xx, y - xy / xx * x)
+        xy / xx
     }
 }
 
@@ -107,9 +102,9 @@ impl Judge {
 
 fn main() -> std::process::ExitCode {
     let judge = Judge::new();
-    let mut net = Series::new("digital net", "net");
-    let mut random = Series::new("random paths", "random");
-    let mut lattice = Series::new("product lattice", "lattice");
+    let mut net = Series::new("digital net");
+    let mut random = Series::new("random paths");
+    let mut lattice = Series::new("product lattice");
     for bits in 6..=18 {
         let valid = scene(SCENE, &asking(DEPTH, bits));
         judge.add(&mut net, bits, &traced(&valid, 1));
@@ -154,15 +149,12 @@ fn main() -> std::process::ExitCode {
         });
         println!("2^{bits:<6} {}", cells.concat());
     }
-    let slopes = series.each_ref().map(|s| format!("{:>18.2}", s.line().0));
+    let slopes = series.each_ref().map(|s| format!("{:>18.2}", s.slope()));
     println!("slope    {}", slopes.concat());
 
-    let root = env!("CARGO_MANIFEST_DIR");
-    let folder = format!("{root}/book/src/figures");
-    let written = std::fs::create_dir_all(&folder)
-        .and_then(|()| std::fs::write(format!("{folder}/truncation.svg"), plot(&series)));
-    if let Err(error) = written {
-        eprintln!("{folder}/truncation.svg: {error}");
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/book/data/truncation.csv");
+    if let Err(error) = std::fs::write(file, csv(&series)) {
+        eprintln!("{file}: {error}");
         return std::process::ExitCode::FAILURE;
     }
     let [net, random, lattice] = &series;
@@ -178,91 +170,14 @@ fn main() -> std::process::ExitCode {
     }
 }
 
-/// A log-log plot that follows its reader's colour scheme.
-fn plot(series: &[Series; 3]) -> String {
-    const LEFT: f64 = 70.0;
-    const TOP: f64 = 20.0;
-    const WIDTH: f64 = 480.0;
-    const HEIGHT: f64 = 300.0;
-    // Paths 2^6 to 2^18 across; errors 2^-8 (0.4 %) to 2^3 (800 %) upwards.
-    let x = |bits: f64| LEFT + WIDTH * (bits - 6.0) / 12.0;
-    let y = |log: f64| TOP + HEIGHT * (3.0 - log) / 11.0;
-    let mut svg = String::from(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 720 380\" role=\"img\" \
-         font-family=\"sans-serif\" font-size=\"13\">\n\
-         <title>Error of a picture over the number of paths, by the way they are chosen</title>\n\
-         <style>\n\
-         text { fill: #24292f } .axis { stroke: #57606a } .grid { stroke: #d0d7de }\n\
-         .net { stroke: #0969da; fill: #0969da } .random { stroke: #9a6700; fill: #9a6700 }\n\
-         .lattice { stroke: #cf222e; fill: #cf222e }\n\
-         path, line { fill: none } text { stroke: none }\n\
-         @media (prefers-color-scheme: dark) {\n\
-         text { fill: #e6edf3 } .axis { stroke: #9198a1 } .grid { stroke: #3d444d }\n\
-         .net { stroke: #58a6ff; fill: #58a6ff } .random { stroke: #d29922; fill: #d29922 }\n\
-         .lattice { stroke: #ff7b72; fill: #ff7b72 }\n\
-         }\n\
-         </style>\n",
-    );
-    // Writing to a string cannot fail.
-    let mut put = |line: std::fmt::Arguments<'_>| {
-        let _ = svg.write_fmt(line);
-        svg.push('\n');
-    };
-    let (right, bottom) = (LEFT + WIDTH, TOP + HEIGHT);
-    for bits in (6..=18).step_by(3) {
-        let at = x(f64::from(bits));
-        put(format_args!(
-            "<line class=\"grid\" x1=\"{at:.1}\" y1=\"{TOP}\" x2=\"{at:.1}\" y2=\"{bottom}\"/>\
-             <text x=\"{at:.1}\" y=\"{:.1}\" text-anchor=\"middle\">2<tspan dy=\"-5\" \
-             font-size=\"10\">{bits}</tspan></text>",
-            bottom + 20.0
-        ));
-    }
-    for (label, error) in [("1 %", 0.01), ("10 %", 0.1), ("100 %", 1.0)] {
-        let at = y(f64::log2(error));
-        put(format_args!(
-            "<line class=\"grid\" x1=\"{LEFT}\" y1=\"{at:.1}\" x2=\"{right}\" y2=\"{at:.1}\"/>\
-             <text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\">{label}</text>",
-            LEFT - 8.0,
-            at + 4.0
-        ));
-    }
-    put(format_args!(
-        "<path class=\"axis\" d=\"M{LEFT} {TOP}V{bottom}H{right}\"/>\
-         <text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"middle\">paths a pixel</text>\
-         <text transform=\"translate(16 {:.1}) rotate(-90)\" text-anchor=\"middle\">RMSE over the \
-         mean</text>",
-        LEFT + WIDTH / 2.0,
-        bottom + 44.0,
-        TOP + HEIGHT / 2.0
-    ));
+/// The table: RMSE over the mean, away from the lamp (`dark`) and over all pixels.
+fn csv(series: &[Series; 3]) -> String {
+    let mut text = String::from("paths,path_bits,dark,all\n");
     for s in series {
-        let (slope, start) = s.line();
-        let ends = [s.dark.first(), s.dark.last()].map(|p| p.map_or(0.0, |p| f64::from(p.0)));
-        let [a, b] = ends.map(|bits| (x(bits), y(start + slope * bits)));
-        put(format_args!(
-            "<line class=\"{}\" stroke-dasharray=\"5 4\" x1=\"{:.1}\" y1=\"{:.1}\" x2=\"{:.1}\" \
-             y2=\"{:.1}\"/>",
-            s.class, a.0, a.1, b.0, b.1
-        ));
-        for &(bits, error) in &s.dark {
-            put(format_args!(
-                "<circle class=\"{}\" cx=\"{:.1}\" cy=\"{:.1}\" r=\"3.5\"/>",
-                s.class,
-                x(f64::from(bits)),
-                y(error.log2())
-            ));
+        for (&(bits, dark), &(_, all)) in s.dark.iter().zip(&s.all) {
+            // Writing to a string cannot fail.
+            let _ = writeln!(text, "{},{bits},{dark:.6e},{all:.6e}", s.name);
         }
-        put(format_args!(
-            "<text x=\"{:.1}\" y=\"{:.1}\">{}</text>\
-             <text x=\"{:.1}\" y=\"{:.1}\" font-size=\"11\">slope {slope:.2}</text>",
-            right + 12.0,
-            b.1,
-            s.name,
-            right + 12.0,
-            b.1 + 14.0
-        ));
     }
-    svg.push_str("</svg>\n");
-    svg
+    text
 }

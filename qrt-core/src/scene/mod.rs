@@ -36,19 +36,20 @@ record! {
     /// A scene of qrt: what is seen, and how its circuit traces and counts it.
     #[derive(Clone, Debug, PartialEq)]
     pub struct Scene = "the scene", settle = settle::scene;
-    /// What the scene is called.
+    /// What the scene is called. A picture's metadata repeat it.
     pub name: String = Text;
-    /// The camera.
+    /// Where the scene is seen from. Right-handed: right is forward x up, film rows go from the
+    /// top.
     pub camera: Camera = part::<Camera>();
-    /// The film.
+    /// The size of the picture.
     pub film: Film = part::<Film>();
-    /// Materials by name.
+    /// What surfaces do to light: materials by names of your own.
     pub materials: Vec<(String, Material)> = Named(part::<Material>());
-    /// Primitives and meshes.
+    /// Primitives and meshes. Coordinates have the unit that you choose, the scene unit.
     pub geometry: Vec<Geometry> = List {
         item: part::<Geometry>(), least: 0, fewer: (codes::WRONG_LENGTH, "")
     };
-    /// The paths of a pixel.
+    /// The paths of a pixel: how many, and how long.
     pub sampling: Sampling = part::<Sampling>(), or Sampling::default();
     /// Width of the circuit's fixed-point numbers.
     pub precision: Precision = part::<Precision>(), or Precision::default();
@@ -80,9 +81,9 @@ record! {
     pub struct Perspective = "a perspective camera";
     /// The pinhole, in scene units.
     pub eye: DVec3 = point();
-    /// The point at the centre of the film.
+    /// The point at the centre of the film, in scene units.
     pub target: DVec3 = point();
-    /// A direction that points up in the picture; default [0, 1, 0].
+    /// A direction that points up in the picture, of any length; default [0, 1, 0].
     pub up: DVec3 = point(), or DVec3::Y;
     /// The vertical field of view in degrees.
     pub vfov: f64 = number(0.0, 180.0).above().below();
@@ -92,11 +93,11 @@ record! {
     /// Parallel rays.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Orthographic = "an orthographic camera";
-    /// The centre of the film, where its rays start.
+    /// The centre of the film, where its rays start, in scene units.
     pub eye: DVec3 = point();
-    /// A point straight ahead.
+    /// A point straight ahead, in scene units.
     pub target: DVec3 = point();
-    /// A direction that points up in the picture; default [0, 1, 0].
+    /// A direction that points up in the picture, of any length; default [0, 1, 0].
     pub up: DVec3 = point(), or DVec3::Y;
     /// The height of the film in scene units.
     pub height: f64 = LENGTH;
@@ -126,7 +127,8 @@ variant! {
     Dielectric(Dielectric) = "dielectric";
     /// GGX with Fresnel 1 and separable Smith masking.
     Ggx(Ggx) = "ggx";
-    /// kd / pi + ks (n + 2) / (2 pi) max(0, cos a)^n about the mirror direction.
+    /// Matte with a highlight: kd / pi + ks (n + 2) / (2 pi) max(0, cos a)^n about the mirror
+    /// direction.
     Phong(Phong) = "phong";
     /// The author's own BSDF.
     Bsdf(Bsdf) = "bsdf";
@@ -144,9 +146,9 @@ record! {
     /// Emits on the side of (v1 - v0) x (v2 - v0); reflects as a Lambertian on both sides.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Emitter = "an emitter";
-    /// What leaves the front, in linear RGB.
+    /// What leaves the front, in linear RGB. The picture's values have the same unit.
     pub radiance: Rgb = RADIANCE;
-    /// The share of light that is reflected; default black.
+    /// The share of light that is reflected, in linear RGB; default black.
     pub albedo: Rgb = REFLECTANCE, or [0.0; 3];
 }
 
@@ -177,14 +179,16 @@ record! {
 }
 
 record! {
-    /// kd / pi + ks (n + 2) / (2 pi) max(0, cos a)^n about the mirror direction.
+    /// Matte with a highlight: kd / pi + ks (n + 2) / (2 pi) max(0, cos a)^n about the mirror
+    /// direction.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Phong = "a phong material";
-    /// kd, in linear RGB.
+    /// The share kd that is reflected to all sides, in linear RGB.
     pub diffuse: Rgb = REFLECTANCE;
-    /// ks, in linear RGB; diffuse + specular is at most 1.
+    /// The share ks of the highlight, in linear RGB. In each channel, diffuse + specular is at
+    /// most 1.
     pub specular: Rgb = REFLECTANCE;
-    /// n.
+    /// The exponent n: the larger, the narrower the highlight.
     pub exponent: f64 = number(0.0, 1e6);
 }
 
@@ -192,11 +196,12 @@ record! {
     /// The author's own BSDF, by expressions.
     #[derive(Clone, Debug, PartialEq)]
     pub struct Bsdf = "a bsdf";
-    /// phi(u, v), from the unit square to unit vectors x, y, z with z along the normal.
+    /// The map phi(u, v), from the unit square to unit vectors x, y, z with z along the normal.
     pub map: [String; 3] = Array::<_, 3>(Expression);
-    /// auto (differentiated), or an expression in u, v that is then checked.
+    /// `auto` (differentiated), or an expression in u, v that is then checked.
     pub jacobian: Jacobian = settle::JacobianShape, or Jacobian::Auto;
-    /// f in cos_i, cos_o, cos_a, u, v: one expression (grey) or three (red, green, blue).
+    /// The value f, per steradian, in cos_i, cos_o, cos_a, u, v: one expression (grey) or three
+    /// (red, green, blue).
     pub value: Vec<String> = Channels;
 }
 
@@ -225,7 +230,7 @@ record! {
     /// A convex quadrilateral; one that is not planar splits along v0-v2.
     #[derive(Clone, Debug, PartialEq)]
     pub struct Quad = "a quad";
-    /// Four points around the outline; (v1 - v0) x (v2 - v0) is the front.
+    /// Four points around the outline, in scene units; (v1 - v0) x (v2 - v0) is the front.
     pub vertices: [DVec3; 4] = Array::<_, 4>(point());
     /// The name of a material.
     pub material: String = Text;
@@ -235,7 +240,7 @@ record! {
     /// A triangle.
     #[derive(Clone, Debug, PartialEq)]
     pub struct Triangle = "a triangle";
-    /// Three points; (v1 - v0) x (v2 - v0) is the front.
+    /// Three points, in scene units; (v1 - v0) x (v2 - v0) is the front.
     pub vertices: [DVec3; 3] = Array::<_, 3>(point());
     /// The name of a material.
     pub material: String = Text;
@@ -253,7 +258,7 @@ record! {
     pub scale: f64 = LENGTH, or 1.0;
     /// Degrees about x, then y, then z; default none.
     pub rotate: DVec3 = point(), or DVec3::ZERO;
-    /// Added to every point; default none.
+    /// Added to every point, in scene units; default none.
     pub translate: DVec3 = point(), or DVec3::ZERO;
 }
 
@@ -285,7 +290,7 @@ record! {
     /// Sampling of one ray.
     #[derive(Clone, Debug, PartialEq, Eq)]
     pub struct DepthSampling = "a depth";
-    /// Resolution of each coordinate, in bits.
+    /// Resolution of the coordinates u and v, in bits.
     pub bits: [u32; 2] = Array::<_, 2>(whole::<u32>(0, 24));
     /// The map from the unit square to directions; not for the primary ray.
     pub map: Map = word::<Map>(), or Map::Auto;
@@ -306,7 +311,7 @@ record! {
     /// Width of the circuit's fixed-point numbers.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub struct Precision = "precision";
-    /// Fraction bits, or auto: 16.
+    /// Bits behind the point; `auto` is 16.
     pub fraction: Option<u32> = AutoOr(whole::<u32>(4, 30)), or None;
 }
 
@@ -314,9 +319,9 @@ record! {
     /// The comparator register.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub struct Comparator = "the comparator";
-    /// Its qubits; default 10.
+    /// Its qubits, c: a colour is compared with 2^c thresholds; default 10.
     pub bits: u32 = whole::<u32>(1, 30), or 10;
-    /// Where the comparators stand.
+    /// Where the comparators stand, with h = scale / 2^bits.
     pub at: ComparatorAt = word::<ComparatorAt>(), or ComparatorAt::Midpoints;
 }
 
@@ -350,7 +355,7 @@ keyword! {
     pub enum Window = "a window";
     /// Equal amplitudes, as in the paper.
     Rect = "rect";
-    /// w_j proportional to sin(pi (j + 1) / (T + 1)).
+    /// Amplitudes w_j proportional to sin(pi (j + 1) / (T + 1)).
     Sine = "sine";
 }
 
@@ -429,9 +434,9 @@ record! {
     /// Limits on the circuit's cost; beyond them, an error.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub struct Budget = "the budget";
-    /// At most so many qubits.
+    /// At most so many qubits at a time.
     pub qubits: Option<u64> = Maybe(whole::<u64>(1, 1 << 53)), or None;
-    /// At most so many Toffoli gates.
+    /// At most so many Toffoli gates in one call of the oracle.
     pub toffoli: Option<u64> = Maybe(whole::<u64>(1, 1 << 53)), or None;
 }
 

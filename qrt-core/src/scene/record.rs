@@ -215,6 +215,7 @@ macro_rules! keyword {
         impl $crate::scene::shape::Keyword for $name {
             const NOUN: &'static str = $noun;
             const NAMES: &'static [&'static str] = Self::NAMES;
+            const DOCS: &'static [&'static str] = &[$(concat!($($word_doc),*)),*];
             const VALUES: &'static [Self] = Self::ALL;
         }
     };

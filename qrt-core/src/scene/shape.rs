@@ -43,6 +43,8 @@ pub(crate) trait Part: Sized {
 pub(crate) trait Keyword: Copy + PartialEq + 'static {
     const NOUN: &'static str;
     const NAMES: &'static [&'static str];
+    /// What each of them means, in the same order.
+    const DOCS: &'static [&'static str];
     const VALUES: &'static [Self];
 }
 
@@ -94,10 +96,13 @@ impl<T: Keyword> Shape for WordShape<T> {
         Some(Data::text(T::NAMES[index]))
     }
     fn schema(&self) -> Data {
-        Data::map([(
-            "enum",
-            Data::List(T::NAMES.iter().map(|name| Data::text(*name)).collect()),
-        )])
+        let texts =
+            |texts: &[&str]| Data::List(texts.iter().map(|text| Data::text(text.trim())).collect());
+        // Not JSON Schema's own, but what editors show beside each word.
+        Data::map([
+            ("enum", texts(T::NAMES)),
+            ("enumDescriptions", texts(T::DOCS)),
+        ])
     }
 }
 

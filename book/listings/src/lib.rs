@@ -1,0 +1,63 @@
+//! The Rust listings of the book: every ```` ```rust ```` block of every page is a test.
+//!
+//! `cargo test -p qrt-book-listings` runs them. A page that is added to the book's `SUMMARY.md` gets
+//! a line here; the test below says so.
+
+macro_rules! pages {
+    ($($name:ident = $file:literal,)*) => {
+        /// The pages whose listings are tests.
+        pub const PAGES: &[&str] = &[$($file),*];
+
+        $(
+            #[cfg(doctest)]
+            #[doc = include_str!(concat!("../../src/", $file))]
+            mod $name {}
+        )*
+    };
+}
+
+pages! {
+    introduction = "introduction.md",
+    first_picture = "first-picture.md",
+    quantum_computing = "quantum-computing.md",
+    path_tracing = "path-tracing.md",
+    superposition = "superposition.md",
+    sampling = "sampling.md",
+    intersection = "intersection.md",
+    shading = "shading.md",
+    comparator = "comparator.md",
+    oracle = "oracle.md",
+    grover = "grover.md",
+    counting = "counting.md",
+    estimators = "estimators.md",
+    cost = "cost.md",
+    accuracy = "accuracy.md",
+    extremes = "extremes.md",
+    yaml = "yaml.md",
+    format = "format.md",
+    macros = "macros.md",
+    cli = "cli.md",
+    error_codes = "error-codes.md",
+    internals = "internals.md",
+    equations = "equations.md",
+    errata = "errata.md",
+    glossary = "glossary.md",
+}
+
+#[cfg(test)]
+mod tests {
+    use super::PAGES;
+    use std::collections::BTreeSet;
+    use std::path::Path;
+
+    #[test]
+    fn every_page_of_the_book_is_tested() {
+        let book = Path::new(env!("CARGO_MANIFEST_DIR")).join("../src");
+        let summary = std::fs::read_to_string(book.join("SUMMARY.md")).unwrap();
+        let links = summary.split("](").skip(1);
+        let listed: BTreeSet<&str> = links.filter_map(|link| link.split(')').next()).collect();
+        assert!(listed.len() > 20 && listed.iter().all(|page| page.strip_suffix(".md").is_some()));
+        assert_eq!(listed, PAGES.iter().copied().collect());
+        assert_eq!(listed.len(), PAGES.len(), "a page stands here twice");
+    }
+}

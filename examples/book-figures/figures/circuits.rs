@@ -1,0 +1,183 @@
+//! Circuits: drawn, and what they cost.
+
+#[allow(dead_code, reason = "powers are fitted by plots")]
+#[path = "../../../benches/common/growth.rs"]
+mod scenes;
+
+use super::{Figure, cornell, drawing, scene};
+use qrt::core::circuit::lower;
+use qrt::core::inspect::{Inspection, grouped, svg};
+use qrt::core::oracle::{Options, Oracle};
+use qrt::core::scene::Estimator;
+use qrt::core::valid::ValidScene;
+use qrt::runtime::plot::{Axis, Drawn, Fit, Plot, Series};
+use qrt::runtime::render::{self, Model, Rendered};
+
+/// A lamp before a wall: a circuit small enough to be seen whole.
+const WALL: &str = "
+name: lit-wall
+camera: { perspective: { eye: [0.2, 0.1, 2], target: [0, 0, 0], up: [0, 1, 0], vfov: 60 } }
+film: { width: 2, height: 2 }
+materials:
+  wall: { lambertian: { albedo: [0.9, 0.6, 0.3] } }
+  lamp: { emitter: { radiance: [2, 3, 4] } }
+geometry:
+  - quad: { vertices: [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], material: wall }
+  - quad: { vertices: [[-3, -3, 3], [-3, 2, 3], [3, 2, 3], [3, -3, 3]], material: lamp }
+sampling: { path_bits: 5, depths: [{ bits: [4, 4] }, { bits: [4, 4] }] }
+precision: { fraction: 8 }
+comparator: { bits: 3 }
+";
+
+fn inspected(scene: &ValidScene) -> Inspection {
+    Inspection::new(scene, None, Options::default()).expect("the scene has a circuit")
+}
+
+fn figures(inspection: &Inspection) -> String {
+    let total = inspection.total();
+    format!(
+        "{} Toffoli, {} qubits, depth {}",
+        grouped(total.toffoli),
+        grouped(u64::from(inspection.qubits)),
+        grouped(inspection.toffoli_depth)
+    )
+}
+
+/// The call in the paper's frame.
+pub(super) fn frame() -> Figure {
+    let inspection = inspected(&scene(WALL, "lit-wall.yaml"));
+    let says = format!(
+        "One call of the oracle of a lamp before a wall (2 quads, 2 rays, 2^5 paths, 8 fraction \
+         bits) as boxes on wires, from the compiled program: compute, compare and flip, uncompute; \
+         {}. As `qrt inspect SCENE --circuit FILE.svg` draws it.",
+        figures(&inspection)
+    );
+    Figure::svg(
+        drawing::described(&svg::frame(&inspection, "lit-wall"), &says),
+        says,
+    )
+}
+
+/// Which register has which qubits, and when.
+pub(super) fn registers() -> Figure {
+    let inspection = inspected(&scene(WALL, "lit-wall.yaml"));
+    let says = format!(
+        "Registers of one oracle call of a lamp before a wall (2 quads, 2 rays, 2^5 paths, 8 \
+         fraction bits), from the instruction that computes each to the one that uncomputes it; {}, \
+         {} registers. As `qrt inspect SCENE --registers FILE.svg` draws it.",
+        figures(&inspection),
+        grouped(inspection.layout.registers())
+    );
+    Figure::svg(
+        drawing::described(&svg::registers(&inspection, "lit-wall"), &says),
+        says,
+    )
+}
+
+/// Toffolis of one call, first channel.
+fn toffolis(scene: &ValidScene) -> f64 {
+    let oracle = Oracle::new(scene, 0, Options::default()).expect("the scene has a circuit");
+    let costs = lower::tally(&oracle.whole(0));
+    costs.iter().map(|cost| cost.toffoli as f64).sum()
+}
+
+/// How the cost grows.
+pub(super) fn growth() -> Figure {
+    let quads = [4, 8, 16, 32, 64, 128].map(|count| {
+        let scene = scene(&scenes::quads(count), "quads.yaml");
+        (f64::from(count), toffolis(&scene))
+    });
+    let rays = [1, 2, 3, 4, 6, 8, 12, 16, 20, 24].map(|count: u32| {
+        let depths = vec!["{ bits: [10, 10] }"; count as usize].join(", ");
+        let scene = cornell(&[&format!("sampling.depths=[{depths}]")]);
+        (f64::from(count), toffolis(&scene))
+    });
+    // The first ray is the cheapest: a power law holds later.
+    let (few, many) = (&rays[..6], &rays[5..]);
+    let fractions = [6, 10, 14, 16, 18, 22, 26, 30].map(|bits: u32| {
+        let scene = cornell(&[&format!("precision.fraction={bits}")]);
+        (f64::from(bits), toffolis(&scene))
+    });
+    let all: [(&str, &[(f64, f64)]); 3] = [
+        ("quads P", &quads),
+        ("rays D from 8", many),
+        ("fraction bits w", &fractions),
+    ];
+    let parts: Vec<String> = all
+        .iter()
+        .map(|(name, points)| said(name, points))
+        .collect();
+    let mut series = all
+        .map(|(name, points)| Series::of(name, points.to_vec(), Drawn::Fit))
+        .to_vec();
+    series.push(Series::of("rays D to 8", few.to_vec(), Drawn::Joined));
+    let plot = Plot {
+        title: "Toffolis of one oracle call, and how they grow".to_owned(),
+        x: Axis::log("quads P, rays D or fraction bits w"),
+        y: Axis::log("Toffolis of one call"),
+        series,
+    };
+    let says = format!(
+        "Toffolis of one oracle call (first channel, uncompute: keep) of generated scenes of quads \
+         with 3 rays, and of the Cornell box with other numbers of rays and of fraction bits, with \
+         power laws fitted. {}.",
+        parts.join("; ")
+    );
+    Figure::plot(&plot, says)
+}
+
+fn said(name: &str, points: &[(f64, f64)]) -> String {
+    let logarithms = points
+        .iter()
+        .map(|(x, y)| (libm::log10(*x), libm::log10(*y)));
+    let slope = Fit::of(logarithms).map_or(0.0, |fit| fit.slope);
+    let ends = [points.first(), points.last()].map(|p| p.copied().unwrap_or_default());
+    let [from, to] = ends.map(|(x, y)| format!("{} at {x}", grouped(y as u64)));
+    format!("{name}: {from} to {to}, slope {slope:.2}")
+}
+
+/// The circuit's numbers against floating point.
+pub(super) fn width() -> Figure {
+    let rendered = |fraction: u32, model: Model| -> Rendered {
+        let scene = cornell(&[
+            "film={ width: 32, height: 32 }",
+            "sampling.path_bits=12",
+            "comparator.bits=20",
+            &format!("precision.fraction={fraction}"),
+        ]);
+        let options = render::Options {
+            model,
+            estimator: Some(Estimator::Exact),
+            ..render::Options::default()
+        };
+        render::render(&scene, &options).expect("a picture")
+    };
+    let real = rendered(16, Model::Real);
+    let truth = real.image.pixels.as_flattened();
+    let mean = truth.iter().sum::<f64>() / truth.len() as f64;
+    let points = (6..=22_u32).step_by(2).map(|fraction| {
+        let fixed = rendered(fraction, Model::Fixed);
+        let squares = (fixed.image.pixels.as_flattened().iter().zip(truth))
+            .map(|(a, b)| (a - b) * (a - b))
+            .sum::<f64>();
+        let rmse = (squares / truth.len() as f64).sqrt();
+        (f64::from(fraction), rmse / mean)
+    });
+    let points: Vec<(f64, f64)> = points.collect();
+    let listed: Vec<String> = points
+        .iter()
+        .map(|(bits, error)| format!("{bits}: {:.3} %", 100.0 * error))
+        .collect();
+    let says = format!(
+        "RMSE of the fixed machine's picture to the real model's on the same paths, over the mean, \
+         by fraction bits; Cornell box, 32 x 32 pixels, 2^12 paths, 20 comparator bits. {}.",
+        listed.join(", ")
+    );
+    let plot = Plot {
+        title: "Error of the circuit's numbers, Cornell box".to_owned(),
+        x: Axis::bits("fraction bits"),
+        y: Axis::log("RMSE to real over the mean"),
+        series: vec![Series::of("fixed to real", points, Drawn::Fit)],
+    };
+    Figure::plot(&plot, says)
+}

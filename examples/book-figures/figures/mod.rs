@@ -1,0 +1,110 @@
+//! All figures of the book, each from the library's own code or from a measured table in
+//! `book/data`.
+
+mod circuits;
+mod comparator;
+mod counting;
+mod drawing;
+mod grover;
+mod measured;
+pub(crate) mod pictures;
+mod plates;
+mod points;
+
+use qrt::core::front;
+use qrt::core::valid::ValidScene;
+use qrt::runtime::image::{Encoding, Image, Metadata, save};
+use qrt::runtime::plot::Plot;
+use std::path::{Path, PathBuf};
+
+/// A figure that is made.
+pub(crate) struct Figure {
+    pub(crate) body: Body,
+    /// What it shows, in numbers.
+    pub(crate) says: String,
+}
+
+/// What is in its file.
+pub(crate) enum Body {
+    Svg(String),
+    /// As a PNG, shown at an exposure in stops.
+    Picture(Image, f64),
+}
+
+impl Figure {
+    fn svg(svg: String, says: String) -> Self {
+        let body = Body::Svg(svg);
+        Self { body, says }
+    }
+
+    fn plot(plot: &Plot, says: String) -> Self {
+        Self::svg(drawing::described(&plot.svg(), &says), says)
+    }
+
+    /// Writes it; `about` says in a picture's metadata where it is from.
+    pub(crate) fn write(&self, file: &Path) {
+        match &self.body {
+            Body::Svg(svg) => std::fs::write(file, svg).expect("the figure is written"),
+            Body::Picture(image, exposure) => {
+                let mut metadata = Metadata::new();
+                let from = "cargo run --release --example book-figures";
+                metadata.set("made-by", from).expect("a key");
+                let exposure = *exposure;
+                save(file, image, &metadata, Encoding::Png { exposure }).expect("it is written");
+            }
+        }
+    }
+}
+
+/// Makes a figure.
+pub(crate) type Make = fn() -> Figure;
+
+/// All figures, by the names of their files.
+pub(crate) const ALL: [(&str, Make); 23] = [
+    ("first-picture.png", pictures::first),
+    ("noise-strip.png", pictures::noise),
+    ("counted-strip.png", pictures::counted),
+    ("cornell-box-gates.png", pictures::gates),
+    ("counting-distribution.svg", counting::distribution),
+    ("counting-windows.svg", counting::windows),
+    ("posterior.svg", counting::posteriors),
+    ("grover-plane.svg", grover::plane),
+    ("grover-sign.svg", grover::sign),
+    ("hemisphere-lattice.svg", points::hemispheres),
+    ("net-and-lattice.svg", points::projections),
+    ("lattice-dimension.svg", plates::dimensions),
+    ("comparator.svg", comparator::errors),
+    ("circuit-big-picture.svg", circuits::frame),
+    ("registers.svg", circuits::registers),
+    ("cost-growth.svg", circuits::growth),
+    ("width.svg", circuits::width),
+    ("truncation.svg", measured::truncation),
+    ("estimators-error.svg", measured::estimators_error),
+    ("estimators-rmse.svg", measured::estimators_rmse),
+    ("estimators-pixels.svg", measured::estimators_pixels),
+    ("trade.svg", measured::trade),
+    ("trade-parts.svg", measured::parts),
+];
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// Where the figures are.
+pub(crate) fn folder() -> PathBuf {
+    root().join("book/src/figures")
+}
+
+/// The Cornell box of the example scenes, with overrides.
+fn cornell(sets: &[&str]) -> ValidScene {
+    let sets: Vec<String> = sets.iter().map(ToString::to_string).collect();
+    let file = root().join("scenes-yaml/cornell-box.yaml");
+    let loaded = front::load(&file, &sets).unwrap_or_else(|report| panic!("{report}"));
+    loaded.valid
+}
+
+/// A scene of a text.
+fn scene(text: &str, name: &str) -> ValidScene {
+    let parsed = front::parse(text, name, &[], root());
+    parsed.unwrap_or_else(|report| panic!("{report}")).valid
+}

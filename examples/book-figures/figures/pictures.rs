@@ -1,0 +1,209 @@
+//! Pictures, enlarged so that their pixels are seen.
+
+use super::{Body, Figure, cornell};
+use qrt::core::scene::Estimator;
+use qrt::core::valid::ValidScene;
+use qrt::runtime::image::Image;
+use qrt::runtime::machines::Real;
+use qrt::runtime::render::{Model, Options, render};
+use qrt::runtime::sample::tallies;
+
+/// Between pictures of a strip, in their pixels.
+const GAP: u32 = 2;
+/// What is between them: a grey that is neither page's.
+const BETWEEN: [f64; 3] = [0.1; 3];
+/// Pixels along each side of a picture of a strip.
+const SIDE: u32 = 48;
+/// Brighter by one stop, which strips and the picture of the gates machine are shown at.
+const EXPOSURE: f64 = 1.0;
+
+/// Each pixel as `times` x `times`.
+fn enlarged(image: &Image, times: u32) -> Image {
+    let (width, height) = (times * image.width, times * image.height);
+    let pixel = |k: u32| {
+        let (x, y) = (k % width / times, k / width / times);
+        image.pixels[(y * image.width + x) as usize]
+    };
+    Image {
+        width,
+        height,
+        pixels: (0..width * height).map(pixel).collect(),
+    }
+}
+
+/// Pictures of one size side by side.
+fn strip(images: &[Image]) -> Image {
+    let (side, count) = (SIDE, images.len() as u32);
+    let width = count * side + (count - 1) * GAP;
+    let pixel = |k: u32| {
+        let (x, y) = (k % width, k / width);
+        let (image, within) = (x / (side + GAP), x % (side + GAP));
+        if within < side {
+            images[image as usize].pixels[(y * side + within) as usize]
+        } else {
+            BETWEEN
+        }
+    };
+    Image {
+        width,
+        height: side,
+        pixels: (0..width * side).map(pixel).collect(),
+    }
+}
+
+/// The root of the mean square difference over the mean of `truth`.
+fn error(image: &Image, truth: &Image) -> f64 {
+    let pairs = image.pixels.as_flattened().iter();
+    let pairs = pairs.zip(truth.pixels.as_flattened());
+    let squares: f64 = pairs.map(|(a, b)| (a - b) * (a - b)).sum();
+    let all = truth.pixels.as_flattened();
+    let mean = all.iter().sum::<f64>() / all.len() as f64;
+    (squares / all.len() as f64).sqrt() / mean
+}
+
+fn rendered(scene: &ValidScene, options: &Options<'_>) -> (Image, f64) {
+    let rendered = render(scene, options).expect("a picture");
+    let channels = 3.0 * rendered.image.pixels.len() as f64;
+    let queries = rendered.total_queries() as f64 / channels;
+    (rendered.image, queries)
+}
+
+/// The Cornell box as the plain command renders it.
+pub(super) fn first() -> Figure {
+    let (image, queries) = rendered(&cornell(&[]), &Options::default());
+    let says = format!(
+        "64 x 64 pixels, each shown as 5 x 5; 2^14 paths a pixel, adaptive-bayes, {queries:.0} \
+         queries a channel, exposure 0, as `qrt render scenes-yaml/cornell-box.yaml` renders it."
+    );
+    let body = Body::Picture(enlarged(&image, 5), 0.0);
+    Figure { body, says }
+}
+
+/// The picture that these paths have on average.
+fn mean_of(real: &Real) -> Image {
+    let pixels: Vec<[u32; 2]> = (0..SIDE * SIDE).map(|k| [k % SIDE, k / SIDE]).collect();
+    let paths = real.paths();
+    let sums = tallies(real, &pixels, 0..paths, &[], None).expect("nobody cancels");
+    let pixel = |sum: qrt::runtime::sample::Tally| sum.colour.map(|c| c / paths as f64);
+    Image {
+        width: SIDE,
+        height: SIDE,
+        pixels: sums.into_iter().map(pixel).collect(),
+    }
+}
+
+/// The same number of paths by three ways of choosing them.
+pub(super) fn noise() -> Figure {
+    let film = format!("film={{ width: {SIDE}, height: {SIDE} }}");
+    let net = |bits: u32, seed: u64| {
+        let scene = cornell(&[&film, &format!("sampling.path_bits={bits}")]);
+        Real::new(&scene, seed).expect("a machine")
+    };
+    let lattice = cornell(&[
+        &film,
+        "sampling.sequence=product-lattice",
+        "sampling.depths=[{bits: [2, 2]}, {bits: [2, 2]}, {bits: [1, 1]}]",
+        "sampling.path_bits=10",
+    ]);
+    let lattice = Real::new(&lattice, 0).expect("a machine");
+    let images = [lattice, net(10, 0).monte_carlo(1 << 10), net(10, 0)].map(|real| mean_of(&real));
+    let truth = mean_of(&net(13, 1));
+    let errors = images.each_ref().map(|image| 100.0 * error(image, &truth));
+    let says = format!(
+        "Cornell box, 48 x 48 pixels, each shown as 4 x 4, exact mean of 2^10 paths a pixel, exposure \
+         1: product lattice (bits 2 2, 2 2, 1 1), random paths, digital net. RMSE over the mean, to \
+         the net with 2^13 paths and another seed: {:.0} %, {:.0} %, {:.0} %.",
+        errors[0], errors[1], errors[2]
+    );
+    let body = Body::Picture(enlarged(&strip(&images), 4), EXPOSURE);
+    Figure { body, says }
+}
+
+/// The same number of queries by five estimators.
+pub(super) fn counted() -> Figure {
+    let scene = cornell(&[
+        &format!("film={{ width: {SIDE}, height: {SIDE} }}"),
+        "sampling.path_bits=12",
+        "counting.phase_bits=8",
+    ]);
+    let estimators = [
+        Estimator::Exact,
+        Estimator::MonteCarlo,
+        Estimator::Paper,
+        Estimator::Sine,
+        Estimator::AdaptiveBayes,
+    ];
+    let all = estimators.map(|estimator| {
+        let options = Options {
+            estimator: Some(estimator),
+            ..Options::default()
+        };
+        rendered(&scene, &options)
+    });
+    let listed: Vec<String> = (estimators.iter().zip(&all).skip(1))
+        .map(|(estimator, (image, queries))| {
+            let error = 100.0 * error(image, &all[0].0);
+            format!("{estimator} {error:.0} % ({queries:.0} queries a channel)")
+        })
+        .collect();
+    let says = format!(
+        "Cornell box, 48 x 48 pixels, each shown as 3 x 3, 2^12 paths a pixel, 2^12 comparators, T = \
+         2^8, exposure 1: exact, then by estimators. RMSE to the exact picture over its mean: {}.",
+        listed.join(", ")
+    );
+    let body = Body::Picture(enlarged(&strip(&all.map(|(image, _)| image)), 3), EXPOSURE);
+    Figure { body, says }
+}
+
+/// Pixels along each side of the gates machine's picture.
+const GATES: u32 = 32;
+/// How much larger it is shown.
+const TIMES: u32 = 8;
+
+fn small_box() -> ValidScene {
+    cornell(&[
+        &format!("film={{ width: {GATES}, height: {GATES} }}"),
+        "sampling.path_bits=12",
+    ])
+}
+
+/// The Cornell box by gates.
+pub(super) fn gates() -> Figure {
+    by_gates(Model::Gates)
+}
+
+/// As [`gates`], by a model that makes the same picture.
+pub(crate) fn by_gates(model: Model) -> Figure {
+    let options = Options {
+        model,
+        estimator: Some(Estimator::Exact),
+        ..Options::default()
+    };
+    let (image, _) = rendered(&small_box(), &options);
+    let says =
+        "32 x 32 pixels, each shown as 8 x 8, 2^12 paths a pixel, exposure 1: every gate of \
+                compute, flip and uncompute executed for every path, no counting noise (`--model \
+                gates --estimator exact`)."
+            .to_owned();
+    let body = Body::Picture(enlarged(&image, TIMES), EXPOSURE);
+    Figure { body, says }
+}
+
+/// A part of the same picture by gates, and the same part of `whole`.
+#[allow(dead_code, reason = "the test's")]
+pub(crate) fn gates_crop(whole: &Image) -> [Vec<[f64; 3]>; 2] {
+    const CROP: [u32; 4] = [13, 11, 4, 4];
+    let options = Options {
+        model: Model::Gates,
+        estimator: Some(Estimator::Exact),
+        crop: Some(CROP),
+        ..Options::default()
+    };
+    let (part, _) = rendered(&small_box(), &options);
+    let [left, top, width, height] = CROP;
+    let pixel = |k: u32| {
+        let (x, y) = (left + k % width, top + k / width);
+        whole.pixels[(y * TIMES * whole.width + x * TIMES) as usize]
+    };
+    [part.pixels, (0..width * height).map(pixel).collect()]
+}

@@ -1,0 +1,155 @@
+//! Reports of real faults, one for each code.
+
+use qrt::core::circuit::builder::BuildError;
+use qrt::core::diagnostics::Report;
+use qrt::core::front::{Loaded, obj, parse};
+use qrt::core::oracle::{MOST_FACES, Oracle, OracleError, check_budget, spent};
+use qrt::core::scene::{Bsdf, Jacobian};
+use qrt::core::valid::{bsdf, validate};
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+use std::sync::LazyLock;
+
+/// For each code the shortest report that shows it.
+pub(crate) fn all() -> &'static BTreeMap<String, String> {
+    static ALL: LazyLock<BTreeMap<String, String>> = LazyLock::new(collected);
+    &ALL
+}
+
+fn collected() -> BTreeMap<String, String> {
+    let mut reports = BTreeMap::new();
+    let mut keep = |code: String, text: String| {
+        // Those of scenes before the compiler's.
+        let size = |text: &str| {
+            (
+                text.starts_with("error: "),
+                text.lines().count(),
+                text.len(),
+            )
+        };
+        let old = reports.entry(code).or_insert_with(|| text.clone());
+        if size(&text) < size(old) {
+            *old = text;
+        }
+    };
+    for (folder, end) in [("tests/bad_scenes", "txt"), ("tests/ui", "stderr")] {
+        let mut files: Vec<_> = fs::read_dir(folder)
+            .unwrap()
+            .map(|entry| entry.unwrap().path())
+            .filter(|path| path.extension().is_some_and(|found| found == end))
+            .collect();
+        files.sort();
+        for file in files {
+            let text = fs::read_to_string(file).unwrap();
+            let text = text
+                .replace(&format!("{folder}/"), "")
+                .replace(folder, "scenes");
+            for (code, report) in split(&text) {
+                keep(code, report);
+            }
+        }
+    }
+    for text in elsewhere() {
+        for (code, report) in split(&text) {
+            keep(code, report);
+        }
+    }
+    reports
+}
+
+/// The reports of a text, each with its code.
+fn split(text: &str) -> Vec<(String, String)> {
+    let mut reports: Vec<String> = Vec::new();
+    for line in text.lines() {
+        if line.starts_with("error") {
+            reports.push(String::new());
+        }
+        if let Some(report) = reports.last_mut() {
+            report.push_str(line.trim_end());
+            report.push('\n');
+        }
+    }
+    let coded = reports.into_iter().filter_map(|report| {
+        let title = report.lines().next()?;
+        let at = title.find("[QRT")?;
+        let code = title.get(at + 1..at + 8)?.to_owned();
+        // The last line of all counts the errors.
+        let (report, last) = report.trim_end().rsplit_once('\n')?;
+        let counts = last.contains(": ") && (last.ends_with(" error") || last.ends_with(" errors"));
+        let end = if counts { "" } else { last };
+        Some((code, format!("{report}\n{end}").trim_end().to_owned()))
+    });
+    coded.collect()
+}
+
+/// A wall in front of the camera, and more blocks.
+fn wall(more: &str) -> Loaded {
+    let text = format!(
+        "\
+name: wall
+camera: {{ perspective: {{ eye: [0, 0, 1], target: [0, 0, 0], vfov: 45 }} }}
+film: {{ width: 1, height: 1 }}
+materials: {{ lit: {{ emitter: {{ radiance: [1, 1, 1] }} }} }}
+geometry: [quad: {{ vertices: [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], material: lit }}]
+{more}"
+    );
+    parse(&text, "wall.yaml", &[], "".as_ref()).unwrap()
+}
+
+/// Reports that no faulty scene file alone brings about. QRT0344 has none: whatever the OBJ library
+/// refuses is refused by the checks before it, as far as anybody knows.
+fn elsewhere() -> Vec<String> {
+    let tell = |loaded: &Loaded, problems| loaded.report(problems).render(false);
+    let mut texts = Vec::new();
+
+    let tight = wall("budget: { qubits: 100, toffoli: 1000 }");
+    let (oracles, _) = Oracle::all(&tight.valid).unwrap();
+    let over = check_budget(&tight.valid, spent(&oracles)).unwrap_err();
+    texts.push(tell(&tight, over));
+
+    let fine = wall("precision: { fraction: 30 }");
+    for error in [
+        OracleError::Build(BuildError::TooWide {
+            what: "a number of the scene",
+            bits: 70,
+        }),
+        OracleError::Build(BuildError::UnboundedQuotient),
+        OracleError::TooManyFaces {
+            faces: MOST_FACES + 1,
+        },
+    ] {
+        texts.push(tell(&fine, vec![error.problem()]));
+    }
+
+    let whole = |problem| Report::of_file("a scene made in Rust", problem).render(false);
+    let mut scene = fine.valid.scene().clone();
+    scene.materials.push(scene.materials[0].clone());
+    let problems = validate(scene, "".as_ref()).unwrap_err();
+    texts.extend(problems.into_iter().map(whole));
+
+    let grey = Bsdf {
+        map: ["u".into(), "v".into(), "1".into()],
+        jacobian: Jacobian::Auto,
+        value: vec!["0.1".into(), "0.2".into()],
+    };
+    let problems = bsdf::compile(&grey).unwrap_err();
+    texts.extend(problems.into_iter().map(whole));
+
+    // Sparse: it takes no room, and no time until it is read.
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("book_reference");
+    fs::create_dir_all(&folder).unwrap();
+    let file = fs::File::create(folder.join("large.obj")).unwrap();
+    file.set_len(obj::MAX_BYTES + 1).unwrap();
+    let large = "\
+name: large
+camera: { perspective: { eye: [0, 0, 1], target: [0, 0, 0], vfov: 45 } }
+film: { width: 1, height: 1 }
+materials: { grey: { lambertian: { albedo: [0.5, 0.5, 0.5] } } }
+geometry: [mesh: { obj: large.obj, material: grey }]
+";
+    let report = parse(large, "large.yaml", &[], &folder).unwrap_err();
+    texts.push(report.render(false));
+    fs::remove_dir_all(folder).unwrap();
+    texts
+}
