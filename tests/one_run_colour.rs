@@ -171,6 +171,14 @@ fn what_measures_nothing_is_refused_and_nothing_is_black() {
     let error = render(&lamps, &options).unwrap_err();
     assert!(error.is_refusal());
     assert!(error.to_string().contains("choose another estimator"));
+    let noisy = Options {
+        colour: Colour::ThreeRuns,
+        noise: "readout=0.01".parse().unwrap(),
+        ..options
+    };
+    let error = render(&lamps, &noisy).unwrap_err();
+    assert!(error.is_refusal());
+    assert!(error.to_string().contains("or no noise"), "{error}");
     let nothing = "
 name: nothing
 camera: { orthographic: { eye: [0, 0, 1], target: [0, 0, 0], height: 1 } }

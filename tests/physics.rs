@@ -382,3 +382,54 @@ geometry:
         }
     }
 }
+
+/// Random directions under two densities, and the net's: one integral.
+#[test]
+fn random_paths_have_the_mean_of_dense_ones_whatever_their_density() {
+    const PATHS: u64 = 1 << 16;
+    let pixels: Vec<[u32; 2]> = (0..20).map(|i| [i % 5, i / 5]).collect();
+    let machine = |map: &str, path_bits: u32| {
+        let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes-yaml");
+        let depths = format!("[{{ bits: [16, 16] }}, {{ bits: [16, 16], map: {map} }}]");
+        let sets = [
+            "film={ width: 5, height: 4 }".to_owned(),
+            format!("sampling={{ path_bits: {path_bits}, depths: {depths} }}"),
+        ];
+        let scene = qrt_core::front::load(&folder.join("floor-and-light.yaml"), &sets);
+        let scene = scene.unwrap_or_else(|report| panic!("{report}")).valid;
+        Real::new(&scene, 3).unwrap_or_else(|error| panic!("{error}"))
+    };
+    let dense = machine("auto", 18).sums(&pixels);
+    for map in ["cosine-hemisphere", "uniform-hemisphere"] {
+        let random = machine(map, 0).monte_carlo(PATHS);
+        let mut sums = vec![[[0.0; 2]; 3]; pixels.len()];
+        random.trace(&pixels, |block| {
+            for (sum, colours) in sums[block.pixel].iter_mut().zip(block.colours) {
+                for colour in colours {
+                    sum[0] += colour;
+                    sum[1] += colour * colour;
+                }
+            }
+        });
+        // How many standard errors they are apart: a standard normal, if both are right.
+        let mut apart = Vec::new();
+        for (sum, dense) in sums.iter().zip(&dense) {
+            for (&[first, second], dense) in sum.iter().zip(dense.colour) {
+                let mean = first / PATHS as f64;
+                let variance = second / PATHS as f64 - mean * mean;
+                let error = (variance / PATHS as f64).sqrt();
+                assert!(
+                    error < 0.05 * mean,
+                    "{map}: {mean} +- {error} tells nothing"
+                );
+                apart.push((mean - dense / f64::from(1 << 18)) / error);
+            }
+        }
+        let square = apart.iter().map(|z| z * z).sum::<f64>() / apart.len() as f64;
+        assert!((0.3..2.0).contains(&square), "{map}: {square}");
+        // Channels of a pixel share their paths.
+        let pixels = apart.len() as f64 / 3.0;
+        let mean = apart.iter().sum::<f64>() / apart.len() as f64;
+        assert!(mean.abs() < 4.0 / pixels.sqrt(), "{map}: {mean}");
+    }
+}

@@ -148,6 +148,23 @@ fn counts_the_others_where_the_reflection_has_the_other_sign() {
     assert!(off(&found, &others) < 1e-12);
 }
 
+/// The logarithm of the size, not the size, is what a counter adds to an oracle.
+#[test]
+fn has_a_qubit_more_for_twice_the_size() {
+    let oracle = Oracle::new(&written(WALL, &[]), 0, Options::default()).unwrap();
+    let oracle = oracle.phase(0, SEED, PIXELS[0]).unwrap();
+    let iterate = Counting::new(&oracle, 1, Window::Rect).unwrap().qubits() - 1;
+    for phase_bits in 1..=30 {
+        for (window, bond) in [(Window::Rect, 0), (Window::Sine, 1)] {
+            let counting = Counting::new(&oracle, phase_bits, window).unwrap();
+            assert_eq!(counting.qubits(), iterate + phase_bits + bond);
+            assert_eq!(counting.queries(), (1 << phase_bits) - 1);
+        }
+    }
+    // Grover's reflection borrows the oracle's own ancillas.
+    assert_eq!(iterate, oracle.qubits());
+}
+
 /// Of gates with no more than two controls, through the oracle's own ancillas.
 #[test]
 fn may_be_written_without_many_controls() {

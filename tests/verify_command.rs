@@ -216,3 +216,12 @@ fn an_interruption_ends_it_and_memory_is_bounded_whatever_the_paths() {
         .unwrap();
     assert_eq!(said, "", "no verdict on what was not checked");
 }
+
+#[test]
+fn a_circuit_beyond_its_budget_is_not_checked() {
+    let text = format!("{CORNER}budget: {{ toffoli: 1000 }}\n");
+    let folder = Folder::with("corner.yaml", &text);
+    let said = folder.fails(2, &["verify", "corner.yaml"]);
+    assert!(said.contains("error[QRT0602]"), "{said}");
+    folder.works(&["verify", "corner.yaml", "--set", "budget.toffoli=100000000"]);
+}

@@ -1,6 +1,7 @@
 //! `qrt verify`: the three models of a scene against each other.
 
 use super::failure::Failure;
+use super::inspect::check_circuit;
 use super::progress::Bar;
 use super::render::MAX_THREADS;
 use super::{interrupt, plan, terminal};
@@ -70,15 +71,16 @@ pub(crate) struct VerifyArgs {
 /// # Errors
 /// A wrong scene, an interruption, and whatever does not hold.
 pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
-    let loaded = front::load(&args.scene, &args.sets)?.valid;
+    let loaded = front::load(&args.scene, &args.sets)?;
     let cancel = interrupt::cancel_on_interrupt()?;
     let planning = qrt_runtime::plan::Options {
         threads: args.threads.and_then(|n| NonZeroUsize::new(n as usize)),
         cancel: Some(&cancel),
         ..Default::default()
     };
-    let planned = plan::of(&loaded, &planning, args.json)?;
-    let scene = planned.map_or(loaded, |plan| plan.scene);
+    let planned = plan::of(&loaded.valid, &planning, args.json)?;
+    let scene = planned.map_or_else(|| loaded.valid.clone(), |plan| plan.scene);
+    check_circuit(&loaded, &scene)?;
     let bar = Bar::new(!args.json);
     let show = |progress: Progress| bar.show(progress);
     let options = Options {

@@ -237,10 +237,11 @@ impl Real {
     /// Runs `work` with this machine's lanes.
     pub(super) fn dispatch<F: WithSimd>(&self, work: F) -> F::Output {
         match self.simd {
-            // This crate's unit tests do without: each instruction set is a tracer to compile.
-            #[cfg(not(test))]
+            // This crate's unit tests do without: each instruction set is a tracer to compile. So do
+            // browsers: it would be a tracer to load, and not all of them know the widest.
+            #[cfg(not(any(test, target_arch = "wasm32")))]
             Simd::Widest => pulp::Arch::new().dispatch(work),
-            #[cfg(test)]
+            #[cfg(any(test, target_arch = "wasm32"))]
             Simd::Widest => work.with_simd(pulp::Scalar::new()),
             Simd::Scalar => work.with_simd(pulp::Scalar::new()),
         }

@@ -15,6 +15,8 @@ pub enum RenderError {
     Unreachable(String),
     /// One run for all channels, and an estimator that measures no paths.
     NothingMeasured,
+    /// Noise of measurements, with an estimator that makes none.
+    NothingNoisy,
     /// A crop without pixels, or not within the film.
     Crop {
         /// x, y, width, height.
@@ -94,6 +96,7 @@ impl RenderError {
         match self {
             Self::Unreachable(_)
             | Self::NothingMeasured
+            | Self::NothingNoisy
             | Self::Crop { .. }
             | Self::TooManyPaths { .. }
             | Self::Bound { .. }
@@ -129,6 +132,11 @@ impl fmt::Display for RenderError {
                 f,
                 "colour from one run is that of the paths which are measured, and the estimator \
                  `exact` measures none: choose another estimator, or three runs"
+            ),
+            Self::NothingNoisy => write!(
+                f,
+                "noise is that of queries and measurements, and the estimator `exact` makes none: \
+                 choose another estimator, or no noise"
             ),
             Self::Crop { crop, film } => {
                 let [x, y, width, height] = crop;

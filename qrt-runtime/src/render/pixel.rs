@@ -93,6 +93,9 @@ impl Pixels {
                 return Err(RenderError::Bound { channel, bound });
             }
         }
+        if estimate == Estimator::Exact && noise != Noise::NONE {
+            return Err(RenderError::NothingNoisy);
+        }
         let one_run = match colour {
             Colour::ThreeRuns => None,
             Colour::OneRun if estimate == Estimator::Exact => {
