@@ -50,7 +50,7 @@ fn main() {
     println!(
         "{}: {traced:.2} s of tracing, {counting:.2} s of counting, {} queries a pixel",
         counted.estimator,
-        counted.total_queries() / (side * side)
+        counted.total_queries() / u128::from(side * side)
     );
     assert!(counting < traced, "counting takes longer than tracing");
 }
