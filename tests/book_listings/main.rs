@@ -29,9 +29,14 @@ use std::fs;
 use std::sync::Mutex;
 use std::time::Instant;
 
+/// The book shows no fewer commands than these, nor fewer scenes; if it did, they would not have
+/// been found.
+const LEAST: [usize; 2] = [80, 25];
+
 #[test]
 fn every_listing_of_the_book_is_true() {
     let pages = pages();
+    let found = Mutex::new([0; 2]);
     let queue = Mutex::new(pages.iter());
     let failures = Mutex::new(Vec::new());
     std::thread::scope(|scope| {
@@ -44,9 +49,14 @@ fn every_listing_of_the_book_is_true() {
                     let outcome = run::page(page);
                     let seconds = start.elapsed().as_secs_f64();
                     println!(
-                        "{}: {} commands, {seconds:.1} s",
-                        page.name, outcome.commands
+                        "{}: {} commands, {} scenes, {seconds:.1} s",
+                        page.name, outcome.commands, outcome.scenes
                     );
+                    {
+                        let mut found = found.lock().unwrap();
+                        found[0] += outcome.commands;
+                        found[1] += outcome.scenes;
+                    }
                     if bless() && outcome.text != page.text {
                         fs::write(format!("{}/{}", book::FOLDER, page.name), outcome.text).unwrap();
                     }
@@ -56,4 +66,13 @@ fn every_listing_of_the_book_is_true() {
         }
     });
     report(&failures.into_inner().unwrap());
+    let found = found.into_inner().unwrap();
+    let enough = found
+        .iter()
+        .zip(LEAST)
+        .all(|(found, least)| *found >= least);
+    assert!(
+        enough,
+        "{found:?} commands and scenes, of at least {LEAST:?}"
+    );
 }

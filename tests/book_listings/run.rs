@@ -16,6 +16,8 @@ pub(crate) struct Outcome {
     pub(crate) failures: Vec<String>,
     /// Commands that were run.
     pub(crate) commands: usize,
+    /// Scenes that were judged.
+    pub(crate) scenes: usize,
 }
 
 /// Runs all commands of a page and checks all of its scenes.
@@ -26,6 +28,7 @@ pub(crate) fn page(page: &Page) -> Outcome {
         text: String::new(),
         failures: Vec::new(),
         commands: 0,
+        scenes: 0,
     };
     let fences = page.fences();
     let mut at = 0;
@@ -38,6 +41,7 @@ pub(crate) fn page(page: &Page) -> Outcome {
                 at = fence.range.end;
             }
             "yaml" => {
+                outcome.scenes += 1;
                 let next = fences.get(i + 1);
                 let told = scene(fence, next, &folder);
                 let told = told.map_err(|what| format!("{}: {what}", page.at(fence.line)));
@@ -182,6 +186,7 @@ error[QRT0120]: unknown key `nothing` in the scene
         let outcome = page(&Page::new("page.md", text));
         assert!(outcome.failures.is_empty(), "{:?}", outcome.failures);
         assert_eq!((outcome.commands, &*outcome.text), (2, text));
+        assert_eq!(outcome.scenes, 0);
     }
 
     #[test]
@@ -202,6 +207,7 @@ error[QRT0120]: unknown key `nothing` in the scene
     fn a_scene_that_is_refused_or_wrongly_accepted_is_told() {
         let right = "```yaml\nfilm: { width: 3, height: 2 }\n```\n";
         assert_eq!(failures(right), [""; 0]);
+        assert_eq!(page(&Page::new("page.md", right)).scenes, 1);
         assert_eq!(failures(&right.replace("yaml", "yaml,wrong")).len(), 1);
         let wrong = right.replace("width", "widht");
         assert!(failures(&wrong)[0].contains("QRT0120"));

@@ -5,9 +5,20 @@
 
 #[path = "../book/mod.rs"]
 mod book;
+// What the book's tool reads, its tests read in the same way.
+#[allow(dead_code)]
+#[path = "../../book/tool/src/complaint.rs"]
+mod complaint;
+#[allow(dead_code)]
+#[path = "../../book/tool/src/equation.rs"]
+mod equation;
+#[path = "../../book/tool/src/symbol.rs"]
+mod symbol;
 
 mod equations;
+mod errata;
 mod fences;
+mod lines;
 mod reading;
 mod source;
 
@@ -55,43 +66,73 @@ fn every_page_is_listed_and_every_listed_page_is_there() {
 #[test]
 fn every_equation_of_the_paper_is_restated_once_with_its_code_and_its_test() {
     let mut failures = Vec::new();
-    let mut seen: BTreeMap<usize, String> = BTreeMap::new();
+    let mut seen: BTreeMap<u32, String> = BTreeMap::new();
     for page in pages() {
         for fence in page.fences() {
             if fence.language() != "equation" {
                 continue;
             }
-            let place = page.at(fence.line);
-            let told = match equations::read(&fence) {
+            match equations::read(&page, &fence) {
                 Ok(equation) => {
-                    if let Some(other) = seen.insert(equation.number, place.clone()) {
-                        let number = equation.number;
+                    let place = page.at(fence.line);
+                    let told = equations::failures(&equation).into_iter();
+                    failures.extend(told.map(|what| format!("{place}: {what}")));
+                    let number = equation.number;
+                    if let Some(other) = seen.insert(number, place.clone()) {
                         failures.push(format!("{place}: equation {number} is at {other} already"));
                     }
-                    equation.failures()
                 }
-                Err(what) => vec![what],
-            };
-            failures.extend(told.into_iter().map(|what| format!("{place}: {what}")));
+                Err(told) => failures.extend(told),
+            }
         }
     }
-    let missing = (1..=equations::COUNT).filter(|number| !seen.contains_key(number));
-    failures.extend(missing.map(|number| format!("no page has equation {number}")));
+    let missing = equation::missing(seen.into_keys());
+    failures.extend(missing.map(|numbers| format!("no page has equations {numbers}")));
     report(&failures);
 }
 
 /// A link to an equation or an erratum names it.
 fn says_where(link: &Link) -> Result<(), String> {
     let (_, anchor) = link.target.split_once('#').unwrap_or_default();
-    let named = match anchor.strip_prefix("eq-") {
-        Some(number) if link.text.starts_with('(') => link.text == format!("({number})"),
-        _ if link.text.starts_with("erratum ") => link.text == format!("erratum {anchor}"),
-        _ => true,
+    let digits = |text: &&str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
+    let named = if let Some(rest) = link.text.strip_prefix('(') {
+        let number = rest.strip_suffix(')').filter(digits);
+        number.map_or(!anchor.starts_with("eq-"), |number| {
+            anchor == format!("eq-{number}")
+        })
+    } else {
+        let letter = link.text.strip_prefix("erratum ");
+        letter.is_none_or(|letter| anchor == letter)
     };
     if named {
         Ok(())
     } else {
         Err(format!("`{}` leads to `{}`", link.text, link.target))
+    }
+}
+
+#[test]
+fn a_link_that_names_a_number_leads_to_it() {
+    let says = |text: &str| says_where(&Page::new("page.md", text).links()[0]).is_ok();
+    for right in [
+        "[(17)](counting.md#eq-17)",
+        "[(17)](#eq-17)",
+        "[erratum f](errata.md#f)",
+        "[the distribution](counting.md#eq-17)",
+        "[(here)](counting.md)",
+    ] {
+        assert!(says(right), "{right}");
+    }
+    for wrong in [
+        "[(17)](counting.md#eq-18)",
+        "[(17)](counting.md#what-the-tail-does)",
+        "[(17)](counting.md)",
+        "[(17](counting.md#eq-17)",
+        "[(17a)](counting.md#eq-17)",
+        "[erratum f](errata.md#g)",
+        "[erratum f](errata.md)",
+    ] {
+        assert!(!says(wrong), "{wrong}");
     }
 }
 
@@ -162,35 +203,6 @@ fn every_figure_is_shown_and_says_what_is_seen() {
 }
 
 #[test]
-fn every_erratum_has_its_place_and_a_number_that_shows_it() {
-    let page = Page::load("errata.md").expect("there is a page of errata");
-    let mut failures = Vec::new();
-    for letter in 'a'..='j' {
-        let anchor = format!("<a id=\"{letter}\"></a>\n## {letter}. ");
-        let sections: Vec<&str> = page.text.split(&*anchor).skip(1).collect();
-        let [section] = sections[..] else {
-            failures.push(format!(
-                "erratum {letter} has {} places, not one",
-                sections.len()
-            ));
-            continue;
-        };
-        let section = section.split("\n## ").next().unwrap_or_default();
-        // Numbers of equations and pages show nothing.
-        let links = Page::new("errata.md", section).links();
-        let bare = links.iter().fold(section.to_owned(), |text, link| {
-            text.replace(&format!("[{}]({})", link.text, link.target), "")
-        });
-        if !bare.bytes().any(|byte| byte.is_ascii_digit()) {
-            failures.push(format!(
-                "erratum {letter} has no number at which the paper fails"
-            ));
-        }
-    }
-    report(&failures);
-}
-
-#[test]
 fn every_error_code_has_its_place() {
     let page = Page::load("error-codes.md").expect("there is a page of error codes");
     let mut failures = Vec::new();
@@ -227,17 +239,9 @@ fn pages_have_one_title_and_lines_that_fit() {
         if titles != 1 {
             failures.push(format!("{}: {titles} titles", page.at(1)));
         }
-        let lines = page.text.lines().zip(prose.lines()).enumerate();
-        for (number, (line, prose)) in lines {
-            // Within blocks lines are as long as what they show; tables and links cannot break.
-            let is_table = prose.trim_start().starts_with('|');
-            let is_prose = !prose.trim().is_empty() && !is_table;
-            let long_link = prose.contains("](") || prose.contains("=\"");
-            if is_prose && !long_link && line.chars().count() > 100 {
-                let length = line.chars().count();
-                failures.push(format!("{}: {length} characters", page.at(number + 1)));
-            }
-        }
+        let long = lines::long(&page).into_iter();
+        failures
+            .extend(long.map(|(line, length)| format!("{}: {length} characters", page.at(line))));
     }
     report(&failures);
 }

@@ -172,30 +172,79 @@ fn keys(page: &mut String, path: &str, schema: &Value, indent: &str) {
     }
 }
 
+/// What the schema has at each path below `path`, whatever this page makes of it.
+fn walk<'a>(path: &str, schema: &'a Value, found: &mut Vec<(String, &'a Value)>) {
+    for (name, part) in schema
+        .get("properties")
+        .and_then(Value::as_mapping)
+        .into_iter()
+        .flatten()
+    {
+        let name = name.as_str().unwrap();
+        let path = if path.is_empty() {
+            name.to_owned()
+        } else {
+            format!("{path}.{name}")
+        };
+        found.push((path.clone(), part));
+        walk(&path, part, found);
+    }
+    let choices = schema.get("anyOf").and_then(Value::as_sequence);
+    let parts = [schema.get("items"), schema.get("additionalProperties")];
+    for part in parts
+        .into_iter()
+        .flatten()
+        .chain(choices.into_iter().flatten())
+    {
+        walk(path, part, found);
+    }
+}
+
 #[test]
-fn every_key_of_the_schema_is_on_the_page_and_every_example_is_a_block() {
+fn every_key_of_the_schema_is_on_the_page_and_nothing_else() {
+    let schema: Value = serde_yaml::from_str(&qrt::core::schema::text()).unwrap();
+    let mut found = Vec::new();
+    walk("", &schema, &mut found);
     let page = page();
-    for anchor in [
-        "camera.perspective.vfov",
-        "materials.bsdf.map",
-        "geometry.mesh.obj",
-        "sampling.depths.map",
-        "counting.estimator",
-        "budget.toffoli",
-    ] {
-        assert_eq!(
-            page.matches(&format!("<a id=\"{anchor}\">")).count(),
-            1,
-            "{anchor}"
-        );
+    let mark = "<a id=\"";
+    // What stands between an anchor and the next.
+    let entries: Vec<(&str, &str)> = page
+        .split(mark)
+        .skip(1)
+        .map(|entry| entry.split_once("\"></a>").unwrap())
+        .collect();
+    let mut paths: Vec<&str> = found.iter().map(|(path, _)| &**path).collect();
+    let mut anchors: Vec<&str> = entries.iter().map(|(path, _)| *path).collect();
+    paths.sort_unstable();
+    anchors.sort_unstable();
+    assert_eq!(paths, anchors);
+    for (path, part) in found {
+        let (_, entry) = entries.iter().find(|(other, _)| *other == path).unwrap();
+        // As one line, wherever it is wrapped.
+        let entry = entry.split_whitespace().collect::<Vec<_>>().join(" ");
+        let name = path.rsplit('.').next().unwrap();
+        assert!(entry.contains(&format!("`{name}`")), "{path}: {entry}");
+        let words = part.get("enum").and_then(Value::as_sequence);
+        for word in words.into_iter().flatten() {
+            let word = format!("- `{}`: ", word.as_str().unwrap());
+            assert!(entry.contains(&word), "{path} without {word}: {entry}");
+        }
+        let depth = path.split('.').count();
+        if depth > 1 && part.get("default").is_some() {
+            assert!(entry.contains("; default `"), "{path}: {entry}");
+        }
     }
-    for word in [
-        "`abrams-williams`: ",
-        "`product-lattice`: ",
-        "default `[0, 1, 0]`",
-    ] {
-        assert!(page.contains(word), "{word}");
-    }
+    assert!(page.contains("default `[0, 1, 0]`"));
+}
+
+#[test]
+fn every_block_has_an_example_of_its_own() {
+    let schema: Value = serde_yaml::from_str(&qrt::core::schema::text()).unwrap();
+    let names = entries(&schema, "properties").keys();
+    let names: Vec<&str> = names.filter_map(Value::as_str).collect();
+    let mut examples = EXAMPLES.map(|(name, _)| name);
+    examples.sort_unstable_by_key(|name| names.iter().position(|other| other == name));
+    assert_eq!(names, examples);
     for (name, example) in EXAMPLES {
         assert!(example.starts_with(&format!("{name}:")), "{example}");
     }

@@ -186,7 +186,7 @@ fn joined(from: &str, path: &str) -> Option<String> {
 }
 
 /// Undoes `%20` and the like.
-fn decoded(text: &str) -> String {
+pub(crate) fn decoded(text: &str) -> String {
     let mut bytes = Vec::with_capacity(text.len());
     let mut rest = text.as_bytes();
     while let [first, after @ ..] = rest {

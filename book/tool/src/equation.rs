@@ -1,9 +1,16 @@
 //! Equations of the paper: the fenced blocks that restate them, and their index.
+//!
+//! It needs nothing else of the tool than complaints: the book's tests include this file.
 
 use crate::complaint::Complaint;
+use std::collections::BTreeSet;
+use std::ops::RangeInclusive;
 
 /// The paper's equations are numbered 1 to this.
 pub(crate) const COUNT: u32 = 28;
+
+/// The paper's errata are called so.
+pub(crate) const ERRATA: RangeInclusive<char> = 'a'..='j';
 
 /// A place in the repository's sources: a file, and what it defines.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -72,18 +79,8 @@ impl Equation {
             test: Vec::new(),
             erratum: None,
         };
-        for (offset, text) in keys.iter().enumerate().skip(1) {
-            if text.trim().is_empty() {
-                continue;
-            }
-            let said = match text.split_once(':') {
-                Some((key, value)) => equation.set(key.trim(), value.trim()),
-                None => Err(format!("`{text}` is not `key: value`")),
-            };
-            if let Err(message) = said {
-                complaints.push(Complaint::at(file, line + tex.len() + offset, message));
-            }
-        }
+        let keys = keys.get(1..).unwrap_or_default();
+        complaints.extend(equation.read(keys, file, line + tex.len() + 1));
         for (key, missing) in [
             ("what", equation.what.is_empty()),
             ("code", equation.code.is_empty()),
@@ -104,7 +101,35 @@ impl Equation {
         }
     }
 
-    fn set(&mut self, key: &str, value: &str) -> Result<(), String> {
+    /// Reads the lines below the rule, of which the first is line `line` of `file`.
+    fn read(&mut self, keys: &[&str], file: &str, line: usize) -> Vec<Complaint> {
+        let mut complaints = Vec::new();
+        let mut said = BTreeSet::new();
+        for (text, line) in keys.iter().zip(line..) {
+            if text.trim().is_empty() {
+                continue;
+            }
+            let read = match text.split_once(':') {
+                Some((key, value)) => self.set(key.trim(), value.trim(), &mut said),
+                None => Err(format!("`{text}` is not `key: value`")),
+            };
+            if let Err(message) = read {
+                complaints.push(Complaint::at(file, line, message));
+            }
+        }
+        complaints
+    }
+
+    /// Sets what a key says, unless it is one of those that were `said` before.
+    fn set<'a>(
+        &mut self,
+        key: &'a str,
+        value: &str,
+        said: &mut BTreeSet<&'a str>,
+    ) -> Result<(), String> {
+        if !said.insert(key) {
+            return Err(format!("a second `{key}:`"));
+        }
         match key {
             "what" => value.clone_into(&mut self.what),
             "code" => self.code = places(value)?,
@@ -112,8 +137,13 @@ impl Equation {
             "erratum" => {
                 let mut letters = value.chars();
                 self.erratum = match (letters.next(), letters.next()) {
-                    (Some(letter @ 'a'..='j'), None) => Some(letter),
-                    _ => return Err(format!("`{value}` is no erratum: they are called a to j")),
+                    (Some(letter), None) if ERRATA.contains(&letter) => Some(letter),
+                    _ => {
+                        let (first, last) = (ERRATA.start(), ERRATA.end());
+                        return Err(format!(
+                            "`{value}` is no erratum: they are called {first} to {last}"
+                        ));
+                    }
                 };
             }
             _ => {
@@ -199,6 +229,23 @@ mod tests {
         );
         assert!(Equation::parse("equation 3", &["a = b"], "x.md", 5).is_err());
         assert!(Equation::parse("equation", &BODY, "x.md", 5).is_err());
+    }
+
+    #[test]
+    fn nothing_is_said_twice() {
+        for key in [
+            "what: a",
+            "code: a/b.rs#one",
+            "test: a/b.rs#two",
+            "erratum: b",
+        ] {
+            let mut body = BODY.to_vec();
+            body.extend(["erratum: f", "", key]);
+            let complaints = Equation::parse("equation 17", &body, "x.md", 5).unwrap_err();
+            let said: Vec<String> = complaints.iter().map(ToString::to_string).collect();
+            let (key, _) = key.split_once(':').unwrap();
+            assert_eq!(said, [format!("x.md:13: a second `{key}:`")]);
+        }
     }
 
     #[test]

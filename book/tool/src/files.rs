@@ -19,7 +19,8 @@ pub(crate) fn write_all<T: AsRef<[u8]>>(folder: &Path, wanted: &BTreeMap<String,
             continue;
         }
         if let Some(parent) = file.parent() {
-            std::fs::create_dir_all(parent)?;
+            std::fs::create_dir_all(parent)
+                .with_context(|| format!("cannot make the folder {}", parent.display()))?;
         }
         std::fs::write(&file, content)
             .with_context(|| format!("cannot write {}", file.display()))?;
@@ -27,7 +28,8 @@ pub(crate) fn write_all<T: AsRef<[u8]>>(folder: &Path, wanted: &BTreeMap<String,
     Ok(())
 }
 
-/// All files below a folder, in order of their names; none if there is no such folder.
+/// All files below a folder, in order of their names; none if there is no such folder. What is
+/// behind a link to a folder is elsewhere: it is not below this one, and may be above it.
 pub(crate) fn all(folder: &Path) -> Result<Vec<PathBuf>> {
     let mut files = Vec::new();
     let mut folders = vec![folder.to_owned()];
@@ -35,12 +37,13 @@ pub(crate) fn all(folder: &Path) -> Result<Vec<PathBuf>> {
         if !folder.is_dir() {
             continue;
         }
-        for entry in std::fs::read_dir(&folder)? {
-            let path = entry?.path();
-            if path.is_dir() {
-                folders.push(path);
-            } else {
-                files.push(path);
+        let cannot = || format!("cannot read the folder {}", folder.display());
+        for entry in std::fs::read_dir(&folder).with_context(cannot)? {
+            let entry = entry.with_context(cannot)?;
+            if entry.file_type().with_context(cannot)?.is_dir() {
+                folders.push(entry.path());
+            } else if !entry.path().is_dir() {
+                files.push(entry.path());
             }
         }
     }
@@ -56,4 +59,43 @@ pub(crate) fn relative(folder: &Path, file: &Path) -> String {
         .map(|part| part.as_os_str().to_string_lossy())
         .collect::<Vec<_>>()
         .join("/")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_or_folder_that_is_in_the_way_is_named() {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("a"), "").unwrap();
+        let wanted = BTreeMap::from([("b/c.html".to_owned(), "")]);
+        let error = write_all(&folder.path().join("a"), &wanted).unwrap_err();
+        let expected = format!(
+            "cannot make the folder {}",
+            folder.path().join("a/b").display()
+        );
+        assert_eq!(error.to_string(), expected);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_to_folders_are_not_followed() {
+        let root = tempfile::tempdir().unwrap();
+        let (folder, other) = (root.path().join("in"), root.path().join("out"));
+        std::fs::create_dir_all(folder.join("a")).unwrap();
+        std::fs::create_dir_all(&other).unwrap();
+        std::fs::write(folder.join("a/file"), "").unwrap();
+        std::fs::write(other.join("kept"), "").unwrap();
+        let link = |to: &Path, at: &str| std::os::unix::fs::symlink(to, folder.join(at)).unwrap();
+        link(&folder, "a/round");
+        link(&other, "elsewhere");
+        link(&other.join("kept"), "one");
+        let found = all(&folder).unwrap();
+        let found: Vec<String> = found.iter().map(|file| relative(&folder, file)).collect();
+        assert_eq!(found, ["a/file", "one"]);
+        // What is elsewhere stays.
+        write_all::<&str>(&folder, &BTreeMap::new()).unwrap();
+        assert!(other.join("kept").exists() && !folder.join("a/file").exists());
+    }
 }

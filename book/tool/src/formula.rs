@@ -91,7 +91,8 @@ impl Formulas {
         if let Some(folder) = file.parent() {
             // What another KaTeX made goes.
             let _ = std::fs::remove_dir_all(folder);
-            std::fs::create_dir_all(folder)?;
+            std::fs::create_dir_all(folder)
+                .with_context(|| format!("cannot make the folder {}", folder.display()))?;
         }
         std::fs::write(file, serde_json::to_vec(&self.used)?)
             .with_context(|| format!("cannot write {}", file.display()))
@@ -181,5 +182,17 @@ mod tests {
         let mut second = Formulas::kept_in(&folder);
         assert_eq!(second.render("x", false).unwrap(), html);
         assert!(second.engine.is_none(), "rendered again");
+    }
+
+    #[test]
+    fn where_formulas_cannot_be_kept_is_said() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("file");
+        std::fs::write(&file, "").unwrap();
+        let mut formulas = Formulas::kept_in(&file.join("cache"));
+        formulas.render("x", false).unwrap();
+        let error = formulas.keep().unwrap_err();
+        let expected = format!("cannot make the folder {}", file.join("cache").display());
+        assert_eq!(error.to_string(), expected);
     }
 }

@@ -3,6 +3,7 @@
 use crate::complaint::Complaint;
 use anyhow::{Context as _, Result};
 use std::collections::BTreeMap;
+use std::io;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
@@ -19,22 +20,20 @@ const SCRIPT: &str = "figures.js";
 /// whether they can be used: without WebAssembly, readers see the static pictures.
 pub(crate) fn prepare(book: &Path, src: &Path, complaints: &mut Vec<Complaint>) -> Result<bool> {
     let script = book.join("widgets/build.sh");
-    let built = script.exists() && build(&script, complaints)?;
+    let built = script.exists() && build("bash", &script, complaints)?;
     let mut files = BTreeMap::new();
     let folder = book.join("interactive");
     let wasm = folder.join("dist").join(WASM);
     if built && wasm.exists() && folder.join(SCRIPT).exists() {
-        files.insert(WASM.to_owned(), std::fs::read(&wasm)?);
-        for entry in std::fs::read_dir(&folder)? {
-            let path = entry?.path();
+        files.insert(WASM.to_owned(), read(&wasm)?);
+        let cannot = || format!("cannot read the folder {}", folder.display());
+        for entry in std::fs::read_dir(&folder).with_context(cannot)? {
+            let path = entry.with_context(cannot)?.path();
             if path
                 .extension()
                 .is_some_and(|kind| kind == "js" || kind == "css")
             {
-                files.insert(
-                    crate::files::relative(&folder, &path),
-                    std::fs::read(&path)?,
-                );
+                files.insert(crate::files::relative(&folder, &path), read(&path)?);
             }
         }
     }
@@ -43,12 +42,23 @@ pub(crate) fn prepare(book: &Path, src: &Path, complaints: &mut Vec<Complaint>) 
     Ok(!files.is_empty())
 }
 
-fn build(script: &Path, complaints: &mut Vec<Complaint>) -> Result<bool> {
-    let output = Command::new("bash")
+fn read(file: &Path) -> Result<Vec<u8>> {
+    std::fs::read(file).with_context(|| format!("cannot read {}", file.display()))
+}
+
+/// Whether the script, run by this shell, builds the WebAssembly.
+fn build(shell: &str, script: &Path, complaints: &mut Vec<Complaint>) -> Result<bool> {
+    let output = Command::new(shell)
         .arg(script)
         .stdin(Stdio::null())
-        .output()
-        .with_context(|| format!("cannot run {}", script.display()))?;
+        .output();
+    let output = match output {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => {
+            eprintln!("figures: no `{shell}` to build them with, so that they stay still");
+            return Ok(false);
+        }
+        output => output.with_context(|| format!("cannot run {}", script.display()))?,
+    };
     match output.status.code() {
         Some(0) => Ok(true),
         Some(NO_TOOLS) => {
@@ -113,5 +123,24 @@ mod tests {
         assert_eq!(prepared(Some("exit 3")), (false, 0, 0));
         assert_eq!(prepared(Some("echo no; exit 1")), (false, 0, 1));
         assert_eq!(prepared(None), (false, 0, 0));
+    }
+
+    #[test]
+    fn without_a_shell_figures_stay_still() {
+        let folder = tempfile::tempdir().unwrap();
+        let script = folder.path().join("build.sh");
+        std::fs::write(&script, "exit 0").unwrap();
+        let mut complaints = Vec::new();
+        let none = folder.path().join("no-such-shell").display().to_string();
+        assert!(!build(&none, &script, &mut complaints).unwrap());
+        assert!(build("bash", &script, &mut complaints).unwrap());
+        assert_eq!(complaints, []);
+    }
+
+    #[test]
+    fn a_file_that_cannot_be_read_is_named() {
+        let folder = tempfile::tempdir().unwrap();
+        let error = read(&folder.path().join("x.wasm")).unwrap_err();
+        assert!(error.to_string().contains("x.wasm"), "{error}");
     }
 }

@@ -20,6 +20,7 @@ mod log;
 mod preprocessor;
 mod serve;
 mod source;
+mod symbol;
 
 use anyhow::{Context as _, Result, bail};
 use complaint::Complaint;
@@ -29,6 +30,7 @@ use mdbook_driver::config::Config;
 use mdbook_preprocessor::Preprocessor as _;
 use mdbook_summary::{Summary, SummaryItem};
 use preprocessor::QrtBook;
+use std::fmt;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
@@ -46,20 +48,37 @@ Usage: cargo book [COMMAND] [--draft]
   --draft             chapters may be missing, and what is wrong is said but is no failure
 ";
 
+/// A command line that makes no sense.
+#[derive(Debug)]
+struct Usage(String);
+
+impl fmt::Display for Usage {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for Usage {}
+
 fn main() -> ExitCode {
-    match run() {
-        Ok(true) => ExitCode::SUCCESS,
-        Ok(false) => ExitCode::FAILURE,
-        Err(error) => {
-            eprintln!("error: {error:#}");
-            ExitCode::FAILURE
-        }
+    let result = run(std::env::args().skip(1).collect());
+    if let Err(error) = &result {
+        eprintln!("error: {error:#}");
+    }
+    ExitCode::from(status(&result))
+}
+
+/// What the command exits with: 0 if all is well, 2 if it was called wrongly, 1 otherwise.
+fn status(result: &Result<bool>) -> u8 {
+    match result {
+        Ok(true) => 0,
+        Err(error) if error.is::<Usage>() => 2,
+        Ok(false) | Err(_) => 1,
     }
 }
 
 /// Whether all is well.
-fn run() -> Result<bool> {
-    let mut arguments: Vec<String> = std::env::args().skip(1).collect();
+fn run(mut arguments: Vec<String>) -> Result<bool> {
     let before = arguments.len();
     arguments.retain(|argument| argument != "--draft");
     let draft = arguments.len() < before;
@@ -67,21 +86,27 @@ fn run() -> Result<bool> {
     match arguments[..] {
         [] | ["build"] => build(&book()?, draft),
         ["check"] => checked(&book()?, draft, Vec::new()),
-        ["serve"] => serve(&book()?, draft, "3000"),
-        ["serve", port] => serve(&book()?, draft, port),
+        ["serve"] => serve(&book()?, draft, 3000),
+        ["serve", port] => match port.parse() {
+            Ok(port) => serve(&book()?, draft, port),
+            Err(_) => bail!(Usage(format!("`{port}` is no port: from 0 to 65535"))),
+        },
         ["preprocess"] => preprocess(draft),
         ["preprocess", "supports", renderer] => QrtBook::default().supports_renderer(renderer),
         ["help" | "--help" | "-h"] => {
             print!("{USAGE}");
             Ok(true)
         }
-        _ => bail!("`{}` is no command\n\n{USAGE}", arguments.join(" ")),
+        _ => bail!(Usage(format!(
+            "`{}` is no command\n\n{USAGE}",
+            arguments.join(" ")
+        ))),
     }
 }
 
 /// The folder of the book, here or above.
 fn book() -> Result<PathBuf> {
-    let here = std::env::current_dir()?;
+    let here = std::env::current_dir().context("cannot tell the working folder")?;
     here.ancestors()
         .map(|folder| folder.join("book"))
         .find(|folder| folder.join("book.toml").is_file())
@@ -94,7 +119,10 @@ fn build(root: &Path, draft: bool) -> Result<bool> {
     let log = Log::default();
     // Nobody else has set one.
     let _ = tracing::subscriber::set_global_default(log.clone());
-    let config = Config::from_disk(root.join("book.toml"))?;
+    let file = root.join("book.toml");
+    let config =
+        Config::from_disk(&file).with_context(|| format!("cannot read {}", file.display()))?;
+    let src = root.join(&config.book.src);
     let ours = QrtBook {
         draft,
         ..QrtBook::default()
@@ -102,9 +130,7 @@ fn build(root: &Path, draft: bool) -> Result<bool> {
     // It is run in this process instead, after all others.
     let config = without(&config, ours.name())?;
     let mut book = if draft {
-        let src = root.join(&config.book.src);
-        let mut summary =
-            mdbook_summary::parse_summary(&std::fs::read_to_string(src.join("SUMMARY.md"))?)?;
+        let mut summary = summary(&src)?;
         leave_out_missing(&mut summary, &src);
         MDBook::load_with_config_and_summary(root, config, summary)?
     } else {
@@ -113,7 +139,7 @@ fn build(root: &Path, draft: bool) -> Result<bool> {
     book.with_preprocessor(ours.clone());
     book.build()?;
     let mut complaints = ours.complaints.take();
-    complaints.extend(log.complaints());
+    complaints.extend(log.complaints(&src, "book/src")?);
     let well = checked(root, draft, complaints)?;
     println!(
         "{} in {:.1} s",
@@ -133,6 +159,15 @@ fn without(config: &Config, preprocessor: &str) -> Result<Config> {
         table.remove(preprocessor);
     }
     Ok(serde_json::from_value(config)?)
+}
+
+/// The table of contents.
+fn summary(src: &Path) -> Result<Summary> {
+    let file = src.join("SUMMARY.md");
+    std::fs::read_to_string(&file)
+        .map_err(anyhow::Error::new)
+        .and_then(|text| mdbook_summary::parse_summary(&text))
+        .with_context(|| format!("cannot read {}", file.display()))
 }
 
 /// Chapters whose files are not there become drafts, which mdBook lists without a link.
@@ -175,10 +210,7 @@ fn checked(root: &Path, draft: bool, mut complaints: Vec<Complaint>) -> Result<b
     Ok(complaints.is_empty() || draft)
 }
 
-fn serve(root: &Path, draft: bool, port: &str) -> Result<bool> {
-    let port = port
-        .parse()
-        .with_context(|| format!("`{port}` is no port"))?;
+fn serve(root: &Path, draft: bool, port: u16) -> Result<bool> {
     if !build(root, draft)? {
         return Ok(false);
     }
@@ -204,4 +236,41 @@ fn preprocess(draft: bool) -> Result<bool> {
     }
     serde_json::to_writer(std::io::stdout(), &book)?;
     Ok(complaints.is_empty() || draft)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_wrong_command_line_exits_with_2_and_a_wrong_book_with_1() {
+        for wrong in [
+            &["biuld"][..],
+            &["build", "twice"],
+            &["--drafty"],
+            &["serve", "door"],
+            &["serve", "65536"],
+        ] {
+            let result = run(wrong.iter().copied().map(str::to_owned).collect());
+            assert_eq!(status(&result), 2, "{wrong:?}");
+        }
+        assert_eq!(status(&run(vec!["help".to_owned()])), 0);
+        let none = anyhow::Error::msg("no book").context("cannot build");
+        assert_eq!((status(&Err(none)), status(&Ok(false))), (1, 1));
+    }
+
+    #[test]
+    fn a_summary_that_cannot_be_read_is_named() {
+        let folder = tempfile::tempdir().unwrap();
+        let error = summary(folder.path()).unwrap_err();
+        let file = folder.path().join("SUMMARY.md");
+        assert_eq!(error.to_string(), format!("cannot read {}", file.display()));
+        std::fs::write(file, "- [X](x.md)\n").unwrap();
+        let mut summary = summary(folder.path()).unwrap();
+        leave_out_missing(&mut summary, folder.path());
+        let SummaryItem::Link(link) = &summary.numbered_chapters[0] else {
+            panic!("a chapter");
+        };
+        assert_eq!((&*link.name, &link.location), ("X", &None));
+    }
 }

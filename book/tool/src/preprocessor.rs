@@ -87,16 +87,9 @@ impl Preprocessor for QrtBook {
         });
 
         let equations: Vec<Indexed> = equations.into_values().collect();
-        if !indices.is_empty()
-            && let Some(missing) = equation::missing(equations.iter().map(|e| e.equation.number))
-        {
-            let message = format!("no chapter restates the paper's equations {missing}");
-            if self.draft {
-                eprintln!("draft: {message}");
-            } else {
-                workshop.complaints.push(Complaint::about(&seen, message));
-            }
-        }
+        let numbers = equations.iter().map(|indexed| indexed.equation.number);
+        let missing = missing(numbers, &seen, self.draft);
+        workshop.complaints.extend(missing);
         each(&mut book, &mut |chapter| {
             if let Some(path) = chapter.source_path.clone()
                 && indices.contains(&path)
@@ -118,6 +111,17 @@ impl Preprocessor for QrtBook {
     fn supports_renderer(&self, renderer: &str) -> Result<bool> {
         Ok(renderer == "html")
     }
+}
+
+/// The complaint about equations that no chapter restates. Of a draft it is only said.
+fn missing(numbers: impl Iterator<Item = u32>, seen: &str, draft: bool) -> Option<Complaint> {
+    let missing = equation::missing(numbers)?;
+    let message = format!("no chapter restates the paper's equations {missing}");
+    if draft {
+        eprintln!("draft: {message}");
+        return None;
+    }
+    Some(Complaint::about(seen, message))
 }
 
 fn each(book: &mut Book, work: &mut impl FnMut(&mut mdbook_preprocessor::book::Chapter)) {
@@ -153,5 +157,57 @@ impl Names {
             name: &self.name,
             original: &self.original,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mdbook_driver::config::Config;
+
+    /// What is wrong with a book of one chapter.
+    fn complaints(chapter: &str, draft: bool) -> Vec<String> {
+        let root = tempfile::tempdir().unwrap();
+        let book = root.path().join("book");
+        std::fs::create_dir_all(book.join("src")).unwrap();
+        std::fs::write(root.path().join("x.rs"), "fn x() {}\n").unwrap();
+        std::fs::write(book.join("src/SUMMARY.md"), "- [X](x.md)\n").unwrap();
+        std::fs::write(book.join("src/x.md"), chapter).unwrap();
+        let ours = QrtBook {
+            draft,
+            ..QrtBook::default()
+        };
+        let mut whole = mdbook_driver::MDBook::load_with_config(&book, Config::default()).unwrap();
+        whole.with_preprocessor(ours.clone());
+        whole.build().unwrap();
+        let said = ours.complaints.take();
+        said.iter().map(ToString::to_string).collect()
+    }
+
+    /// Blocks that restate these equations.
+    fn equations(numbers: impl Iterator<Item = u32>) -> String {
+        let block = |number| {
+            format!("```equation {number}\na\n---\nwhat: it\ncode: x.rs#x\ntest: x.rs#x\n```\n\n")
+        };
+        numbers.map(block).collect()
+    }
+
+    #[test]
+    fn equations_that_are_missing_are_told_with_an_index_or_without() {
+        let some = equations((1..=equation::COUNT).filter(|&number| number != 9));
+        let told = ["book/src: no chapter restates the paper's equations 9"];
+        assert_eq!(complaints(&some, false), told);
+        assert_eq!(complaints(&format!("{some}\n{INDEX}\n"), false), told);
+        assert_eq!(complaints(&some, true), [""; 0]);
+        assert_eq!(complaints(&equations(1..=equation::COUNT), false), [""; 0]);
+    }
+
+    #[test]
+    fn an_equation_that_comes_twice_is_told() {
+        let all = equations((1..=equation::COUNT).chain([3]));
+        assert_eq!(
+            complaints(&all, false),
+            ["book/src/x.md:225: equation 3 is restated in book/src/x.md:17 already"]
+        );
     }
 }

@@ -1,14 +1,14 @@
 //! The book over HTTP, on this machine alone: browsers run no modules from files.
 
-use anyhow::{Context as _, Result};
-use std::io::{BufRead as _, BufReader, Write as _};
+use crate::check::decoded;
+use anyhow::Result;
+use std::io::{BufRead as _, BufReader, ErrorKind, Write as _};
 use std::net::{TcpListener, TcpStream};
-use std::path::Path;
+use std::path::{Component, Path};
 
 /// Serves a folder until it is interrupted.
 pub(crate) fn serve(folder: &Path, port: u16) -> Result<()> {
-    let listener =
-        TcpListener::bind(("127.0.0.1", port)).with_context(|| format!("port {port} is taken"))?;
+    let listener = listen(port)?;
     println!("http://{}/ (Ctrl-C ends it)", listener.local_addr()?);
     // A browser that hangs up is no reason to stop.
     for stream in listener.incoming().flatten() {
@@ -20,6 +20,18 @@ pub(crate) fn serve(folder: &Path, port: u16) -> Result<()> {
     Ok(())
 }
 
+fn listen(port: u16) -> Result<TcpListener> {
+    TcpListener::bind(("127.0.0.1", port)).map_err(|error| {
+        let what = match error.kind() {
+            ErrorKind::AddrInUse => {
+                format!("port {port} is taken: `cargo book serve PORT` takes another")
+            }
+            _ => format!("cannot listen on port {port}"),
+        };
+        anyhow::Error::new(error).context(what)
+    })
+}
+
 fn answer(mut stream: &TcpStream, folder: &Path) -> std::io::Result<()> {
     let mut lines = BufReader::new(stream).lines();
     let request = lines.next().transpose()?.unwrap_or_default();
@@ -28,30 +40,41 @@ fn answer(mut stream: &TcpStream, folder: &Path) -> std::io::Result<()> {
         .transpose()?
         .is_some_and(|line| !line.is_empty())
     {}
-    let target = request.split(' ').nth(1).unwrap_or("/");
-    let path = target.split(['?', '#']).next().unwrap_or_default();
-    let path = path.trim_start_matches('/');
-    let path = if path.is_empty() || path.ends_with('/') {
-        format!("{path}index.html")
-    } else {
-        path.to_owned()
-    };
-    let outside = path.split('/').any(|part| part == "..");
-    match std::fs::read(folder.join(&path)) {
-        Ok(content) if !outside && request.starts_with("GET ") => {
-            write!(
-                stream,
-                "HTTP/1.1 200 OK\r\nContent-Type: {}\r\nContent-Length: {}\r\n\
-                 Cache-Control: no-store\r\nConnection: close\r\n\r\n",
-                kind(&path),
-                content.len()
-            )?;
-            stream.write_all(&content)
-        }
-        _ => write!(
+    let found = asked(&request).and_then(|path| {
+        let content = std::fs::read(folder.join(&path)).ok()?;
+        Some((path, content))
+    });
+    let Some((path, content)) = found else {
+        return write!(
             stream,
             "HTTP/1.1 404 Not Found\r\nContent-Length: 0\r\nConnection: close\r\n\r\n"
-        ),
+        );
+    };
+    write!(
+        stream,
+        "HTTP/1.1 200 OK\r\nContent-Type: {}\r\nContent-Length: {}\r\n\
+         Cache-Control: no-store\r\nConnection: close\r\n\r\n",
+        kind(&path),
+        content.len()
+    )?;
+    stream.write_all(&content)
+}
+
+/// The file that a request asks for, from the folder that is served; none if it would be elsewhere.
+fn asked(request: &str) -> Option<String> {
+    let target = request.strip_prefix("GET ")?.split(' ').next()?;
+    let path = decoded(target.split(['?', '#']).next()?);
+    let path = path.trim_start_matches('/');
+    let inside = Path::new(path)
+        .components()
+        .all(|part| matches!(part, Component::Normal(_)));
+    if !inside {
+        return None;
+    }
+    if path.is_empty() || path.ends_with('/') {
+        Some(format!("{path}index.html"))
+    } else {
+        Some(path.to_owned())
     }
 }
 
@@ -66,5 +89,83 @@ fn kind(path: &str) -> &'static str {
         "woff2" => "font/woff2",
         "wasm" => "application/wasm",
         _ => "application/octet-stream",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::io::Read as _;
+
+    /// What a folder's server answers to a request line.
+    fn answered(folder: &Path, request: &str) -> String {
+        let listener = listen(0).unwrap();
+        let mut client = TcpStream::connect(listener.local_addr().unwrap()).unwrap();
+        write!(client, "{request}\r\nHost: x\r\n\r\n").unwrap();
+        let (server, _) = listener.accept().unwrap();
+        answer(&server, folder).unwrap();
+        drop(server);
+        let mut text = String::new();
+        client.read_to_string(&mut text).unwrap();
+        text
+    }
+
+    #[test]
+    fn files_of_the_folder_are_served_and_no_others() {
+        let root = tempfile::tempdir().unwrap();
+        let folder = root.path().join("book");
+        std::fs::create_dir_all(folder.join("a b")).unwrap();
+        for (name, text) in [
+            ("secret.html", "secret"),
+            ("book/index.html", "top"),
+            ("book/a b/index.html", "inner"),
+            ("book/a b/café.html", "coffee"),
+        ] {
+            std::fs::write(root.path().join(name), text).unwrap();
+        }
+        for (target, text) in [
+            ("/", "top"),
+            ("/index.html?x=1#y", "top"),
+            ("/a%20b/", "inner"),
+            ("/a%20b/caf%C3%A9.html", "coffee"),
+        ] {
+            let said = answered(&folder, &format!("GET {target} HTTP/1.1"));
+            assert!(said.starts_with("HTTP/1.1 200 OK\r\nContent-Type: text/html"));
+            assert!(said.ends_with(&format!("\r\n\r\n{text}")), "{said}");
+        }
+        for request in [
+            "GET /../secret.html HTTP/1.1",
+            "GET /%2e%2e/secret.html HTTP/1.1",
+            "GET /..%2Fsecret.html HTTP/1.1",
+            "GET /a%20b/../../secret.html HTTP/1.1",
+            "GET /none.html HTTP/1.1",
+            "GET /index.html%00 HTTP/1.1",
+            "POST /index.html HTTP/1.1",
+            "",
+        ] {
+            let said = answered(&folder, request);
+            assert!(said.starts_with("HTTP/1.1 404 "), "{request}: {said}");
+        }
+    }
+
+    #[test]
+    fn what_is_outside_is_not_even_looked_for() {
+        for target in ["/../x", "/%2e%2e/x", "/..%2fx", "/a/../x", "/a/%2E./x"] {
+            assert_eq!(asked(&format!("GET {target} HTTP/1.1")), None, "{target}");
+        }
+        // What is undone once stays as it is then, and no path begins at the machine's root.
+        for (target, path) in [("/%252e/x", "%2e/x"), ("//etc/passwd", "etc/passwd")] {
+            let asked = asked(&format!("GET {target} HTTP/1.1"));
+            assert_eq!(asked.as_deref(), Some(path));
+        }
+    }
+
+    #[test]
+    fn a_port_is_said_to_be_taken_if_it_is() {
+        let first = listen(0).unwrap();
+        let port = first.local_addr().unwrap().port();
+        let error = listen(port).unwrap_err();
+        let expected = format!("port {port} is taken: `cargo book serve PORT` takes another");
+        assert_eq!(error.to_string(), expected);
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::equation::Place;
 use crate::html::escape;
+use crate::symbol::line_of;
 use anyhow::{Context as _, Result};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
@@ -113,41 +114,6 @@ fn page_of(path: &str) -> String {
     )
 }
 
-/// The first line, counted from 1, on which a symbol is defined.
-fn line_of(text: &str, symbol: &str) -> Option<usize> {
-    const KEYWORDS: [&str; 11] = [
-        "fn",
-        "struct",
-        "enum",
-        "trait",
-        "mod",
-        "const",
-        "static",
-        "type",
-        "union",
-        "macro_rules",
-        "macro",
-    ];
-    let defines = |line: &str| {
-        if line.trim_start().starts_with("//") {
-            return false;
-        }
-        let mut words = line
-            .split(|c: char| !(c.is_alphanumeric() || c == '_'))
-            .filter(|word| !word.is_empty());
-        let mut previous = "";
-        words.any(|word| {
-            let found = word == symbol && KEYWORDS.contains(&previous);
-            // `static mut NAME`.
-            if word != "mut" {
-                previous = word;
-            }
-            found
-        })
-    };
-    text.lines().position(defines).map(|index| index + 1)
-}
-
 fn page(path: &str, file: &File) -> String {
     let root = "../".repeat(path.split('/').count());
     let mut page = format!(
@@ -176,21 +142,6 @@ fn page(path: &str, file: &File) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn symbols_are_found_where_they_are_defined() {
-        let text = "// fn probability\nuse x::probability;\nlet y = probability(3);\n\
-                    pub(crate) const fn probability<T>(x: T) {}\nimpl Probability {}\n\
-                    pub struct Probability;\nmacro_rules! probable {\nfn probability() {}\n\
-                    static mut COUNT: u32 = 0;\npub mod tests;";
-        assert_eq!(line_of(text, "probability"), Some(4));
-        assert_eq!(line_of(text, "Probability"), Some(6));
-        assert_eq!(line_of(text, "probable"), Some(7));
-        assert_eq!(line_of(text, "COUNT"), Some(9));
-        assert_eq!(line_of(text, "tests"), Some(10));
-        assert_eq!(line_of(text, "T"), None);
-        assert_eq!(line_of(text, "prob"), None);
-    }
 
     #[test]
     fn a_link_leads_to_the_line_and_a_page_is_made() {

@@ -1,0 +1,130 @@
+//! Equations as chapters and the index of all show them.
+
+use super::inlines::inlines;
+use super::traced::Traced;
+use super::{Chapter, Workshop, options};
+use crate::equation::{Equation, Place};
+use crate::html::{escape, within_markdown};
+use pulldown_cmark::Parser;
+use std::fmt::Write as _;
+
+/// An equation as the index lists it.
+pub(crate) struct Indexed {
+    /// The equation.
+    pub(crate) equation: Equation,
+    /// The page that restates it.
+    pub(crate) page: String,
+    /// The name of that chapter.
+    pub(crate) name: String,
+    /// That chapter's file.
+    pub(crate) file: String,
+    /// The line there.
+    pub(crate) line: usize,
+}
+
+impl Workshop {
+    /// An equation's HTML: it, its number, and where its code and its test are.
+    pub(super) fn equation(
+        &mut self,
+        chapter: &Chapter<'_>,
+        equation: &Equation,
+        line: usize,
+    ) -> String {
+        let number = equation.number;
+        let formula = self.formula(chapter, &equation.tex, true, line);
+        let mut html = format!(
+            "<div class=\"equation\" id=\"eq-{number}\"><div class=\"equation-row\">\
+             <div class=\"formula\">{formula}</div>\
+             <a class=\"equation-number\" href=\"#eq-{number}\">({number})</a></div>\
+             <div class=\"equation-links\">code {}, test {}",
+            self.places(chapter, &equation.code, line),
+            self.places(chapter, &equation.test, line),
+        );
+        if let Some(letter) = equation.erratum {
+            let root = chapter.to_root();
+            let _ = write!(
+                html,
+                ", <a href=\"{root}errata.html#{letter}\">erratum {letter}</a>"
+            );
+        }
+        html.push_str("</div></div>");
+        html
+    }
+
+    fn places(&mut self, chapter: &Chapter<'_>, places: &[Place], line: usize) -> String {
+        let mut html = String::new();
+        for place in places {
+            let link = self
+                .sources
+                .place(place, (chapter.page, chapter.name))
+                .unwrap_or_else(|message| {
+                    self.complain(chapter, line, message);
+                    "#".to_owned()
+                });
+            let comma = if html.is_empty() { "" } else { ", " };
+            let _ = write!(
+                html,
+                "{comma}<a href=\"{}{link}\" title=\"{}\"><code>{}</code></a>",
+                chapter.to_root(),
+                escape(&place.path),
+                // Where a narrow page may break it.
+                escape(&place.symbol).replace('_', "_<wbr>")
+            );
+        }
+        html
+    }
+
+    /// The index of all equations, for the line `{{#equations}}` of a chapter.
+    pub(crate) fn index(&mut self, chapter: &Chapter<'_>, equations: &[Indexed]) -> String {
+        let mut html = String::from(
+            "<div class=\"table-wrapper\"><table class=\"equations\"><thead><tr><th></th>\
+             <th>What it says, and where</th><th>Code and test</th><th>Erratum</th>\
+             </tr></thead><tbody>",
+        );
+        let root = chapter.to_root();
+        for Indexed {
+            equation,
+            page,
+            name,
+            file,
+            line,
+        } in equations
+        {
+            let of = Chapter {
+                file,
+                page,
+                name,
+                original: "",
+            };
+            let number = equation.number;
+            let what = self.line(&of, &equation.what, *line);
+            let code = self.places(chapter, &equation.code, *line);
+            let test = self.places(chapter, &equation.test, *line);
+            let erratum = equation.erratum.map_or(String::new(), |letter| {
+                format!("<a href=\"{root}errata.html#{letter}\">{letter}</a>")
+            });
+            let _ = write!(
+                html,
+                "<tr><td><a href=\"{root}{page}#eq-{number}\">({number})</a></td>\
+                 <td>{what}<br><small><a href=\"{root}{page}\">{}</a></small></td>\
+                 <td><small>code {code}<br>test {test}</small></td><td>{erratum}</td></tr>",
+                escape(name)
+            );
+        }
+        html.push_str("</tbody></table></div>");
+        within_markdown(&html)
+    }
+
+    /// A line of Markdown as HTML.
+    fn line(&mut self, chapter: &Chapter<'_>, markdown: &str, line: usize) -> String {
+        let mut traced = Traced::default();
+        traced.push(markdown, line);
+        let (markdown, _) = inlines(self, chapter, &traced);
+        let mut html = String::new();
+        pulldown_cmark::html::push_html(&mut html, Parser::new_ext(&markdown, options()));
+        html.trim()
+            .trim_start_matches("<p>")
+            .trim_end_matches("</p>")
+            .to_owned()
+    }
+}
