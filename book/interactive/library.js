@@ -1,0 +1,42 @@
+// qrt, compiled to WebAssembly: calls and their answers. See book/widgets/src/boundary.rs.
+
+let compiled;
+
+/** An instance of its own for a figure: a function `call(name, arguments, text)`. */
+export async function instance() {
+  compiled ??= compile();
+  const { exports } = await WebAssembly.instantiate(await compiled);
+  const bytes = (start, length) => new Uint8Array(exports.memory.buffer, start, length);
+
+  /** Calls the export `qrt_<name>`; `text` is what it reads, if it reads one. */
+  return function call(name, args = [], text = null) {
+    if (text !== null) {
+      const encoded = new TextEncoder().encode(text);
+      bytes(exports.qrt_input(encoded.length), encoded.length).set(encoded);
+    }
+    exports[`qrt_${name}`](...args);
+    const index = bytes(exports.qrt_index(), exports.qrt_index_length());
+    const numbers = new Float64Array(
+      exports.memory.buffer,
+      exports.qrt_numbers(),
+      exports.qrt_numbers_length(),
+    );
+    const answer = JSON.parse(new TextDecoder().decode(index));
+    for (const [key, value] of Object.entries(answer)) {
+      if (typeof value === "string") continue;
+      const [start, length] = value;
+      // A copy: the next call writes over it.
+      answer[key] = length === undefined ? numbers[start] : numbers.slice(start, start + length);
+    }
+    return answer;
+  };
+}
+
+async function compile() {
+  const response = await fetch(new URL("qrt_figures.wasm", import.meta.url));
+  if (!response.ok) throw new Error(`its program is not there (${response.status})`);
+  if (response.headers.get("Content-Type") === "application/wasm") {
+    return WebAssembly.compileStreaming(response);
+  }
+  return WebAssembly.compile(await response.arrayBuffer());
+}

@@ -1,0 +1,197 @@
+//! The figure `counting`: what the counting register reads, draws from it, and what they tell.
+//!
+//! The same as `qrt count` with `--total 4096`, number by number.
+
+use crate::answer::Answer;
+use qrt_core::scene::Window;
+use qrt_runtime::counting::{PhaseDistribution, posterior};
+use qrt_runtime::estimators::{
+    DEFAULT_CONFIDENCE, Device, EstimatorError, Noise, Problem, WindowedCounting,
+};
+use qrt_runtime::random::Stream;
+
+/// N, the number of ids.
+pub const IDS: u64 = 4096;
+/// The most phase bits that the figure offers.
+pub const MOST_PHASE_BITS: u32 = 10;
+/// The most runs that it offers.
+pub const MOST_RUNS: u32 = 64;
+
+/// What the controls say.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Asked {
+    /// The angle, in turns, from 0 to 1/2. The nearest that a number of good ids has is taken.
+    pub theta: f64,
+    /// t, of T = 2^t.
+    pub phase_bits: u32,
+    /// B, the runs.
+    pub runs: u32,
+    /// The register's window.
+    pub window: Window,
+    /// What the draws depend on.
+    pub seed: u32,
+}
+
+/// The good ids among [`IDS`] whose angle is nearest to `theta`, in turns.
+pub fn good(theta: f64) -> u64 {
+    let sine = libm::sin(std::f64::consts::PI * theta.clamp(0.0, 0.5));
+    libm::round(IDS as f64 * sine * sine) as u64
+}
+
+/// Distribution, draws, posterior and estimate.
+///
+/// # Errors
+/// A register or a number of runs out of range.
+pub fn answer(asked: Asked) -> Result<Answer, EstimatorError> {
+    let Asked {
+        theta,
+        phase_bits,
+        runs,
+        window,
+        seed,
+    } = asked;
+    let good = good(theta);
+    let distribution = PhaseDistribution::new(good, IDS, phase_bits, window)?;
+    let half = distribution.largest_outcome();
+
+    let mut stream = Stream::new(u64::from(seed), 0, 0, 0);
+    let problem = Problem { good, total: IDS };
+    let mut device = Device::new(problem, Noise::NONE, &mut stream)?;
+    let outcomes = device.phases(phase_bits, window, runs)?;
+    let mut drawn = vec![0_u32; half as usize + 1];
+    for &y in &outcomes {
+        drawn[y as usize] += 1;
+    }
+
+    let inference = WindowedCounting {
+        phase_bits,
+        repetitions: runs,
+        window,
+        confidence: DEFAULT_CONFIDENCE,
+    };
+    let estimate = inference.infer(&outcomes, IDS)?;
+    let posterior = posterior(&outcomes, IDS, phase_bits, window)?;
+    let mean: f64 = (0_u64..)
+        .zip(&posterior)
+        .map(|(good, p)| good as f64 * p)
+        .sum();
+    let likeliest = estimate.good.unwrap_or_default();
+
+    Ok(Answer::default()
+        .number("theta", distribution.theta())
+        .number("good", good as f64)
+        .number("total", IDS as f64)
+        .number("amplitude", good as f64 / IDS as f64)
+        .number("size", (1_u64 << phase_bits) as f64)
+        .number("queries", estimate.queries as f64)
+        .number("likeliest", likeliest as f64)
+        .number("likeliest_theta", angle(likeliest, phase_bits, window)?)
+        .number("estimate", estimate.amplitude)
+        .number("low", estimate.interval.0)
+        .number("high", estimate.interval.1)
+        .number("confidence", estimate.confidence)
+        .number("mean", mean)
+        .list(
+            "probability",
+            (0..=half).map(|y| distribution.probability(y)),
+        )
+        .list("drawn", drawn.into_iter().map(f64::from))
+        .list("posterior", posterior))
+}
+
+/// The angles of all numbers of good ids, in turns: where a posterior's entries belong.
+///
+/// # Errors
+/// None; numbers of good ids are in range.
+pub fn angles() -> Result<Answer, EstimatorError> {
+    let angles: Vec<f64> = (0..=IDS)
+        .map(|good| angle(good, 1, Window::Rect))
+        .collect::<Result<_, _>>()?;
+    Ok(Answer::default().list("angles", angles))
+}
+
+fn angle(good: u64, phase_bits: u32, window: Window) -> Result<f64, EstimatorError> {
+    Ok(PhaseDistribution::new(good, IDS, phase_bits, window)?.theta())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn asked() -> Asked {
+        Asked {
+            theta: 1.0 / 3.0,
+            phase_bits: 6,
+            runs: 3,
+            window: Window::Rect,
+            seed: 1,
+        }
+    }
+
+    #[test]
+    fn probabilities_and_posterior_sum_to_one() {
+        for window in [Window::Rect, Window::Sine] {
+            for phase_bits in 1..=MOST_PHASE_BITS {
+                for theta in [0.0, 0.1, 0.25, 1.0 / 3.0, 0.4999, 0.5] {
+                    let asked = Asked {
+                        theta,
+                        phase_bits,
+                        window,
+                        ..asked()
+                    };
+                    let answer = answer(asked).unwrap();
+                    for name in ["probability", "posterior"] {
+                        let sum: f64 = answer.list_of(name).unwrap().iter().sum();
+                        assert!((sum - 1.0).abs() < 1e-9, "{asked:?} {name}: {sum}");
+                    }
+                    let drawn: f64 = answer.list_of("drawn").unwrap().iter().sum();
+                    assert_eq!(drawn, 3.0);
+                    assert!((answer.number_of("theta").unwrap() - theta).abs() < 6e-3);
+                }
+            }
+        }
+    }
+
+    /// sin^2(pi/3) = 3/4.
+    #[test]
+    fn a_third_of_a_turn_is_three_quarters_of_the_ids() {
+        let answer = answer(asked()).unwrap();
+        assert_eq!(answer.number_of("good"), Some(3072.0));
+        assert_eq!(answer.number_of("amplitude"), Some(0.75));
+        assert!((answer.number_of("theta").unwrap() - 1.0 / 3.0).abs() < 1e-15);
+        assert_eq!(answer.number_of("queries"), Some(3.0 * 63.0));
+    }
+
+    #[test]
+    fn the_maximum_of_the_posterior_is_the_likeliest() {
+        for seed in 0..20 {
+            let answer = answer(Asked { seed, ..asked() }).unwrap();
+            let posterior = answer.list_of("posterior").unwrap();
+            let likeliest = answer.number_of("likeliest").unwrap();
+            let most = posterior.iter().copied().fold(0.0, f64::max);
+            assert!(posterior[likeliest as usize] >= most * (1.0 - 1e-9));
+        }
+    }
+
+    #[test]
+    fn angles_ascend_from_zero_to_a_half() {
+        let answer = angles().unwrap();
+        let angles = answer.list_of("angles").unwrap();
+        assert_eq!((angles[0], angles[IDS as usize]), (0.0, 0.5));
+        assert!(angles.windows(2).all(|pair| pair[0] < pair[1]));
+    }
+
+    #[test]
+    fn controls_out_of_range_are_refused() {
+        for (phase_bits, runs) in [(0, 1), (41, 1), (3, 0)] {
+            assert!(
+                answer(Asked {
+                    phase_bits,
+                    runs,
+                    ..asked()
+                })
+                .is_err()
+            );
+        }
+    }
+}

@@ -1,0 +1,36 @@
+//! The interactive figures of the book of qrt.
+//!
+//! Each figure is a function of its controls, and what it shows is computed by qrt itself, compiled
+//! to WebAssembly: nothing is computed a second time in a script. [`boundary`] is what scripts call;
+//! `book/interactive/figures.js` draws.
+//!
+//! * [`counting`]: the counting register's distribution, draws from it, and the posterior;
+//! * [`map`]: a lattice in the unit square and on the sphere, and its Jacobian;
+//! * [`circuit`]: the oracle of a tiny scene, operation by operation;
+//! * [`picture`]: a picture that sharpens as queries are spent.
+#![warn(
+    missing_docs,
+    clippy::pedantic,
+    clippy::unwrap_used,
+    clippy::expect_used
+)]
+// As in the workspace of qrt.
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_precision_loss,
+    clippy::cast_sign_loss,
+    clippy::float_cmp,
+    clippy::many_single_char_names,
+    clippy::missing_errors_doc,
+    clippy::must_use_candidate,
+    clippy::return_self_not_must_use,
+    clippy::similar_names,
+    clippy::too_many_lines
+)]
+
+pub mod answer;
+pub mod boundary;
+pub mod circuit;
+pub mod counting;
+pub mod map;
+pub mod picture;
