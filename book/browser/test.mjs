@@ -7,7 +7,7 @@
 // theme, or if its numbers are not those of the command `qrt`.
 
 import { execFileSync } from "node:child_process";
-import { mkdtempSync, readFileSync, readdirSync, rmSync } from "node:fs";
+import { mkdtempSync, readFileSync, readdirSync, rmSync, statSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join, relative } from "node:path";
 import { Browser } from "./browser.mjs";
@@ -20,6 +20,8 @@ const WIDE = [1280, 900, false];
 const PHONE = [375, 740, true];
 /** Pages that are open at the same time. */
 const TABS = 3;
+/** Bytes that the figures' WebAssembly stays below. */
+const WASM = 500_000;
 /** Milliseconds until a figure can be used. */
 const SOON = 1000;
 /**
@@ -114,6 +116,8 @@ async function everyPage(browser, address) {
   }));
   sizes.sort((a, b) => b[0] - a[0]);
   console.log(`${count} pages, wide and narrow`);
+  const wasm = statSync(join(folder, "interactive", "qrt_figures.wasm")).size;
+  if (wasm >= WASM) fail("qrt_figures.wasm", `it has ${wasm} bytes; less than ${WASM} are allowed`);
   for (const [bytes, name] of sizes.slice(0, 5)) console.log(`  ${(bytes / 1024).toFixed(0).padStart(6)} KiB  ${name}, with all it loads at first`);
   return withFigures.sort();
 }

@@ -192,6 +192,9 @@ fn leave_out_missing(summary: &mut Summary, src: &Path) {
 fn checked(root: &Path, draft: bool, mut complaints: Vec<Complaint>) -> Result<bool> {
     let report = check::check(&root.join("book"), "book/book")?;
     complaints.extend(report.complaints);
+    for note in report.notes {
+        println!("{note}");
+    }
     for complaint in &complaints {
         eprintln!("{complaint}");
     }
