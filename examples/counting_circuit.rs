@@ -17,20 +17,7 @@ use qrt::runtime::machines::OracleMachine;
 use qrt::runtime::machines::statevector::counting_of;
 use std::sync::Arc;
 
-const SCENE: &str = "
-name: lit-wall
-camera: { perspective: { eye: [0.2, 0.1, 2], target: [0, 0, 0], up: [0, 1, 0], vfov: 60 } }
-film: { width: 2, height: 2 }
-materials:
-  wall: { lambertian: { albedo: [0.9, 0.6, 0.3] } }
-  lamp: { emitter: { radiance: [2, 3, 4] } }
-geometry:
-  - quad: { vertices: [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], material: wall }
-  - quad: { vertices: [[-3, -3, 3], [-3, 2, 3], [3, 2, 3], [3, -3, 3]], material: lamp }
-sampling: { path_bits: 5, depths: [{ bits: [4, 4] }, { bits: [4, 4] }] }
-precision: { fraction: 8 }
-comparator: { bits: 3 }
-";
+const SCENE: &str = include_str!("lit-wall.yaml");
 
 const SEED: u64 = 1;
 const PIXEL: [u32; 2] = [1, 0];

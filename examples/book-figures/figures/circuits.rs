@@ -14,20 +14,7 @@ use qrt::runtime::plot::{Axis, Drawn, Fit, Plot, Series};
 use qrt::runtime::render::{self, Model, Rendered};
 
 /// A lamp before a wall: a circuit small enough to be seen whole.
-const WALL: &str = "
-name: lit-wall
-camera: { perspective: { eye: [0.2, 0.1, 2], target: [0, 0, 0], up: [0, 1, 0], vfov: 60 } }
-film: { width: 2, height: 2 }
-materials:
-  wall: { lambertian: { albedo: [0.9, 0.6, 0.3] } }
-  lamp: { emitter: { radiance: [2, 3, 4] } }
-geometry:
-  - quad: { vertices: [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], material: wall }
-  - quad: { vertices: [[-3, -3, 3], [-3, 2, 3], [3, 2, 3], [3, -3, 3]], material: lamp }
-sampling: { path_bits: 5, depths: [{ bits: [4, 4] }, { bits: [4, 4] }] }
-precision: { fraction: 8 }
-comparator: { bits: 3 }
-";
+const WALL: &str = include_str!("../../lit-wall.yaml");
 
 fn inspected(scene: &ValidScene) -> Inspection {
     Inspection::new(scene, None, Options::default()).expect("the scene has a circuit")
