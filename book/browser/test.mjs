@@ -225,7 +225,7 @@ class Figure {
         const own = [...element.childNodes].some((node) => node.nodeType === 3 && node.textContent.trim());
         if (!own || !element.getClientRects().length) continue;
         const style = getComputedStyle(element);
-        const [text, back] = [light(over(element instanceof SVGElement ? style.fill : style.color, ground(element))), light(ground(element))];
+        const [text, back] = [light(over("ownerSVGElement" in element ? style.fill : style.color, ground(element))), light(ground(element))];
         const contrast = (Math.max(text, back) + 0.05) / (Math.min(text, back) + 0.05);
         if (contrast < least) found.add(`"${element.textContent.trim().slice(0, 30)}" has a contrast of ${contrast.toFixed(1)}`);
       }
