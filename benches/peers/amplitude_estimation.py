@@ -15,30 +15,11 @@ environment of its own, once.
 import argparse
 import csv
 import math
-import os
-import pathlib
-import subprocess
 import sys
-import venv
 
-HERE = pathlib.Path(__file__).resolve().parent
+from environment import inside
+
 CONFIDENCE = 0.95
-
-
-def inside(folder):
-    """Goes on in the virtual environment `folder`, which is made if it is not there."""
-    folder = pathlib.Path(folder).resolve()
-    if pathlib.Path(sys.prefix).resolve() == folder:
-        return
-    python = folder / "bin" / "python"
-    requirements = HERE / "amplitude_estimation.txt"
-    installed = folder / "installed.txt"
-    if not installed.exists() or installed.read_text() != requirements.read_text():
-        venv.create(folder, with_pip=True, clear=True)
-        pip = [python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
-        subprocess.run([*pip, "-r", requirements], check=True, stdout=sys.stderr)
-        installed.write_text(requirements.read_text())
-    os.execv(python, [str(python), *sys.argv])
 
 
 def problem(amplitude):
@@ -127,7 +108,7 @@ def main():
     arguments.add_argument("--csv", required=True, help="what the bench `estimators` has written")
     arguments.add_argument("--runs", type=int, default=200)
     asked = arguments.parse_args()
-    inside(asked.venv)
+    inside(asked.venv, "amplitude_estimation.txt")
 
     peers = [
         ("iqae", f"error {error}, {shots} shots", iterative(error, shots, seed))

@@ -18,29 +18,10 @@ import argparse
 import json
 import math
 import os
-import pathlib
-import subprocess
 import sys
 import time
-import venv
 
-HERE = pathlib.Path(__file__).resolve().parent
-
-
-def inside(folder):
-    """Goes on in the virtual environment `folder`, which is made if it is not there."""
-    folder = pathlib.Path(folder).resolve()
-    if pathlib.Path(sys.prefix).resolve() == folder:
-        return
-    python = folder / "bin" / "python"
-    requirements = HERE / "requirements.txt"
-    installed = folder / "installed.txt"
-    if not installed.exists() or installed.read_text() != requirements.read_text():
-        venv.create(folder, with_pip=True, clear=True)
-        pip = [python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
-        subprocess.run([*pip, "-r", requirements], check=True, stdout=sys.stderr)
-        installed.write_text(requirements.read_text())
-    os.execv(python, [str(python), str(HERE / "counting.py"), *sys.argv[1:]])
+from environment import inside
 
 
 def expanded(circuit):
@@ -160,7 +141,7 @@ def main():
     parser.add_argument("--venv", required=True)
     parser.add_argument("--tool", choices=["lightning", "qsim"], required=True)
     arguments = parser.parse_args()
-    inside(arguments.venv)
+    inside(arguments.venv, "requirements.txt")
     circuit = json.load(sys.stdin)
     seconds, probabilities, axes = {"lightning": lightning, "qsim": qsim}[arguments.tool](circuit)
     import numpy

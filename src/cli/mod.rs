@@ -5,6 +5,7 @@
 
 mod completions;
 mod count;
+mod export;
 mod failure;
 mod files;
 mod inspect;
@@ -38,6 +39,7 @@ Examples:
   qrt render --help         all about rendering
   qrt inspect box.yaml      what its circuit costs, and where
   qrt trade box.yaml -o out what its accuracy costs, knob by knob
+  qrt export box.yaml       its circuit as OpenQASM, box.qasm
 
 Exit codes: 0; 1 the job failed or was interrupted; 2 the command line or the scene is at fault."
 )]
@@ -53,6 +55,7 @@ enum Command {
     Count(count::CountArgs),
     Verify(verify::VerifyArgs),
     Trade(trade::TradeArgs),
+    Export(export::ExportArgs),
     New(new::NewArgs),
     Schema(schema::SchemaArgs),
     Completions(completions::CompletionsArgs),
@@ -65,6 +68,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Count(args) => count::run(&args),
         Command::Verify(args) => verify::run(&args),
         Command::Trade(args) => trade::run(&args),
+        Command::Export(args) => export::run(&args),
         Command::New(args) => new::run(&args),
         Command::Schema(_) => schema::run(),
         Command::Completions(args) => completions::run(args),

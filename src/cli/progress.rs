@@ -48,6 +48,27 @@ impl Rows {
     }
 }
 
+/// A bar of the gates of a circuit.
+pub(crate) struct Gates(ProgressBar);
+
+impl Gates {
+    /// Of a circuit of so many.
+    pub(crate) fn new(wanted: bool, gates: u64) -> Self {
+        let bar = bar(wanted, "{human_pos} of {human_len} gates");
+        start(&bar, gates, 0);
+        Self(bar)
+    }
+
+    pub(crate) fn show(&self, written: u64) {
+        self.0.inc(written);
+    }
+
+    /// Removes the bar.
+    pub(crate) fn clear(&self) {
+        self.0.finish_and_clear();
+    }
+}
+
 /// A bar that counts `what`.
 fn bar(wanted: bool, what: &str) -> ProgressBar {
     // Hidden by itself where there is no terminal.

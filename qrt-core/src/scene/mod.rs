@@ -350,6 +350,18 @@ record! {
     pub estimator: Estimator = word::<Estimator>(), or Estimator::AdaptiveBayes;
 }
 
+impl Counting {
+    /// The window in which the counting register is prepared: the estimator's own, or else the one
+    /// that is written.
+    pub fn register_window(&self) -> Window {
+        match self.estimator {
+            Estimator::Paper | Estimator::Qss => Window::Rect,
+            Estimator::Sine => Window::Sine,
+            _ => self.window,
+        }
+    }
+}
+
 keyword! {
     /// The window on the counting register.
     pub enum Window = "a window";

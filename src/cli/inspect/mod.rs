@@ -59,7 +59,7 @@ pub(crate) struct InspectArgs {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Channel {
+pub(super) enum Channel {
     /// Red
     R,
     /// Green
@@ -135,7 +135,11 @@ pub(super) fn check_circuit(loaded: &Loaded, scene: &ValidScene) -> Result<(), F
     keep_budget(loaded, &inspection)
 }
 
-fn keep_budget(loaded: &Loaded, inspection: &Inspection) -> Result<(), Failure> {
+/// That one call of the oracle is within the scene's budget.
+///
+/// # Errors
+/// What is beyond it.
+pub(super) fn keep_budget(loaded: &Loaded, inspection: &Inspection) -> Result<(), Failure> {
     let spent = Spent {
         qubits: u64::from(inspection.qubits),
         toffoli: inspection.total().toffoli,

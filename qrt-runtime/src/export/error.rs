@@ -1,0 +1,54 @@
+//! What an export refuses.
+
+use std::{fmt, io};
+
+/// Why a circuit is not written.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum ExportError {
+    /// The id has fewer bits than its path is said to have.
+    PathBits {
+        /// What the path is said to have.
+        path_bits: u32,
+        /// Bits of the id.
+        id: u32,
+    },
+    /// A sign or phase under so many controls has no gate in the standard library.
+    Controls(usize),
+    /// It was asked to end.
+    Interrupted,
+    /// It cannot be written.
+    Io(io::Error),
+}
+
+impl fmt::Display for ExportError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::PathBits { path_bits, id } => {
+                write!(f, "a path of {path_bits} bits in an id of {id}")
+            }
+            Self::Controls(qubits) => write!(
+                f,
+                "a phase on {qubits} qubits has no gate of its own in OpenQASM's library; write \
+                 O_0's sign with `Conjunction::Toffolis`"
+            ),
+            Self::Interrupted => f.write_str("interrupted"),
+            Self::Io(error) => error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for ExportError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            Self::Io(error) => Some(error),
+            _ => None,
+        }
+    }
+}
+
+impl From<io::Error> for ExportError {
+    fn from(error: io::Error) -> Self {
+        Self::Io(error)
+    }
+}

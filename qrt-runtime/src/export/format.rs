@@ -1,0 +1,65 @@
+//! The two languages.
+
+/// A language for circuits.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Format {
+    /// OpenQASM 3.0 (Cross et al., *OpenQASM 3: a broader and deeper quantum assembly language*,
+    /// 2022), with its `stdgates.inc`.
+    #[default]
+    OpenQasm3,
+    /// OpenQASM 2.0 (Cross et al., *Open quantum assembly language*, 2017), with its `qelib1.inc`.
+    OpenQasm2,
+}
+
+impl Format {
+    /// Its name: `openqasm3`, `openqasm2`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::OpenQasm3 => "openqasm3",
+            Self::OpenQasm2 => "openqasm2",
+        }
+    }
+
+    /// The two lines that come first.
+    pub(super) fn header(self) -> &'static str {
+        match self {
+            Self::OpenQasm3 => "OPENQASM 3.0;\ninclude \"stdgates.inc\";\n",
+            Self::OpenQasm2 => "OPENQASM 2.0;\ninclude \"qelib1.inc\";\n",
+        }
+    }
+
+    /// Declares qubits.
+    pub(super) fn qubits(self, name: &str, qubits: usize) -> String {
+        match self {
+            Self::OpenQasm3 => format!("qubit[{qubits}] {name};\n"),
+            Self::OpenQasm2 => format!("qreg {name}[{qubits}];\n"),
+        }
+    }
+
+    /// Declares classical bits.
+    pub(super) fn bits(self, name: &str, bits: usize) -> String {
+        match self {
+            Self::OpenQasm3 => format!("bit[{bits}] {name};\n"),
+            Self::OpenQasm2 => format!("creg {name}[{bits}];\n"),
+        }
+    }
+
+    /// Measures a qubit into a bit.
+    pub(super) fn measure(self, qubit: &str, bit: &str) -> String {
+        match self {
+            Self::OpenQasm3 => format!("{bit} = measure {qubit};\n"),
+            Self::OpenQasm2 => format!("measure {qubit} -> {bit};\n"),
+        }
+    }
+
+    /// The gate that multiplies by `exp(i angle)` where one qubit holds, and where two do.
+    pub(super) fn phase(self, qubits: usize) -> Option<&'static str> {
+        match (self, qubits) {
+            (Self::OpenQasm3, 1) => Some("p"),
+            (Self::OpenQasm3, 2) => Some("cp"),
+            (Self::OpenQasm2, 1) => Some("u1"),
+            (Self::OpenQasm2, 2) => Some("cu1"),
+            _ => None,
+        }
+    }
+}

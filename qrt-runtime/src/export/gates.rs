@@ -1,0 +1,195 @@
+//! Gates, a line each.
+
+use super::{ExportError, Format, Register};
+use qrt_core::circuit::Qubit;
+use qrt_core::circuit::quantum::{QuantumGate, Turns};
+use qrt_core::inspect::grouped;
+use std::collections::BTreeMap;
+use std::f64::consts::TAU;
+use std::fmt::Write as _;
+use std::io::{self, Write};
+
+/// What was written.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Tally {
+    /// By name: how many gates.
+    pub by_name: BTreeMap<&'static str, u64>,
+    /// Qubits.
+    pub qubits: u32,
+    /// Bytes of text.
+    pub bytes: u64,
+}
+
+impl Tally {
+    /// All gates.
+    pub fn gates(&self) -> u64 {
+        self.by_name.values().sum()
+    }
+
+    /// `2 qubits, 3 gates: 2 z, 1 cz`, the most frequent first.
+    pub fn text(&self) -> String {
+        let mut names: Vec<_> = self.by_name.iter().collect();
+        names.sort_by_key(|(name, gates)| (std::cmp::Reverse(**gates), **name));
+        let counts: Vec<String> = names
+            .into_iter()
+            .map(|(name, gates)| format!("{} {name}", grouped(*gates)))
+            .collect();
+        let plural = |count: u64| if count == 1 { "" } else { "s" };
+        let (qubits, gates) = (self.qubits.into(), self.gates());
+        let colon = if gates == 0 { "" } else { ": " };
+        format!(
+            "{} qubit{}, {} gate{}{colon}{}",
+            grouped(qubits),
+            plural(qubits),
+            grouped(gates),
+            plural(gates),
+            counts.join(", ")
+        )
+    }
+}
+
+/// Writes a circuit.
+pub(super) struct Writer<'a, W> {
+    format: Format,
+    registers: &'a [Register],
+    /// By qubit: its name.
+    names: Vec<String>,
+    tally: Tally,
+    line: String,
+    out: &'a mut W,
+}
+
+impl<'a, W: Write> Writer<'a, W> {
+    pub(super) fn new(
+        format: Format,
+        registers: &'a [Register],
+        qubits: u32,
+        out: &'a mut W,
+    ) -> Self {
+        let mut names = vec![String::new(); qubits as usize];
+        for register in registers {
+            for (bit, qubit) in register.qubits.iter().enumerate() {
+                names[*qubit as usize] = format!("{}[{bit}]", register.name);
+            }
+        }
+        Self {
+            format,
+            registers,
+            names,
+            tally: Tally {
+                qubits,
+                ..Tally::default()
+            },
+            line: String::new(),
+            out,
+        }
+    }
+
+    fn put(&mut self, text: &str) -> io::Result<()> {
+        self.tally.bytes += text.len() as u64;
+        self.out.write_all(text.as_bytes())
+    }
+
+    fn comment(&mut self, text: &str) -> io::Result<()> {
+        let plain = |c: char| c == ' ' || c.is_ascii_graphic();
+        let escape = |c: char| {
+            if plain(c) {
+                c.to_string()
+            } else {
+                c.escape_default().to_string()
+            }
+        };
+        let text: String = text.chars().map(escape).collect();
+        self.put(&format!("// {text}\n"))
+    }
+
+    /// Language, comments, registers.
+    pub(super) fn header(&mut self, comments: &[String]) -> io::Result<()> {
+        self.put(self.format.header())?;
+        for comment in comments {
+            self.comment(comment)?;
+        }
+        let registers = self.registers;
+        for Register { name, qubits } in registers {
+            self.put(&self.format.qubits(name, qubits.len()))?;
+        }
+        let counter = registers.iter().find(|register| register.name == "counter");
+        if let Some(counter) = counter {
+            self.put(&self.format.bits("outcome", counter.qubits.len()))?;
+        }
+        Ok(())
+    }
+
+    /// A line of one gate.
+    fn line(&mut self, gate: &'static str, angle: Option<f64>, on: &[Qubit]) -> io::Result<()> {
+        *self.tally.by_name.entry(gate).or_default() += 1;
+        let mut line = std::mem::take(&mut self.line);
+        line.clear();
+        line.push_str(gate);
+        if let Some(angle) = angle {
+            // The shortest decimal that is read as the same number.
+            // Writing to a string cannot fail.
+            let _ = write!(line, "({angle:?})");
+        }
+        for (place, qubit) in on.iter().enumerate() {
+            line.push_str(if place == 0 { " " } else { ", " });
+            line.push_str(&self.names[*qubit as usize]);
+        }
+        line.push_str(";\n");
+        self.put(&line)?;
+        self.line = line;
+        Ok(())
+    }
+
+    pub(super) fn gate(&mut self, gate: QuantumGate<'_>) -> Result<(), ExportError> {
+        match gate {
+            QuantumGate::X(t) => self.line("x", None, &[t])?,
+            QuantumGate::Cx(a, t) => self.line("cx", None, &[a, t])?,
+            QuantumGate::Ccx(a, b, t) => self.line("ccx", None, &[a, b, t])?,
+            QuantumGate::H(t) => self.line("h", None, &[t])?,
+            QuantumGate::Ry { angle, target } => self.line("ry", Some(angle), &[target])?,
+            QuantumGate::Phase { turns, on } => self.phase(turns, on)?,
+        }
+        Ok(())
+    }
+
+    fn phase(&mut self, turns: Turns, on: &[Qubit]) -> Result<(), ExportError> {
+        match *on {
+            // Z X Z X = -1, on whichever qubit.
+            [] if turns == Turns::HALF && !self.names.is_empty() => {
+                for name in ["z", "x", "z", "x"] {
+                    self.line(name, None, &[0])?;
+                }
+            }
+            [a] if turns == Turns::HALF => self.line("z", None, &[a])?,
+            [a, b] if turns == Turns::HALF => self.line("cz", None, &[a, b])?,
+            [a, b, c] if turns == Turns::HALF => {
+                self.line("h", None, &[c])?;
+                self.line("ccx", None, &[a, b, c])?;
+                self.line("h", None, &[c])?;
+            }
+            _ => {
+                let gate = self.format.phase(on.len());
+                let gate = gate.ok_or(ExportError::Controls(on.len()))?;
+                self.line(gate, Some(TAU * turns.as_f64()), on)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Measures the counting register, bit 0 first.
+    pub(super) fn measure(&mut self, bits: usize) -> io::Result<()> {
+        for bit in 0..bits {
+            let [qubit, bit] = ["counter", "outcome"].map(|name| format!("{name}[{bit}]"));
+            self.put(&self.format.measure(&qubit, &bit))?;
+        }
+        Ok(())
+    }
+
+    /// Says how many gates there were.
+    pub(super) fn end(mut self) -> io::Result<Tally> {
+        self.comment(&self.tally.text())?;
+        self.out.flush()?;
+        Ok(self.tally)
+    }
+}

@@ -1,0 +1,102 @@
+use super::*;
+use qrt_core::circuit::quantum::{Conjunction, PhaseOracle};
+use qrt_core::scene::Window;
+
+fn text(counting: &Counting<'_>, part: Part, format: Format) -> String {
+    let mut text = Vec::new();
+    let export = Export::new(counting, part, None).unwrap();
+    let tally = export.write(format, &[], &mut text).unwrap();
+    assert_eq!(tally.bytes, text.len() as u64);
+    String::from_utf8(text).unwrap()
+}
+
+fn gates(text: &str) -> Vec<&str> {
+    let plain = |line: &&str| {
+        let words = ["OPENQASM", "include", "//", "q", "bit", "creg"];
+        !words.iter().any(|word| line.starts_with(word))
+    };
+    text.lines().filter(plain).collect()
+}
+
+#[test]
+fn signs_under_one_two_and_three_qubits_have_gates() {
+    let oracle = PhaseOracle::polynomial(3, vec![vec![1], vec![2, 0], vec![0, 1, 2]]).unwrap();
+    let counting = Counting::new(&oracle, 1, Window::Rect).unwrap();
+    let lines = [
+        "z id[1];",
+        "cz id[2], id[0];",
+        "h id[2];",
+        "ccx id[0], id[1], id[2];",
+        "h id[2];",
+    ];
+    for format in [Format::OpenQasm3, Format::OpenQasm2] {
+        assert_eq!(gates(&text(&counting, Part::Oracle, format)), lines);
+    }
+}
+
+#[test]
+fn a_counting_circuit_of_one_id_bit_is_known_line_by_line() {
+    let oracle = PhaseOracle::polynomial(1, vec![vec![0]]).unwrap();
+    let counting = Counting::with(&oracle, 2, Window::Rect, Conjunction::Toffolis).unwrap();
+    let iterate = |control: u32| {
+        [
+            format!("cz counter[{control}], id[0];"),
+            "h id[0];".to_owned(),
+            "x id[0];".to_owned(),
+            format!("cz counter[{control}], id[0];"),
+            "x id[0];".to_owned(),
+            format!("z counter[{control}];"),
+            "h id[0];".to_owned(),
+        ]
+    };
+    for (format, phase, measures) in [
+        (
+            Format::OpenQasm3,
+            "cp",
+            [
+                "outcome[0] = measure counter[0];",
+                "outcome[1] = measure counter[1];",
+            ],
+        ),
+        (
+            Format::OpenQasm2,
+            "cu1",
+            [
+                "measure counter[0] -> outcome[0];",
+                "measure counter[1] -> outcome[1];",
+            ],
+        ),
+    ] {
+        let mut lines = ["h counter[0];", "h counter[1];", "h id[0];"]
+            .map(str::to_owned)
+            .to_vec();
+        for control in [0, 1, 1] {
+            lines.extend(iterate(control));
+        }
+        lines.extend([
+            "cx counter[0], counter[1];".to_owned(),
+            "cx counter[1], counter[0];".to_owned(),
+            "cx counter[0], counter[1];".to_owned(),
+            "h counter[0];".to_owned(),
+            format!("{phase}(-1.5707963267948966) counter[0], counter[1];"),
+            "h counter[1];".to_owned(),
+        ]);
+        lines.extend(measures.map(str::to_owned));
+        assert_eq!(gates(&text(&counting, Part::Counting, format)), lines);
+    }
+}
+
+#[test]
+fn the_last_line_is_grammatical() {
+    let tally = |gates: &[(&'static str, u64)], qubits| Tally {
+        by_name: gates.iter().copied().collect(),
+        qubits,
+        bytes: 0,
+    };
+    assert_eq!(tally(&[("z", 1)], 1).text(), "1 qubit, 1 gate: 1 z");
+    assert_eq!(tally(&[], 2).text(), "2 qubits, 0 gates");
+    assert_eq!(
+        tally(&[("ccx", 1200), ("x", 7), ("cx", 1200)], 1234).text(),
+        "1,234 qubits, 2,407 gates: 1,200 ccx, 1,200 cx, 7 x"
+    );
+}

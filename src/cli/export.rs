@@ -1,0 +1,358 @@
+//! `qrt export`: a pixel's circuit for other programs.
+
+use super::failure::Failure;
+use super::files::{can_be_written, keep_apart};
+use super::inspect::{Channel, keep_budget};
+use super::progress::Gates;
+use super::{interrupt, plan, terminal};
+use clap::{Args, ValueEnum};
+use qrt_core::circuit::quantum::{Conjunction, Counting, Part};
+use qrt_core::front;
+use qrt_core::inspect::{CHANNELS, Inspection, grouped};
+use qrt_core::oracle::Options;
+use qrt_core::scene::Window;
+use qrt_core::valid::ValidScene;
+use qrt_runtime::export::{Export, ExportError, Format, Tally};
+use qrt_runtime::plan::Options as PlanOptions;
+use qrt_runtime::replace_file::replace_file;
+use serde_json::{Map, Value, json};
+use std::io::{self, BufWriter, ErrorKind, Write};
+use std::path::{Path, PathBuf};
+
+/// Bytes of a gate's line, of a circuit of some 10,000 to 100,000 qubits.
+const BYTES_A_GATE: u64 = 28;
+
+/// Write a pixel's circuit as OpenQASM, for other programs
+///
+/// The oracle turns the signs of the pixel's good ids: compute the colours of all paths, compare
+/// and flip, uncompute, of X, CNOT, Toffoli and Z gates, with the pixel's position built in. The
+/// Grover iterate is the oracle and a reflection. Counting is all of it: the window on the counting
+/// register, 2^t - 1 controlled iterates, the inverse Fourier transform, and the measurement of y;
+/// then S/N = sin(pi y / 2^t)^2.
+///
+/// The text is flat: registers, gates, measurements, a line each, which Qiskit, Q#, Cirq,
+/// PennyLane, MQT Core and pytket read. Bit 0 of every register is its least significant. All
+/// qubits are zero before the first gate but those of the id, which the oracle and the iterate take
+/// as they are.
+#[derive(Clone, Debug, Args)]
+#[command(after_help = "\
+Examples:
+  qrt export box.yaml                                    the oracle of the pixel in the middle, box.qasm
+  qrt export box.yaml --pixel 10,20 --channel g -o g.qasm
+  qrt export box.yaml --part counting --set counting.phase_bits=3
+  qrt export box.yaml --format openqasm2 -o - | gzip > box.qasm.gz")]
+pub(crate) struct ExportArgs {
+    /// The scene, a YAML file
+    #[arg(value_name = "SCENE")]
+    scene: PathBuf,
+    /// The file; `-` is standard output [default: SCENE's name with .qasm, in the current folder]
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// The language
+    #[arg(long, value_enum, default_value_t = FormatName::Openqasm3)]
+    format: FormatName,
+    /// What of the circuit
+    #[arg(long, value_enum, default_value_t = PartName::Oracle)]
+    part: PartName,
+    /// The pixel, from the top left corner [default: the one in the middle]
+    #[arg(long, value_name = "X,Y", value_parser = pixel, allow_hyphen_values = true)]
+    pixel: Option<[u32; 2]>,
+    /// The channel [default: the one whose oracle has the most Toffolis]
+    #[arg(long, value_enum, value_name = "CHANNEL")]
+    channel: Option<Channel>,
+    /// Another seed gives other paths
+    #[arg(long, value_name = "S", default_value_t = 0)]
+    seed: u64,
+    /// Refuse to write more gates; a gate takes some 28 bytes
+    #[arg(long, value_name = "N", default_value_t = 50_000_000)]
+    max_gates: u64,
+    /// JSON instead of a summary
+    #[arg(long)]
+    json: bool,
+    /// Override a key of the scene; may be repeated
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    sets: Vec<String>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum FormatName {
+    /// OpenQASM 3.0, of its standard gates alone
+    Openqasm3,
+    /// OpenQASM 2.0, for what does not read the other
+    Openqasm2,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum PartName {
+    /// O_f, once
+    Oracle,
+    /// One iterate G = H O_0 H O_f
+    Grover,
+    /// The whole circuit of quantum counting
+    Counting,
+}
+
+impl PartName {
+    fn part(self) -> Part {
+        match self {
+            Self::Oracle => Part::Oracle,
+            Self::Grover => Part::Grover,
+            Self::Counting => Part::Counting,
+        }
+    }
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Oracle => "oracle",
+            Self::Grover => "grover",
+            Self::Counting => "counting",
+        }
+    }
+
+    /// What it does, for whoever reads the file.
+    fn comments(self) -> &'static [&'static str] {
+        match self {
+            Self::Oracle => &[
+                "Turns the sign of each good id: of a path whose colour exceeds the comparator's threshold.",
+            ],
+            Self::Grover => &[
+                "G = H O_0 H O_f: turns the plane of good and other ids by 2 theta turns,",
+                "sin(pi theta)^2 = S/N for S good ids of N. Its global phase is included.",
+            ],
+            Self::Counting => &[
+                "Reads y into outcome: theta = y/2^t turns or 1 - y/2^t, and S/N = sin(pi theta)^2",
+                "for S good ids of N.",
+            ],
+        }
+    }
+}
+
+fn pixel(text: &str) -> Result<[u32; 2], String> {
+    let numbers: Result<Vec<u32>, _> = text.split(',').map(|n| n.trim().parse()).collect();
+    let pixel = numbers.ok().and_then(|numbers| numbers.try_into().ok());
+    pixel.ok_or_else(|| "two whole numbers, such as 10,20".to_owned())
+}
+
+/// What is written.
+struct Exported<'a> {
+    args: &'a ExportArgs,
+    scene: &'a ValidScene,
+    channel: usize,
+    pixel: [u32; 2],
+    export: &'a Export<'a>,
+    counting: &'a Counting<'a>,
+    format: Format,
+    window: Window,
+    file: &'a Path,
+}
+
+pub(crate) fn run(args: &ExportArgs) -> Result<(), Failure> {
+    let file = args.output.clone().unwrap_or_else(|| named(&args.scene));
+    let to_stdout = file == Path::new("-");
+    if to_stdout && args.json {
+        let message = "`-o -` writes where `--json` does; name a file for the circuit";
+        return Err(Failure::Usage(message.to_owned()));
+    }
+    if !to_stdout {
+        keep_apart([&*args.scene, &*file].into_iter())?;
+        can_be_written(&file)?;
+    }
+    let loaded = front::load(&args.scene, &args.sets)?;
+    let cancel = interrupt::cancel_on_interrupt()?;
+    let planning = PlanOptions {
+        cancel: Some(&cancel),
+        ..PlanOptions::default()
+    };
+    let planned = plan::of(&loaded.valid, &planning, args.json)?;
+    let scene = planned.as_ref().map_or(&loaded.valid, |plan| &plan.scene);
+    let written = scene.scene();
+    let [width, height] = [written.film.width, written.film.height];
+    let pixel = args.pixel.unwrap_or([width / 2, height / 2]);
+    if pixel[0] >= width || pixel[1] >= height {
+        return Err(Failure::Usage(format!(
+            "there is no pixel {},{} on a film of {width} x {height}: x is in 0..={}, y in 0..={}",
+            pixel[0],
+            pixel[1],
+            width - 1,
+            height - 1
+        )));
+    }
+    let channel = args.channel.map(|channel| channel as usize);
+    let inspection = Inspection::new(scene, channel, Options::default())
+        .map_err(|error| loaded.report(vec![error.problem()]))?;
+    keep_budget(&loaded, &inspection)?;
+    let failed = |error: &dyn std::error::Error| Failure::Job(error.to_string());
+    let oracle = inspection.oracle.phase(0, args.seed, pixel);
+    let oracle = oracle.map_err(|error| failed(&error))?;
+    let (phase_bits, window) = (
+        written.counting.phase_bits,
+        written.counting.register_window(),
+    );
+    let counting = Counting::with(&oracle, phase_bits, window, Conjunction::Toffolis);
+    let counting = counting.map_err(|error| failed(&error))?;
+    let path_bits = inspection.oracle.points.path_bits();
+    let export = Export::new(&counting, args.part.part(), Some(path_bits));
+    let export = export.map_err(|error| failed(&error))?;
+    allow(args, &counting, export.gates())?;
+    let bar = Gates::new(!args.json && !to_stdout, export.gates());
+    let show = |gates| bar.show(gates);
+    let export = export.with_cancel(&cancel).with_progress(&show);
+    let exported = Exported {
+        args,
+        scene,
+        channel: inspection.channel,
+        pixel,
+        export: &export,
+        counting: &counting,
+        format: match args.format {
+            FormatName::Openqasm3 => Format::OpenQasm3,
+            FormatName::Openqasm2 => Format::OpenQasm2,
+        },
+        window,
+        file: &file,
+    };
+    let tally = if to_stdout {
+        exported.to_stdout()
+    } else {
+        exported.to_file()
+    };
+    bar.clear();
+    let Some(tally) = tally? else {
+        return Ok(());
+    };
+    if to_stdout {
+        terminal::note(exported.summary(&tally).trim_end());
+        Ok(())
+    } else if args.json {
+        terminal::print(&format!("{:#}\n", exported.json(&tally)))
+    } else {
+        terminal::print(&exported.summary(&tally))
+    }
+}
+
+/// `folder/box.yaml` is exported to `box.qasm`.
+fn named(scene: &Path) -> PathBuf {
+    let mut name = scene.file_stem().unwrap_or("scene".as_ref()).to_owned();
+    name.push(".qasm");
+    name.into()
+}
+
+/// Refuses what nobody would wait for, unless it is asked for.
+fn allow(args: &ExportArgs, counting: &Counting<'_>, gates: u64) -> Result<(), Failure> {
+    if gates <= args.max_gates {
+        return Ok(());
+    }
+    let shorter = if args.part == PartName::Counting {
+        let iterate = counting.iterate().gates(true).max(1);
+        let bits = (args.max_gates / iterate + 1).ilog2();
+        match bits {
+            0 => ", and one iterate alone is too much; `--part grover` is half of that".to_owned(),
+            _ => format!("; `--set counting.phase_bits={bits}` makes it short enough"),
+        }
+    } else {
+        String::new()
+    };
+    Err(Failure::Usage(format!(
+        "{} gates, some {} of text, are more than --max-gates {}{shorter}",
+        grouped(gates),
+        size(gates.saturating_mul(BYTES_A_GATE)),
+        args.max_gates
+    )))
+}
+
+/// Bytes, in the largest unit that they fill.
+fn size(bytes: u64) -> String {
+    let units = [(1e12, "TB"), (1e9, "GB"), (1e6, "MB"), (1e3, "kB")];
+    let bytes = bytes as f64;
+    match units.into_iter().find(|(unit, _)| bytes >= *unit) {
+        Some((unit, name)) => format!("{:.1} {name}", bytes / unit),
+        None => format!("{bytes} bytes"),
+    }
+}
+
+impl Exported<'_> {
+    fn write(&self, out: &mut impl Write) -> Result<Tally, ExportError> {
+        self.export.write(self.format, &self.comments(), out)
+    }
+
+    fn to_file(&self) -> Result<Option<Tally>, Failure> {
+        let mut tally = None;
+        let written = replace_file(self.file, |out| {
+            tally = Some(self.write(out)?);
+            Ok::<(), ExportError>(())
+        });
+        match written {
+            Ok(()) => Ok(tally),
+            Err(ExportError::Io(error)) => Err(Failure::file(self.file, &error)),
+            Err(error) => Err(Failure::Job(error.to_string())),
+        }
+    }
+
+    /// None if the reader has seen enough.
+    fn to_stdout(&self) -> Result<Option<Tally>, Failure> {
+        match self.write(&mut BufWriter::new(io::stdout().lock())) {
+            Ok(tally) => Ok(Some(tally)),
+            Err(ExportError::Io(error)) if error.kind() == ErrorKind::BrokenPipe => Ok(None),
+            Err(ExportError::Io(error)) => Err(Failure::Job(format!("standard output: {error}"))),
+            Err(error) => Err(Failure::Job(error.to_string())),
+        }
+    }
+
+    fn comments(&self) -> Vec<String> {
+        let [x, y] = self.pixel;
+        let part = self.args.part;
+        let mut lines = vec![format!(
+            "qrt {}: {}, {} of channel {}, pixel {x},{y}, seed {}",
+            env!("CARGO_PKG_VERSION"),
+            self.scene.scene().name,
+            part.name(),
+            CHANNELS[self.channel],
+            self.args.seed
+        )];
+        lines.extend(part.comments().iter().map(|line| (*line).to_owned()));
+        lines.push("Bit 0 of each register is its least significant.".to_owned());
+        lines
+    }
+
+    fn summary(&self, tally: &Tally) -> String {
+        let [x, y] = self.pixel;
+        format!(
+            "{}: {} of channel {}, pixel {x},{y}; {}; {}\n",
+            self.file.display(),
+            self.args.part.name(),
+            CHANNELS[self.channel],
+            tally.text(),
+            size(tally.bytes)
+        )
+    }
+
+    fn json(&self, tally: &Tally) -> Value {
+        let registers = self.export.registers().iter();
+        let registers: Vec<Value> = registers
+            .map(|register| json!({ "name": register.name, "width": register.qubits.len() }))
+            .collect();
+        let gates = tally.by_name.iter();
+        let gates: Map<String, Value> = gates
+            .map(|(name, gates)| ((*name).to_owned(), json!(gates)))
+            .collect();
+        let counting = self.args.part == PartName::Counting;
+        json!({
+            "version": 1,
+            "qrt": env!("CARGO_PKG_VERSION"),
+            "scene": self.scene.scene().name,
+            "scene_hash": self.scene.fingerprint().to_string(),
+            "file": self.file.display().to_string(),
+            "format": self.format.name(),
+            "part": self.args.part.name(),
+            "channel": CHANNELS[self.channel],
+            "pixel": self.pixel,
+            "seed": self.args.seed,
+            "queries": if counting { self.counting.queries() } else { 1 },
+            "window": counting.then(|| self.window.name()),
+            "registers": registers,
+            "qubits": tally.qubits,
+            "gates": gates,
+            "bytes": tally.bytes,
+        })
+    }
+}
