@@ -37,7 +37,7 @@ const BYTES_A_GATE: u64 = 28;
 #[derive(Clone, Debug, Args)]
 #[command(after_help = "\
 Examples:
-  qrt export box.yaml                                    the oracle of the pixel in the middle, box.qasm
+  qrt export box.yaml                    the middle pixel's oracle, box.qasm
   qrt export box.yaml --pixel 10,20 --channel g -o g.qasm
   qrt export box.yaml --part counting --set counting.phase_bits=3
   qrt export box.yaml --format openqasm2 -o - | gzip > box.qasm.gz")]

@@ -1,6 +1,7 @@
 //! `qrt new`: a first scene.
 
 use super::failure::Failure;
+use super::files::can_be_written;
 use super::terminal;
 use clap::Args;
 use qrt_core::scene::text::Data;
@@ -30,6 +31,7 @@ pub(crate) struct NewArgs {
 
 pub(crate) fn run(args: &NewArgs) -> Result<(), Failure> {
     let path = file(&args.name)?;
+    can_be_written(&path)?;
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     let name = format!("name: {}", Data::text(stem).canonical());
     let text = TEMPLATE.replacen(NAME, &name, 1);
