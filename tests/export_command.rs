@@ -139,7 +139,9 @@ fn the_oracle_turns_the_signs_of_the_good_ids_and_no_others() {
         let id = [circuit.register("path"), circuit.register("comparator")].concat();
         let mut machine = Sparse::new(circuit.qubits);
         let mut run = |gate| machine.gate(gate).unwrap();
-        id.iter().for_each(|qubit| run(QuantumGate::H(*qubit)));
+        for qubit in &id {
+            run(QuantumGate::H(*qubit));
+        }
         circuit.run(&mut machine);
         let mut run = |gate| machine.gate(gate).unwrap();
         let mut good = 0;
@@ -152,15 +154,21 @@ fn the_oracle_turns_the_signs_of_the_good_ids_and_no_others() {
                     .filter(|(bit, _)| value >> bit & 1 == 0)
                     .map(|(_, qubit)| *qubit)
                     .collect();
-                zeros.iter().for_each(|qubit| run(QuantumGate::X(*qubit)));
+                for qubit in &zeros {
+                    run(QuantumGate::X(*qubit));
+                }
                 run(QuantumGate::Phase {
                     turns: Turns::HALF,
                     on: &id,
                 });
-                zeros.iter().for_each(|qubit| run(QuantumGate::X(*qubit)));
+                for qubit in &zeros {
+                    run(QuantumGate::X(*qubit));
+                }
             }
         }
-        id.iter().for_each(|qubit| run(QuantumGate::H(*qubit)));
+        for qubit in &id {
+            run(QuantumGate::H(*qubit));
+        }
         assert!(good > 2, "{good}");
         let all: Vec<u32> = (0..circuit.qubits).collect();
         let excited = machine.excited(&all).unwrap();

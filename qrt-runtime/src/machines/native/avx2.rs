@@ -385,8 +385,14 @@ impl Vectors for V3 {
     }
     #[inline(always)]
     fn table<const L: usize>(self, table: &[i32; L], index: Ints) -> Ints {
-        let index: [u32; 8] = pulp::cast(index.1);
-        Ints(self, pulp::cast(entries(table, index)))
+        const { assert!(L.is_power_of_two() && L > 1 && L <= 1 << 31) };
+        let index = index.lowest(L.trailing_zeros());
+        // SAFETY: of each index the bits below L's only one are left, so that it is below L.
+        let found = unsafe {
+            self.avx2
+                ._mm256_i32gather_epi32::<4>(table.as_ptr(), index.1)
+        };
+        Ints(self, found)
     }
     #[inline(always)]
     fn wide_table<const L: usize>(self, table: &[i64; L], index: Ints) -> Longs {

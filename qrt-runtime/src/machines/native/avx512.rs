@@ -174,8 +174,7 @@ macro_rules! lane_by_lane {
     }};
 }
 
-/// Entries of a table, lane by lane. Called, not inlined: it is long, and its loads wait for nothing
-/// of what is around it.
+/// Entries of a table, lane by lane. Called, not inlined: it is long, and rare.
 #[inline(never)]
 pub(super) fn entries<K: Copy + Default, const L: usize, const N: usize>(
     table: &[K; L],
@@ -318,10 +317,11 @@ impl Vectors for V4 {
     }
     #[inline(always)]
     fn table<const L: usize>(self, table: &[i32; L], index: Ints) -> Ints {
-        Ints(
-            self,
-            pulp::cast(entries::<_, L, 16>(table, pulp::cast(index.1))),
-        )
+        const { assert!(L.is_power_of_two() && L > 1 && L <= 1 << 31) };
+        let (f, index) = (self.avx512f, index.lowest(L.trailing_zeros()));
+        // SAFETY: of each index the bits below L's only one are left, so that it is below L.
+        let found = unsafe { f._mm512_i32gather_epi32::<4>(index.1, table.as_ptr()) };
+        Ints(self, found)
     }
     #[inline(always)]
     fn wide_table<const L: usize>(self, table: &[i64; L], index: Ints) -> Longs {

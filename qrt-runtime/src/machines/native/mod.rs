@@ -96,14 +96,27 @@ impl<C: NativeOracle, V: Vectors> NullaryFnOnce for Block<'_, C, V> {
                 let [counts, colours] = C::native(v, run.parameters, ids);
                 let place = start + done;
                 let rest = V::LANES.min(run.count - done);
-                let outputs = counts.into_iter().chain(colours);
-                for (column, output) in self.values.iter_mut().zip(outputs) {
-                    if let Some(lanes) = column.get_mut(place..place + rest) {
-                        v.store(output, lanes);
-                    }
+                let [red, green, blue] = counts;
+                v.store(red, lanes(self.values, 0, place, rest));
+                v.store(green, lanes(self.values, 1, place, rest));
+                v.store(blue, lanes(self.values, 2, place, rest));
+                if self.values.len() > 3 {
+                    let [red, green, blue] = colours;
+                    v.store(red, lanes(self.values, 3, place, rest));
+                    v.store(green, lanes(self.values, 4, place, rest));
+                    v.store(blue, lanes(self.values, 5, place, rest));
                 }
             }
             start += run.count;
         }
     }
+}
+
+/// Some places of a column; none where there is none.
+#[inline(always)]
+fn lanes(values: &mut [Vec<i64>], column: usize, first: usize, count: usize) -> &mut [i64] {
+    let column = values.get_mut(column);
+    column
+        .and_then(|column| column.get_mut(first..first + count))
+        .unwrap_or_default()
 }
