@@ -189,7 +189,7 @@ fn the_iterate_is_the_circuits_own_amplitude_by_amplitude() {
                 let written = export.write(format, &[], &mut text);
                 if part == Part::Counting && conjunction == Conjunction::Whole {
                     // A sign under four controls.
-                    assert!(matches!(written, Err(ExportError::Controls(4))));
+                    assert!(matches!(written, Err(ExportError::TooManyQubits(4))));
                     continue;
                 }
                 let tally = written.unwrap();
@@ -315,7 +315,10 @@ fn standard_output_has_the_files_bytes() {
     assert_eq!(output.status.code(), Some(0));
     assert_eq!(output.stdout, folder.read("wall.qasm"));
     let note = String::from_utf8(output.stderr).unwrap();
-    assert!(note.starts_with("note: -: oracle of channel r"), "{note}");
+    assert!(
+        note.starts_with("note: standard output: oracle of channel r"),
+        "{note}"
+    );
 }
 
 #[test]
@@ -338,7 +341,7 @@ fn what_cannot_be_exported_is_said_and_nothing_is_written() {
         (&["--max-gates", "100"], "are more than --max-gates 100\n"),
         (
             &["--part", "counting", "--max-gates", "100"],
-            "one iterate alone is too much",
+            "; one iterate alone has 32,",
         ),
         (
             &["--part", "counting", "--set", "counting.phase_bits=40"],
@@ -384,6 +387,20 @@ fn the_advised_register_is_short_enough_and_the_next_is_not() {
     assert_eq!(bits, 3);
     folder.works(&[&arguments[..], &["--set", &set(bits)]].concat());
     folder.fails(2, &[&arguments[..], &["--set", &set(bits + 1)]].concat());
+    // To the last gate.
+    let said = error.split(" gates").next().unwrap();
+    let all: String = said.chars().filter(char::is_ascii_digit).collect();
+    let less = (all.parse::<u64>().unwrap() - 1).to_string();
+    let arguments = [
+        "export",
+        "wall.yaml",
+        "--part",
+        "counting",
+        "--max-gates",
+        &less,
+    ];
+    let error = folder.fails(2, &[&arguments[..], &["--set", &set(9)]].concat());
+    assert!(error.contains("counting.phase_bits=8"), "{error}");
 }
 
 #[test]

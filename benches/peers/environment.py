@@ -17,6 +17,8 @@ def inside(folder, requirements):
     python = folder / "bin" / "python"
     requirements = HERE / requirements
     installed = folder / "installed.txt"
+    if folder.exists() and any(folder.iterdir()) and not (folder / "pyvenv.cfg").exists():
+        sys.exit(f"{folder} holds something else than a virtual environment; name another folder")
     if not installed.exists() or installed.read_text() != requirements.read_text():
         venv.create(folder, with_pip=True, clear=True)
         pip = [python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]

@@ -13,7 +13,7 @@ use qrt_core::oracle::Options;
 use qrt_core::scene::Window;
 use qrt_core::valid::ValidScene;
 use qrt_runtime::export::{Export, ExportError, Format, Tally};
-use qrt_runtime::plan::Options as PlanOptions;
+use qrt_runtime::plan::{Figures, Options as PlanOptions};
 use qrt_runtime::replace_file::replace_file;
 use serde_json::{Map, Value, json};
 use std::io::{self, BufWriter, ErrorKind, Write};
@@ -24,16 +24,16 @@ const BYTES_A_GATE: u64 = 28;
 
 /// Write a pixel's circuit as OpenQASM, for other programs
 ///
-/// The oracle turns the signs of the pixel's good ids: compute the colours of all paths, compare
-/// and flip, uncompute, of X, CNOT, Toffoli and Z gates, with the pixel's position built in. The
-/// Grover iterate is the oracle and a reflection. Counting is all of it: the window on the counting
-/// register, 2^t - 1 controlled iterates, the inverse Fourier transform, and the measurement of y;
-/// then S/N = sin(pi y / 2^t)^2.
+/// The oracle flips the signs of the pixel's good ids. It computes the colours of all paths,
+/// compares, flips and uncomputes, with X, CNOT, Toffoli and Z gates. The pixel's position is built
+/// in. The Grover iterate is the oracle and a reflection. Counting is all of it: the window on the
+/// counting register, 2^t - 1 controlled iterates, the inverse Fourier transform, and the
+/// measurement of y, which estimates S/N by sin(pi y / 2^t)^2.
 ///
-/// The text is flat: registers, gates, measurements, a line each, which Qiskit, Q#, Cirq,
-/// PennyLane, MQT Core and pytket read. Bit 0 of every register is its least significant. All
-/// qubits are zero before the first gate but those of the id, which the oracle and the iterate take
-/// as they are.
+/// The text is flat: registers, gates, measurements, a line each. Qiskit, Q#, Cirq and MQT Core
+/// read both languages, pytket version 2, PennyLane version 3 without `include` and measurements.
+/// Bit 0 of every register is its least significant. Every qubit starts at zero. For the oracle and
+/// the iterate, prepare the id yourself, for example with Hadamards.
 #[derive(Clone, Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -51,10 +51,10 @@ pub(crate) struct ExportArgs {
     /// The language
     #[arg(long, value_enum, default_value_t = FormatName::Openqasm3)]
     format: FormatName,
-    /// What of the circuit
+    /// Which part of the circuit
     #[arg(long, value_enum, default_value_t = PartName::Oracle)]
     part: PartName,
-    /// The pixel, from the top left corner [default: the one in the middle]
+    /// The pixel: column and row, from 0 at the top left [default: the one in the middle]
     #[arg(long, value_name = "X,Y", value_parser = pixel, allow_hyphen_values = true)]
     pixel: Option<[u32; 2]>,
     /// The channel [default: the one whose oracle has the most Toffolis]
@@ -78,7 +78,7 @@ pub(crate) struct ExportArgs {
 enum FormatName {
     /// OpenQASM 3.0, of its standard gates alone
     Openqasm3,
-    /// OpenQASM 2.0, for what does not read the other
+    /// OpenQASM 2.0, for programs that do not read version 3
     Openqasm2,
 }
 
@@ -113,15 +113,15 @@ impl PartName {
     fn comments(self) -> &'static [&'static str] {
         match self {
             Self::Oracle => &[
-                "Turns the sign of each good id: of a path whose colour exceeds the comparator's threshold.",
+                "Flips the sign of each good id: of a path whose colour exceeds the comparator's threshold.",
             ],
             Self::Grover => &[
-                "G = H O_0 H O_f: turns the plane of good and other ids by 2 theta turns,",
+                "G = H O_0 H O_f: rotates the plane of good and other ids by theta turns, where",
                 "sin(pi theta)^2 = S/N for S good ids of N. Its global phase is included.",
             ],
             Self::Counting => &[
-                "Reads y into outcome: theta = y/2^t turns or 1 - y/2^t, and S/N = sin(pi theta)^2",
-                "for S good ids of N.",
+                "Reads y into outcome: y/2^t or 1 - y/2^t is about theta, in turns, where",
+                "sin(pi theta)^2 = S/N for S good ids of N.",
             ],
         }
     }
@@ -141,6 +141,7 @@ struct Exported<'a> {
     pixel: [u32; 2],
     export: &'a Export<'a>,
     counting: &'a Counting<'a>,
+    plan: Option<&'a Figures>,
     format: Format,
     window: Window,
     file: &'a Path,
@@ -193,7 +194,7 @@ pub(crate) fn run(args: &ExportArgs) -> Result<(), Failure> {
     let path_bits = inspection.oracle.points.path_bits();
     let export = Export::new(&counting, args.part.part(), Some(path_bits));
     let export = export.map_err(|error| failed(&error))?;
-    allow(args, &counting, export.gates())?;
+    allow(args, &counting, window, export.gates())?;
     let bar = Gates::new(!args.json && !to_stdout, export.gates());
     let show = |gates| bar.show(gates);
     let export = export.with_cancel(&cancel).with_progress(&show);
@@ -204,6 +205,7 @@ pub(crate) fn run(args: &ExportArgs) -> Result<(), Failure> {
         pixel,
         export: &export,
         counting: &counting,
+        plan: planned.as_ref().map(|plan| &plan.figures),
         format: match args.format {
             FormatName::Openqasm3 => Format::OpenQasm3,
             FormatName::Openqasm2 => Format::OpenQasm2,
@@ -238,16 +240,22 @@ fn named(scene: &Path) -> PathBuf {
 }
 
 /// Refuses what nobody would wait for, unless it is asked for.
-fn allow(args: &ExportArgs, counting: &Counting<'_>, gates: u64) -> Result<(), Failure> {
+fn allow(
+    args: &ExportArgs,
+    counting: &Counting<'_>,
+    window: Window,
+    gates: u64,
+) -> Result<(), Failure> {
     if gates <= args.max_gates {
         return Ok(());
     }
     let shorter = if args.part == PartName::Counting {
-        let iterate = counting.iterate().gates(true).max(1);
-        let bits = (args.max_gates / iterate + 1).ilog2();
-        match bits {
-            0 => ", and one iterate alone is too much; `--part grover` is half of that".to_owned(),
-            _ => format!("; `--set counting.phase_bits={bits}` makes it short enough"),
+        match longest(counting, window, args.max_gates) {
+            None => format!(
+                "; one iterate alone has {}",
+                grouped(counting.iterate().gates(true))
+            ),
+            Some(bits) => format!("; `--set counting.phase_bits={bits}` makes it short enough"),
         }
     } else {
         String::new()
@@ -258,6 +266,16 @@ fn allow(args: &ExportArgs, counting: &Counting<'_>, gates: u64) -> Result<(), F
         size(gates.saturating_mul(BYTES_A_GATE)),
         args.max_gates
     )))
+}
+
+/// The most phase bits with which a counting circuit has no more than `gates`.
+fn longest(counting: &Counting<'_>, window: Window, gates: u64) -> Option<u32> {
+    let oracle = counting.iterate().oracle();
+    let fits = |bits: &u32| {
+        Counting::with(oracle, *bits, window, Conjunction::Toffolis)
+            .is_ok_and(|shorter| shorter.gates(Part::Counting) <= gates)
+    };
+    (1..=counting.counter().len() as u32).rev().find(fits)
 }
 
 /// Bytes, in the largest unit that they fill.
@@ -316,9 +334,12 @@ impl Exported<'_> {
 
     fn summary(&self, tally: &Tally) -> String {
         let [x, y] = self.pixel;
+        let file = match self.file.to_str() {
+            Some("-") => "standard output".into(),
+            _ => self.file.to_string_lossy(),
+        };
         format!(
-            "{}: {} of channel {}, pixel {x},{y}; {}; {}\n",
-            self.file.display(),
+            "{file}: {} of channel {}, pixel {x},{y}; {}; {}\n",
             self.args.part.name(),
             CHANNELS[self.channel],
             tally.text(),
@@ -353,6 +374,7 @@ impl Exported<'_> {
             "qubits": tally.qubits,
             "gates": gates,
             "bytes": tally.bytes,
+            "plan": self.plan.map(plan::json),
         })
     }
 }

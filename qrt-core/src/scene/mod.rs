@@ -351,8 +351,8 @@ record! {
 }
 
 impl Counting {
-    /// The window in which the counting register is prepared: the estimator's own, or else the one
-    /// that is written.
+    /// The window in which the counting register is prepared: that of `paper`, `qss` and `sine`, which
+    /// have one of their own, and `counting.window` for all others.
     pub fn register_window(&self) -> Window {
         match self.estimator {
             Estimator::Paper | Estimator::Qss => Window::Rect,

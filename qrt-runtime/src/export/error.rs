@@ -13,8 +13,8 @@ pub enum ExportError {
         /// Bits of the id.
         id: u32,
     },
-    /// A sign or phase under so many controls has no gate in the standard library.
-    Controls(usize),
+    /// A sign or phase on so many qubits has no gate in the libraries.
+    TooManyQubits(usize),
     /// It was asked to end.
     Interrupted,
     /// It cannot be written.
@@ -27,10 +27,10 @@ impl fmt::Display for ExportError {
             Self::PathBits { path_bits, id } => {
                 write!(f, "a path of {path_bits} bits in an id of {id}")
             }
-            Self::Controls(qubits) => write!(
+            Self::TooManyQubits(qubits) => write!(
                 f,
-                "a phase on {qubits} qubits has no gate of its own in OpenQASM's library; write \
-                 O_0's sign with `Conjunction::Toffolis`"
+                "a phase on {qubits} qubits has no gate in OpenQASM's libraries; \
+                 `Conjunction::Toffolis` writes O_0's sign without it"
             ),
             Self::Interrupted => f.write_str("interrupted"),
             Self::Io(error) => error.fmt(f),

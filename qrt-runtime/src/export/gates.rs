@@ -128,8 +128,10 @@ impl<'a, W: Write> Writer<'a, W> {
         line.push_str(gate);
         if let Some(angle) = angle {
             // The shortest decimal that is read as the same number.
+            // As a decimal that is read as the same number; without a point it would be a whole one.
+            let point = if angle.fract() == 0.0 { ".0" } else { "" };
             // Writing to a string cannot fail.
-            let _ = write!(line, "({angle:?})");
+            let _ = write!(line, "({angle}{point})");
         }
         for (place, qubit) in on.iter().enumerate() {
             line.push_str(if place == 0 { " " } else { ", " });
@@ -170,7 +172,7 @@ impl<'a, W: Write> Writer<'a, W> {
             }
             _ => {
                 let gate = self.format.phase(on.len());
-                let gate = gate.ok_or(ExportError::Controls(on.len()))?;
+                let gate = gate.ok_or(ExportError::TooManyQubits(on.len()))?;
                 self.line(gate, Some(TAU * turns.as_f64()), on)?;
             }
         }

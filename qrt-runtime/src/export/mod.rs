@@ -5,11 +5,11 @@
 //!
 //! # Which OpenQASM
 //!
-//! What all importers take, and no more: registers, single gates of the standard library on single
-//! qubits, decimal angles, one measurement a line. No `gate`, `def`, modifier, loop, broadcast or
-//! constant expression: each of them is refused, or read wrongly, by one of Qiskit (two importers
-//! of OpenQASM 3, one of 2), Q#, Cirq, PennyLane, MQT Core and pytket. (PennyLane takes neither
-//! `include` nor measurements of single qubits: without those lines it reads the rest.)
+//! As little as there can be: registers, single gates of the standard library on single qubits,
+//! numbers as angles, one measurement a line. No `gate`, `def`, modifier, loop, broadcast or constant
+//! expression. So Qiskit (two importers of OpenQASM 3, one of 2), Q#, Cirq and MQT Core read both
+//! languages. pytket reads OpenQASM 2. PennyLane reads OpenQASM 3 without the lines of `include` and
+//! of measurements. (`benches/peers/openqasm.py` has them do it.)
 //!
 //! | gate | OpenQASM 3 | OpenQASM 2 |
 //! |---|---|---|
@@ -23,7 +23,7 @@
 //!
 //! # Registers
 //!
-//! `path` and `comparator`, the id (or `id` alone); `work`, zero before and after; for counting also
+//! `path` and `comparator`, the id (or `ids` alone); `work`, zero before and after; for counting also
 //! `counter`, whose qubits are measured into `outcome`, and for the sine window `bond`, which is zero
 //! before and after. Bit 0 of each is its least significant.
 //!
@@ -42,10 +42,10 @@
 //!     "\
 //! OPENQASM 3.0;
 //! include \"stdgates.inc\";
-//! qubit[2] id;
-//! z id[0];
-//! z id[1];
-//! cz id[0], id[1];
+//! qubit[2] ids;
+//! z ids[0];
+//! z ids[1];
+//! cz ids[0], ids[1];
 //! // 2 qubits, 3 gates: 2 z, 1 cz
 //! "
 //! );
@@ -82,6 +82,10 @@ pub struct Register {
 }
 
 /// A part of a counting circuit, to be written.
+///
+/// OpenQASM's libraries have no sign on more than three qubits. O_0's is on those of the id and, in a
+/// counting circuit, on its control: [`Counting::with`] and
+/// [`Conjunction::Toffolis`](qrt_core::circuit::quantum::Conjunction::Toffolis) make circuits without.
 #[derive(Clone)]
 pub struct Export<'a> {
     counting: &'a Counting<'a>,
@@ -102,7 +106,7 @@ impl std::fmt::Debug for Export<'_> {
 
 impl<'a> Export<'a> {
     /// A part of a circuit. Of its id the lowest `path_bits` are called `path` and the others
-    /// `comparator`; without such a number it is `id`.
+    /// `comparator`; without such a number it is `ids` (`id` is a gate in OpenQASM).
     ///
     /// # Errors
     /// The id has fewer bits.
@@ -113,7 +117,7 @@ impl<'a> Export<'a> {
     ) -> Result<Self, ExportError> {
         let id = counting.iterate().oracle().superposed();
         let mut registers = match path_bits {
-            None => vec![("id", id.to_vec())],
+            None => vec![("ids", id.to_vec())],
             Some(bits) => {
                 let split = id.split_at_checked(bits as usize);
                 let (path, comparator) = split.ok_or(ExportError::PathBits {
@@ -177,14 +181,15 @@ impl<'a> Export<'a> {
     /// comment, line breaks and all that is not ASCII, is escaped.
     ///
     /// # Errors
-    /// What `out` says; the flag to end it; a sign under more controls than are written, of which
-    /// the oracle of a scene has none.
+    /// What `out` says; the flag to end it; a sign on more than three qubits, of which the oracle of
+    /// a scene has none. Some text may have been written by then.
     pub fn write(
         &self,
         format: Format,
         comments: &[String],
         out: &mut impl Write,
     ) -> Result<Tally, ExportError> {
+        self.check_cancelled()?;
         let mut out = Writer::new(format, &self.registers, self.qubits(), out);
         out.header(comments)?;
         let (mut sent, mut told) = (0, 0);
@@ -192,22 +197,24 @@ impl<'a> Export<'a> {
             out.gate(gate)?;
             sent += 1;
             if sent % STRIDE == 0 {
-                if self
-                    .cancel
-                    .is_some_and(|cancel| cancel.load(Ordering::Relaxed))
-                {
-                    return Err(ExportError::Interrupted);
-                }
+                self.check_cancelled()?;
                 if let Some(progress) = self.progress {
                     progress(sent - told);
                     told = sent;
                 }
             }
-            Ok(())
+            Ok::<(), ExportError>(())
         })?;
         if self.part == Part::Counting {
             out.measure(self.counting.counter().len())?;
         }
         Ok(out.end()?)
+    }
+
+    fn check_cancelled(&self) -> Result<(), ExportError> {
+        match self.cancel {
+            Some(cancel) if cancel.load(Ordering::Relaxed) => Err(ExportError::Interrupted),
+            _ => Ok(()),
+        }
     }
 }

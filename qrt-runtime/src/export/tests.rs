@@ -23,11 +23,11 @@ fn signs_under_one_two_and_three_qubits_have_gates() {
     let oracle = PhaseOracle::polynomial(3, vec![vec![1], vec![2, 0], vec![0, 1, 2]]).unwrap();
     let counting = Counting::new(&oracle, 1, Window::Rect).unwrap();
     let lines = [
-        "z id[1];",
-        "cz id[2], id[0];",
-        "h id[2];",
-        "ccx id[0], id[1], id[2];",
-        "h id[2];",
+        "z ids[1];",
+        "cz ids[2], ids[0];",
+        "h ids[2];",
+        "ccx ids[0], ids[1], ids[2];",
+        "h ids[2];",
     ];
     for format in [Format::OpenQasm3, Format::OpenQasm2] {
         assert_eq!(gates(&text(&counting, Part::Oracle, format)), lines);
@@ -40,13 +40,13 @@ fn a_counting_circuit_of_one_id_bit_is_known_line_by_line() {
     let counting = Counting::with(&oracle, 2, Window::Rect, Conjunction::Toffolis).unwrap();
     let iterate = |control: u32| {
         [
-            format!("cz counter[{control}], id[0];"),
-            "h id[0];".to_owned(),
-            "x id[0];".to_owned(),
-            format!("cz counter[{control}], id[0];"),
-            "x id[0];".to_owned(),
+            format!("cz counter[{control}], ids[0];"),
+            "h ids[0];".to_owned(),
+            "x ids[0];".to_owned(),
+            format!("cz counter[{control}], ids[0];"),
+            "x ids[0];".to_owned(),
             format!("z counter[{control}];"),
-            "h id[0];".to_owned(),
+            "h ids[0];".to_owned(),
         ]
     };
     for (format, phase, measures) in [
@@ -67,7 +67,7 @@ fn a_counting_circuit_of_one_id_bit_is_known_line_by_line() {
             ],
         ),
     ] {
-        let mut lines = ["h counter[0];", "h counter[1];", "h id[0];"]
+        let mut lines = ["h counter[0];", "h counter[1];", "h ids[0];"]
             .map(str::to_owned)
             .to_vec();
         for control in [0, 1, 1] {

@@ -7,7 +7,7 @@ use crate::circuit::Qubit;
 /// `G = H O_0 H O_f`, over an oracle's qubits in superposition.
 ///
 /// O_0 turns the sign of every basis state *except* `|0...0>`: so G turns the plane of good and bad
-/// ids by `2 theta` turns with `sin(pi theta)^2 = S/N`. With the opposite sign, that of `|0...0>`
+/// ids by `theta` turns with `sin(pi theta)^2 = S/N`. With the opposite sign, that of `|0...0>`
 /// alone, G is its negative. Alone that is a global phase; under a control it is a Z on the control,
 /// and the count comes out as N - S.
 ///

@@ -387,7 +387,8 @@ impl Vectors for V3 {
     fn table<const L: usize>(self, table: &[i32; L], index: Ints) -> Ints {
         const { assert!(L.is_power_of_two() && L > 1 && L <= 1 << 31) };
         let index = index.lowest(L.trailing_zeros());
-        // SAFETY: of each index the bits below L's only one are left, so that it is below L.
+        // SAFETY: of each index only the bits below L <= 2^31 are left, so as a signed number it is in
+        // 0..L; the scale of 4 is an entry's size; so all that is read is in `table`.
         let found = unsafe {
             self.avx2
                 ._mm256_i32gather_epi32::<4>(table.as_ptr(), index.1)

@@ -176,11 +176,11 @@ macro_rules! lane_by_lane {
 
 /// Entries of a table, lane by lane. Called, not inlined: it is long, and rare.
 #[inline(never)]
-pub(super) fn entries<K: Copy + Default, const L: usize, const N: usize>(
-    table: &[K; L],
+pub(super) fn entries<const L: usize, const N: usize>(
+    table: &[i64; L],
     index: [u32; N],
-) -> [K; N] {
-    let mut found = [K::default(); N];
+) -> [i64; N] {
+    let mut found = [0; N];
     for (found, index) in found.iter_mut().zip(index) {
         *found = table[index as usize & (L - 1)];
     }
@@ -319,7 +319,8 @@ impl Vectors for V4 {
     fn table<const L: usize>(self, table: &[i32; L], index: Ints) -> Ints {
         const { assert!(L.is_power_of_two() && L > 1 && L <= 1 << 31) };
         let (f, index) = (self.avx512f, index.lowest(L.trailing_zeros()));
-        // SAFETY: of each index the bits below L's only one are left, so that it is below L.
+        // SAFETY: of each index only the bits below L <= 2^31 are left, so as a signed number it is in
+        // 0..L; the scale of 4 is an entry's size; so all that is read is in `table`.
         let found = unsafe { f._mm512_i32gather_epi32::<4>(index.1, table.as_ptr()) };
         Ints(self, found)
     }
@@ -327,7 +328,7 @@ impl Vectors for V4 {
     fn wide_table<const L: usize>(self, table: &[i64; L], index: Ints) -> Longs {
         Longs(
             self,
-            pulp::cast(entries::<_, L, 16>(table, pulp::cast(index.1))),
+            pulp::cast(entries::<L, 16>(table, pulp::cast(index.1))),
         )
     }
     #[inline(always)]

@@ -152,6 +152,7 @@ impl Vectors for Scalar {
     }
     #[inline(always)]
     fn table<const L: usize>(self, table: &[i32; L], index: i32) -> i32 {
+        const { assert!(L.is_power_of_two() && L > 1 && L <= 1 << 31) };
         table[index.cast_unsigned() as usize & (L - 1)]
     }
     #[inline(always)]

@@ -87,8 +87,7 @@ pub trait Vectors: Copy {
     fn table16(self, table: &[i32; 16], index: Self::Ints) -> Self::Ints;
     /// The entries that the index's lowest 5 bits name.
     fn table32(self, table: &[i32; 32], index: Self::Ints) -> Self::Ints;
-    /// The entries that the index's lowest bits name; `L` is a power of two
-    /// from 2 to 2^31.
+    /// The entries that the index's lowest bits name; `L` is a power of two from 2 to 2^31.
     fn table<const L: usize>(self, table: &[i32; L], index: Self::Ints) -> Self::Ints;
     /// The same of wide entries.
     fn wide_table<const L: usize>(self, table: &[i64; L], index: Self::Ints) -> Self::Longs;
