@@ -1,7 +1,7 @@
 //! `qrt export`: a pixel's circuit for other programs.
 
 use super::failure::Failure;
-use super::files::{can_be_written, keep_apart};
+use super::files::{can_be_written, keep_apart, named_after};
 use super::inspect::{Channel, keep_budget};
 use super::progress::Gates;
 use super::{interrupt, plan, terminal};
@@ -148,7 +148,10 @@ struct Exported<'a> {
 }
 
 pub(crate) fn run(args: &ExportArgs) -> Result<(), Failure> {
-    let file = args.output.clone().unwrap_or_else(|| named(&args.scene));
+    let file = args
+        .output
+        .clone()
+        .unwrap_or_else(|| named_after(&args.scene, "qasm"));
     let to_stdout = file == Path::new("-");
     if to_stdout && args.json {
         let message = "`-o -` writes where `--json` does; name a file for the circuit";
@@ -230,13 +233,6 @@ pub(crate) fn run(args: &ExportArgs) -> Result<(), Failure> {
     } else {
         terminal::print(&exported.summary(&tally))
     }
-}
-
-/// `folder/box.yaml` is exported to `box.qasm`.
-fn named(scene: &Path) -> PathBuf {
-    let mut name = scene.file_stem().unwrap_or("scene".as_ref()).to_owned();
-    name.push(".qasm");
-    name.into()
 }
 
 /// Refuses what nobody would wait for, unless it is asked for.

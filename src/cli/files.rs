@@ -21,6 +21,14 @@ pub(crate) fn can_be_written(file: &Path) -> Result<(), Failure> {
     }
 }
 
+/// A scene's result in the current folder: `folder/box.yaml` and `png` make `box.png`.
+pub(crate) fn named_after(scene: &Path, extension: &str) -> PathBuf {
+    let mut name = scene.file_stem().unwrap_or("scene".as_ref()).to_owned();
+    name.push(".");
+    name.push(extension);
+    name.into()
+}
+
 /// A device or a pipe: what is there and is no file.
 pub(crate) fn is_device(path: &Path) -> bool {
     fs::metadata(path).is_ok_and(|found| !found.is_file())

@@ -1,7 +1,7 @@
 //! `qrt render`: a scene becomes a picture.
 
 use super::failure::Failure;
-use super::files::{can_be_written, is_device, keep_apart};
+use super::files::{can_be_written, is_device, keep_apart, named_after};
 use super::inspect::check_circuit;
 use super::progress::Bar;
 use super::{interrupt, plan, stats, terminal};
@@ -203,7 +203,10 @@ fn crop(text: &str) -> Result<[u32; 4], String> {
 
 pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     let visibility = args.visibility()?;
-    let output = args.output.clone().unwrap_or_else(|| picture(&args.scene));
+    let output = args
+        .output
+        .clone()
+        .unwrap_or_else(|| named_after(&args.scene, "png"));
     let encoding = Encoding::of(&output, args.exposure)?;
     let files = [
         Some(&*output),
@@ -284,13 +287,6 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
         return Ok(());
     }
     terminal::print(&summary(&output, &rendered, clipped))
-}
-
-/// `folder/box.yaml` is rendered to `box.png`.
-fn picture(scene: &Path) -> PathBuf {
-    let mut name = scene.file_stem().unwrap_or("scene".as_ref()).to_owned();
-    name.push(".png");
-    name.into()
 }
 
 /// Beside the picture; none for a pipe or a device, beside which there is no place.
