@@ -34,30 +34,25 @@ fn folder() -> Folder {
     Folder::with("wall.yaml", &wall())
 }
 
+fn words(line: &str) -> Vec<&str> {
+    line.split_whitespace().collect()
+}
+
 /// What `qrt export wall.yaml` with more arguments writes, and its figures.
-fn exported(folder: &Folder, arguments: &[&str]) -> (Circuit, Value) {
-    let all = ["export", "wall.yaml", "--json", "-o", "wall.qasm"];
-    let answer = folder.works(&[&all[..], arguments].concat());
+fn exported(folder: &Folder, arguments: &str) -> (Circuit, Value) {
+    let all = format!("export wall.yaml --json -o wall.qasm {arguments}");
+    let answer = folder.works(&words(&all));
     let text = String::from_utf8(folder.read("wall.qasm")).unwrap();
     (Circuit::read(&text), serde_json::from_str(&answer).unwrap())
 }
 
 /// By channel: good ids, and all, of a pixel.
 fn counts(folder: &Folder, [x, y]: [u32; 2], seed: &str) -> [[u64; 2]; 3] {
-    let crop = format!("{x},{y},1,1");
-    let render = [
-        "render",
-        "wall.yaml",
-        "--model",
-        "fixed",
-        "--estimator",
-        "exact",
-        "--seed",
-        seed,
-        "-q",
-    ];
-    let rest = ["--crop", &crop, "-o", "wall.exr", "--counts", "wall.csv"];
-    folder.works(&[&render[..], &rest].concat());
+    let render = format!(
+        "render wall.yaml --model fixed --estimator exact -q --seed {seed} --crop {x},{y},1,1 \
+         -o wall.exr --counts wall.csv"
+    );
+    folder.works(&words(&render));
     let table = String::from_utf8(folder.read("wall.csv")).unwrap();
     let rows = table.lines().skip(1);
     let rows: Vec<[u64; 2]> = rows
@@ -85,25 +80,11 @@ fn the_counting_circuit_measures_what_counting_draws() {
         for (channel, [good, total]) in CHANNELS.into_iter().zip(counts) {
             different.insert(good);
             for (format, window) in FORMATS.into_iter().zip([Window::Sine, Window::Rect]) {
-                let pixel = format!("{x},{y}");
-                let set = format!("counting.window={window}");
-                let (circuit, answer) = exported(
-                    &folder,
-                    &[
-                        "--part",
-                        "counting",
-                        "--format",
-                        format,
-                        "--pixel",
-                        &pixel,
-                        "--seed",
-                        seed,
-                        "--channel",
-                        channel,
-                        "--set",
-                        &set,
-                    ],
+                let arguments = format!(
+                    "--part counting --format {format} --pixel {x},{y} --seed {seed} \
+                     --channel {channel} --set counting.window={window}"
                 );
+                let (circuit, answer) = exported(&folder, &arguments);
                 let mut machine = Sparse::new(circuit.qubits);
                 circuit.run(&mut machine);
                 let clean = [circuit.register("work"), circuit.register("bond")].concat();
@@ -114,7 +95,7 @@ fn the_counting_circuit_measures_what_counting_draws() {
                     .map(|y| exact.probability(y))
                     .collect();
                 let off = off(&fold(&outcomes), &exact);
-                assert!(off < 1e-12, "{pixel} {channel} {format}: {off:e}");
+                assert!(off < 1e-12, "{arguments}: {off:e}");
                 assert_eq!(answer["window"], window.name());
                 assert_eq!(answer["queries"], 7);
             }
@@ -131,10 +112,7 @@ fn the_oracle_turns_the_signs_of_the_good_ids_and_no_others() {
     let machine = OracleMachine::fixed(oracle(&scene), 7, true);
     let traced = paths(&machine, &[[1, 1]]).unwrap();
     for (channel, name) in CHANNELS.into_iter().enumerate() {
-        let (circuit, _) = exported(
-            &folder,
-            &["--pixel", "1,1", "--seed", "7", "--channel", name],
-        );
+        let (circuit, _) = exported(&folder, &format!("--pixel 1,1 --seed 7 --channel {name}"));
         assert!(circuit.outcome.is_empty());
         let id = [circuit.register("path"), circuit.register("comparator")].concat();
         let mut machine = Sparse::new(circuit.qubits);
@@ -240,7 +218,7 @@ fn the_figures_are_those_of_the_file_and_of_the_inspected_circuit() {
     let inspected = folder.works(&["inspect", "wall.yaml", "--json"]);
     let inspected: Value = serde_json::from_str(&inspected).unwrap();
     for part in ["oracle", "grover", "counting"] {
-        let (circuit, answer) = exported(&folder, &["--part", part]);
+        let (circuit, answer) = exported(&folder, &format!("--part {part}"));
         assert_eq!(answer["version"], 1);
         assert_eq!(answer["part"], part);
         assert_eq!(answer["format"], "openqasm3");
@@ -280,18 +258,10 @@ fn the_window_is_the_estimators() {
         ("sine", "sine"),
         ("adaptive-bayes", "sine"),
     ] {
-        let set = format!("counting.estimator={estimator}");
-        let (circuit, answer) = exported(
-            &folder,
-            &[
-                "--part",
-                "counting",
-                "--set",
-                "counting.phase_bits=2",
-                "--set",
-                &set,
-            ],
+        let arguments = format!(
+            "--part counting --set counting.phase_bits=2 --set counting.estimator={estimator}"
         );
+        let (circuit, answer) = exported(&folder, &arguments);
         assert_eq!(answer["window"], window, "{estimator}");
         assert_eq!(
             circuit.register("bond").len(),
@@ -364,43 +334,30 @@ fn what_cannot_be_exported_is_said_and_nothing_is_written() {
 #[test]
 fn the_advised_register_is_short_enough_and_the_next_is_not() {
     let folder = folder();
-    let (_, answer) = exported(&folder, &["--part", "grover"]);
+    let (_, answer) = exported(&folder, "--part grover");
     let gates: u64 = answer["gates"]
         .as_object()
         .unwrap()
         .values()
         .map(|n| n.as_u64().unwrap())
         .sum();
-    let most = (10 * gates).to_string();
-    let arguments = [
-        "export",
-        "wall.yaml",
-        "--part",
-        "counting",
-        "--max-gates",
-        &most,
-    ];
-    let set = |bits: u32| format!("counting.phase_bits={bits}");
-    let error = folder.fails(2, &[&arguments[..], &["--set", &set(9)]].concat());
-    let advice = error.split("counting.phase_bits=").nth(1).unwrap();
-    let bits: u32 = advice.split('`').next().unwrap().parse().unwrap();
-    assert_eq!(bits, 3);
-    folder.works(&[&arguments[..], &["--set", &set(bits)]].concat());
-    folder.fails(2, &[&arguments[..], &["--set", &set(bits + 1)]].concat());
+    let run = |most: u64, bits: u32| {
+        format!(
+            "export wall.yaml --part counting --max-gates {most} --set counting.phase_bits={bits}"
+        )
+    };
+    let most = 10 * gates;
+    let error = folder.fails(2, &words(&run(most, 9)));
+    assert!(error.contains("counting.phase_bits=3`"), "{error}");
+    folder.works(&words(&run(most, 3)));
+    folder.fails(2, &words(&run(most, 4)));
     // To the last gate.
     let said = error.split(" gates").next().unwrap();
     let all: String = said.chars().filter(char::is_ascii_digit).collect();
-    let less = (all.parse::<u64>().unwrap() - 1).to_string();
-    let arguments = [
-        "export",
-        "wall.yaml",
-        "--part",
-        "counting",
-        "--max-gates",
-        &less,
-    ];
-    let error = folder.fails(2, &[&arguments[..], &["--set", &set(9)]].concat());
-    assert!(error.contains("counting.phase_bits=8"), "{error}");
+    let all: u64 = all.parse().unwrap();
+    folder.works(&words(&run(all, 9)));
+    let error = folder.fails(2, &words(&run(all - 1, 9)));
+    assert!(error.contains("counting.phase_bits=8`"), "{error}");
 }
 
 #[test]
