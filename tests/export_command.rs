@@ -270,6 +270,68 @@ fn the_window_is_the_estimators() {
     }
 }
 
+/// The circuit is that of the chosen knobs, and the plan is told beside it.
+#[test]
+fn an_asked_accuracy_chooses_the_circuit() {
+    let scene = include_str!("../examples/lit-wall.yaml").replace("path_bits: 5, ", "");
+    let kept = scene
+        .lines()
+        .filter(|line| !line.starts_with("precision") && !line.starts_with("comparator"));
+    let mut text: String = kept.flat_map(|line| [line, "\n"]).collect();
+    text += "accuracy: { error: 0.3, confidence: 0.8 }\n";
+    let folder = Folder::with("wall.yaml", &text);
+    let (circuit, answer) = exported(&folder, "");
+    let plan = &answer["plan"];
+    assert_eq!(plan["toffoli"], answer["gates"]["ccx"]);
+    assert_eq!(plan["qubits"], answer["qubits"]);
+    assert_eq!(plan["path_bits"], circuit.register("path").len());
+    assert_eq!(
+        plan["comparator_bits"],
+        circuit.register("comparator").len()
+    );
+    let (_, plain) = exported(&self::folder(), "");
+    assert!(plain["plan"].is_null());
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interruption_leaves_no_file() {
+    use std::io::Read;
+    let folder = folder();
+    // 30 GB, if it were not stopped.
+    let long =
+        "export wall.yaml --part counting --set counting.phase_bits=15 --max-gates 2000000000";
+    let mut child = folder
+        .command(&words(long))
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    let partial = || {
+        folder
+            .names()
+            .iter()
+            .any(|name| name.ends_with(".qrt-partial"))
+    };
+    while !partial() {
+        assert!(child.try_wait().unwrap().is_none(), "it ended by itself");
+        std::thread::sleep(std::time::Duration::from_millis(10));
+    }
+    let kill = std::process::Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status();
+    assert!(kill.unwrap().success());
+    assert_eq!(child.wait().unwrap().code(), Some(1));
+    let mut errors = String::new();
+    child
+        .stderr
+        .take()
+        .unwrap()
+        .read_to_string(&mut errors)
+        .unwrap();
+    assert!(errors.contains("error: interrupted"), "{errors}");
+    assert_eq!(folder.names(), ["wall.yaml"]);
+}
+
 #[test]
 fn standard_output_has_the_files_bytes() {
     let folder = folder();
@@ -347,7 +409,7 @@ fn the_advised_register_is_short_enough_and_the_next_is_not() {
         )
     };
     let most = 10 * gates;
-    let error = folder.fails(2, &words(&run(most, 9)));
+    let error = folder.fails(2, &words(&run(most, 5)));
     assert!(error.contains("counting.phase_bits=3`"), "{error}");
     folder.works(&words(&run(most, 3)));
     folder.fails(2, &words(&run(most, 4)));
@@ -355,9 +417,9 @@ fn the_advised_register_is_short_enough_and_the_next_is_not() {
     let said = error.split(" gates").next().unwrap();
     let all: String = said.chars().filter(char::is_ascii_digit).collect();
     let all: u64 = all.parse().unwrap();
-    folder.works(&words(&run(all, 9)));
-    let error = folder.fails(2, &words(&run(all - 1, 9)));
-    assert!(error.contains("counting.phase_bits=8`"), "{error}");
+    folder.works(&words(&run(all, 5)));
+    let error = folder.fails(2, &words(&run(all - 1, 5)));
+    assert!(error.contains("counting.phase_bits=4`"), "{error}");
 }
 
 #[test]
