@@ -130,16 +130,13 @@ fn gates_speed(oracle: &Oracle, parts: &Parts, machine: &Gates) -> f64 {
         .channels
         .iter()
         .filter_map(|channel| match channel.count {
-            qrt::core::circuit::Operand::Word(word) => outputs
+            qrt::circuit::Operand::Word(word) => outputs
                 .iter()
                 .find(|(register, _)| *register == word.register),
-            qrt::core::circuit::Operand::Constant(_) => None,
+            qrt::circuit::Operand::Constant(_) => None,
         })
         .collect();
-    let parameters = oracle.program.parameters.iter();
-    let words: Vec<u64> = parameters
-        .map(|parameter| parameter.value(&oracle.points, 1, PIXELS[0]))
-        .collect();
+    let words = oracle.words(1, PIXELS[0]);
     let spans = [Span {
         lanes: Gates::LANES,
         parameters: &words,

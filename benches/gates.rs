@@ -24,9 +24,9 @@ mod mesh;
 mod programs;
 
 use pulp::{Simd, WithSimd, bytemuck};
-use qrt::core::circuit::{
-    BlockId, Circuit, Instruction, Op, Operand, Program, Qubit, Register, RegisterId, Role, Style,
-    Type, Word, lower,
+use qrt::circuit::{
+    BlockId, Circuit, Instruction, Op, Operand, Program, Qubit, Register, RegisterId, Style, Type,
+    Word, lower,
 };
 use qrt::core::oracle::{Options, Oracle};
 use qrt::runtime::machines::{Fixed, Gates, InstructionSet, Parts, Span};
@@ -210,14 +210,7 @@ fn cornell_box(uncompute: &str) -> [Circuit; 2] {
 fn product(style: Style) -> [Circuit; 2] {
     let mut program = Program::default();
     let mut register = |width: u32, ty: Type| {
-        program.registers.push(Register {
-            name: String::new(),
-            ty,
-            role: Role::Work,
-            width,
-            block: BlockId::ROOT,
-            range: None,
-        });
+        program.registers.push(Register::new("", ty, width));
         RegisterId(program.registers.len() as u32 - 1)
     };
     let number = Type::Fixed { fraction: BITS };

@@ -27,8 +27,8 @@ mod mesh;
 mod scenes;
 
 use growth::{fit, quads};
-use qrt::core::circuit::builder::Passes;
-use qrt::core::circuit::lower::{self, Cost};
+use qrt::circuit::lower::{self, Cost};
+use qrt::core::compile::Passes;
 use qrt::core::front;
 use qrt::core::oracle::{Options, Oracle};
 use qrt::core::valid::ValidScene;

@@ -15,7 +15,7 @@
 // A bench that cannot run has nothing to report.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
-use qrt::core::circuit::quantum::{Counting, PhaseOracle, QuantumGate};
+use qrt::circuit::quantum::{Counting, PhaseOracle, QuantumGate};
 use qrt::core::scene::Window;
 use qrt::runtime::counting::PhaseDistribution;
 use qrt::runtime::machines::statevector::{

@@ -1,6 +1,6 @@
 //! A reversible routine, written by hand, on every machine: `cargo run --example reversible`.
 
-use qrt::core::circuit::lower;
+use qrt::circuit::lower;
 use qrt::prelude::*;
 
 /// value += 1 + x + x^2 / 2 + x^3 / 6, nearly: exp(x), by Horner's rule in fixed point.

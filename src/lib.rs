@@ -49,6 +49,8 @@
 #[doc = include_str!("../README.md")]
 struct Readme;
 
+/// Reversible circuits: registers, operations, programs, gates and their costs.
+pub use qrt_circuit as circuit;
 pub use qrt_core as core;
 #[doc = include_str!("scene_macro.md")]
 pub use qrt_macros::qrt;
@@ -60,8 +62,8 @@ pub use qrt_runtime as runtime;
 
 /// What it takes to load a scene, render it and save the picture.
 pub mod prelude {
-    pub use qrt_core::circuit::format::{Bool, Fixed, Format, Int, Reg, UFixed, UInt};
-    pub use qrt_core::circuit::{Bit, Machine, Operand, Program, Recorder, Style, When, Word};
+    pub use qrt_circuit::format::{Bool, Fixed, Format, Int, Reg, UFixed, UInt};
+    pub use qrt_circuit::{Bit, Machine, Operand, Program, Recorder, Style, When, Word};
     pub use qrt_core::diagnostics::Report;
     pub use qrt_core::front::{Loaded, load, parse};
     pub use qrt_core::oracle::compiled::CompiledOracle;

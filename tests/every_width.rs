@@ -4,9 +4,9 @@
 
 mod circuits;
 
-use circuits::{film, from_file, inputs, number, oracle, parameters, paths, written};
+use circuits::{film, from_file, inputs, number, oracle, paths, written};
 use proptest::prelude::*;
-use qrt::core::circuit::{Register, Type};
+use qrt::circuit::{Register, Type};
 use qrt::core::oracle::Oracle;
 use qrt::core::valid::ValidScene;
 use qrt::runtime::machines::{Extremes, OracleMachine, Real, contents};
@@ -69,7 +69,7 @@ fn fits(oracle: &std::sync::Arc<Oracle>, every: usize) -> Result<usize, String> 
     }
     let mut proven = 0;
     for (place, pixel) in pixels.iter().enumerate() {
-        let words = parameters(oracle, SEED, *pixel);
+        let words = oracle.words(SEED, *pixel);
         for id in (0..machine.paths()).filter(|id| (*id as usize + place).is_multiple_of(every)) {
             let found = extremes.record(program, &inputs(oracle, id), &words);
             if !undone {
@@ -312,7 +312,7 @@ proptest! {
 #[test]
 fn extremes_enclose_what_is_held() {
     let oracle = oracle(&written(circuits::CORNER, &[]));
-    let words = parameters(&oracle, SEED, [1, 1]);
+    let words = oracle.words(SEED, [1, 1]);
     let mut extremes = Extremes::new(&oracle.program);
     for id in 0..32 {
         let found = contents(&oracle.program, &inputs(&oracle, id), &words);

@@ -8,7 +8,7 @@ mod openqasm;
 use circuits::{oracle, paths, written};
 use command::Folder;
 use openqasm::Circuit;
-use qrt::core::circuit::quantum::{Conjunction, Counting, Part, PhaseOracle, QuantumGate, Turns};
+use qrt::circuit::quantum::{Conjunction, Counting, Part, PhaseOracle, QuantumGate, Turns};
 use qrt::core::scene::Window;
 use qrt::runtime::counting::PhaseDistribution;
 use qrt::runtime::export::{Export, ExportError, Format};

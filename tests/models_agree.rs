@@ -7,7 +7,7 @@
 mod circuits;
 
 use circuits::{Paths, film, from_file, oracle, paths};
-use qrt::core::circuit::Gate;
+use qrt::circuit::Gate;
 use qrt::runtime::machines::OracleMachine;
 
 /// A film of 8 x 8 pixels with 2^4 paths each.

@@ -4,7 +4,7 @@
 
 mod rays;
 
-use qrt::core::circuit::lower;
+use qrt::circuit::lower;
 use qrt::core::front;
 use qrt::core::oracle::NearestOracle;
 use qrt::core::tracer::Stage;

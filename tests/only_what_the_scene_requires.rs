@@ -1,8 +1,8 @@
 //! A circuit holds what its scene requires, and nothing else.
 #![allow(clippy::unwrap_used)]
 
-use qrt::core::circuit::builder::Passes;
-use qrt::core::circuit::{Circuit, Op, Program, lower};
+use qrt::circuit::{Circuit, Op, Program, lower};
+use qrt::core::compile::Passes;
 use qrt::core::front::parse;
 use qrt::core::oracle::{Options, Oracle};
 use qrt::core::valid::ValidScene;

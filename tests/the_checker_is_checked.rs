@@ -9,8 +9,8 @@
 mod circuits;
 
 use circuits::simulator::{States, qubits};
-use circuits::{CORNER, film, inputs, number, oracle, parameters, paths, written};
-use qrt::core::circuit::{Circuit, Gate, Op, Qubit, lower};
+use circuits::{CORNER, film, inputs, number, oracle, paths, written};
+use qrt::circuit::{Circuit, Gate, Op, Qubit, lower};
 use qrt::core::oracle::Oracle;
 use qrt::core::valid::ValidScene;
 use qrt::runtime::machines::{Defect, OracleMachine, Parts, contents};
@@ -300,7 +300,7 @@ fn a_wrong_table_entry_is_caught_if_it_changes_a_path() {
         // By the definition of operations, one path after another.
         let mut differ = 0;
         for (number_of, pixel) in checked.pixels.iter().enumerate() {
-            let words = parameters(oracle, SEED, *pixel);
+            let words = oracle.words(SEED, *pixel);
             for id in 0..32 {
                 let held = contents(&wrong.program, &inputs(oracle, id), &words);
                 let at = number_of * 32 + id as usize;

@@ -6,7 +6,7 @@
 mod circuits;
 
 use circuits::{oracle, paths, written};
-use qrt::core::circuit::quantum::{Conjunction, Counting, Part, QuantumGate};
+use qrt::circuit::quantum::{Conjunction, Counting, Part, QuantumGate};
 use qrt::core::oracle::{Options, Oracle};
 use qrt::core::scene::Window;
 use qrt::core::valid::ValidScene;

@@ -7,8 +7,8 @@
 
 mod circuits;
 
-use circuits::{CORNER, inputs, number, oracle, parameters, paths, written};
-use qrt::core::circuit::lower;
+use circuits::{CORNER, inputs, number, oracle, paths, written};
+use qrt::circuit::lower;
 use qrt::core::oracle::Oracle;
 use qrt::core::scene::Estimator;
 use qrt::core::valid::ValidScene;
@@ -39,7 +39,7 @@ fn whole(scene: &ValidScene, oracle: &Oracle, pixels: &[[u32; 2]]) -> Vec<[u64; 
         let (id, comparator) = (qubits(oracle.id), qubits(oracle.comparator));
         let held = [&id[..], &comparator].concat();
         for (place, pixel) in pixels.iter().enumerate() {
-            let words = parameters(oracle, SEED, *pixel);
+            let words = oracle.words(SEED, *pixel);
             let mut rows = machine.rows();
             let values = |of: fn(&(u64, u64)) -> u64| states.iter().map(of).collect::<Vec<_>>();
             let (ids, thresholds) = (values(|s| s.0), values(|s| s.1));

@@ -1,7 +1,7 @@
 //! Programs of operations of given kinds, on operands of chance.
 
-use qrt::core::circuit::{
-    Bit, BlockId, Instruction, Op, Operand, Program, Register, RegisterId, Role, Style, Type, Word,
+use qrt::circuit::{
+    Bit, BlockId, Instruction, Op, Operand, Program, Register, RegisterId, Style, Type, Word,
 };
 
 /// Kinds of operations, in turn: `+` add, `k` subtract a constant, `<` less, `&` and, `?` select,
@@ -82,14 +82,7 @@ impl Maker {
 
     fn register(&mut self, width: u32, ty: Type) -> RegisterId {
         let id = RegisterId(self.program.registers.len() as u32);
-        self.program.registers.push(Register {
-            name: String::new(),
-            ty,
-            role: Role::Work,
-            width,
-            block: BlockId::ROOT,
-            range: None,
-        });
+        self.program.registers.push(Register::new("", ty, width));
         id
     }
 

@@ -3,7 +3,8 @@
 //! The circuit's oracle is built and lowered here, and becomes a list of gates; the picture's scene is
 //! read here, and becomes data. Both are written as Rust into `OUT_DIR`.
 
-use qrt_core::circuit::{Gate, Operand, Program, RegisterId, Type, lower};
+use qrt_circuit::{Gate, Operand, Program, RegisterId, Type, lower};
+use qrt_core::compile::{Label, Role};
 use qrt_core::front;
 use qrt_core::oracle::{Options, Oracle};
 use qrt_core::scene::{Camera, Geometry, Material, Scene};
@@ -34,9 +35,7 @@ fn circuit() -> Result<String, Box<dyn Error>> {
     let cuts: Vec<usize> = (1..program.instructions.len()).collect();
     let parts = lower::parts(&program, &cuts);
     let compute = oracle.program.instructions.len();
-    let words: Vec<u64> = (program.parameters.iter())
-        .map(|parameter| parameter.value(&oracle.points, 0, [0, 0]))
-        .collect();
+    let words = oracle.words(0, [0, 0]);
     let blocks = &program.blocks;
     let depth = |depth: Option<u32>| depth.map_or(-1, i64::from);
 
@@ -74,8 +73,8 @@ fn circuit() -> Result<String, Box<dyn Error>> {
              {fraction}, meaning: Meaning::{meaning} }},",
             register.name,
             register.ty.name(register.width),
-            register.role.to_string(),
-            depth(blocks[register.block.index()].depth),
+            Role::of(register).to_string(),
+            depth(Label::of(&blocks[register.block.index()]).depth),
             register.width,
         )?;
     }

@@ -1,6 +1,6 @@
 //! From a scene to what the machines run.
-pub mod circuit;
 pub mod codes;
+pub mod compile;
 pub mod diagnostics;
 pub mod expr;
 pub mod front;

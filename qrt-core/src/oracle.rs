@@ -16,7 +16,7 @@
 //! `#{y < 2^c : y < colour'} = min(colour', 2^c)` of a path's ids are good.
 //!
 //! One program serves all pixels of a film: what differs between them are classical words
-//! ([`crate::circuit::Parameter`]), loaded by Xs.
+//! ([`crate::compile::PixelWord`]), loaded by Xs.
 
 mod budget;
 pub mod compiled;
@@ -27,14 +27,12 @@ mod recording;
 pub use budget::{Spent, check_budget, spent};
 pub use nearest::{MOST_FACES, NearestOracle};
 
-use crate::circuit::builder::{BuildError, Builder, NamedPlace, Passes, Real};
-use crate::circuit::{
-    self, Bit, BlockId, Instruction, Op, Operand, Program, RegisterId, Style, Word,
-};
+use crate::compile::{BuildError, Builder, Label, NamedPlace, Passes, PixelWord, Real, StageName};
 use crate::sampling::{PathPoints, SamplingError};
 use crate::scene::ComparatorAt;
 use crate::tracer::{Arith, Stage};
 use crate::valid::ValidScene;
+use qrt_circuit::{Bit, BlockId, Instruction, Op, Operand, Program, RegisterId, Style, Word};
 use recording::{FirstHit, Recording};
 use std::fmt;
 
@@ -132,6 +130,8 @@ pub struct Channel {
 pub struct Oracle {
     /// What computes the colours.
     pub program: Program,
+    /// What its parameters hold in each pixel.
+    pub parameters: Vec<PixelWord>,
     /// The channels that it computes.
     pub channels: Vec<Channel>,
     /// The path's id.
@@ -222,6 +222,14 @@ impl Oracle {
         Ok(recording.oracle(&std::array::from_fn::<_, C, _>(|place| place)))
     }
 
+    /// The parameters of pixel (column, row).
+    pub fn words(&self, seed: u64, pixel: [u32; 2]) -> Vec<u64> {
+        let words = self.parameters.iter();
+        words
+            .map(|word| word.value(&self.points, seed, pixel))
+            .collect()
+    }
+
     /// Bits of the comparator.
     pub fn comparator_bits(&self) -> u32 {
         self.program.width(self.comparator)
@@ -238,12 +246,11 @@ impl Oracle {
     pub fn flip(&self, channel: usize) -> Program {
         let mut program = self.program.clone();
         let block = BlockId(program.blocks.len() as u32);
-        program.blocks.push(circuit::Block {
-            parent: Some(BlockId::ROOT),
-            name: "compare and flip".to_owned(),
+        let label = Label {
+            stage: StageName::CompareAndFlip,
             depth: None,
-            scope: false,
-        });
+        };
+        program.blocks.push(label.block(Some(BlockId::ROOT)));
         let first = program.ops.len() as u32;
         let comparator = Word {
             register: self.comparator,

@@ -6,7 +6,7 @@ use super::inspect::{Channel, keep_budget};
 use super::progress::Gates;
 use super::{interrupt, plan, terminal};
 use clap::{Args, ValueEnum};
-use qrt_core::circuit::quantum::{Conjunction, Counting, Part};
+use qrt_circuit::quantum::{Conjunction, Counting, Part};
 use qrt_core::front;
 use qrt_core::inspect::{CHANNELS, Inspection, grouped};
 use qrt_core::oracle::Options;

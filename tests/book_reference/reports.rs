@@ -1,6 +1,6 @@
 //! Reports of real faults, one for each code.
 
-use qrt::core::circuit::builder::BuildError;
+use qrt::core::compile::BuildError;
 use qrt::core::diagnostics::Report;
 use qrt::core::front::{Loaded, obj, parse};
 use qrt::core::oracle::{MOST_FACES, Oracle, OracleError, check_budget, spent};

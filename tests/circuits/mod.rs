@@ -3,7 +3,7 @@
 
 pub(crate) mod simulator;
 
-use qrt::core::circuit::{Operand, Word};
+use qrt::circuit::{Operand, Word};
 use qrt::core::front::{load, parse};
 use qrt::core::oracle::{Options, Oracle};
 use qrt::core::valid::ValidScene;
@@ -87,14 +87,6 @@ pub(crate) fn paths(machine: &OracleMachine, pixels: &[[u32; 2]]) -> Result<Path
     })?;
     assert_eq!(expected, (pixels.len(), 0));
     Ok(paths)
-}
-
-/// The classical words of a pixel.
-pub(crate) fn parameters(oracle: &Oracle, seed: u64, pixel: [u32; 2]) -> Vec<u64> {
-    let parameters = oracle.program.parameters.iter();
-    parameters
-        .map(|parameter| parameter.value(&oracle.points, seed, pixel))
-        .collect()
 }
 
 /// The program's inputs for a path: its id, and no comparator.

@@ -1,7 +1,7 @@
 //! Gates on bits, as plainly as can be: 64 states a word, no machine's code.
 
-use super::{inputs, number, parameters};
-use qrt::core::circuit::{Circuit, Gate, Operand, Qubit};
+use super::{inputs, number};
+use qrt::circuit::{Circuit, Gate, Operand, Qubit};
 use qrt::core::oracle::Oracle;
 
 /// All paths of all pixels of a film, 64 to a word.
@@ -45,14 +45,14 @@ impl States {
         }
         let of_pixels: Vec<Vec<u64>> = pixels
             .iter()
-            .map(|pixel| parameters(oracle, seed, *pixel))
+            .map(|pixel| oracle.words(seed, *pixel))
             .collect();
         let words = circuit
             .parameters
             .iter()
             .enumerate()
             .map(|(place, parameter)| {
-                let bits = (0..parameter.width()).map(|bit| {
+                let bits = (0..parameter.width).map(|bit| {
                     packed((0..count).map(|state| of_pixels[state / paths][place] >> bit & 1 == 1))
                 });
                 bits.collect()

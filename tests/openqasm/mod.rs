@@ -1,8 +1,8 @@
 //! A reader of exported circuits that takes the promised lines and no others.
 #![allow(clippy::unwrap_used)]
 
-use qrt::core::circuit::Qubit;
-use qrt::core::circuit::quantum::{QuantumGate, Turns};
+use qrt::circuit::Qubit;
+use qrt::circuit::quantum::{QuantumGate, Turns};
 use qrt::runtime::machines::statevector::StateVector;
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;

@@ -5,7 +5,7 @@
 //! of one basis state in between, and at the signs of all of them.
 
 use crate::answer::Answer;
-use qrt_core::circuit::{Circuit, Gate, Qubit};
+use qrt_circuit::{Circuit, Gate, Qubit};
 use qrt_runtime::machines::{Gates, InvalidGate, Rows};
 use std::fmt::Write;
 
@@ -258,7 +258,7 @@ fn unsigned(bits: &str) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use qrt_core::circuit::{Contents, Operand, Type};
+    use qrt_circuit::{Contents, Operand, Type};
     use qrt_core::front;
     use qrt_core::oracle::{Options, Oracle};
 
@@ -283,12 +283,9 @@ mod tests {
         assert_eq!(program.instructions.len(), STEPS.len());
         let last = STEPS.len();
         for (id, comparator) in states() {
-            let parameters = program.parameters.iter();
             let mut expected = Contents {
                 registers: vec![0; widths.len()],
-                parameters: parameters
-                    .map(|p| p.value(&oracle.points, 0, [0, 0]))
-                    .collect(),
+                parameters: oracle.words(0, [0, 0]),
                 widths: widths.clone(),
                 negative: false,
             };

@@ -5,7 +5,7 @@
 mod scenes;
 
 use super::{Figure, cornell, drawing, scene};
-use qrt::core::circuit::lower;
+use qrt::circuit::lower;
 use qrt::core::inspect::{Inspection, grouped, svg};
 use qrt::core::oracle::{Options, Oracle};
 use qrt::core::scene::Estimator;

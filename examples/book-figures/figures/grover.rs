@@ -2,7 +2,7 @@
 
 use super::Figure;
 use super::drawing::{Anchor, Canvas, Panel, number, polyline, ticks};
-use qrt::core::circuit::quantum::{Counting, GroverIterate, Part, PhaseOracle, QuantumGate};
+use qrt::circuit::quantum::{Counting, GroverIterate, Part, PhaseOracle, QuantumGate};
 use qrt::core::scene::Window;
 use qrt::runtime::machines::statevector::{Dense, StateVector, StateVectorError, fold};
 use std::f64::consts::PI;

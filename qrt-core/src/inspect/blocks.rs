@@ -1,8 +1,9 @@
 //! Costs by block.
 
 use super::{Inspection, Part};
-use crate::circuit::lower::Cost;
-use crate::circuit::{Block, BlockId, RegisterId};
+use crate::compile::Label;
+use qrt_circuit::lower::Cost;
+use qrt_circuit::{Block, BlockId, RegisterId};
 use std::collections::HashMap;
 
 /// A block of the program, and what it costs.
@@ -13,10 +14,8 @@ pub struct BlockFigures {
     /// The names of the blocks around it and its own, from below the root, each with its depth
     /// where it brings one: `find_intersection 1/plane 3`. The root's is `oracle`.
     pub path: String,
-    /// What it is called.
-    pub name: String,
-    /// The depth it belongs to.
-    pub depth: Option<u32>,
+    /// Its stage and the depth it belongs to.
+    pub label: Label,
     /// Blocks around it.
     pub level: u32,
     /// Of the whole call, without the blocks within it.
@@ -75,8 +74,7 @@ impl Inspection {
         let figures = order.into_iter().map(|(place, level)| BlockFigures {
             block: BlockId(place as u32),
             path: path(blocks, place),
-            name: blocks[place].name.clone(),
-            depth: blocks[place].depth,
+            label: Label::of(&blocks[place]),
             level,
             own: own[place][0],
             total: total[place][0],
@@ -91,16 +89,14 @@ impl Inspection {
 fn merged(blocks: &[Block]) -> (Vec<usize>, Vec<Vec<usize>>) {
     let mut one: Vec<usize> = Vec::with_capacity(blocks.len());
     let mut within = vec![Vec::new(); blocks.len()];
-    let mut known: HashMap<(usize, &str, Option<u32>), usize> = HashMap::new();
+    let mut known: HashMap<(usize, Label), usize> = HashMap::new();
     for (place, block) in blocks.iter().enumerate() {
         let Some(parent) = block.parent else {
             one.push(place);
             continue;
         };
         let parent = one[parent.index()];
-        let first = *known
-            .entry((parent, &block.name, block.depth))
-            .or_insert(place);
+        let first = *known.entry((parent, Label::of(block))).or_insert(place);
         if first == place {
             within[parent].push(place);
         }
@@ -113,12 +109,12 @@ fn path(blocks: &[Block], place: usize) -> String {
     let mut names = Vec::new();
     let mut at = Some(place);
     while let Some(here) = at {
-        let block = &blocks[here];
-        let parent = block.parent.map(BlockId::index);
-        let around = parent.and_then(|parent| blocks[parent].depth);
-        match block.depth {
-            Some(depth) if around != Some(depth) => names.push(format!("{} {depth}", block.name)),
-            _ => names.push(block.name.clone()),
+        let Label { stage, depth } = Label::of(&blocks[here]);
+        let parent = blocks[here].parent.map(BlockId::index);
+        let around = parent.and_then(|parent| Label::of(&blocks[parent]).depth);
+        match depth {
+            Some(depth) if around != Some(depth) => names.push(format!("{stage} {depth}")),
+            _ => names.push(stage.to_string()),
         }
         at = parent;
     }

@@ -11,8 +11,9 @@ pub use drawing::svg;
 pub use text::text;
 
 use super::{Inspection, Part, Stage};
-use crate::circuit::lower::Cost;
-use crate::circuit::{RegisterId, Role};
+use crate::compile::{Role, StageName};
+use qrt_circuit::RegisterId;
+use qrt_circuit::lower::Cost;
 use std::collections::BTreeSet;
 
 /// A bundle of qubits.
@@ -166,7 +167,7 @@ fn bundles(inspection: &Inspection, stages: &[Stage]) -> Vec<Bundle> {
             }
         }
     }
-    let bundle = |(n, register): (usize, &crate::circuit::Register)| match register.role {
+    let bundle = |(n, register): (usize, &qrt_circuit::Register)| match Role::of(register) {
         Role::Id => Bundle::Id,
         Role::Comparator => Bundle::Comparator,
         Role::Colour => Bundle::Colour,
@@ -201,24 +202,25 @@ fn work(inspection: &Inspection, bundles: &[Bundle]) -> u64 {
 
 /// What leaves a stage: a ray leaves Generate Ray, the nearest hit leaves Find Intersection.
 fn wire_of(stage: &Stage) -> (String, Option<u32>) {
-    let name = match stage.name.as_str() {
-        "generate_ray" => "ray",
-        "find_intersection" => "nearest",
-        "shade" => "light",
-        other => other,
+    let name = match stage.name {
+        StageName::GenerateRay => "ray".to_owned(),
+        StageName::FindIntersection => "nearest".to_owned(),
+        StageName::Shade => "light".to_owned(),
+        other => other.to_string(),
     };
     match stage.depth {
         Some(depth) => (format!("{name}_{depth}"), stage.depth),
-        None => (name.to_owned(), None),
+        None => (name, None),
     }
 }
 
 /// `find_intersection 0` as `Find Intersection 0`.
 fn title(stage: &Stage) -> String {
-    if stage.name == "flip" {
+    if stage.name == StageName::Flip {
         return "Z".to_owned();
     }
-    let words = stage.name.split('_').map(|word| {
+    let name = stage.name.to_string();
+    let words = name.split('_').map(|word| {
         let mut letters = word.chars();
         let first = letters.next().map(|c| c.to_ascii_uppercase());
         first.into_iter().chain(letters).collect::<String>()

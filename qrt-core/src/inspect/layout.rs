@@ -6,7 +6,7 @@
 //! again. A lowering to gates may scatter a register over single free qubits, and then needs no
 //! more of them than are in use; the map, whose registers stay whole, can be a little higher.
 
-use crate::circuit::{Program, RegisterId};
+use qrt_circuit::{Program, RegisterId};
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -154,8 +154,8 @@ impl Free {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::circuit::{Block, BlockId, Instruction, Op, Operand, Register, Role, Type, Word};
     use proptest::prelude::*;
+    use qrt_circuit::{Block, BlockId, Instruction, Op, Operand, Register, Type, Word};
 
     #[test]
     fn what_was_given_back_is_taken_again_from_below() {
@@ -200,21 +200,9 @@ mod tests {
         Program {
             registers: widths
                 .iter()
-                .map(|&width| Register {
-                    name: String::new(),
-                    ty: Type::UInt,
-                    role: Role::Work,
-                    width,
-                    block: BlockId::ROOT,
-                    range: None,
-                })
+                .map(|&width| Register::new("", Type::UInt, width))
                 .collect(),
-            blocks: vec![Block {
-                parent: None,
-                name: "oracle".to_owned(),
-                depth: None,
-                scope: false,
-            }],
+            blocks: vec![Block::default()],
             ops: (1..widths.len()).map(load).collect(),
             instructions: computed.chain(undone).collect(),
             inputs: vec![RegisterId(0)],

@@ -21,21 +21,12 @@ pub use number::grouped;
 pub use passes::{PassFigures, pass_figures};
 pub use stages::{Part, Stage};
 
-use crate::circuit::lower::{self, Cost};
-use crate::circuit::{Program, Role};
+use crate::compile::Role;
 use crate::oracle::{Options, Oracle, OracleError};
 use crate::valid::ValidScene;
+use qrt_circuit::Program;
+use qrt_circuit::lower::{self, Cost};
 use std::ops::Range;
-
-/// The roles of registers, in the order in which they are shown.
-pub const ROLES: [Role; 6] = [
-    Role::Id,
-    Role::Comparator,
-    Role::Work,
-    Role::Scratch,
-    Role::Colour,
-    Role::Flag,
-];
 
 /// Names of the channels.
 pub const CHANNELS: [&str; 3] = ["r", "g", "b"];
@@ -143,16 +134,18 @@ impl Inspection {
         most.unwrap_or(inputs)
     }
 
-    /// Of the qubits in use when they are most: those of each of [`ROLES`], and the ancillas that
+    /// Of the qubits in use when they are most: those of each of [`Role::ALL`], and the ancillas that
     /// the operation borrows. They add up to [`Inspection::qubits`].
-    pub fn peak_by_role(&self) -> ([u32; ROLES.len()], u32) {
+    pub fn peak_by_role(&self) -> ([u32; Role::ALL.len()], u32) {
         let most = self.in_use.iter().copied().max().unwrap_or(0);
         let at = self.in_use.iter().position(|&n| n == most).unwrap_or(0);
-        let mut roles = [0; ROLES.len()];
+        let mut roles = [0; Role::ALL.len()];
         for lifetime in &self.layout.lifetimes {
             if lifetime.instructions.contains(&at) {
                 let register = &self.whole.registers[lifetime.register.index()];
-                let place = ROLES.iter().position(|&role| role == register.role);
+                let place = Role::ALL
+                    .iter()
+                    .position(|&role| role == Role::of(register));
                 roles[place.unwrap_or_default()] += register.width;
             }
         }

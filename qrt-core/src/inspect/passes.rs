@@ -1,10 +1,10 @@
 //! What each pass takes away.
 
 use super::Inspection;
-use crate::circuit::builder::Passes;
-use crate::circuit::lower::{self, Cost};
+use crate::compile::Passes;
 use crate::oracle::{Options, Oracle, OracleError};
 use crate::valid::ValidScene;
+use qrt_circuit::lower::{self, Cost};
 
 /// The call after a pass was added to those before it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,8 +1,9 @@
 //! The boxes of the paper's Path Tracing frame, found in the order of a program's instructions.
 
 use super::Inspection;
-use crate::circuit::lower::Cost;
-use crate::circuit::{BlockId, Op};
+use crate::compile::{Label, StageName};
+use qrt_circuit::lower::Cost;
+use qrt_circuit::{BlockId, Op};
 use std::fmt;
 use std::ops::Range;
 
@@ -36,9 +37,8 @@ impl Part {
 pub struct Stage {
     /// The part of the call.
     pub part: Part,
-    /// What it is called: `generate_ray`, `find_intersection`, `shade`, `count`, as its block is;
-    /// `surface` for what the frame does at a hit between the blocks; `compare` and `flip`.
-    pub name: String,
+    /// That of its block, or [`StageName::Surface`], [`StageName::Compare`], [`StageName::Flip`].
+    pub name: StageName,
     /// The depth it belongs to.
     pub depth: Option<u32>,
     /// Its block; none for what stands between blocks. What the frame does after other blocks, such
@@ -57,7 +57,7 @@ pub struct Stage {
 impl fmt::Display for Stage {
     /// `find_intersection 1`
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.name)?;
+        self.name.fmt(f)?;
         match self.depth {
             Some(depth) => write!(f, " {depth}"),
             None => Ok(()),
@@ -73,14 +73,14 @@ impl Inspection {
         for (block, instructions) in self.runs() {
             let (name, depth) = match (block, stages.last_mut()) {
                 (Some(block), _) => {
-                    let block = &self.whole.blocks[block.index()];
-                    (block.name.clone(), block.depth)
+                    let label = Label::of(&self.whole.blocks[block.index()]);
+                    (label.stage, label.depth)
                 }
-                (None, Some(before)) if before.name == "find_intersection" => {
-                    ("surface".to_owned(), before.depth)
+                (None, Some(before)) if before.name == StageName::FindIntersection => {
+                    (StageName::Surface, before.depth)
                 }
                 (None, Some(before)) => {
-                    let (name, depth) = (before.name.clone(), before.depth);
+                    let (name, depth) = (before.name, before.depth);
                     let both = before.instructions.start..instructions.end;
                     *before = Stage {
                         depth,
@@ -89,7 +89,7 @@ impl Inspection {
                     };
                     continue;
                 }
-                (None, None) => ("frame".to_owned(), None),
+                (None, None) => (StageName::Frame, None),
             };
             stages.push(Stage {
                 depth,
@@ -101,10 +101,10 @@ impl Inspection {
         for at in self.instructions(Part::Flip) {
             let instruction = self.whole.instructions[at];
             let name = match self.whole.ops[instruction.op as usize] {
-                Op::Phase { .. } => "flip",
-                _ => "compare",
+                Op::Phase { .. } => StageName::Flip,
+                _ => StageName::Compare,
             };
-            let mut stage = self.stage(Part::Flip, name.to_owned(), at..at + 1);
+            let mut stage = self.stage(Part::Flip, name, at..at + 1);
             stage.block = Some(instruction.block);
             stage.inverse = instruction.inverse;
             stages.push(stage);
@@ -112,7 +112,7 @@ impl Inspection {
         let end = self.whole.instructions.len();
         for place in (0..computed).rev() {
             let Range { start, end: after } = stages[place].instructions;
-            let name = stages[place].name.clone();
+            let name = stages[place].name;
             let stage = self.stage(Part::Uncompute, name, end - after..end - start);
             stages.push(Stage {
                 depth: stages[place].depth,
@@ -124,7 +124,7 @@ impl Inspection {
         stages
     }
 
-    fn stage(&self, part: Part, name: String, instructions: Range<usize>) -> Stage {
+    fn stage(&self, part: Part, name: StageName, instructions: Range<usize>) -> Stage {
         Stage {
             part,
             name,

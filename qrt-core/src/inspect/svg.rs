@@ -5,7 +5,7 @@ mod map;
 pub use super::frame::svg as frame;
 pub use map::registers;
 
-use crate::circuit::Role;
+use crate::compile::Role;
 use std::fmt::Write as _;
 
 /// A drawing in the making.

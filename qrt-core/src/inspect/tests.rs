@@ -1,8 +1,8 @@
 //! Drawings and figures of a small scene's oracle.
 
 use super::*;
-use crate::circuit::lower::depth;
 use crate::front::parse;
+use qrt_circuit::lower::depth;
 
 /// A lamp over a floor: two rays a path.
 const SCENE: &str = "

@@ -1,13 +1,13 @@
 //! What a scene allows its circuit, and what is wrong when there is no circuit.
 
 use super::{Oracle, OracleError};
-use crate::circuit::builder::BuildError;
-use crate::circuit::{Op, RegisterId, lower};
 use crate::codes;
+use crate::compile::BuildError;
 use crate::inspect::grouped;
 use crate::report::{Path, Problem};
 use crate::scene::{Nearest, Uncompute};
 use crate::valid::ValidScene;
+use qrt_circuit::{Op, RegisterId, lower};
 use std::collections::HashMap;
 
 /// What one call of an oracle takes.

@@ -1,14 +1,14 @@
 //! Oracles as straight-line code: what `qrt!` generates, and how it is used.
 
 use super::{Channel, Oracle};
-use crate::circuit::builder::NamedPlace;
-use crate::circuit::format::Format;
-use crate::circuit::{
-    Block, BlockId, Declaration, Machine, Op, Operand, Parameter, Program, Recorded, Recorder,
-    RegisterId, Style, Type, Word,
-};
+use crate::compile::{NamedPlace, PixelWord};
 use crate::sampling::{PathPoints, SamplingError};
 use crate::valid::ValidScene;
+use qrt_circuit::format::Format;
+use qrt_circuit::{
+    Block, BlockId, Declaration, Machine, Op, Operand, Program, Recorded, Recorder, RegisterId,
+    Style, Tag, Type, Word,
+};
 use std::collections::HashMap;
 use std::fmt;
 use std::marker::PhantomData;
@@ -59,6 +59,7 @@ pub trait CompiledOracle: Sized + 'static {
         let scene = Self::scene().scene();
         Ok(Oracle {
             program: Self::program(),
+            parameters: outline.parameters.to_vec(),
             channels: outline.channels.to_vec(),
             id: outline.id,
             comparator: outline.comparator,
@@ -80,10 +81,8 @@ pub struct BlockDeclaration {
     pub parent: Option<BlockId>,
     /// What it is called.
     pub name: &'static str,
-    /// The depth it belongs to.
-    pub depth: Option<u32>,
-    /// Is its work uncomputed at its end, under `uncompute: scoped`?
-    pub scope: bool,
+    /// Its [`crate::compile::Label`].
+    pub tag: Tag,
 }
 
 /// What is known of a compiled oracle beside its code.
@@ -96,8 +95,8 @@ pub struct Outline {
     /// By operation, in the order of [`Program::ops`], its first target; empty where that is the
     /// order in which they run first.
     pub order: &'static [RegisterId],
-    /// All classical words.
-    pub parameters: &'static [Parameter],
+    /// All classical parameters.
+    pub parameters: &'static [PixelWord],
     /// How operations that leave something behind are lowered.
     pub style: Style,
     /// The channels.
@@ -138,11 +137,10 @@ impl Outline {
         let block = |block: &BlockDeclaration| Block {
             parent: block.parent,
             name: block.name.to_owned(),
-            depth: block.depth,
-            scope: block.scope,
+            tag: block.tag,
         };
         let blocks = self.blocks.iter().map(block).collect();
-        let parameters = self.parameters.to_vec();
+        let parameters = self.parameters.iter().map(PixelWord::parameter).collect();
         Recorder::of(self.registers, blocks, parameters, self.style)
     }
 

@@ -2,15 +2,13 @@
 
 use super::recording::target;
 use super::{Options, OracleError, register_of};
-use crate::circuit::builder::Builder;
-use crate::circuit::lower::{self, Cost};
-use crate::circuit::{
-    self, Bit, Block, BlockId, Instruction, Op, Operand, Program, RegisterId, Role, Word,
-};
+use crate::compile::{self, Builder, Label, PixelWord, Role, StageName};
 use crate::sampling::PathPoints;
 use crate::scene::Uncompute;
 use crate::tracer::{Arith, Listing, Named, Part, Stage};
 use crate::valid::ValidScene;
+use qrt_circuit::lower::{self, Cost};
+use qrt_circuit::{Bit, BlockId, Instruction, Op, Operand, Program, RegisterId, Word};
 
 /// Most faces of a table that is looked up by a face's number: one number of 16 bits stands for
 /// none.
@@ -46,6 +44,8 @@ pub const MOST_FACES: usize = (1 << 16) - 1;
 pub struct NearestOracle {
     /// What computes [`NearestOracle::distance`] and [`NearestOracle::nearer`].
     pub program: Program,
+    /// What its parameters hold in each pixel.
+    pub parameters: Vec<PixelWord>,
     /// The path's id.
     pub id: RegisterId,
     /// The face's number: its place in [`Listing::labels`], which is the order in which a running
@@ -122,20 +122,22 @@ impl NearestOracle {
         let distance = cx.operand_of(distance).0;
         let id = builder.id();
         let recorded = builder.finish()?;
+        let parameters = recorded.parameters.clone();
         let roots = register_of(distance)
             .into_iter()
             .chain(nearer.map(|bit| bit.register));
-        let (program, renamed) = circuit::assemble(
+        let (program, renamed) = compile::assemble(
             recorded,
             &roots.collect::<Vec<_>>(),
             options.passes,
             scene.scene().circuit.uncompute == Uncompute::Scoped,
             &[id, primitive, best_distance, best_primitive],
-            &mut circuit::Known::default(),
+            &mut compile::Known::default(),
         );
         let rename = |register: RegisterId| *renamed.get(&register).unwrap_or(&register);
         Ok(Some(Self {
             program,
+            parameters,
             id,
             primitive,
             best_distance,
@@ -147,6 +149,14 @@ impl NearestOracle {
             fraction,
             points,
         }))
+    }
+
+    /// The parameters of pixel (column, row).
+    pub fn words(&self, seed: u64, pixel: [u32; 2]) -> Vec<u64> {
+        let words = self.parameters.iter();
+        words
+            .map(|word| word.value(&self.points, seed, pixel))
+            .collect()
     }
 
     /// P, the faces.
@@ -163,12 +173,11 @@ impl NearestOracle {
     pub fn flip(&self) -> Program {
         let mut program = self.program.clone();
         let block = BlockId(program.blocks.len() as u32);
-        program.blocks.push(Block {
-            parent: Some(BlockId::ROOT),
-            name: "flip".to_owned(),
+        let label = Label {
+            stage: StageName::Flip,
             depth: None,
-            scope: false,
-        });
+        };
+        program.blocks.push(label.block(Some(BlockId::ROOT)));
         program.instructions.clear();
         if let Some(bit) = self.nearer {
             program.instructions.push(Instruction {

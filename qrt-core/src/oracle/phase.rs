@@ -1,8 +1,8 @@
 //! A scene's oracle as the phase oracle of a pixel.
 
 use super::Oracle;
-use crate::circuit::lower;
-use crate::circuit::quantum::{PhaseOracle, QuantumError};
+use qrt_circuit::lower;
+use qrt_circuit::quantum::{PhaseOracle, QuantumError};
 
 impl Oracle {
     /// The circuit of channel number `channel` of [`Oracle::channels`] in pixel (column, row): its
@@ -26,10 +26,7 @@ impl Oracle {
         let [compute, flip, uncompute] = &parts[..] else {
             return Err(QuantumError::NoIds);
         };
-        let words = self.program.parameters.iter();
-        let words: Vec<u64> = words
-            .map(|parameter| parameter.value(&self.points, seed, pixel))
-            .collect();
+        let words = self.words(seed, pixel);
         let register = |register| {
             let mut inputs = compute.inputs.iter();
             let found = inputs.find(|(id, _)| *id == register);

@@ -5,12 +5,12 @@ use super::{
     Channel, DEFAULT_FRACTION, LUMINANCE, LUMINANCE_CHANNEL, Options, Oracle, OracleError, faces,
     luminance, register_of,
 };
-use crate::circuit::builder::{Builder, NamedPlace, Real, Recorded, Target};
-use crate::circuit::{self, Operand, RegisterId, Role, Style, Type, Word};
+use crate::compile::{self, Builder, NamedPlace, Real, Recorded, Role, Target};
 use crate::sampling::PathPoints;
 use crate::scene::{Nearest, Uncompute};
 use crate::tracer::{self, Arith, FirstGiven, Listing, Records, Stage, trace};
 use crate::valid::ValidScene;
+use qrt_circuit::{Operand, Program, RegisterId, Style, Type, Word};
 
 /// Channels by number.
 const CHANNELS: [&str; 4] = ["r", "g", "b", "luminance"];
@@ -69,7 +69,7 @@ pub(super) struct Recording {
     scoped: bool,
     options: Options,
     known: Oracle,
-    ops: circuit::Known,
+    ops: compile::Known,
 }
 
 impl Recording {
@@ -157,7 +157,8 @@ impl Recording {
             }
         }
         let known = Oracle {
-            program: circuit::Program::default(),
+            program: Program::default(),
+            parameters: recorded.parameters.clone(),
             channels: outputs,
             id,
             comparator,
@@ -174,7 +175,7 @@ impl Recording {
             scoped,
             options,
             known,
-            ops: circuit::Known::default(),
+            ops: compile::Known::default(),
         })
     }
 
@@ -188,7 +189,7 @@ impl Recording {
         let roots: Vec<RegisterId> = roots.filter_map(register_of).collect();
         let mut inputs = vec![self.known.id, self.known.comparator];
         inputs.extend(self.known.nearest);
-        let (mut program, renamed) = circuit::assemble(
+        let (mut program, renamed) = compile::assemble(
             self.recorded.clone(),
             &roots,
             self.options.passes,
@@ -211,7 +212,7 @@ impl Recording {
             output.count = rename(output.count);
             if let Operand::Word(word) = output.colour {
                 let register = &mut program.registers[word.register.index()];
-                register.role = Role::Colour;
+                register.tag = Role::Colour.tag();
                 register.name = format!("colour.{}", CHANNELS[output.number]);
             }
         }
@@ -224,7 +225,7 @@ impl Recording {
         let places: Vec<NamedPlace> = places.collect();
         for named in &places {
             let register = &mut program.registers[named.place.register().index()];
-            if register.role == Role::Work && !register.name.starts_with("ray") {
+            if Role::of(register) == Role::Work && !register.name.starts_with("ray") {
                 register.name = named.to_string();
             }
         }

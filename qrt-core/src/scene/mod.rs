@@ -18,6 +18,7 @@ use crate::front::yaml;
 use crate::sampling::MAX_PATH_BITS;
 use decode::{Decoder, Place};
 use glam::DVec3;
+pub use qrt_circuit::quantum::Window;
 use record::{keyword, record, variant};
 use shape::{
     Array, AutoOr, Channels, Expression, LARGEST, List, Maybe, Named, Number, Part, Text, number,
@@ -362,13 +363,14 @@ impl Counting {
     }
 }
 
-keyword! {
-    /// The window on the counting register.
-    pub enum Window = "a window";
-    /// Equal amplitudes, as in the paper.
-    Rect = "rect";
-    /// Amplitudes w_j proportional to sin(pi (j + 1) / (T + 1)).
-    Sine = "sine";
+impl shape::Keyword for Window {
+    const NOUN: &'static str = "a window";
+    const NAMES: &'static [&'static str] = &["rect", "sine"];
+    const DOCS: &'static [&'static str] = &[
+        " Equal amplitudes, as in the paper.",
+        " Amplitudes w_j proportional to sin(pi (j + 1) / (T + 1)).",
+    ];
+    const VALUES: &'static [Self] = &[Self::Rect, Self::Sine];
 }
 
 keyword! {

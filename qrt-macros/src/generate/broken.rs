@@ -29,11 +29,11 @@ const NUMBERS: [&str; 14] = [
 pub(crate) fn broken(name: &str, visibility: &str, conditions: &str) -> TokenStream {
     let never = "::core::unreachable!(\"this scene has errors\")";
     let field =
-        format!("::qrt::core::oracle::compiled::Field<{name}, ::qrt::core::circuit::format::Bool>");
-    let bool = "::qrt::core::circuit::format::Bool";
+        format!("::qrt::core::oracle::compiled::Field<{name}, ::qrt::circuit::format::Bool>");
+    let bool = "::qrt::circuit::format::Bool";
     let vector = format!("::qrt::core::oracle::compiled::Vector<{name}, {bool}, {bool}, {bool}>");
     let place = "::qrt::core::oracle::compiled::Field::new(0, \
-                 ::qrt::core::circuit::Word::unsigned(::qrt::core::circuit::RegisterId(0), 0, 1))";
+                 ::qrt::circuit::Word::unsigned(::qrt::circuit::RegisterId(0), 0, 1))";
     let each = |vectors: &dyn Fn(&str) -> String, numbers: &dyn Fn(&str) -> String| {
         let vectors = VECTORS.iter().map(|name| vectors(name));
         let numbers = NUMBERS.iter().map(|name| numbers(name));
@@ -92,7 +92,7 @@ pub(crate) fn broken(name: &str, visibility: &str, conditions: &str) -> TokenStr
             const OUTLINE: &'static ::qrt::core::oracle::compiled::Outline =
                 &::qrt::core::oracle::compiled::Outline::NONE;
             fn scene() -> &'static ::qrt::core::valid::ValidScene {{ {never} }}
-            fn within<M: ::qrt::core::circuit::Machine, T>(
+            fn within<M: ::qrt::circuit::Machine, T>(
                 _: &mut M,
                 _: &M::Register,
                 _: impl ::core::ops::FnOnce(

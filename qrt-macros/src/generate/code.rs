@@ -2,7 +2,7 @@
 
 use super::lines::{self, Line};
 use super::names::Names;
-use qrt_core::circuit::{Bit, BlockId, Instruction, Op, Operand, Program, RegisterId, Word};
+use qrt_circuit::{Bit, BlockId, Instruction, Op, Operand, Program, RegisterId, Word};
 use qrt_core::oracle::{Channel, Oracle};
 use std::fmt::Write as _;
 

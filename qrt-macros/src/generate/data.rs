@@ -1,7 +1,7 @@
 //! Registers, blocks, tables and classical words as constants.
 
-use qrt_core::circuit::builder::Place;
-use qrt_core::circuit::{Bit, Op, Operand, Style, Type, Word};
+use qrt_circuit::{Bit, Op, Operand, Style, Type, Word};
+use qrt_core::compile::Place;
 use qrt_core::oracle::Oracle;
 use std::collections::HashMap;
 use std::fmt::Write as _;
@@ -42,10 +42,10 @@ fn registers(out: &mut String, oracle: &Oracle) {
     for (id, register) in program.registers.iter().enumerate() {
         let _ = write!(
             out,
-            "Declaration::at({id}, {:?}, {}, Role::{:?}, {})",
+            "Declaration::at({id}, {:?}, {}, {:?}, {})",
             register.name,
             ty(register.ty),
-            register.role,
+            register.tag,
             register.width
         );
         if register.block.0 != 0 {
@@ -67,8 +67,8 @@ fn blocks(out: &mut String, oracle: &Oracle) {
     for block in &oracle.program.blocks {
         let _ = writeln!(
             out,
-            "BlockDeclaration {{ parent: {:?}, name: {:?}, depth: {:?}, scope: {} }},",
-            block.parent, block.name, block.depth, block.scope
+            "BlockDeclaration {{ parent: {:?}, name: {:?}, tag: {:?} }},",
+            block.parent, block.name, block.tag
         );
     }
     out.push_str("];\n");
@@ -153,10 +153,10 @@ fn outline(out: &mut String, oracle: &Oracle) {
         .filter_map(|op| op.targets().first().copied())
         .filter(|_| !in_order)
         .collect();
-    out.push_str("const PARAMETERS: &[Parameter] = &[\n");
-    for parameter in &oracle.program.parameters {
+    out.push_str("const PARAMETERS: &[PixelWord] = &[\n");
+    for word in &oracle.parameters {
         // Its debug form is Rust.
-        let _ = writeln!(out, "Parameter::{parameter:?},");
+        let _ = writeln!(out, "PixelWord::{word:?},");
     }
     out.push_str("];\nconst CHANNELS: &[Channel] = &[\n");
     for channel in &oracle.channels {

@@ -1,7 +1,7 @@
 //! The layout: where the numbers of a path are, ray by ray, with their formats as types.
 
-use qrt_core::circuit::builder::{NamedPlace, Place};
-use qrt_core::circuit::{Bit, Word};
+use qrt_circuit::{Bit, Word};
+use qrt_core::compile::{NamedPlace, Place};
 use qrt_core::oracle::Oracle;
 use std::fmt::Write as _;
 
@@ -104,7 +104,7 @@ fn component(oracle: &Oracle, place: usize, named: &NamedPlace) -> Component {
         (Place::Number { .. }, true) => format!("Fixed<{above}, {fraction}>"),
         (Place::Number { .. }, false) => format!("UFixed<{above}, {fraction}>"),
     };
-    let ty = format!("::qrt::core::circuit::format::{ty}");
+    let ty = format!("::qrt::circuit::format::{ty}");
     let sign = if word.signed { "signed" } else { "unsigned" };
     let bits = format!(
         "Word::{sign}({:?}, {}, {})",

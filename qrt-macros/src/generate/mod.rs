@@ -75,10 +75,10 @@ fn text(
             // A name that nothing of what is imported below has.
             type __Scene = {scene};
             const _: () = {{
-            use ::qrt::core::circuit::builder::{{NamedPlace, Place}};
-            use ::qrt::core::circuit::{{
-                Bit, BlockId, Declaration, Machine, Operand, Parameter, RegisterId, Role, Style,
-                Type, Word,
+            use ::qrt::core::compile::{{NamedPlace, PixelWord, Place}};
+            use ::qrt::circuit::{{
+                Bit, BlockId, Declaration, Machine, Operand, RegisterId, Style, Tag, Type,
+                Word,
             }};
             use ::qrt::core::oracle::Channel;
             use ::qrt::core::oracle::compiled::{{

@@ -1,6 +1,6 @@
 //! Names of variables.
 
-use qrt_core::circuit::RegisterId;
+use qrt_circuit::RegisterId;
 use qrt_core::oracle::Oracle;
 use std::collections::HashSet;
 
@@ -11,7 +11,7 @@ impl Names {
     pub(super) fn new(oracle: &Oracle) -> Self {
         let registers = oracle.program.registers.iter().enumerate();
         let mut taken: HashSet<String> = HashSet::new();
-        let name = |(id, register): (usize, &qrt_core::circuit::Register)| {
+        let name = |(id, register): (usize, &qrt_circuit::Register)| {
             let plain = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };
             let mut name: String = register.name.chars().map(plain).collect();
             // Generated registers are called by what computes them and their numbers.

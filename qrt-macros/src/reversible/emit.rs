@@ -60,7 +60,7 @@ fn functions(signature: &Signature, forward: &TokenStream, backward: &TokenStrea
     let other: Vec<_> = other.collect();
     let kind = machine_name(constants);
     let machine = own("machine");
-    let generics = quote!(<#(const #constants: u32,)* #kind: ::qrt::core::circuit::Machine>);
+    let generics = quote!(<#(const #constants: u32,)* #kind: ::qrt::circuit::Machine>);
     let named = parameters.iter().map(|parameter| {
         let Register { name, ty, .. } = &**parameter;
         let reference = if parameter.mutable {
@@ -68,7 +68,7 @@ fn functions(signature: &Signature, forward: &TokenStream, backward: &TokenStrea
         } else {
             quote!(&)
         };
-        quote!(#name: #reference ::qrt::core::circuit::format::Reg<#kind::Register, #ty>)
+        quote!(#name: #reference ::qrt::circuit::format::Reg<#kind::Register, #ty>)
     });
     let named: Vec<TokenStream> = named.collect();
     // The machine is one argument more than the author has written.
@@ -117,10 +117,10 @@ fn functions(signature: &Signature, forward: &TokenStream, backward: &TokenStrea
         #[allow(dead_code, reason = "not every author needs it")]
         #[must_use]
         #visibility fn #program_name #some (
-            #style: ::qrt::core::circuit::Style,
-        ) -> ::qrt::core::circuit::Program {
-            use ::qrt::core::circuit::format::Reg;
-            let mut #recorder = ::qrt::core::circuit::Recorder::new(#style);
+            #style: ::qrt::circuit::Style,
+        ) -> ::qrt::circuit::Program {
+            use ::qrt::circuit::format::Reg;
+            let mut #recorder = ::qrt::circuit::Recorder::new(#style);
             #(#inputs)*
             #name #given (&mut #recorder, #(#handed),*);
             #recorder.finish()
@@ -151,10 +151,10 @@ fn used(body: &TokenStream) -> TokenStream {
     ];
     let names = all.iter().filter(|name| seen.contains(**name));
     let names: Vec<Ident> = names.map(|name| format_ident!("{name}")).collect();
-    let circuit = (!names.is_empty()).then(|| quote!(use ::qrt::core::circuit::{#(#names),*};));
+    let circuit = (!names.is_empty()).then(|| quote!(use ::qrt::circuit::{#(#names),*};));
     let reg = seen.contains("Reg").then(|| {
         quote!(
-            use ::qrt::core::circuit::format::Reg;
+            use ::qrt::circuit::format::Reg;
         )
     });
     quote!(#reg #circuit)

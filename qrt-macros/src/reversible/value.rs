@@ -33,7 +33,7 @@ pub(super) enum Value {
 pub(super) struct View {
     /// A reference to the register.
     register: TokenStream,
-    /// Its [`qrt_core::circuit::Word`], where all of it is read.
+    /// Its [`qrt_circuit::Word`], where all of it is read.
     whole: Option<TokenStream>,
     first: Linear,
     width: Dim,

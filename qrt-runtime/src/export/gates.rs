@@ -1,8 +1,8 @@
 //! Gates, a line each.
 
 use super::{ExportError, Format, Register};
-use qrt_core::circuit::Qubit;
-use qrt_core::circuit::quantum::{QuantumGate, Turns};
+use qrt_circuit::Qubit;
+use qrt_circuit::quantum::{QuantumGate, Turns};
 use qrt_core::inspect::grouped;
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;

@@ -28,7 +28,7 @@
 //! before and after. Bit 0 of each is its least significant.
 //!
 //! ```
-//! use qrt_core::circuit::quantum::{Counting, Part, PhaseOracle};
+//! use qrt_circuit::quantum::{Counting, Part, PhaseOracle};
 //! use qrt_core::scene::Window;
 //! use qrt_runtime::export::{Export, Format};
 //!
@@ -64,8 +64,8 @@ pub use format::Format;
 pub use gates::Tally;
 
 use gates::Writer;
-use qrt_core::circuit::Qubit;
-use qrt_core::circuit::quantum::{Counting, Part};
+use qrt_circuit::Qubit;
+use qrt_circuit::quantum::{Counting, Part};
 use std::io::Write;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -85,7 +85,7 @@ pub struct Register {
 ///
 /// OpenQASM's libraries have no sign on more than three qubits. O_0's is on those of the id and, in a
 /// counting circuit, on its control: [`Counting::with`] and
-/// [`Conjunction::Toffolis`](qrt_core::circuit::quantum::Conjunction::Toffolis) make circuits without.
+/// [`Conjunction::Toffolis`](qrt_circuit::quantum::Conjunction::Toffolis) make circuits without.
 #[derive(Clone)]
 pub struct Export<'a> {
     counting: &'a Counting<'a>,

@@ -1,5 +1,5 @@
 use super::*;
-use qrt_core::circuit::quantum::{Conjunction, PhaseOracle};
+use qrt_circuit::quantum::{Conjunction, PhaseOracle};
 use qrt_core::scene::Window;
 
 fn text(counting: &Counting<'_>, part: Part, format: Format) -> String {

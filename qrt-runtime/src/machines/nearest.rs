@@ -8,7 +8,7 @@ use super::fixed::{self, Fixed};
 use super::gates::{Gates, Rows};
 use super::oracle::Defect;
 use super::span::Span;
-use qrt_core::circuit::{Circuit, Operand, Qubit, RegisterId, Word, lower};
+use qrt_circuit::{Circuit, Operand, Qubit, RegisterId, Word, lower};
 use qrt_core::oracle::NearestOracle;
 use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -301,10 +301,7 @@ impl NearestMachine {
 
     /// The classical words of a ray's pixel.
     fn words(&self, ray: &Asked) -> Vec<u64> {
-        let parameters = self.oracle.program.parameters.iter();
-        parameters
-            .map(|parameter| parameter.value(&self.oracle.points, self.seed, ray.pixel))
-            .collect()
+        self.oracle.words(self.seed, ray.pixel)
     }
 }
 

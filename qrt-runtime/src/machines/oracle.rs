@@ -25,7 +25,7 @@ use super::instructions::InstructionSet;
 use super::native;
 use super::native::NativeOracle;
 use super::span::Span;
-use qrt_core::circuit::{Operand, Word};
+use qrt_circuit::{Operand, Word};
 use qrt_core::oracle::{Channel, LUMINANCE_CHANNEL, Oracle};
 use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -251,10 +251,7 @@ impl OracleMachine {
 
     /// The classical words of a pixel.
     fn words(&self, pixel: [u32; 2]) -> Vec<u64> {
-        let parameters = self.oracle.program.parameters.iter();
-        parameters
-            .map(|parameter| parameter.value(&self.oracle.points, self.seed, pixel))
-            .collect()
+        self.oracle.words(self.seed, pixel)
     }
 
     /// Where among the outputs the count of the luminance is.

@@ -4,8 +4,8 @@
 //! same registers are read after the program, and everything else must be zero again.
 //!
 //! ```
-//! use qrt_core::circuit::format::{Reg, UInt};
-//! use qrt_core::circuit::{Machine, Recorder, Style, When};
+//! use qrt_circuit::format::{Reg, UInt};
+//! use qrt_circuit::{Machine, Recorder, Style, When};
 //! use qrt_runtime::machines::run;
 //!
 //! let mut recorder = Recorder::new(Style::Lean);
@@ -22,9 +22,7 @@
 //! ```
 
 use super::{Fixed, Gates, InvalidGate};
-use qrt_core::circuit::{
-    Contents, Instruction, Op, Operand, Program, Qubit, RegisterId, Word, lower,
-};
+use qrt_circuit::{Contents, Instruction, Op, Operand, Program, Qubit, RegisterId, Word, lower};
 use std::fmt;
 
 /// Why a program did not run as a routine does.
@@ -275,8 +273,8 @@ fn check(program: &Program, states: &[impl AsRef<[u64]>]) -> Result<(), RunError
 #[cfg(test)]
 mod tests {
     use super::*;
-    use qrt_core::circuit::format::{Reg, UInt};
-    use qrt_core::circuit::{Declaration, Machine, Recorder, Style, Type, When};
+    use qrt_circuit::format::{Reg, UInt};
+    use qrt_circuit::{Declaration, Machine, Recorder, Style, Type, When};
 
     /// A scratch register that is given back with what a state holds.
     fn leaves() -> Program {

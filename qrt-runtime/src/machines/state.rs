@@ -1,6 +1,6 @@
 //! One basis state: reversible code, run on integers by the definition of its operations.
 
-use qrt_core::circuit::{
+use qrt_circuit::{
     Bit, BlockId, Contents, Declaration, Machine, Operand, Recorded, Recorder, Style, When, Word,
 };
 use qrt_core::oracle::compiled::CompiledOracle;
@@ -34,7 +34,7 @@ impl std::error::Error for Unclean {}
 /// A machine of one basis state, which shows what registers hold and checks what is undone.
 ///
 /// ```
-/// use qrt_core::circuit::{Declaration, Machine, Type, When, Word};
+/// use qrt_circuit::{Declaration, Machine, Type, When, Word};
 /// use qrt_runtime::machines::State;
 ///
 /// let mut state = State::new();
@@ -338,7 +338,7 @@ impl Machine for State {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use qrt_core::circuit::Type;
+    use qrt_circuit::Type;
 
     const A: Declaration = Declaration::work("a", Type::UInt, 4);
     const DOUBLE: Declaration = Declaration::work("double", Type::UInt, 5);

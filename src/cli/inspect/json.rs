@@ -1,8 +1,9 @@
 //! The figures for programs.
 
 use super::Shown;
-use qrt_core::circuit::lower::Cost;
-use qrt_core::inspect::{CHANNELS, Part, ROLES};
+use qrt_circuit::lower::Cost;
+use qrt_core::compile::{Label, Role};
+use qrt_core::inspect::{CHANNELS, Part};
 use serde_json::{Map, Value, json};
 
 /// All figures. Costs are those of one whole call of the oracle unless said otherwise.
@@ -16,7 +17,7 @@ pub(super) fn json(shown: &Shown<'_>) -> Value {
     let written = scene.scene();
     let oracle = &inspection.oracle;
     let (roles, ancillas) = inspection.peak_by_role();
-    let mut by_role: Map<String, Value> = ROLES
+    let mut by_role: Map<String, Value> = Role::ALL
         .iter()
         .zip(roles)
         .map(|(role, qubits)| (role.to_string(), json!(qubits)))
@@ -35,7 +36,7 @@ pub(super) fn json(shown: &Shown<'_>) -> Value {
         .filter(|stage| stage.part == Part::Compute)
         .map(|stage| {
             json!({
-                "name": stage.name,
+                "name": stage.name.to_string(),
                 "depth": stage.depth,
                 "compute": cost(stage.cost),
                 "qubits": stage.qubits,
@@ -48,8 +49,8 @@ pub(super) fn json(shown: &Shown<'_>) -> Value {
         .map(|block| {
             json!({
                 "path": block.path,
-                "name": block.name,
-                "depth": block.depth,
+                "name": block.label.stage.to_string(),
+                "depth": block.label.depth,
                 "own": cost(block.own),
                 "total": cost(block.total),
                 "compute": cost(block.compute),
@@ -111,8 +112,8 @@ fn registers(shown: &Shown<'_>) -> Vec<Value> {
                 "type": register.ty.name(register.width),
                 "offset": lifetime.offset,
                 "width": register.width,
-                "depth": block.depth,
-                "role": register.role.to_string(),
+                "depth": Label::of(block).depth,
+                "role": Role::of(register).to_string(),
                 "block": block.name,
             })
         })

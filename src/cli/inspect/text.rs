@@ -1,8 +1,9 @@
 //! The figures for people, within 100 columns.
 
 use super::Shown;
-use qrt_core::circuit::lower::Cost;
-use qrt_core::inspect::{BlockFigures, CHANNELS, Inspection, Part, ROLES, Stage, grouped};
+use qrt_circuit::lower::Cost;
+use qrt_core::compile::Role;
+use qrt_core::inspect::{BlockFigures, CHANNELS, Inspection, Part, Stage, grouped};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
@@ -134,7 +135,7 @@ fn costs(out: &mut String, inspection: &Inspection, planes: bool) {
                     row(
                         out,
                         &branch,
-                        &stage.name,
+                        &stage.name.to_string(),
                         stage.cost,
                         all,
                         Some(stage.qubits),
@@ -149,7 +150,7 @@ fn costs(out: &mut String, inspection: &Inspection, planes: bool) {
                     row(
                         out,
                         branch,
-                        &stage.name,
+                        &stage.name.to_string(),
                         stage.cost,
                         all,
                         Some(stage.qubits),
@@ -197,8 +198,10 @@ fn within(
     let inner = inner.filter(|block| block.level == level + 1);
     let mut kinds: BTreeMap<&str, Vec<&BlockFigures>> = BTreeMap::new();
     for block in inner {
-        let kind = block.name.split(' ').next().unwrap_or_default();
-        kinds.entry(kind).or_default().push(block);
+        kinds
+            .entry(block.label.stage.kind())
+            .or_default()
+            .push(block);
     }
     let rows: Vec<(String, Cost)> = kinds
         .iter()
@@ -209,7 +212,9 @@ fn within(
             let mut rows = vec![(format!("{count} {kind}{plural}"), total)];
             if each {
                 let single = blocks.iter();
-                rows.extend(single.map(|block| (format!("  {}", block.name), block.compute)));
+                rows.extend(
+                    single.map(|block| (format!("  {}", block.label.stage), block.compute)),
+                );
             }
             rows
         })
@@ -251,12 +256,17 @@ fn passes(out: &mut String, shown: &Shown<'_>) {
 }
 
 fn registers(out: &mut String, inspection: &Inspection) {
-    let mut count = [(0_u64, 0_u64); ROLES.len()];
+    let mut count = [(0_u64, 0_u64); Role::ALL.len()];
     for (place, register) in inspection.whole.registers.iter().enumerate() {
         let used = inspection
             .layout
-            .offset(qrt_core::circuit::RegisterId(place as u32));
-        if let (Some(_), Some(role)) = (used, ROLES.iter().position(|&r| r == register.role)) {
+            .offset(qrt_circuit::RegisterId(place as u32));
+        if let (Some(_), Some(role)) = (
+            used,
+            Role::ALL
+                .iter()
+                .position(|&role| role == Role::of(register)),
+        ) {
             count[role].0 += 1;
             count[role].1 += u64::from(register.width);
         }
@@ -267,7 +277,7 @@ fn registers(out: &mut String, inspection: &Inspection) {
         "{:<NAME$}{:>14}{:>6}{:>14}{:>15}",
         "registers by role", "registers", "", "qubits", "at the peak"
     );
-    for ((role, (registers, qubits)), peak) in ROLES.iter().zip(count).zip(peak) {
+    for ((role, (registers, qubits)), peak) in Role::ALL.iter().zip(count).zip(peak) {
         let _ = writeln!(
             out,
             "{:<NAME$}{:>14}{:>6}{:>14}{:>15}",

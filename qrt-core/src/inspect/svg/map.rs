@@ -1,9 +1,9 @@
 //! The register map: time to the right, qubits up.
 
 use super::super::layout::Lifetime;
-use super::super::{Inspection, Part, ROLES, Stage, grouped};
+use super::super::{Inspection, Part, Stage, grouped};
 use super::{Canvas, SMALL, class, number, width_of};
-use crate::circuit::Role;
+use crate::compile::Role;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
@@ -50,7 +50,7 @@ pub fn registers(inspection: &Inspection, scene: &str) -> String {
 
 fn legend(canvas: &mut Canvas) {
     let mut x = PLOT[0];
-    for role in ROLES {
+    for role in Role::ALL {
         let name = role.to_string();
         canvas.rectangle(class(role), [x, 64.0, 12.0, 12.0], "");
         canvas.text("", [x + 17.0, 74.0], &name);
@@ -182,7 +182,7 @@ impl<'a> Map<'a> {
             let hint = format!("{}: {ty}, {block}", register.name);
             // An edge would hide what is hardly higher.
             let edge = if place[3] >= 3.0 { " edge" } else { "" };
-            let class = format!("{}{edge}", class(register.role));
+            let class = format!("{}{edge}", class(Role::of(register)));
             canvas.rectangle(&class, place, &hint);
             let label = format!("{}: {ty}", register.name);
             if place[3] >= 13.0 && place[2] >= width_of(&label) {
@@ -194,7 +194,7 @@ impl<'a> Map<'a> {
     }
 
     fn role(&self, lifetime: &Lifetime) -> Role {
-        self.inspection.whole.registers[lifetime.register.index()].role
+        Role::of(&self.inspection.whole.registers[lifetime.register.index()])
     }
 
     /// Qubits in use: a step for each instruction that is a column of pixels wide, and the most of
@@ -271,7 +271,8 @@ impl<'a> Map<'a> {
 
 /// `find_intersection 1` as `find 1`.
 fn brief(stage: &Stage) -> String {
-    let word = stage.name.split('_').next().unwrap_or_default();
+    let name = stage.name.to_string();
+    let word = name.split('_').next().unwrap_or_default();
     stage
         .depth
         .map_or_else(|| word.to_owned(), |depth| format!("{word} {depth}"))
@@ -293,12 +294,15 @@ fn round_step(least: f64) -> f64 {
 /// Squares of the role that most of each belongs to.
 #[derive(Debug, Default)]
 struct Cells {
-    area: BTreeMap<(u32, u32), [f32; ROLES.len()]>,
+    area: BTreeMap<(u32, u32), [f32; Role::ALL.len()]>,
 }
 
 impl Cells {
     fn add(&mut self, [x, y, width, height]: [f64; 4], role: Role) {
-        let role = ROLES.iter().position(|&known| known == role).unwrap_or(0);
+        let role = Role::ALL
+            .iter()
+            .position(|&known| known == role)
+            .unwrap_or(0);
         let span = |start: f64, length: f64| {
             let first = (start / CELL).floor();
             let last = ((start + length) / CELL).ceil();
@@ -316,7 +320,7 @@ impl Cells {
     }
 
     fn draw(&self, canvas: &mut Canvas) {
-        let mut paths: [String; ROLES.len()] = Default::default();
+        let mut paths: [String; Role::ALL.len()] = Default::default();
         // The run at hand: its role, row, first column and length.
         let mut run: Option<(usize, u32, u32, u32)> = None;
         let mut write = |run: Option<(usize, u32, u32, u32)>| {
@@ -330,7 +334,7 @@ impl Cells {
             if areas.iter().sum::<f32>() < (CELL * CELL / 3.0) as f32 {
                 continue;
             }
-            let most = (0..ROLES.len()).max_by(|&a, &b| areas[a].total_cmp(&areas[b]));
+            let most = (0..Role::ALL.len()).max_by(|&a, &b| areas[a].total_cmp(&areas[b]));
             let most = most.unwrap_or(0);
             match &mut run {
                 Some((role, at, first, length))
@@ -342,7 +346,7 @@ impl Cells {
             }
         }
         write(run);
-        for (role, d) in ROLES.into_iter().zip(paths) {
+        for (role, d) in Role::ALL.into_iter().zip(paths) {
             if !d.is_empty() {
                 canvas.path(class(role), &d);
             }

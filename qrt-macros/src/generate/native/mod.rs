@@ -14,7 +14,7 @@ mod tests;
 use super::lines::{self, Line};
 use super::names::Names;
 use number::Number;
-use qrt_core::circuit::{Bit, Op, Operand, Program, Register, RegisterId, Type, Word};
+use qrt_circuit::{Bit, Op, Operand, Program, Register, RegisterId, Type, Word};
 use qrt_core::oracle::Oracle;
 use range::Range;
 use std::collections::HashMap;

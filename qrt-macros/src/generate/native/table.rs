@@ -3,7 +3,7 @@
 use super::number::Number;
 use super::range::Range;
 use super::{Coder, signed};
-use qrt_core::circuit::{Bit, RegisterId, Word};
+use qrt_circuit::{Bit, RegisterId, Word};
 use std::fmt::Write as _;
 
 impl Coder<'_> {

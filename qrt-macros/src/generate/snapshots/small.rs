@@ -28,19 +28,19 @@ pub struct LitFloorRay0 {
     /// Where it goes; the camera's are of no particular length.
     pub direction: ::qrt::core::oracle::compiled::Vector<
         LitFloor,
-        ::qrt::core::circuit::format::UFixed<-3, 8>,
-        ::qrt::core::circuit::format::UFixed<-3, 8>,
-        ::qrt::core::circuit::format::UFixed<-4, 8>,
+        ::qrt::circuit::format::UFixed<-3, 8>,
+        ::qrt::circuit::format::UFixed<-3, 8>,
+        ::qrt::circuit::format::UFixed<-4, 8>,
     >,
     /// How far away that is, in lengths of its direction.
     pub distance:
-        ::qrt::core::oracle::compiled::Field<LitFloor, ::qrt::core::circuit::format::UFixed<0, 8>>,
+        ::qrt::core::oracle::compiled::Field<LitFloor, ::qrt::circuit::format::UFixed<0, 8>>,
     /// The cell of the unit square that it samples.
     pub sample_u:
-        ::qrt::core::oracle::compiled::Field<LitFloor, ::qrt::core::circuit::format::UInt<1>>,
+        ::qrt::core::oracle::compiled::Field<LitFloor, ::qrt::circuit::format::UInt<1>>,
     /// The cell of the unit square that it samples.
     pub sample_v:
-        ::qrt::core::oracle::compiled::Field<LitFloor, ::qrt::core::circuit::format::UInt<1>>,
+        ::qrt::core::oracle::compiled::Field<LitFloor, ::qrt::circuit::format::UInt<1>>,
 }
 
 /// Numbers of ray 1 of [`LitFloor`] that are in registers.
@@ -50,23 +50,23 @@ pub struct LitFloorRay1 {
     /// Where it goes; the camera's are of no particular length.
     pub direction: ::qrt::core::oracle::compiled::Vector<
         LitFloor,
-        ::qrt::core::circuit::format::Fixed<1, 8>,
-        ::qrt::core::circuit::format::UFixed<0, 8>,
-        ::qrt::core::circuit::format::Fixed<1, 8>,
+        ::qrt::circuit::format::Fixed<1, 8>,
+        ::qrt::circuit::format::UFixed<0, 8>,
+        ::qrt::circuit::format::Fixed<1, 8>,
     >,
     /// Where it starts, in the scene's frame as the circuit scales it.
     pub origin: ::qrt::core::oracle::compiled::Vector<
         LitFloor,
-        ::qrt::core::circuit::format::Fixed<-1, 8>,
-        ::qrt::core::circuit::format::Fixed<0, 8>,
-        ::qrt::core::circuit::format::Fixed<1, 8>,
+        ::qrt::circuit::format::Fixed<-1, 8>,
+        ::qrt::circuit::format::Fixed<0, 8>,
+        ::qrt::circuit::format::Fixed<1, 8>,
     >,
     /// The cell of the unit square that it samples.
     pub sample_u:
-        ::qrt::core::oracle::compiled::Field<LitFloor, ::qrt::core::circuit::format::UInt<2>>,
+        ::qrt::core::oracle::compiled::Field<LitFloor, ::qrt::circuit::format::UInt<2>>,
     /// The cell of the unit square that it samples.
     pub sample_v:
-        ::qrt::core::oracle::compiled::Field<LitFloor, ::qrt::core::circuit::format::UInt<2>>,
+        ::qrt::core::oracle::compiled::Field<LitFloor, ::qrt::circuit::format::UInt<2>>,
 }
 
 /// Where the numbers of a path of [`LitFloor`] are among its registers.
@@ -84,8 +84,8 @@ const _: () = {
     // A name that nothing of what is imported below has.
     type __Scene = LitFloor;
     const _: () = {
-        use ::qrt::core::circuit::builder::{NamedPlace, Place};
-        use ::qrt::core::circuit::{
+        use ::qrt::core::compile::{NamedPlace, Place};
+        use ::qrt::circuit::{
             Bit, BlockId, Declaration, Machine, Operand, Parameter, RegisterId, Role, Style, Type,
             Word,
         };
@@ -100,7 +100,7 @@ const _: () = {
             pub const LAYOUT: LitFloorLayout = LitFloorLayout {
                 ray0: LitFloorRay0 {
                     direction: Vector {
-                        x: Field::<__Scene, ::qrt::core::circuit::format::UFixed<-3, 8>>::new(
+                        x: Field::<__Scene, ::qrt::circuit::format::UFixed<-3, 8>>::new(
                             0,
                             Word::unsigned(RegisterId(18), 0, 5),
                         )
@@ -109,7 +109,7 @@ const _: () = {
                             0.20710678118654752,
                             0.0,
                         ]),
-                        y: Field::<__Scene, ::qrt::core::circuit::format::UFixed<-3, 8>>::new(
+                        y: Field::<__Scene, ::qrt::circuit::format::UFixed<-3, 8>>::new(
                             1,
                             Word {
                                 shift: 3,
@@ -122,7 +122,7 @@ const _: () = {
                             0.0,
                             -0.18524193653371793,
                         ]),
-                        z: Field::<__Scene, ::qrt::core::circuit::format::UFixed<-4, 8>>::new(
+                        z: Field::<__Scene, ::qrt::circuit::format::UFixed<-4, 8>>::new(
                             2,
                             Word {
                                 shift: 2,
@@ -135,55 +135,55 @@ const _: () = {
                             0.09262096826685896,
                         ]),
                     },
-                    distance: Field::<__Scene, ::qrt::core::circuit::format::UFixed<0, 8>>::new(
+                    distance: Field::<__Scene, ::qrt::circuit::format::UFixed<0, 8>>::new(
                         3,
                         Word::unsigned(RegisterId(10), 0, 8),
                     ),
-                    sample_u: Field::<__Scene, ::qrt::core::circuit::format::UInt<1>>::new(
+                    sample_u: Field::<__Scene, ::qrt::circuit::format::UInt<1>>::new(
                         4,
                         Word::unsigned(RegisterId(3), 0, 1),
                     ),
-                    sample_v: Field::<__Scene, ::qrt::core::circuit::format::UInt<1>>::new(
+                    sample_v: Field::<__Scene, ::qrt::circuit::format::UInt<1>>::new(
                         5,
                         Word::unsigned(RegisterId(4), 0, 1),
                     ),
                 },
                 ray1: LitFloorRay1 {
                     direction: Vector {
-                        x: Field::<__Scene, ::qrt::core::circuit::format::Fixed<1, 8>>::new(
+                        x: Field::<__Scene, ::qrt::circuit::format::Fixed<1, 8>>::new(
                             6,
                             Word::signed(RegisterId(52), 0, 9),
                         ),
-                        y: Field::<__Scene, ::qrt::core::circuit::format::UFixed<0, 8>>::new(
+                        y: Field::<__Scene, ::qrt::circuit::format::UFixed<0, 8>>::new(
                             7,
                             Word::unsigned(RegisterId(43), 0, 8),
                         ),
-                        z: Field::<__Scene, ::qrt::core::circuit::format::Fixed<1, 8>>::new(
+                        z: Field::<__Scene, ::qrt::circuit::format::Fixed<1, 8>>::new(
                             8,
                             Word::signed(RegisterId(48), 0, 9),
                         ),
                     },
                     origin: Vector {
-                        x: Field::<__Scene, ::qrt::core::circuit::format::Fixed<-1, 8>>::new(
+                        x: Field::<__Scene, ::qrt::circuit::format::Fixed<-1, 8>>::new(
                             9,
                             Word::signed(RegisterId(35), 0, 7),
                         ),
-                        y: Field::<__Scene, ::qrt::core::circuit::format::Fixed<0, 8>>::new(
+                        y: Field::<__Scene, ::qrt::circuit::format::Fixed<0, 8>>::new(
                             10,
                             Word::signed(RegisterId(40), 0, 8),
                         )
                         .plus([-0.0947265625, 0.0, 0.0]),
-                        z: Field::<__Scene, ::qrt::core::circuit::format::Fixed<1, 8>>::new(
+                        z: Field::<__Scene, ::qrt::circuit::format::Fixed<1, 8>>::new(
                             11,
                             Word::signed(RegisterId(41), 0, 9),
                         )
                         .plus([0.123046875, 0.0, 0.0]),
                     },
-                    sample_u: Field::<__Scene, ::qrt::core::circuit::format::UInt<2>>::new(
+                    sample_u: Field::<__Scene, ::qrt::circuit::format::UInt<2>>::new(
                         12,
                         Word::unsigned(RegisterId(33), 0, 2),
                     ),
-                    sample_v: Field::<__Scene, ::qrt::core::circuit::format::UInt<2>>::new(
+                    sample_v: Field::<__Scene, ::qrt::circuit::format::UInt<2>>::new(
                         13,
                         Word::unsigned(RegisterId(34), 0, 2),
                     ),

@@ -1,12 +1,12 @@
 // Generated; see `reversible/tests.rs`.
 
 /// y += x - x^2 / 4 + 0.25
-fn parabola<const F: u32, M: ::qrt::core::circuit::Machine>(
+fn parabola<const F: u32, M: ::qrt::circuit::Machine>(
     machine: &mut M,
-    x: &::qrt::core::circuit::format::Reg<M::Register, Fixed<2, F>>,
-    y: &mut ::qrt::core::circuit::format::Reg<M::Register, Fixed<4, F>>,
+    x: &::qrt::circuit::format::Reg<M::Register, Fixed<2, F>>,
+    y: &mut ::qrt::circuit::format::Reg<M::Register, Fixed<4, F>>,
 ) {
-    use ::qrt::core::circuit::{Declaration, Operand, Type, When, Word};
+    use ::qrt::circuit::{Declaration, Operand, Type, When, Word};
     const { ::core::assert!(F <= 61, "QRT0829: a number of more than 63 bits") };
     const {
         ::core::assert!(
@@ -39,12 +39,12 @@ fn parabola<const F: u32, M: ::qrt::core::circuit::Machine>(
 }
 /// The inverse of [`parabola`]: undoes what it has done.
 #[allow(dead_code, reason = "not every author needs it")]
-fn parabola_inverse<const F: u32, M: ::qrt::core::circuit::Machine>(
+fn parabola_inverse<const F: u32, M: ::qrt::circuit::Machine>(
     machine: &mut M,
-    x: &::qrt::core::circuit::format::Reg<M::Register, Fixed<2, F>>,
-    y: &mut ::qrt::core::circuit::format::Reg<M::Register, Fixed<4, F>>,
+    x: &::qrt::circuit::format::Reg<M::Register, Fixed<2, F>>,
+    y: &mut ::qrt::circuit::format::Reg<M::Register, Fixed<4, F>>,
 ) {
-    use ::qrt::core::circuit::{Declaration, Operand, Type, When, Word};
+    use ::qrt::circuit::{Declaration, Operand, Type, When, Word};
     const { ::core::assert!(F <= 61, "QRT0829: a number of more than 63 bits") };
     const {
         ::core::assert!(
@@ -74,10 +74,10 @@ fn parabola_inverse<const F: u32, M: ::qrt::core::circuit::Machine>(
 #[allow(dead_code, reason = "not every author needs it")]
 #[must_use]
 fn parabola_program<const F: u32>(
-    style: ::qrt::core::circuit::Style,
-) -> ::qrt::core::circuit::Program {
-    use ::qrt::core::circuit::format::Reg;
-    let mut recorder = ::qrt::core::circuit::Recorder::new(style);
+    style: ::qrt::circuit::Style,
+) -> ::qrt::circuit::Program {
+    use ::qrt::circuit::format::Reg;
+    let mut recorder = ::qrt::circuit::Recorder::new(style);
     let x: Reg<_, Fixed<2, F>> = Reg::input(&mut recorder, "x");
     let mut y: Reg<_, Fixed<4, F>> = Reg::input(&mut recorder, "y");
     parabola::<F, _>(&mut recorder, &x, &mut y);

@@ -1,14 +1,14 @@
 // Generated; see `reversible/tests.rs`.
 
 /// out += x^2 + 3 y
-pub fn polynomial<M: ::qrt::core::circuit::Machine>(
+pub fn polynomial<M: ::qrt::circuit::Machine>(
     machine: &mut M,
-    x: &::qrt::core::circuit::format::Reg<M::Register, UInt<4>>,
-    y: &::qrt::core::circuit::format::Reg<M::Register, UInt<4>>,
-    out: &mut ::qrt::core::circuit::format::Reg<M::Register, UInt<10>>,
+    x: &::qrt::circuit::format::Reg<M::Register, UInt<4>>,
+    y: &::qrt::circuit::format::Reg<M::Register, UInt<4>>,
+    out: &mut ::qrt::circuit::format::Reg<M::Register, UInt<10>>,
 ) {
-    use ::qrt::core::circuit::format::Reg;
-    use ::qrt::core::circuit::{Declaration, Type, When, Word, unconditional};
+    use ::qrt::circuit::format::Reg;
+    use ::qrt::circuit::{Declaration, Type, When, Word, unconditional};
     let mut square: Reg<_, UInt<8>> = Reg::zero(machine, "square");
     unconditional(
         machine,
@@ -54,14 +54,14 @@ pub fn polynomial<M: ::qrt::core::circuit::Machine>(
 }
 /// The inverse of [`polynomial`]: undoes what it has done.
 #[allow(dead_code, reason = "not every author needs it")]
-pub fn polynomial_inverse<M: ::qrt::core::circuit::Machine>(
+pub fn polynomial_inverse<M: ::qrt::circuit::Machine>(
     machine: &mut M,
-    x: &::qrt::core::circuit::format::Reg<M::Register, UInt<4>>,
-    y: &::qrt::core::circuit::format::Reg<M::Register, UInt<4>>,
-    out: &mut ::qrt::core::circuit::format::Reg<M::Register, UInt<10>>,
+    x: &::qrt::circuit::format::Reg<M::Register, UInt<4>>,
+    y: &::qrt::circuit::format::Reg<M::Register, UInt<4>>,
+    out: &mut ::qrt::circuit::format::Reg<M::Register, UInt<10>>,
 ) {
-    use ::qrt::core::circuit::format::Reg;
-    use ::qrt::core::circuit::{Declaration, Type, When, Word, unconditional};
+    use ::qrt::circuit::format::Reg;
+    use ::qrt::circuit::{Declaration, Type, When, Word, unconditional};
     let mut square: Reg<_, UInt<8>> = Reg::zero(machine, "square");
     unconditional(
         machine,
@@ -109,10 +109,10 @@ pub fn polynomial_inverse<M: ::qrt::core::circuit::Machine>(
 #[allow(dead_code, reason = "not every author needs it")]
 #[must_use]
 pub fn polynomial_program(
-    style: ::qrt::core::circuit::Style,
-) -> ::qrt::core::circuit::Program {
-    use ::qrt::core::circuit::format::Reg;
-    let mut recorder = ::qrt::core::circuit::Recorder::new(style);
+    style: ::qrt::circuit::Style,
+) -> ::qrt::circuit::Program {
+    use ::qrt::circuit::format::Reg;
+    let mut recorder = ::qrt::circuit::Recorder::new(style);
     let x: Reg<_, UInt<4>> = Reg::input(&mut recorder, "x");
     let y: Reg<_, UInt<4>> = Reg::input(&mut recorder, "y");
     let mut out: Reg<_, UInt<10>> = Reg::input(&mut recorder, "out");

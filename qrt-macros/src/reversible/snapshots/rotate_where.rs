@@ -2,13 +2,13 @@
 
 /// Rotates a by one, and adds it to b, where a is less and the flag is set.
 #[inline]
-fn rotate_where<const W: u32, M: ::qrt::core::circuit::Machine>(
+fn rotate_where<const W: u32, M: ::qrt::circuit::Machine>(
     machine: &mut M,
-    flag: &::qrt::core::circuit::format::Reg<M::Register, Bool>,
-    a: &mut ::qrt::core::circuit::format::Reg<M::Register, UInt<W>>,
-    b: &mut ::qrt::core::circuit::format::Reg<M::Register, UInt<W>>,
+    flag: &::qrt::circuit::format::Reg<M::Register, Bool>,
+    a: &mut ::qrt::circuit::format::Reg<M::Register, UInt<W>>,
+    b: &mut ::qrt::circuit::format::Reg<M::Register, UInt<W>>,
 ) {
-    use ::qrt::core::circuit::{Bit, Declaration, Operand, Type, When, Word, controlled};
+    use ::qrt::circuit::{Bit, Declaration, Operand, Type, When, Word, controlled};
     const { ::core::assert!(1 <= W, "QRT0819: bits beyond the last of `b`") };
     const { ::core::assert!(W <= 62, "QRT0829: a number of more than 63 bits") };
     const { ::core::assert!(3 <= W, "QRT0806: `5` has more bits than its target") };
@@ -71,13 +71,13 @@ fn rotate_where<const W: u32, M: ::qrt::core::circuit::Machine>(
 /// The inverse of [`rotate_where`]: undoes what it has done.
 #[inline]
 #[allow(dead_code, reason = "not every author needs it")]
-fn rotate_where_inverse<const W: u32, M: ::qrt::core::circuit::Machine>(
+fn rotate_where_inverse<const W: u32, M: ::qrt::circuit::Machine>(
     machine: &mut M,
-    flag: &::qrt::core::circuit::format::Reg<M::Register, Bool>,
-    a: &mut ::qrt::core::circuit::format::Reg<M::Register, UInt<W>>,
-    b: &mut ::qrt::core::circuit::format::Reg<M::Register, UInt<W>>,
+    flag: &::qrt::circuit::format::Reg<M::Register, Bool>,
+    a: &mut ::qrt::circuit::format::Reg<M::Register, UInt<W>>,
+    b: &mut ::qrt::circuit::format::Reg<M::Register, UInt<W>>,
 ) {
-    use ::qrt::core::circuit::{Bit, Declaration, Operand, Type, When, Word, controlled};
+    use ::qrt::circuit::{Bit, Declaration, Operand, Type, When, Word, controlled};
     const { ::core::assert!(1 <= W, "QRT0819: bits beyond the last of `b`") };
     const { ::core::assert!(W <= 62, "QRT0829: a number of more than 63 bits") };
     const { ::core::assert!(3 <= W, "QRT0806: `5` has more bits than its target") };
@@ -142,10 +142,10 @@ fn rotate_where_inverse<const W: u32, M: ::qrt::core::circuit::Machine>(
 #[allow(dead_code, reason = "not every author needs it")]
 #[must_use]
 fn rotate_where_program<const W: u32>(
-    style: ::qrt::core::circuit::Style,
-) -> ::qrt::core::circuit::Program {
-    use ::qrt::core::circuit::format::Reg;
-    let mut recorder = ::qrt::core::circuit::Recorder::new(style);
+    style: ::qrt::circuit::Style,
+) -> ::qrt::circuit::Program {
+    use ::qrt::circuit::format::Reg;
+    let mut recorder = ::qrt::circuit::Recorder::new(style);
     let flag: Reg<_, Bool> = Reg::input(&mut recorder, "flag");
     let mut a: Reg<_, UInt<W>> = Reg::input(&mut recorder, "a");
     let mut b: Reg<_, UInt<W>> = Reg::input(&mut recorder, "b");

@@ -3,7 +3,7 @@
 use super::arith::{Arg, Arith, Wrap};
 use super::lane::{Kind, Lane};
 use super::steps::Step;
-use qrt_core::circuit::{Bit, Operand, Program, RegisterId, Type, Word};
+use qrt_circuit::{Bit, Operand, Program, RegisterId, Type, Word};
 use std::collections::HashMap;
 
 /// A value: its kind and its number among all.

@@ -5,7 +5,7 @@ use super::compile::{Compiler, kind_of, with_kind};
 use super::lane::{Kind, Lane};
 use super::ops::CUT;
 use super::steps::Step;
-use qrt_core::circuit::{Bit, Op, Operand, RegisterId, When, Word};
+use qrt_circuit::{Bit, Op, Operand, RegisterId, When, Word};
 
 /// Which of the steps of two operands an addition is, and the like.
 #[derive(Clone, Copy)]

@@ -1,6 +1,6 @@
 //! The fixed machine: a program, operation by operation, on integers.
 //!
-//! It computes what [`qrt_core::circuit::Contents`] defines, for a block of states at a time: each
+//! It computes what [`qrt_circuit::Contents`] defines, for a block of states at a time: each
 //! operation is a loop over lanes of the narrowest integers that hold its operands and results.
 //! Nothing is undone: a value is computed once, and its lanes are taken again after its last use.
 
@@ -27,7 +27,7 @@ use super::span::Span;
 use compile::Compiler;
 use lane::{Kind, LANES, Slots};
 use pulp::{Simd, WithSimd};
-use qrt_core::circuit::{Program, Word};
+use qrt_circuit::{Program, Word};
 use rayon::prelude::*;
 use slots::Counts;
 use steps::{Block, Spares, Step};

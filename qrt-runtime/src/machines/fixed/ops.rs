@@ -10,7 +10,7 @@ use super::product::{Factor, How, Product};
 use super::quotient::Quotient;
 use super::steps::Step;
 use super::table;
-use qrt_core::circuit::{Bit, Op, Operand, RegisterId, Word};
+use qrt_circuit::{Bit, Op, Operand, RegisterId, Word};
 
 /// Bounds of what is cut to a register already.
 pub(super) const CUT: [i64; 2] = [0, 0];

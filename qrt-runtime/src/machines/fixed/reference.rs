@@ -1,6 +1,6 @@
 //! A program's contents by the definition of its operations, one state at a time.
 
-use qrt_core::circuit::{Contents, Program};
+use qrt_circuit::{Contents, Program};
 
 /// What the registers hold after the program, of the state whose input registers hold `inputs`, in
 /// the pixel with these classical words.

@@ -1,7 +1,7 @@
 //! From a list of gates to code: runs of patterns, and the rows that they work on.
 
 use super::patterns::{PATTERNS, Pattern};
-use qrt_core::circuit::{Circuit, Gate};
+use qrt_circuit::{Circuit, Gate};
 
 /// Longest run of one pattern.
 const LONGEST: usize = 1 << 20;
@@ -26,7 +26,7 @@ impl Wiring {
             let many = widths.len().max(circuit.parameters.len());
             widths.resize(many, 0);
             for (width, parameter) in widths.iter_mut().zip(&circuit.parameters) {
-                *width = (*width).max(parameter.width());
+                *width = (*width).max(parameter.width);
             }
         }
         let mut next = qubits + 1;

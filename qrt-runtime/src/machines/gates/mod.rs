@@ -20,7 +20,7 @@ pub use rows::{Dirty, Rows};
 use super::instructions::InstructionSet;
 use compile::Wiring;
 use pulp::{Simd, WithSimd, bytemuck};
-use qrt_core::circuit::Circuit;
+use qrt_circuit::Circuit;
 use rayon::prelude::*;
 use rows::LANES;
 use std::cell::Cell;
@@ -51,7 +51,7 @@ impl std::error::Error for InvalidGate {}
 /// Circuits, ready to be run on rows of states.
 ///
 /// ```
-/// use qrt_core::circuit::{Circuit, Gate};
+/// use qrt_circuit::{Circuit, Gate};
 /// use qrt_runtime::machines::Gates;
 ///
 /// // A half adder: the sum of qubits 0 and 1, in 1 and 2.

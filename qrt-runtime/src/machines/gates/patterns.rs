@@ -7,7 +7,7 @@
 //! once. Every gate is still executed, on every lane.
 
 use pulp::Simd;
-use qrt_core::circuit::Gate;
+use qrt_circuit::Gate;
 use std::cell::Cell;
 
 /// A sequence of gates over rows 0 .. `rows` of its own.

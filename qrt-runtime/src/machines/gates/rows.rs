@@ -3,7 +3,7 @@
 use super::compile::Wiring;
 use crate::machines::Span;
 use crate::machines::transpose::transpose;
-use qrt_core::circuit::Qubit;
+use qrt_circuit::Qubit;
 use std::fmt;
 
 /// States that a machine's rows hold.

@@ -3,7 +3,7 @@ use super::patterns::PATTERNS;
 use super::*;
 use crate::machines::Span;
 use proptest::prelude::*;
-use qrt_core::circuit::{Gate, Parameter, Qubit};
+use qrt_circuit::{Gate, Parameter, Qubit};
 
 /// One state, the gates read one by one.
 #[derive(Clone, PartialEq, Debug)]
@@ -32,15 +32,14 @@ impl State {
 }
 
 fn circuit(gates: Vec<Gate>, qubits: u32) -> Circuit {
-    let shift = |bits| Parameter::Shift {
-        depth: 0,
-        axis: 0,
-        bits,
+    let word = |width| Parameter {
+        name: String::new(),
+        width,
     };
     Circuit {
         gates,
         qubits,
-        parameters: vec![shift(3), shift(1)],
+        parameters: vec![word(3), word(1)],
         ..Circuit::default()
     }
 }

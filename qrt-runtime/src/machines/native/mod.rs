@@ -1,6 +1,6 @@
 //! The native machine: a scene's program as code for vectors of lanes.
 //!
-//! It computes what [`qrt_core::circuit::Contents`] defines, as the fixed machine does, without a
+//! It computes what [`qrt_circuit::Contents`] defines, as the fixed machine does, without a
 //! list of steps to look through and without memory between them: `qrt!` writes the program as one
 //! function over [`Vectors`], whose every line is an instruction or a few, and decides by the
 //! registers' ranges which lanes each number takes. The compiler keeps them in the processor's

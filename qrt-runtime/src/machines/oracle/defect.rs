@@ -1,7 +1,7 @@
 //! What shows that a circuit is not the oracle that it must be.
 
 use crate::machines::gates::{Dirty, InvalidGate};
-use qrt_core::circuit::Qubit;
+use qrt_circuit::Qubit;
 use std::fmt;
 
 /// A circuit that does not do what an oracle must: a defect of qrt, found while it ran.

@@ -2,7 +2,7 @@
 
 use super::{Defect, Parts};
 use crate::machines::gates::Gates;
-use qrt_core::circuit::{Circuit, Gate, Operand, Qubit, Word};
+use qrt_circuit::{Circuit, Gate, Operand, Qubit, Word};
 use qrt_core::oracle::{Channel, Oracle};
 use std::collections::{HashMap, HashSet};
 

@@ -1,6 +1,6 @@
 //! An oracle as circuits: what the gates machine runs.
 
-use qrt_core::circuit::{Circuit, Instruction, Operand, Qubit, RegisterId, lower};
+use qrt_circuit::{Circuit, Instruction, Operand, Qubit, RegisterId, lower};
 use qrt_core::oracle::Oracle;
 
 /// The parts of an oracle's circuit, which share their qubits.

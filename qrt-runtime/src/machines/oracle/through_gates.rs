@@ -3,7 +3,7 @@
 use super::{Block, Defect, OracleMachine, Parts, word_of};
 use crate::machines::gates::{Gates, Rows};
 use crate::machines::span::Span;
-use qrt_core::circuit::Word;
+use qrt_circuit::Word;
 
 impl OracleMachine {
     pub(super) fn run_gates(

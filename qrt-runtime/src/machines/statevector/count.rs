@@ -1,7 +1,7 @@
 //! Quantum counting's circuit, run on a machine.
 
 use super::{Sparse, StateVector, StateVectorError};
-use qrt_core::circuit::quantum::{Counting, PhaseOracle, QuantumGate};
+use qrt_circuit::quantum::{Counting, PhaseOracle, QuantumGate};
 use qrt_core::oracle::Oracle;
 use qrt_core::scene::Window;
 

@@ -1,8 +1,8 @@
 //! What amplitudes refuse.
 
 use crate::counting::CountingError;
-use qrt_core::circuit::Qubit;
-use qrt_core::circuit::quantum::QuantumError;
+use qrt_circuit::Qubit;
+use qrt_circuit::quantum::QuantumError;
 use qrt_core::oracle::OracleError;
 use std::fmt;
 

@@ -35,8 +35,8 @@ pub use sparse::Sparse;
 pub use subspace::subspace;
 
 use crate::random::Stream;
-use qrt_core::circuit::Qubit;
-use qrt_core::circuit::quantum::QuantumGate;
+use qrt_circuit::Qubit;
+use qrt_circuit::quantum::QuantumGate;
 
 /// A machine that follows amplitudes. Registers are lists of qubits, bit 0 first.
 pub trait StateVector {

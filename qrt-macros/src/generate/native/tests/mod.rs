@@ -9,7 +9,7 @@ mod maker;
 
 use super::*;
 use maker::{Dice, Maker, PARAMETERS, contents_of};
-use qrt_core::circuit::Contents;
+use qrt_circuit::Contents;
 use qrt_core::oracle::{Channel, Options};
 use std::sync::OnceLock;
 
@@ -155,7 +155,7 @@ fn quotients_are_right_next_to_integers() {
             maker.push(Op::Divide {
                 a: word(0, id, up[0]),
                 b: word(b.0, width, up[1]),
-                style: qrt_core::circuit::Style::Wide,
+                style: qrt_circuit::Style::Wide,
                 quotient,
                 fits,
                 scratch,

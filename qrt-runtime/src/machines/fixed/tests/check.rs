@@ -4,7 +4,7 @@ use super::maker::{Maker, PARAMETERS};
 use crate::machines::fixed::compile::negative;
 use crate::machines::fixed::contents;
 use crate::machines::{Fixed, InstructionSet, Span};
-use qrt_core::circuit::{RegisterId, Word};
+use qrt_circuit::{RegisterId, Word};
 
 impl Maker {
     /// Compares registers' contents with their definition, in every instruction set.

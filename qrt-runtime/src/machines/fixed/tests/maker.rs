@@ -1,8 +1,8 @@
 //! Programs of chance.
 
-use qrt_core::circuit::{
-    Bit, BlockId, Instruction, Op, Operand, Parameter, Program, Register, RegisterId, Role, Style,
-    Type, When, Word,
+use qrt_circuit::{
+    Bit, BlockId, Instruction, Op, Operand, Parameter, Program, Register, RegisterId, Style, Type,
+    When, Word,
 };
 
 /// Choices keyed by a seed.
@@ -47,10 +47,9 @@ impl Maker {
         };
         let bits = widest.min(40);
         maker.program.parameters = vec![
-            Parameter::Shift {
-                depth: 0,
-                axis: 0,
-                bits
+            Parameter {
+                name: String::new(),
+                width: bits
             };
             PARAMETERS
         ];
@@ -66,14 +65,9 @@ impl Maker {
 
     pub(crate) fn register(&mut self, width: u32, signed: bool) -> RegisterId {
         let id = RegisterId(self.program.registers.len() as u32);
-        self.program.registers.push(Register {
-            name: format!("r{}", id.0),
-            ty: if signed { Type::Int } else { Type::UInt },
-            role: Role::Work,
-            width,
-            block: BlockId::ROOT,
-            range: None,
-        });
+        let ty = if signed { Type::Int } else { Type::UInt };
+        let name = format!("r{}", id.0);
+        self.program.registers.push(Register::new(name, ty, width));
         id
     }
 

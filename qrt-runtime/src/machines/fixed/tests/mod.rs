@@ -4,7 +4,7 @@ mod maker;
 use super::*;
 use maker::{Dice, KINDS, Maker, PARAMETERS, contents_of};
 use proptest::prelude::*;
-use qrt_core::circuit::{Bit, Op, Operand, RegisterId, Style};
+use qrt_circuit::{Bit, Op, Operand, RegisterId, Style};
 
 #[test]
 fn every_operation_is_right_on_all_small_contents() {

@@ -13,8 +13,8 @@ use crate::random::Stream;
 use kernels::{Butterfly, rotate_halves, runs};
 use num_complex::Complex;
 use plan::Plan;
-use qrt_core::circuit::Qubit;
-use qrt_core::circuit::quantum::QuantumGate;
+use qrt_circuit::Qubit;
+use qrt_circuit::quantum::QuantumGate;
 use rayon::prelude::*;
 
 /// Most qubits: 1 GiB.
@@ -45,7 +45,7 @@ const WAITING: usize = 4096;
 /// The same bytes come out whatever the number of threads and the instruction set.
 ///
 /// ```
-/// use qrt_core::circuit::quantum::QuantumGate::{Cx, H};
+/// use qrt_circuit::quantum::QuantumGate::{Cx, H};
 /// use qrt_runtime::machines::statevector::{Dense, StateVector};
 /// let mut bell = Dense::new(2)?;
 /// bell.gate(H(0))?;

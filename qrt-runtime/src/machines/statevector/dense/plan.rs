@@ -4,8 +4,8 @@ use super::super::StateVectorError;
 use super::super::error::check_qubits;
 use super::kernels::Step;
 use num_complex::Complex;
-use qrt_core::circuit::Qubit;
-use qrt_core::circuit::quantum::{QuantumGate, Turns};
+use qrt_circuit::Qubit;
+use qrt_circuit::quantum::{QuantumGate, Turns};
 use std::f64::consts::FRAC_1_SQRT_2;
 
 /// Steps that wait, and what is true of memory once they have run.

@@ -3,7 +3,7 @@
 use crate::machines::transpose::transpose;
 use num_complex::Complex;
 use pulp::{Simd, WithSimd};
-use qrt_core::circuit::Qubit;
+use qrt_circuit::Qubit;
 
 /// States of a block.
 pub(super) const STATES: usize = 2048;

@@ -6,7 +6,7 @@ use super::block::{Block, Row, STATES, WORDS};
 use super::{Sparse, StateVectorError};
 use crate::machines::transpose::transpose;
 use num_complex::Complex;
-use qrt_core::circuit::Qubit;
+use qrt_circuit::Qubit;
 use rayon::prelude::*;
 use std::collections::HashMap;
 

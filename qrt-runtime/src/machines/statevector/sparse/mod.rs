@@ -10,8 +10,8 @@ use crate::machines::InstructionSet;
 use crate::random::Stream;
 use block::{Block, Local, RunBlock, STATES};
 use num_complex::Complex;
-use qrt_core::circuit::Qubit;
-use qrt_core::circuit::quantum::QuantumGate;
+use qrt_circuit::Qubit;
+use qrt_circuit::quantum::QuantumGate;
 use rayon::prelude::*;
 
 /// Most gates that wait.
@@ -39,7 +39,7 @@ const TOGETHER: usize = 16;
 /// The same bits come out whatever the number of threads and the instruction set.
 ///
 /// ```
-/// use qrt_core::circuit::quantum::QuantumGate::{Cx, H};
+/// use qrt_circuit::quantum::QuantumGate::{Cx, H};
 /// use qrt_runtime::machines::statevector::{Sparse, StateVector};
 /// // 500 qubits that are all read as 0 or all as 1.
 /// let mut cat = Sparse::new(500);

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::counting::PhaseDistribution;
-use qrt_core::circuit::quantum::{Conjunction, Counting, Part, PhaseOracle};
+use qrt_circuit::quantum::{Conjunction, Counting, Part, PhaseOracle};
 use qrt_core::scene::Window;
 
 const WINDOWS: [Window; 2] = [Window::Rect, Window::Sine];
@@ -156,7 +156,7 @@ fn the_sign_of_the_reflection_matters() {
 /// An oracle that leaves an ancilla behind is found out, after the first query.
 #[test]
 fn what_an_oracle_leaves_behind_is_found() {
-    use qrt_core::circuit::{Circuit, Gate};
+    use qrt_circuit::{Circuit, Gate};
     let circuit = |gates: &[Gate]| Circuit {
         gates: gates.to_vec(),
         qubits: 4,

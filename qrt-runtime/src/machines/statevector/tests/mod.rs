@@ -5,7 +5,7 @@ mod gates;
 mod outside;
 
 use super::*;
-use qrt_core::circuit::quantum::{QuantumGate, Turns};
+use qrt_circuit::quantum::{QuantumGate, Turns};
 
 /// A gate that owns its qubits.
 #[derive(Clone, Debug)]

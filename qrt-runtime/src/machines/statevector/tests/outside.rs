@@ -3,7 +3,7 @@
 use super::Owned;
 use super::*;
 use num_complex::Complex;
-use qrt_core::circuit::quantum::{Counting, PhaseOracle};
+use qrt_circuit::quantum::{Counting, PhaseOracle};
 use qrt_core::scene::Window;
 
 const CIRQ: &str = include_str!("cirq.txt");

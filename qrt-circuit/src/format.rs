@@ -1,0 +1,211 @@
+//! Number formats as types, and registers that carry theirs.
+//!
+//! A routine's registers have their widths in their types, so that what doesn't fit together does
+//! not compile:
+//!
+//! ```
+//! use qrt_circuit::format::{Fixed, Format, UInt};
+//!
+//! assert_eq!(UInt::<8>::WIDTH, 8);
+//! assert_eq!(Fixed::<2, 14>::WIDTH, 16);
+//! assert_eq!(Fixed::<2, 14>::bits(-0.25), Some(0xF000));
+//! assert_eq!(Fixed::<2, 14>::value(0xF000), -0.25);
+//! ```
+
+use super::{Declaration, Machine, Recorded, Recorder, Type, Word};
+use std::fmt;
+use std::marker::PhantomData;
+
+/// An unsigned integer of `W` bits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct UInt<const W: u32>;
+
+/// An integer of `W` bits in two's complement.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Int<const W: u32>;
+
+/// A number in two's complement: `I` bits before the point, its sign among them, and `F` after it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Fixed<const I: i32, const F: u32>;
+
+/// An unsigned number with `I` bits before the point and `F` after it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct UFixed<const I: i32, const F: u32>;
+
+/// One bit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Bool;
+
+/// What a register's bits mean, as a type.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not the format of a register",
+    label = "not a format",
+    note = "registers are `UInt<W>`, `Int<W>`, `Fixed<I, F>`, `UFixed<I, F>` or `Bool`"
+)]
+pub trait Format {
+    /// The same, as a value.
+    const TYPE: Type;
+    /// Bits: 1 to 63.
+    const WIDTH: u32;
+
+    /// The bits that stand for `value`, if it is a number of this format.
+    fn bits(value: f64) -> Option<u64> {
+        let scaled = value * 2_f64.powi(fraction(Self::TYPE).cast_signed());
+        let whole = scaled as i64;
+        let bits = whole.cast_unsigned() & (u64::MAX >> (64 - Self::WIDTH));
+        (whole as f64 == scaled && Self::value(bits) == value).then_some(bits)
+    }
+
+    /// The number that `bits` stand for.
+    fn value(bits: u64) -> f64 {
+        let signed = matches!(Self::TYPE, Type::Int | Type::Fixed { .. });
+        let word = Word {
+            signed,
+            ..Word::unsigned((), 0, Self::WIDTH)
+        };
+        word.read(bits) as f64 * 2_f64.powi(-fraction(Self::TYPE).cast_signed())
+    }
+}
+
+fn fraction(ty: Type) -> u32 {
+    match ty {
+        Type::UFixed { fraction } | Type::Fixed { fraction } => fraction,
+        Type::Bool | Type::UInt | Type::Int | Type::Scratch => 0,
+    }
+}
+
+/// A register's width, checked where the code is compiled.
+const fn width(bits: i64) -> u32 {
+    assert!(0 < bits && bits < 64, "a register has 1 to 63 bits");
+    bits as u32
+}
+
+impl<const W: u32> Format for UInt<W> {
+    const TYPE: Type = Type::UInt;
+    const WIDTH: u32 = width(W as i64);
+}
+
+impl<const W: u32> Format for Int<W> {
+    const TYPE: Type = Type::Int;
+    const WIDTH: u32 = width(W as i64);
+}
+
+impl<const I: i32, const F: u32> Format for Fixed<I, F> {
+    const TYPE: Type = Type::Fixed { fraction: F };
+    const WIDTH: u32 = width(I as i64 + F as i64);
+}
+
+impl<const I: i32, const F: u32> Format for UFixed<I, F> {
+    const TYPE: Type = Type::UFixed { fraction: F };
+    const WIDTH: u32 = width(I as i64 + F as i64);
+}
+
+impl Format for Bool {
+    const TYPE: Type = Type::Bool;
+    const WIDTH: u32 = 1;
+}
+
+/// A register of the format `T`, on a machine whose registers are `R`.
+///
+/// It is handed to routines by reference: `&` to be read, `&mut` to be changed.
+pub struct Reg<R, T> {
+    register: R,
+    format: PhantomData<T>,
+}
+
+impl<R: fmt::Debug, T> fmt::Debug for Reg<R, T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_tuple("Reg").field(&self.register).finish()
+    }
+}
+
+impl<R, T: Format> Reg<R, T> {
+    /// A register that a machine has, of which `T` must be the format.
+    #[inline(always)]
+    pub fn of(register: R) -> Self {
+        Self {
+            register,
+            format: PhantomData,
+        }
+    }
+
+    /// A register of one's own, which holds 0.
+    #[inline(always)]
+    pub fn zero<M: Machine<Register = R>>(machine: &mut M, name: &'static str) -> Self {
+        Self::of(machine.zero(&Declaration::work(name, T::TYPE, T::WIDTH)))
+    }
+
+    /// Gives a register of one's own back, which holds 0 again.
+    #[inline(always)]
+    pub fn free<M: Machine<Register = R>>(self, machine: &mut M) {
+        machine.free(self.register);
+    }
+
+    /// The machine's register.
+    #[inline(always)]
+    pub fn register(&self) -> &R {
+        &self.register
+    }
+
+    /// The machine's register, to be changed.
+    #[inline(always)]
+    pub fn register_mut(&mut self) -> &mut R {
+        &mut self.register
+    }
+
+    /// The machine's register, for good.
+    #[inline(always)]
+    pub fn into_register(self) -> R {
+        self.register
+    }
+
+    /// All of its bits, as an integer in units of the lowest.
+    #[inline(always)]
+    pub fn word(&self) -> Word<&R> {
+        Word {
+            signed: matches!(T::TYPE, Type::Int | Type::Fixed { .. }),
+            ..Word::unsigned(&self.register, 0, T::WIDTH)
+        }
+    }
+}
+
+impl<T: Format> Reg<Recorded, T> {
+    /// A register that holds something before the recorded program's first instruction.
+    pub fn input(recorder: &mut Recorder, name: &'static str) -> Self {
+        Self::of(recorder.input(&Declaration::work(name, T::TYPE, T::WIDTH)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn formats_read_what_they_write() {
+        for bits in 0..256 {
+            assert_eq!(UInt::<8>::bits(UInt::<8>::value(bits)), Some(bits));
+            assert_eq!(Int::<8>::bits(Int::<8>::value(bits)), Some(bits));
+            assert_eq!(
+                Fixed::<-1, 9>::bits(Fixed::<-1, 9>::value(bits)),
+                Some(bits)
+            );
+            assert_eq!(
+                UFixed::<3, 5>::bits(UFixed::<3, 5>::value(bits)),
+                Some(bits)
+            );
+        }
+        assert_eq!(Int::<8>::value(0x80), -128.0);
+        assert_eq!(UFixed::<3, 5>::value(1), 0.03125);
+        assert_eq!(Bool::value(1), 1.0);
+    }
+
+    #[test]
+    fn what_a_format_lacks_has_no_bits() {
+        assert_eq!(UInt::<8>::bits(256.0), None);
+        assert_eq!(UInt::<8>::bits(-1.0), None);
+        assert_eq!(Int::<8>::bits(128.0), None);
+        assert_eq!(Fixed::<2, 14>::bits(0.1), None);
+        assert_eq!(Fixed::<2, 14>::bits(f64::NAN), None);
+        assert_eq!(UInt::<63>::bits(1e300), None);
+    }
+}

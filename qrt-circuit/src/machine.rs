@@ -1,0 +1,325 @@
+//! What reversible code runs on.
+//!
+//! Code that the macros generate is a straight line of calls of a [`Machine`]: one for each
+//! [`super::Instruction`] of the program that it stands for. Over a [`super::Recorder`] it yields
+//! that program; over a machine that holds numbers it computes with them, compiled by `rustc` and
+//! inlined, without a list of operations to look through.
+
+use super::{Bit, BlockId, Operand, RegisterId, Tag, Type, When, Word};
+
+/// A register as it is declared in code.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Declaration {
+    /// Its place in the program's list; none for one that joins the list when it is computed.
+    pub id: Option<RegisterId>,
+    /// The place of what the operation leaves behind whose first target it is, if it has a place.
+    pub scratch: Option<RegisterId>,
+    /// What it is called.
+    pub name: &'static str,
+    /// What its bits mean.
+    pub ty: Type,
+    /// What its author knows it as.
+    pub tag: Tag,
+    /// Qubits.
+    pub width: u32,
+    /// The block whose operation computes it.
+    pub block: BlockId,
+    /// The least and the greatest number that it holds, in units of its lowest bit, where that is
+    /// known.
+    pub range: Option<[i64; 2]>,
+}
+
+impl Declaration {
+    /// A work register of one's own.
+    ///
+    /// # Panics
+    /// If it has more than 64 bits; in a constant, that is an error of the compiler.
+    pub const fn work(name: &'static str, ty: Type, width: u32) -> Self {
+        let scratch = matches!(ty, Type::Scratch);
+        assert!(width <= 64 || scratch, "a register has at most 64 bits");
+        Self {
+            id: None,
+            scratch: None,
+            name,
+            ty,
+            tag: Tag(0),
+            width,
+            block: BlockId::ROOT,
+            range: None,
+        }
+    }
+
+    /// A register that has a place in the program's list.
+    pub const fn at(id: u32, name: &'static str, ty: Type, tag: Tag, width: u32) -> Self {
+        Self {
+            id: Some(RegisterId(id)),
+            tag,
+            ..Self::work(name, ty, width)
+        }
+    }
+
+    /// In this block.
+    pub const fn block(self, block: u32) -> Self {
+        Self {
+            block: BlockId(block),
+            ..self
+        }
+    }
+
+    /// Holding numbers from `low` to `high`.
+    pub const fn range(self, low: i64, high: i64) -> Self {
+        Self {
+            range: Some([low, high]),
+            ..self
+        }
+    }
+
+    /// The first target of an operation that leaves something behind in this register.
+    pub const fn scratch(self, scratch: u32) -> Self {
+        Self {
+            scratch: Some(RegisterId(scratch)),
+            ..self
+        }
+    }
+
+    /// Is its top bit a sign?
+    #[inline(always)]
+    pub const fn signed(&self) -> bool {
+        matches!(self.ty, Type::Int | Type::Fixed { .. })
+    }
+}
+
+/// What reversible code runs on.
+///
+/// Code that the macros generate is a straight line of calls of it: over a [`super::Recorder`] it
+/// yields a program, over a machine that holds numbers it computes with them.
+///
+/// Each method is an [`super::Op`], whose documentation says what it computes; `t` declares its
+/// target. What an operation leaves behind (its scratch) is the machine's own affair. Operations
+/// return their targets, which are theirs alone until [`Machine::undo`] takes them back: a register
+/// can be read by reference as often as one likes, and be undone once.
+///
+/// An operation's inverse finds its operands as the operation found them. Generated code sees to
+/// that; code written by hand is checked by `#[reversible]`.
+pub trait Machine {
+    /// A register: what was computed and is not yet undone.
+    type Register;
+
+    /// A register of one's own, which holds 0.
+    fn zero(&mut self, t: &Declaration) -> Self::Register;
+    /// Gives a register of one's own back, which holds 0 again.
+    fn free(&mut self, register: Self::Register);
+    /// What follows is charged to this block.
+    #[inline(always)]
+    fn block(&mut self, _block: BlockId) {}
+    /// The conjunction of a bit and the condition under which this machine's registers change, to
+    /// be undone by the caller; none where they change on every path. See [`super::controlled`].
+    #[inline(always)]
+    fn joined(&mut self, _when: Bit<&Self::Register>) -> Option<Self::Register> {
+        None
+    }
+    /// Enters or leaves a part that is undone again by what follows, and therefore needs no
+    /// condition. See [`super::unconditional`].
+    #[inline(always)]
+    fn unconditional(&mut self, _entered: bool) {}
+
+    /// [`super::Op::Copy`]
+    fn copy(&mut self, t: &Declaration, a: Word<&Self::Register>) -> Self::Register;
+    /// [`super::Op::Load`]
+    fn load(&mut self, t: &Declaration, parameter: u32) -> Self::Register;
+    /// [`super::Op::Parity`]
+    fn parity(
+        &mut self,
+        t: &Declaration,
+        source: &Self::Register,
+        columns: &[u64],
+        parameter: Option<u32>,
+    ) -> Self::Register;
+    /// [`super::Op::And`]
+    fn and(
+        &mut self,
+        t: &Declaration,
+        a: Bit<&Self::Register>,
+        b: Bit<&Self::Register>,
+    ) -> Self::Register;
+    /// [`super::Op::Xor`]
+    fn xor(
+        &mut self,
+        t: &Declaration,
+        a: Bit<&Self::Register>,
+        b: Bit<&Self::Register>,
+    ) -> Self::Register;
+    /// [`super::Op::Add`], not subtracting.
+    fn add(
+        &mut self,
+        t: &Declaration,
+        a: Operand<&Self::Register>,
+        b: Operand<&Self::Register>,
+    ) -> Self::Register;
+    /// [`super::Op::Add`], subtracting.
+    fn subtract(
+        &mut self,
+        t: &Declaration,
+        a: Operand<&Self::Register>,
+        b: Operand<&Self::Register>,
+    ) -> Self::Register;
+    /// [`super::Op::Negate`]
+    fn negate(
+        &mut self,
+        t: &Declaration,
+        a: Word<&Self::Register>,
+        when: Bit<&Self::Register>,
+    ) -> Self::Register;
+    /// [`super::Op::Select`]
+    fn select(
+        &mut self,
+        t: &Declaration,
+        when: Bit<&Self::Register>,
+        a: Operand<&Self::Register>,
+        b: Operand<&Self::Register>,
+    ) -> Self::Register;
+    /// [`super::Op::Less`]
+    fn less(
+        &mut self,
+        t: &Declaration,
+        a: Operand<&Self::Register>,
+        b: Operand<&Self::Register>,
+    ) -> Self::Register;
+    /// [`super::Op::Multiply`]
+    fn multiply(
+        &mut self,
+        t: &Declaration,
+        a: Word<&Self::Register>,
+        b: Word<&Self::Register>,
+        drop: u32,
+    ) -> Self::Register;
+    /// [`super::Op::Square`]
+    fn square(&mut self, t: &Declaration, a: Word<&Self::Register>, drop: u32) -> Self::Register;
+    /// [`super::Op::Scale`]
+    fn scale(
+        &mut self,
+        t: &Declaration,
+        a: Word<&Self::Register>,
+        factor: i64,
+        drop: u32,
+    ) -> Self::Register;
+    /// [`super::Op::Divide`]: the quotient, and whether it fits.
+    fn divide(
+        &mut self,
+        quotient: &Declaration,
+        fits: &Declaration,
+        a: Word<&Self::Register>,
+        b: Word<&Self::Register>,
+    ) -> [Self::Register; 2];
+    /// [`super::Op::SquareRoot`]
+    fn square_root(&mut self, t: &Declaration, a: Word<&Self::Register>) -> Self::Register;
+    /// [`super::Op::Table`], of which the `low` lowest address bits select among words read
+    /// together where the scratch for that is there. An address beyond the columns may not occur.
+    fn table<const N: usize>(
+        &mut self,
+        targets: [&Declaration; N],
+        address: &[Bit<&Self::Register>],
+        columns: [&[i64]; N],
+        low: u32,
+    ) -> [Self::Register; N];
+    /// The inverse of the operation that computed these registers, all of them and no others, in
+    /// its order. Registers that no operation computed have none, and nothing happens.
+    fn undo<const N: usize>(&mut self, computed: [Self::Register; N]);
+
+    /// [`super::Op::XorInto`]
+    fn xor_into(
+        &mut self,
+        t: &mut Self::Register,
+        a: Operand<&Self::Register>,
+        when: Option<Bit<&Self::Register>>,
+    );
+    /// [`super::Op::AddInto`], or its inverse.
+    fn add_into(
+        &mut self,
+        t: &mut Self::Register,
+        a: Operand<&Self::Register>,
+        subtract: bool,
+        when: When<&Self::Register>,
+    );
+    /// [`super::Op::Swap`]
+    fn swap(
+        &mut self,
+        a: &mut Self::Register,
+        b: &mut Self::Register,
+        when: Option<Bit<&Self::Register>>,
+    );
+}
+
+impl<R> Word<R> {
+    /// The bits `offset .. offset + width`, as an unsigned number.
+    #[inline(always)]
+    pub const fn unsigned(register: R, offset: u32, width: u32) -> Self {
+        Self {
+            register,
+            offset,
+            width,
+            signed: false,
+            shift: 0,
+        }
+    }
+
+    /// The bits `offset .. offset + width`, of which the top one is the sign.
+    #[inline(always)]
+    pub const fn signed(register: R, offset: u32, width: u32) -> Self {
+        Self {
+            register,
+            offset,
+            width,
+            signed: true,
+            shift: 0,
+        }
+    }
+
+    /// With zeros below: times `2^shift`.
+    #[inline(always)]
+    pub fn shifted(self, shift: u32) -> Self {
+        Self { shift, ..self }
+    }
+}
+
+impl<R> Bit<R> {
+    /// Bit number `index`; 0 is the least significant.
+    #[inline(always)]
+    pub const fn at(register: R, index: u32) -> Self {
+        Self {
+            register,
+            index,
+            inverted: false,
+        }
+    }
+
+    /// The bit's negation.
+    #[inline(always)]
+    pub fn inverted(self) -> Self {
+        Self {
+            inverted: !self.inverted,
+            ..self
+        }
+    }
+}
+
+impl<R> Operand<R> {
+    /// [`Word::unsigned`]
+    #[inline(always)]
+    pub const fn unsigned(register: R, offset: u32, width: u32) -> Self {
+        Self::Word(Word::unsigned(register, offset, width))
+    }
+
+    /// [`Word::signed`]
+    #[inline(always)]
+    pub const fn signed(register: R, offset: u32, width: u32) -> Self {
+        Self::Word(Word::signed(register, offset, width))
+    }
+}
+
+impl<R> From<Word<R>> for Operand<R> {
+    #[inline(always)]
+    fn from(word: Word<R>) -> Self {
+        Self::Word(word)
+    }
+}

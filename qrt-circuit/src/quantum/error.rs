@@ -1,0 +1,65 @@
+//! What the counting circuit refuses.
+
+use super::MAX_PHASE_BITS;
+use crate::Qubit;
+use std::fmt;
+
+/// Why there is no such circuit.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum QuantumError {
+    /// The oracle has no qubits in superposition, so no ids.
+    NoIds,
+    /// A truth table of more ids than can be listed.
+    TableBits {
+        /// Bits of an id.
+        bits: u32,
+        /// The most.
+        most: u32,
+    },
+    /// A gate reads a bit that the pixel's classical words do not have.
+    MissingWord {
+        /// The word.
+        parameter: u32,
+        /// Its bit.
+        bit: u32,
+    },
+    /// A gate names a qubit that the circuit does not have, or one qubit twice.
+    InvalidQubit(Qubit),
+    /// A sign is turned in the part of an oracle that computes or uncomputes.
+    SignOutsideFlip(Qubit),
+    /// The oracle has no such channel.
+    NoChannel(usize),
+    /// The counting register has no size in `1..=40` bits.
+    PhaseBitsOutOfRange(u32),
+}
+
+impl fmt::Display for QuantumError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoIds => f.write_str("an oracle without qubits in superposition has no ids"),
+            Self::TableBits { bits, most } => {
+                write!(f, "a truth table of ids of {bits} bits; at most {most}")
+            }
+            Self::MissingWord { parameter, bit } => write!(
+                f,
+                "bit {bit} of classical word {parameter} is loaded, and the pixel has no such bit"
+            ),
+            Self::InvalidQubit(qubit) => write!(
+                f,
+                "qubit {qubit} is used twice by one gate, or is none of the circuit's"
+            ),
+            Self::SignOutsideFlip(qubit) => write!(
+                f,
+                "a sign is turned on qubit {qubit} outside of the oracle's flip"
+            ),
+            Self::NoChannel(channel) => write!(f, "the oracle has no channel {channel}"),
+            Self::PhaseBitsOutOfRange(bits) => write!(
+                f,
+                "a counting register of {bits} bits; it has 1 to {MAX_PHASE_BITS}"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for QuantumError {}

@@ -1,0 +1,58 @@
+//! The counting circuit, gate by gate: the paper's whole figure.
+//!
+//! An oracle of [`super::lower`] permutes basis states and turns one sign. What quantum counting
+//! puts around it are Hadamards, phases and rotations: a [`QuantumGate`] is a gate of either kind.
+//!
+//! * [`PhaseOracle`]: O_f of one pixel and channel, as gates;
+//! * [`GroverIterate`]: `G = H O_0 H O_f`, alone or under a control;
+//! * [`Counting`]: Hadamards on the ids, the counting register's window, controlled powers of G and
+//!   the inverse Fourier transform.
+//!
+//! Circuits are handed over gate by gate and never held: the controlled powers of G repeat the
+//! oracle `T - 1` times. A *sink* is a closure that takes each gate and may refuse, which ends it:
+//!
+//! ```
+//! use qrt_circuit::quantum::{Counting, Part, PhaseOracle, QuantumGate};
+//! use qrt_core::scene::Window;
+//! use std::convert::Infallible;
+//!
+//! // 3 of 8 ids are good; the phase is read to 4 bits.
+//! let oracle = PhaseOracle::table(3, |id| id > 4)?;
+//! let counting = Counting::new(&oracle, 4, Window::Rect)?;
+//! let mut hadamards = 0;
+//! counting.part(Part::Counting, &mut |gate| {
+//!     hadamards += u32::from(matches!(gate, QuantumGate::H(_)));
+//!     Ok::<(), Infallible>(())
+//! })?;
+//! // 3 + 4 at the beginning, 2 * 3 for each of 15 queries, 4 in the Fourier transform.
+//! assert_eq!(hadamards, 7 + 15 * 6 + 4);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! **Bit order.** Bit 0 of every register is its least significant. Qubit j of the counting
+//! register controls `G^(2^j)`; once all is done the register reads `y`, and `theta~ = y/T` or
+//! `1 - y/T`.
+//!
+//! **Phases** are in turns: `Phase` multiplies by `exp(2 pi i turns)`.
+
+mod conjunction;
+mod counting;
+mod error;
+mod fourier;
+mod gate;
+mod grover;
+mod oracle;
+#[cfg(test)]
+mod tests;
+mod window;
+
+pub use conjunction::Conjunction;
+pub use counting::{Counting, Part};
+pub use error::QuantumError;
+pub use gate::{QuantumGate, Turns};
+pub use grover::GroverIterate;
+pub use oracle::{Flip, PhaseOracle};
+pub use window::Window;
+
+/// The largest counting register.
+pub const MAX_PHASE_BITS: u32 = 40;

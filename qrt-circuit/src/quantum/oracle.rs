@@ -1,0 +1,274 @@
+//! O_f of one pixel and channel, as gates.
+
+use super::QuantumGate::{Ccx, Cx, Phase, X};
+use super::{QuantumError, QuantumGate, Turns};
+use crate::{
+    Bit, BlockId, Circuit, Gate, Instruction, Op, Program, Qubit, Register, RegisterId, Style,
+    Type, lower,
+};
+
+/// Most bits of the ids of a truth table.
+const TABLE_BITS: u32 = 20;
+
+/// A step of an oracle's flip.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Flip {
+    /// X, CNOT or Toffoli.
+    Gate(Gate),
+    /// Turns the sign where all these qubits hold. These alone carry an iterate's control.
+    Sign(Vec<Qubit>),
+}
+
+/// An oracle that turns the signs of good ids: compute, flip, uncompute.
+///
+/// Its qubits are `0..qubits`. Those in superposition hold the id (path and comparator); all others
+/// are zero before and after. The circuit of a pixel has its classical words built in.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PhaseOracle {
+    /// X, CNOT and Toffoli.
+    compute: Vec<Gate>,
+    flip: Vec<Flip>,
+    /// X, CNOT and Toffoli.
+    uncompute: Vec<Gate>,
+    superposed: Vec<Qubit>,
+    qubits: u32,
+}
+
+impl PhaseOracle {
+    /// An oracle of circuits that share their qubits, as [`lower::parts`] makes them, for a pixel
+    /// with these classical `words`. `superposed` is the id, bit 0 first.
+    ///
+    /// # Errors
+    /// No superposed qubits; a word that is missing; a gate that is none; a sign turned outside of
+    /// `flip`.
+    pub fn new(
+        compute: &Circuit,
+        flip: &Circuit,
+        uncompute: &Circuit,
+        superposed: Vec<Qubit>,
+        words: &[u64],
+    ) -> Result<Self, QuantumError> {
+        let qubits = compute.qubits.max(flip.qubits).max(uncompute.qubits);
+        let flip = loaded(&flip.gates, words)?;
+        let flip = flip.into_iter().map(|gate| match gate {
+            Gate::Z(qubit) => Flip::Sign(vec![qubit]),
+            gate => Flip::Gate(gate),
+        });
+        let oracle = Self {
+            compute: loaded(&compute.gates, words)?,
+            flip: flip.collect(),
+            uncompute: loaded(&uncompute.gates, words)?,
+            superposed,
+            qubits,
+        };
+        oracle.checked()
+    }
+
+    /// An oracle without ancillas: its good ids are those for which an odd number of `monomials`
+    /// hold, each the conjunction of some bits of the id (the algebraic normal form of a truth
+    /// table). Bits are qubits `0..bits`.
+    ///
+    /// # Errors
+    /// No bits, or a monomial with a bit that is not one of them.
+    pub fn polynomial(bits: u32, monomials: Vec<Vec<Qubit>>) -> Result<Self, QuantumError> {
+        let oracle = Self {
+            compute: Vec::new(),
+            flip: monomials.into_iter().map(Flip::Sign).collect(),
+            uncompute: Vec::new(),
+            superposed: (0..bits).collect(),
+            qubits: bits,
+        };
+        oracle.checked()
+    }
+
+    /// An oracle that looks its ids up: a table by unary iteration writes `good` into a flag. The id
+    /// is qubits `0..bits`.
+    ///
+    /// # Errors
+    /// No bits, or more than 20.
+    pub fn table(bits: u32, good: impl Fn(u64) -> bool) -> Result<Self, QuantumError> {
+        if bits == 0 {
+            return Err(QuantumError::NoIds);
+        }
+        if bits > TABLE_BITS {
+            return Err(QuantumError::TableBits {
+                bits,
+                most: TABLE_BITS,
+            });
+        }
+        let program = table(bits, good);
+        let parts = lower::parts(&program, &[1, 2]);
+        let [compute, flip, uncompute] = [0, 1, 2].map(|place| parts.get(place));
+        let empty = Circuit::default();
+        Self::new(
+            compute.unwrap_or(&empty),
+            flip.unwrap_or(&empty),
+            uncompute.unwrap_or(&empty),
+            (0..bits).collect(),
+            &[],
+        )
+    }
+
+    /// The id's qubits, bit 0 first: those in superposition.
+    pub fn superposed(&self) -> &[Qubit] {
+        &self.superposed
+    }
+
+    /// All qubits, ancillas included: `0..qubits`.
+    pub fn qubits(&self) -> u32 {
+        self.qubits
+    }
+
+    /// Those that are zero before and after.
+    pub fn ancillas(&self) -> Vec<Qubit> {
+        let all = 0..self.qubits;
+        all.filter(|qubit| !self.superposed.contains(qubit))
+            .collect()
+    }
+
+    /// Gates of one call.
+    pub fn gates(&self) -> u64 {
+        (self.compute.len() + self.flip.len() + self.uncompute.len()) as u64
+    }
+
+    /// Hands over the oracle's gates. With a `control`, only the signs have it: without a sign, what
+    /// is computed is uncomputed and nothing has happened.
+    ///
+    /// # Errors
+    /// The sink's.
+    pub fn apply<E>(
+        &self,
+        control: Option<Qubit>,
+        sink: &mut impl FnMut(QuantumGate<'_>) -> Result<(), E>,
+    ) -> Result<(), E> {
+        reversible(&self.compute, sink)?;
+        for step in &self.flip {
+            match step {
+                Flip::Gate(gate) => reversible(&[*gate], sink)?,
+                Flip::Sign(qubits) => {
+                    let on: Vec<Qubit> = control.into_iter().chain(qubits.clone()).collect();
+                    sink(Phase {
+                        turns: Turns::HALF,
+                        on: &on,
+                    })?;
+                }
+            }
+        }
+        reversible(&self.uncompute, sink)
+    }
+
+    fn checked(self) -> Result<Self, QuantumError> {
+        if self.superposed.is_empty() {
+            return Err(QuantumError::NoIds);
+        }
+        self.different(&self.superposed)?;
+        for gate in self.compute.iter().chain(&self.uncompute) {
+            if let Gate::Z(qubit) = gate {
+                return Err(QuantumError::SignOutsideFlip(*qubit));
+            }
+        }
+        let flips = self.flip.iter().filter_map(|step| match step {
+            Flip::Gate(gate) => Some(gate),
+            Flip::Sign(_) => None,
+        });
+        for gate in self.compute.iter().chain(flips).chain(&self.uncompute) {
+            match *gate {
+                Gate::X(t) | Gate::Z(t) | Gate::Load { target: t, .. } => self.different(&[t])?,
+                Gate::Cx(a, t) => self.different(&[a, t])?,
+                Gate::Ccx(a, b, t) => self.different(&[a, b, t])?,
+            }
+        }
+        for step in &self.flip {
+            if let Flip::Sign(qubits) = step {
+                self.different(qubits)?;
+            }
+        }
+        Ok(self)
+    }
+
+    fn different(&self, qubits: &[Qubit]) -> Result<(), QuantumError> {
+        for (place, qubit) in qubits.iter().enumerate() {
+            if *qubit >= self.qubits || qubits[..place].contains(qubit) {
+                return Err(QuantumError::InvalidQubit(*qubit));
+            }
+        }
+        Ok(())
+    }
+}
+
+fn reversible<E>(
+    gates: &[Gate],
+    sink: &mut impl FnMut(QuantumGate<'_>) -> Result<(), E>,
+) -> Result<(), E> {
+    for gate in gates {
+        match *gate {
+            Gate::X(t) => sink(X(t))?,
+            Gate::Cx(a, t) => sink(Cx(a, t))?,
+            Gate::Ccx(a, b, t) => sink(Ccx(a, b, t))?,
+            // Neither is left: loads are built in, and signs are steps of their own.
+            Gate::Load { .. } | Gate::Z(_) => {}
+        }
+    }
+    Ok(())
+}
+
+/// The gates with a pixel's words built in: each load is an X, or nothing.
+fn loaded(gates: &[Gate], words: &[u64]) -> Result<Vec<Gate>, QuantumError> {
+    let mut all = Vec::with_capacity(gates.len());
+    for gate in gates {
+        match *gate {
+            Gate::Load {
+                parameter,
+                bit,
+                target,
+            } => {
+                let word = words.get(parameter as usize).filter(|_| bit < 64);
+                let word = word.ok_or(QuantumError::MissingWord { parameter, bit })?;
+                if word >> bit & 1 == 1 {
+                    all.push(Gate::X(target));
+                }
+            }
+            // Toffolis of one control are CNOTs.
+            Gate::Ccx(a, b, t) if a == b => all.push(Gate::Cx(a, t)),
+            gate => all.push(gate),
+        }
+    }
+    Ok(all)
+}
+
+/// Look a flag up, turn its sign, undo.
+fn table(bits: u32, good: impl Fn(u64) -> bool) -> Program {
+    let [id, flag, scratch] = [0, 1, 2].map(RegisterId);
+    let entries: Box<[i64]> = (0..1 << bits).map(|id| i64::from(good(id))).collect();
+    let bit = |register, index| Bit {
+        register,
+        index,
+        inverted: false,
+    };
+    let look_up = Op::Table {
+        address: (0..bits).map(|index| bit(id, index)).collect(),
+        columns: vec![entries].into(),
+        low: 0,
+        style: Style::Lean,
+        targets: Box::new([flag]),
+        scratch,
+    };
+    let steps = [(0, false), (1, false), (0, true)];
+    Program {
+        registers: vec![
+            Register::new("id", Type::UInt, bits),
+            Register::new("flag", Type::Bool, 1),
+            Register::new("scratch", Type::Scratch, 0),
+        ],
+        ops: vec![look_up, Op::Phase { bit: bit(flag, 0) }],
+        instructions: steps
+            .map(|(op, inverse)| Instruction {
+                op,
+                inverse,
+                block: BlockId::ROOT,
+            })
+            .into(),
+        inputs: vec![id],
+        ..Program::default()
+    }
+}

@@ -1,0 +1,233 @@
+//! Registers, and how operations read them.
+
+/// A register of a [`super::Program`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct RegisterId(pub u32);
+
+impl RegisterId {
+    /// Its place in the program's list.
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// What a register's bits mean.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Type {
+    /// One bit.
+    Bool,
+    /// An unsigned integer.
+    UInt,
+    /// An integer in two's complement.
+    Int,
+    /// An unsigned number in units of `2^-fraction`.
+    UFixed {
+        /// Bits after the point.
+        fraction: u32,
+    },
+    /// A number in two's complement, in units of `2^-fraction`.
+    Fixed {
+        /// Bits after the point.
+        fraction: u32,
+    },
+    /// What an operation leaves behind and nothing else reads: carries, remainders, partial sums.
+    Scratch,
+}
+
+impl Type {
+    /// As it is written for a register of `width` bits: `UInt<8>`, `Fixed<2, 14>`.
+    pub fn name(self, width: u32) -> String {
+        match self {
+            Self::Bool => "Bool".to_owned(),
+            Self::UInt => format!("UInt<{width}>"),
+            Self::Int => format!("Int<{width}>"),
+            Self::UFixed { fraction } => {
+                format!(
+                    "UFixed<{}, {fraction}>",
+                    i64::from(width) - i64::from(fraction)
+                )
+            }
+            Self::Fixed { fraction } => {
+                format!(
+                    "Fixed<{}, {fraction}>",
+                    i64::from(width) - i64::from(fraction)
+                )
+            }
+            Self::Scratch => format!("Scratch<{width}>"),
+        }
+    }
+}
+
+/// What the author of a program knows a register or a block as. Nothing here reads it: it travels
+/// with the program, for whoever wrote it to find things again.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Default)]
+pub struct Tag(pub u64);
+
+/// A named, typed array of qubits. Bit 0 is the least significant.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Register {
+    /// What it is called.
+    pub name: String,
+    /// What its bits mean.
+    pub ty: Type,
+    /// What its author knows it as: a role, say.
+    pub tag: Tag,
+    /// Qubits.
+    pub width: u32,
+    /// The block whose operation computes it.
+    pub block: BlockId,
+    /// The least and the greatest number that it holds, in units of its lowest bit, where that
+    /// has been proven.
+    pub range: Option<[i64; 2]>,
+}
+
+impl Register {
+    /// A register of the root block, without a tag or a known range.
+    pub fn new(name: impl Into<String>, ty: Type, width: u32) -> Self {
+        Self {
+            name: name.into(),
+            ty,
+            tag: Tag(0),
+            width,
+            block: BlockId::ROOT,
+            range: None,
+        }
+    }
+}
+
+/// A block of a [`super::Program`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct BlockId(pub u32);
+
+impl BlockId {
+    /// The whole program.
+    pub const ROOT: Self = Self(0);
+
+    /// Its place in the program's list.
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// A part of the program that has a name. Blocks form a tree; each instruction is charged to one.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Block {
+    /// The block around it; none for the root.
+    pub parent: Option<BlockId>,
+    /// What it is called.
+    pub name: String,
+    /// What its author knows it as.
+    pub tag: Tag,
+}
+
+/// Some bits of a register, read as an integer: the bits `offset .. offset + width`, extended by
+/// zeros (or, if `signed`, by copies of the top one), times `2^shift`.
+///
+/// Shifts, truncation by floor, and sign extension are wiring, and cost nothing.
+///
+/// A program names its registers by `RegisterId`; what runs on a [`super::Machine`] borrows them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Word<R = RegisterId> {
+    /// The register.
+    pub register: R,
+    /// The first bit read.
+    pub offset: u32,
+    /// Bits read; above 0.
+    pub width: u32,
+    /// Is the top bit the sign?
+    pub signed: bool,
+    /// Zeros below.
+    pub shift: u32,
+}
+
+impl<R> Word<R> {
+    /// The same bits of a register that is named otherwise.
+    #[inline(always)]
+    pub fn of<S>(self, rename: impl FnOnce(R) -> S) -> Word<S> {
+        Word {
+            register: rename(self.register),
+            offset: self.offset,
+            width: self.width,
+            signed: self.signed,
+            shift: self.shift,
+        }
+    }
+
+    /// Bits of the number it stands for, its sign and the zeros below included.
+    pub fn bits(&self) -> u32 {
+        self.width + self.shift
+    }
+
+    /// The number it stands for, if `register` is the register's content.
+    #[inline]
+    pub fn read(&self, register: u64) -> i64 {
+        let unused = 64 - self.width;
+        let bits = (register >> self.offset) << unused;
+        let value = if self.signed {
+            bits.cast_signed() >> unused
+        } else {
+            (bits >> unused).cast_signed()
+        };
+        value << self.shift
+    }
+
+    /// The least and the greatest number it can stand for.
+    pub fn range(&self) -> [i64; 2] {
+        let (low, high) = if self.signed {
+            let half = 1_i64 << (self.width - 1);
+            (-half, half - 1)
+        } else {
+            (0, (1_i64 << self.width) - 1)
+        };
+        [low << self.shift, high << self.shift]
+    }
+}
+
+/// One bit of a register, or its negation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Bit<R = RegisterId> {
+    /// The register.
+    pub register: R,
+    /// The bit; 0 is the least significant.
+    pub index: u32,
+    /// Is it negated?
+    pub inverted: bool,
+}
+
+impl<R> Bit<R> {
+    /// The same bit of a register that is named otherwise.
+    #[inline(always)]
+    pub fn of<S>(self, rename: impl FnOnce(R) -> S) -> Bit<S> {
+        Bit {
+            register: rename(self.register),
+            index: self.index,
+            inverted: self.inverted,
+        }
+    }
+
+    /// The truth it stands for, if `register` is the register's content.
+    #[inline]
+    pub fn read(&self, register: u64) -> bool {
+        (register >> self.index & 1 == 1) != self.inverted
+    }
+}
+
+/// A number that an operation reads.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Operand<R = RegisterId> {
+    /// From a register.
+    Word(Word<R>),
+    /// The same on every path.
+    Constant(i64),
+}
+
+impl<R> Operand<R> {
+    /// The same number of a register that is named otherwise.
+    #[inline(always)]
+    pub fn of<S>(self, rename: impl FnOnce(R) -> S) -> Operand<S> {
+        match self {
+            Self::Word(word) => Operand::Word(word.of(rename)),
+            Self::Constant(value) => Operand::Constant(value),
+        }
+    }
+}

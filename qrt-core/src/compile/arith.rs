@@ -1,0 +1,329 @@
+//! [`Arith`], by recording.
+
+use super::names::Nameable;
+use super::value::{Affine, Bool, Index, Real, Value, bits_of};
+use super::{Builder, MAX_ADDRESS, StageName, negative_range};
+use crate::expr::Function;
+use crate::tracer::{Arith, Coordinate, Named, Part, Sampled};
+use qrt_circuit::{Op, Operand, Word};
+
+impl Arith for Builder<'_> {
+    type Real = Real;
+    type Bool = Bool;
+    type Index = Index;
+
+    fn real(&mut self, value: f64) -> Real {
+        Real::constant(value)
+    }
+    fn add(&mut self, a: Real, b: Real) -> Real {
+        self.plus(a, b)
+    }
+    fn sub(&mut self, a: Real, b: Real) -> Real {
+        self.plus(a, b.negative())
+    }
+    fn mul(&mut self, a: Real, b: Real) -> Real {
+        self.times(a, b)
+    }
+    fn div(&mut self, a: Real, b: Real, most: f64) -> Real {
+        self.over(a, b, most)
+    }
+    fn ahead(&mut self, a: Real, b: Real, most: f64) -> (Bool, Real) {
+        self.ahead_of(a, b, most)
+    }
+    fn neg(&mut self, a: Real) -> Real {
+        a.negative()
+    }
+    fn abs(&mut self, a: Real) -> Real {
+        self.magnitude(a)
+    }
+    fn sqrt(&mut self, a: Real) -> Real {
+        self.root(a)
+    }
+    fn length(&mut self, v: [Real; 3]) -> Real {
+        self.norm(v)
+    }
+    fn known(&mut self, a: Real, low: f64, high: f64) -> Real {
+        self.bounded(a, low, high)
+    }
+    fn nowhere(&mut self, most: f64) -> Real {
+        Real::constant(self.farthest(most))
+    }
+    fn inside(&mut self, low: f64, value: Real, high: f64) -> Bool {
+        // Outwards by what a hit's coordinates may be off.
+        let reach = self.ulp();
+        let mut inside = Bool::Constant(true);
+        if low.is_finite() {
+            let below = self.is_less(value, Real::constant(low - reach));
+            inside = self.both(inside, below.negated());
+        }
+        if high.is_finite() {
+            let above = self.is_less(Real::constant(high + reach), value);
+            inside = self.both(inside, above.negated());
+        }
+        inside
+    }
+    fn at_least(&mut self, value: Real, table: &[[f64; 1]], row: Index) -> Bool {
+        let (value, low) = self.beside(value, table, row, -1.0);
+        self.is_less(value, low).negated()
+    }
+    fn at_most(&mut self, value: Real, table: &[[f64; 1]], row: Index) -> Bool {
+        let (value, high) = self.beside(value, table, row, 1.0);
+        self.is_less(high, value).negated()
+    }
+    fn inward(&mut self) -> f64 {
+        4.0 * self.ulp()
+    }
+    fn min(&mut self, a: Real, b: Real) -> Real {
+        self.lesser(a, b)
+    }
+    fn max(&mut self, a: Real, b: Real) -> Real {
+        self.greater(a, b)
+    }
+    fn scale(&mut self, a: Real, factor: f64) -> Real {
+        self.times_constant(a, factor)
+    }
+    fn function(&mut self, function: Function, a: Real) -> Real {
+        self.smooth(a, |x| function.value(x))
+    }
+    fn pow(&mut self, a: Real, b: Real) -> Real {
+        self.power(a, b)
+    }
+    fn atan2(&mut self, y: Real, x: Real) -> Real {
+        self.angle(y, x)
+    }
+
+    fn named<const K: usize>(&mut self, name: Named, a: &[Real; K]) {
+        self.name(name, a.iter().copied().map(Nameable::Real));
+    }
+    fn named_truth(&mut self, name: Named, a: Bool) {
+        self.name(name, [Nameable::Bool(a)]);
+    }
+    fn named_index(&mut self, name: Named, a: Index) {
+        self.name(name, [Nameable::Index(a)]);
+    }
+
+    fn truth(&mut self, value: bool) -> Bool {
+        Bool::Constant(value)
+    }
+    fn less(&mut self, a: Real, b: Real) -> Bool {
+        self.is_less(a, b)
+    }
+    fn less_equal(&mut self, a: Real, b: Real) -> Bool {
+        self.is_less(b, a).negated()
+    }
+    fn and(&mut self, a: Bool, b: Bool) -> Bool {
+        self.both(a, b)
+    }
+    fn or(&mut self, a: Bool, b: Bool) -> Bool {
+        self.either(a, b)
+    }
+    fn not(&mut self, a: Bool) -> Bool {
+        a.negated()
+    }
+    fn possible(&mut self, a: Bool) -> bool {
+        a != Bool::Constant(false)
+    }
+    fn select(&mut self, c: Bool, a: Real, b: Real) -> Real {
+        self.chosen(c, a, b)
+    }
+
+    fn index(&mut self, value: u32) -> Index {
+        Index::Constant(self.code(value))
+    }
+    fn select_index(&mut self, c: Bool, a: Index, b: Index) -> Index {
+        self.chosen_index(c, a, b)
+    }
+    fn is(&mut self, a: Index, value: u32) -> Bool {
+        let value = self.code(value);
+        self.test(a, |index| index == value)
+    }
+    fn below(&mut self, a: Index, value: u32) -> Bool {
+        let value = self.code(value);
+        self.test(a, |index| index < value)
+    }
+    fn rows<const K: usize>(&mut self, table: &[[f64; K]], row: Index) -> [Real; K] {
+        let mut columns = [Real::constant(0.0); K];
+        for (k, column) in columns.iter_mut().enumerate() {
+            *column = self.row(row, table.len(), |row| table.get(row).map_or(0.0, |r| r[k]));
+        }
+        columns
+    }
+    fn entry(&mut self, table: &[u32], row: Index) -> Index {
+        self.entry_of(row, table)
+    }
+
+    fn coordinate(&mut self, coordinate: Coordinate) -> Index {
+        self.sample_index(coordinate)
+    }
+    fn centre(&mut self, index: Index, bits: u32) -> Real {
+        let node = match index {
+            Index::Constant(index) => {
+                return Real::constant((f64::from(index) + 0.5) / (1_u64 << bits) as f64);
+            }
+            Index::Node(node) => node,
+        };
+        let fraction = self.fraction();
+        let Operand::Word(word) = self.choice_operand(index) else {
+            return Real::constant(0.5);
+        };
+        // The lowest bits of an index that is finer than the numbers are dropped; the half then is
+        // half of what is left.
+        let (word, kept) = if bits <= fraction {
+            let shift = fraction - bits;
+            (Word { shift, ..word }, bits)
+        } else {
+            let offset = word.offset + bits - fraction;
+            let width = word.width - (bits - fraction);
+            let narrow = Word {
+                offset,
+                width,
+                ..word
+            };
+            (narrow, fraction)
+        };
+        let table = self.choices[node as usize].table.clone();
+        // What has its bits already is not looked up, unless by very few.
+        let table = table.filter(|table| bits <= fraction && table.address.len() <= 6);
+        let cells = (1_u64 << bits) as f64;
+        let table = table.map(|table| table.map(|entry| entry / cells));
+        let most = ((1_i64 << kept) - 1) << (fraction - kept);
+        let cell = self.value(Value {
+            range: [0, most],
+            word: Some(word),
+            table,
+        });
+        let half = Affine::constant(0.5 / (1_u64 << kept) as f64);
+        Real {
+            offset: cell.offset.plus(half),
+            ..cell
+        }
+    }
+    fn sampled(&mut self, function: &Sampled, index: Index) -> Real {
+        match index {
+            Index::Constant(index) => Real::constant(function.at(index)),
+            Index::Node(_) if function.bits() <= MAX_ADDRESS => {
+                self.row(index, 1 << function.bits(), |i| function.at(i as u32))
+            }
+            Index::Node(_) => match self.choice_operand(index) {
+                Operand::Word(word) => self.fitted(word, word.range(), |i| function.at(i as u32)),
+                Operand::Constant(index) => Real::constant(function.at(index as u32)),
+            },
+        }
+    }
+    fn pixel(&mut self) -> [Real; 2] {
+        let along = |along| {
+            Real::fixed(Affine {
+                constant: 0.0,
+                along,
+            })
+        };
+        [along([1.0, 0.0]), along([0.0, 1.0])]
+    }
+
+    fn record(&mut self, a: Real) {
+        let plain = self.plain(a);
+        if let Operand::Word(word) = plain.operand {
+            self.records.push(word.register);
+        }
+    }
+    fn enter(&mut self, part: Part) {
+        let depth = |depth: usize| Some(depth as u32);
+        match part {
+            Part::GenerateRay(k) => self.begin(StageName::GenerateRay, depth(k), true),
+            Part::FindIntersection(k) => self.begin(StageName::FindIntersection, depth(k), true),
+            Part::Plane(number) => self.begin(StageName::Plane(number as u32), None, true),
+            Part::Primitive(number) => self.begin(StageName::Primitive(number as u32), None, true),
+            Part::Side(k) => self.begin(StageName::Side, depth(k), true),
+            Part::Sample => self.begin(StageName::Sample, None, true),
+            Part::Component(axis) => self.begin(StageName::Component(axis as u32), None, true),
+            Part::Shade(k) => self.begin(StageName::Shade, depth(k), true),
+        }
+    }
+    fn leave(&mut self) {
+        self.end();
+    }
+}
+
+impl Builder<'_> {
+    /// `if when { a } else { b }`
+    pub(super) fn chosen(&mut self, when: Bool, a: Real, b: Real) -> Real {
+        let node = match when {
+            Bool::Constant(true) => return a,
+            Bool::Constant(false) => return b,
+            node @ Bool::Node { .. } => node,
+        };
+        if a == b {
+            return a;
+        }
+        if let (Some(c), Some(x), Some(y)) =
+            (self.truth_table(node), self.table_of(a), self.table_of(b))
+        {
+            let cost = self.fraction();
+            let nowhere = f64::INFINITY;
+            let picked =
+                super::table::joined(&c, &x, cost, |c, x| if c == 0.0 { nowhere } else { x });
+            let table = picked.and_then(|picked| {
+                super::table::joined(&picked, &y, cost, |x, y| if x == nowhere { y } else { x })
+            });
+            if let Some(table) = table {
+                return self.tabulated(table);
+            }
+        }
+        let apart = |x: Real| Real {
+            offset: Affine::ZERO,
+            bias: 0.0,
+            ..x
+        };
+        if a.offset == b.offset && a.node.is_some() && b.node.is_some() {
+            let offset = a.offset;
+            if a.node == b.node {
+                // The same number with two signs.
+                let when = if a.negated { node } else { node.negated() };
+                let signed = self.signed(
+                    Real {
+                        negated: false,
+                        ..apart(a)
+                    },
+                    when,
+                );
+                return Real {
+                    offset: signed.offset.plus(offset),
+                    ..signed
+                };
+            }
+            if offset != Affine::ZERO {
+                let chosen = self.chosen(node, apart(a), apart(b));
+                return Real {
+                    offset: chosen.offset.plus(offset),
+                    ..chosen
+                };
+            }
+        }
+        let (x, y) = (self.plain(a), self.plain(b));
+        let constant = |operand| matches!(operand, Operand::Constant(_));
+        // A sign that both have stays outside; so does one whose partner is a constant.
+        let outside =
+            (x.negated && (y.negated || constant(y.operand))) || (y.negated && constant(x.operand));
+        let ((x, xr), (y, yr)) = if outside {
+            let turned = |operand, range| match operand {
+                Operand::Constant(value) => (Operand::Constant(-value), negative_range(range)),
+                word @ Operand::Word(_) => (word, range),
+            };
+            (turned(x.operand, x.range), turned(y.operand, y.range))
+        } else {
+            (self.operand(a), self.operand(b))
+        };
+        let range = [xr[0].min(yr[0]), xr[1].max(yr[1])];
+        let when = self.bit(node);
+        let (ty, width, signed) = self.shape(range);
+        let target = self.emit(&[(ty, width)], |t, _| Op::Select {
+            when,
+            a: x,
+            b: y,
+            target: t[0],
+        })[0];
+        debug_assert!(bits_of(range).0 <= width);
+        let chosen = self.computed(Self::whole(target, width, signed), range);
+        if outside { chosen.negative() } else { chosen }
+    }
+}

@@ -1,0 +1,180 @@
+//! Small unsigned integers: which face, which surface, which cell.
+
+use super::table::joined;
+use super::value::{Bool, Choice, Index, Real, Tabulated};
+use super::{Builder, MAX_ADDRESS};
+use qrt_circuit::{Op, Operand, Type, Word};
+use std::rc::Rc;
+
+/// Bits of the numbers below `bound`.
+fn bits_below(bound: u32) -> u32 {
+    32 - bound.saturating_sub(1).leading_zeros()
+}
+
+impl Builder<'_> {
+    /// The integer that `word` holds.
+    pub(super) fn choice_of(&mut self, word: Word) -> Index {
+        let table = (word.width <= MAX_ADDRESS).then(|| Tabulated {
+            address: Self::bits(word).collect(),
+            entries: (0..1_u32 << word.width).map(f64::from).collect(),
+        });
+        let bound = 1_u64.checked_shl(word.width).unwrap_or(u64::MAX);
+        self.choices.push(Choice {
+            bound: u32::try_from(bound).unwrap_or(u32::MAX),
+            word: Some(word),
+            table,
+        });
+        Index::Node(self.choices.len() as u32 - 1)
+    }
+
+    /// The code of a constant: that of none follows the last face.
+    pub(super) fn code(&self, value: u32) -> u32 {
+        if value == u32::MAX {
+            self.target.faces
+        } else {
+            value
+        }
+    }
+
+    pub(super) fn choice_table(&self, a: Index) -> Option<Tabulated> {
+        match a {
+            Index::Constant(value) => Some(Tabulated {
+                address: Rc::new([]),
+                entries: Rc::new([f64::from(value)]),
+            }),
+            Index::Node(node) => self.choices[node as usize].table.clone(),
+        }
+    }
+
+    /// An integer that is a function of few bits.
+    pub(super) fn tabulated_choice(&mut self, table: Tabulated) -> Index {
+        let first = table.entries[0];
+        if table.entries.iter().all(|&entry| entry == first) {
+            return Index::Constant(first as u32);
+        }
+        let most = table.entries.iter().copied().fold(0.0, f64::max);
+        self.choices.push(Choice {
+            bound: most as u32 + 1,
+            word: None,
+            table: Some(table),
+        });
+        Index::Node(self.choices.len() as u32 - 1)
+    }
+
+    pub(super) fn choice_bound(&self, a: Index) -> u32 {
+        match a {
+            Index::Constant(value) => value + 1,
+            Index::Node(node) => self.choices[node as usize].bound,
+        }
+    }
+
+    pub(super) fn choice_operand(&mut self, a: Index) -> Operand {
+        let node = match a {
+            Index::Constant(value) => return Operand::Constant(i64::from(value)),
+            Index::Node(node) => node,
+        };
+        let choice = self.choices[node as usize].clone();
+        if let Some(word) = choice.word {
+            return Operand::Word(word);
+        }
+        let Some(table) = choice.table else {
+            return Operand::Constant(0);
+        };
+        let width = bits_below(choice.bound).max(1);
+        let entries = table.entries.iter().map(|&entry| entry as i64).collect();
+        let target = self.look_up(&table.address, entries, Type::UInt, width);
+        let word = Self::whole(target, width, false);
+        self.choices[node as usize].word = Some(word);
+        Operand::Word(word)
+    }
+
+    pub(super) fn chosen_index(&mut self, when: Bool, a: Index, b: Index) -> Index {
+        let node = match when {
+            Bool::Constant(true) => return a,
+            Bool::Constant(false) => return b,
+            node @ Bool::Node { .. } => node,
+        };
+        if a == b {
+            return a;
+        }
+        if let (Some(c), Some(x), Some(y)) = (
+            self.truth_table(node),
+            self.choice_table(a),
+            self.choice_table(b),
+        ) {
+            let width = bits_below(self.choice_bound(a).max(self.choice_bound(b)));
+            // Which of the two first, then its value.
+            let picked = joined(&c, &x, width, |c, x| if c == 0.0 { -1.0 } else { x });
+            let table = picked
+                .and_then(|picked| joined(&picked, &y, width, |x, y| if x < 0.0 { y } else { x }));
+            if let Some(table) = table {
+                return self.tabulated_choice(table);
+            }
+        }
+        let bound = self.choice_bound(a).max(self.choice_bound(b));
+        let width = bits_below(bound).max(1);
+        let (a, b) = (self.choice_operand(a), self.choice_operand(b));
+        let when = self.bit(node);
+        let target = self.emit(&[(Type::UInt, width)], |t, _| Op::Select {
+            when,
+            a,
+            b,
+            target: t[0],
+        })[0];
+        let index = self.choice_of(Self::whole(target, width, false));
+        if let Index::Node(node) = index {
+            self.choices[node as usize].bound = bound;
+        }
+        index
+    }
+
+    /// A truth value that depends on an integer alone.
+    pub(super) fn test(&mut self, a: Index, holds: impl Fn(u32) -> bool) -> Bool {
+        match self.choice_table(a) {
+            Some(table) => {
+                let table = table.map(|entry| f64::from(holds(entry as u32)));
+                self.tabulated_truth(table)
+            }
+            // Indices too wide for a table are sample coordinates, which nobody tests.
+            None => Bool::Constant(false),
+        }
+    }
+
+    /// A number that depends on an integer alone. What lies beyond `rows` never occurs.
+    pub(super) fn row(&mut self, a: Index, rows: usize, value: impl Fn(usize) -> f64) -> Real {
+        let Some(table) = self.choice_table(a) else {
+            return Real::constant(0.0);
+        };
+        let table = table.map(|entry| {
+            let row = entry as usize;
+            value(if row < rows { row } else { 0 })
+        });
+        self.tabulated(table)
+    }
+
+    /// An integer that depends on an integer alone.
+    pub(super) fn entry_of(&mut self, a: Index, entries: &[u32]) -> Index {
+        let Some(table) = self.choice_table(a) else {
+            return Index::Constant(0);
+        };
+        let first = entries.first().copied().unwrap_or(0);
+        let looked_up = table.map(|entry| {
+            let entry = entries.get(entry as usize).copied().unwrap_or(first);
+            f64::from(self.code(entry))
+        });
+        let index = self.tabulated_choice(looked_up);
+        // Fewer bits than it is looked up by: what depends on it has smaller tables by its own.
+        let own = bits_below(self.choice_bound(index));
+        if own as usize + 1 < table.address.len()
+            && let Operand::Word(word) = self.choice_operand(index)
+        {
+            let bound = self.choice_bound(index);
+            let index = self.choice_of(word);
+            if let Index::Node(node) = index {
+                self.choices[node as usize].bound = bound;
+            }
+            return index;
+        }
+        index
+    }
+}

@@ -1,0 +1,202 @@
+//! Quotients.
+
+use super::value::{Bool, Real, bits_above};
+use super::{BuildError, Builder, MAX_BITS};
+use qrt_circuit::{Bit, Op, Operand, Type, Word};
+
+/// A quotient of magnitudes.
+struct Quotient {
+    /// `floor(|a| / |b|)`, in ulps.
+    value: Real,
+    /// Does it fit? Elsewhere the value means nothing.
+    fits: Bool,
+    /// The greatest value of its register, in ulps.
+    most: i64,
+}
+
+impl Builder<'_> {
+    /// The bound on `|a / b|` that the caller or the intervals give.
+    fn quotient_bound(&mut self, a: Real, b: Real, most: f64) -> f64 {
+        let (a, b) = (self.range(a), self.range(b));
+        let divisor = if b[0] > 0 {
+            b[0]
+        } else if b[1] < 0 {
+            -b[1]
+        } else {
+            0
+        };
+        let dividend = a[0].unsigned_abs().max(a[1].unsigned_abs());
+        most.min(dividend as f64 / divisor as f64)
+    }
+
+    fn quotient(&mut self, a: Word, b: Word, most: f64, range: [i64; 2]) -> Quotient {
+        // Quotient bits after the point: as many as there is room for below the dividend.
+        let fraction = self.fraction();
+        let lost = (a.bits() + fraction).saturating_sub(MAX_BITS);
+        let lost = lost.min(fraction);
+        let shift = fraction - lost;
+        let a = Word {
+            shift: a.shift + shift,
+            ..a
+        };
+        let width = (bits_above(most) + shift).clamp(1, MAX_BITS);
+        let fraction_type = Type::UFixed { fraction: shift };
+        let style = self.target.style;
+        let results = self.emit(&[(fraction_type, width), (Type::Bool, 1)], |t, scratch| {
+            Op::Divide {
+                a,
+                b,
+                style,
+                quotient: t[0],
+                fits: t[1],
+                scratch,
+            }
+        });
+        let all = (1_i64 << width) - 1;
+        let value = self.computed(
+            Self::whole(results[0], width, false),
+            [0, all.min(range[1] >> lost)],
+        );
+        let value = match value.node {
+            Some(node) if lost > 0 => self.shifted(node, lost as i32),
+            _ => value,
+        };
+        // Proven to fit by the intervals?
+        let fits = if range[1] >> lost <= all {
+            Bool::Constant(true)
+        } else {
+            self.truth_of(Bit {
+                register: results[1],
+                index: 0,
+                inverted: false,
+            })
+        };
+        Quotient {
+            value,
+            fits,
+            most: all << lost,
+        }
+    }
+
+    /// A number that is at least 0, as the unsigned word of its magnitude.
+    fn unsigned(&mut self, a: Real) -> Option<(Word, [i64; 2])> {
+        let (operand, range) = self.operand(a);
+        let word = match operand {
+            Operand::Word(word) => word,
+            Operand::Constant(value) => self.constant_word(value),
+        };
+        let range = range.map(|end| end.max(0));
+        if word.signed {
+            // The sign bit is 0 wherever the number is meant.
+            if word.width == 1 {
+                return None;
+            }
+            let word = Word {
+                width: word.width - 1,
+                signed: false,
+                ..word
+            };
+            return Some((word, range));
+        }
+        Some((word, range))
+    }
+
+    /// A register that holds a constant.
+    fn constant_word(&mut self, value: i64) -> Word {
+        let (ty, width, signed) = self.shape([value; 2]);
+        let target = self.emit(&[(ty, width)], |t, _| Op::Add {
+            a: Operand::Constant(value),
+            b: Operand::Constant(0),
+            subtract: false,
+            target: t[0],
+        })[0];
+        Self::whole(target, width, signed)
+    }
+
+    fn quotient_range(a: [i64; 2], b: [i64; 2], fraction: u32) -> [i64; 2] {
+        let least = b[0].max(0);
+        if least == 0 {
+            return [0, i64::MAX];
+        }
+        let most = (i128::from(a[1]) << fraction) / i128::from(least);
+        [0, most.min(i64::MAX.into()) as i64]
+    }
+
+    /// `a / b`, held at `±most` where it would be beyond.
+    pub(super) fn over(&mut self, a: Real, b: Real, most: f64) -> Real {
+        if let Some(divisor) = b.as_constant() {
+            return self.times_constant(a, 1.0 / divisor);
+        }
+        if a.as_constant() == Some(0.0) {
+            return a;
+        }
+        let most = self.quotient_bound(a, b, most);
+        if !most.is_finite() {
+            self.fail(BuildError::UnboundedQuotient);
+            return Real::constant(0.0);
+        }
+        let quotient = |a: f64, b: f64| {
+            let quotient = a / b;
+            if quotient.is_nan() {
+                0.0
+            } else {
+                quotient.clamp(-most, most)
+            }
+        };
+        let cost = self.fraction() * self.fraction();
+        if let Some(table) = self.tabulate_pair(a, b, cost, quotient) {
+            return table;
+        }
+        let (x, y) = (self.negative_sign(a), self.negative_sign(b));
+        let sign = self.differ(x, y);
+        let (a, b) = (self.signed(a, x), self.signed(b, y));
+        let (Some((a, ar)), Some((b, br))) = (self.unsigned(a), self.unsigned(b)) else {
+            return Real::constant(0.0);
+        };
+        let range = Self::quotient_range(ar, br, self.fraction());
+        let quotient = self.quotient(a, b, most, range);
+        let most = Real::constant(quotient.most as f64 * self.ulp());
+        let held = self.chosen(quotient.fits, quotient.value, most);
+        self.signed(held, sign)
+    }
+
+    /// Whether `a / b` is at least 0 and fits below `most`, and the quotient where it does. A dividend
+    /// that is zero whatever happens is not ahead: it is a ray that starts there.
+    pub(super) fn ahead_of(&mut self, a: Real, b: Real, most: f64) -> (Bool, Real) {
+        if a.as_constant() == Some(0.0) {
+            return (Bool::Constant(false), a);
+        }
+        if let Some(divisor) = b.as_constant() {
+            if divisor == 0.0 {
+                // A ray along the plane.
+                return (Bool::Constant(false), Real::constant(0.0));
+            }
+            let quotient = self.times_constant(a, 1.0 / divisor);
+            let behind = self.negative_sign(quotient);
+            let reach = Real::constant(self.farthest(most));
+            let near = self.is_less(quotient, reach);
+            return (self.both(behind.negated(), near), quotient);
+        }
+        // One sign for both.
+        let sign = self.negative_sign(b);
+        let (a, b) = (self.signed(a, sign), self.signed(b, sign));
+        let behind = self.negative_sign(a);
+        let (Some((a, ar)), Some((b, br))) = (self.unsigned(a), self.unsigned(b)) else {
+            return (Bool::Constant(false), Real::constant(0.0));
+        };
+        // What lies behind is read without its sign, and may look larger than anything ahead.
+        let range = if behind == Bool::Constant(false) {
+            Self::quotient_range(ar, br, self.fraction())
+        } else {
+            [0, i64::MAX]
+        };
+        let quotient = self.quotient(a, b, most, range);
+        let ahead = self.both(behind.negated(), quotient.fits);
+        (ahead, self.rounded_down(quotient.value))
+    }
+
+    /// The greatest number of the register that holds quotients up to `most`.
+    pub(super) fn farthest(&mut self, most: f64) -> f64 {
+        (1_u64 << bits_above(most)) as f64 - self.ulp()
+    }
+}

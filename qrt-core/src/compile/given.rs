@@ -1,0 +1,84 @@
+//! What a program is given in registers, and how it is compared with what it computes.
+
+use super::value::{Affine, Bool, Index, Real, Value};
+use super::{Bit, Builder, Op, Operand, RegisterId, Role, StageName, Type};
+
+impl Builder<'_> {
+    /// An input register that holds a number from 0 to `most`, and the number.
+    pub(crate) fn given_number(&mut self, name: &str, role: Role, most: f64) -> (RegisterId, Real) {
+        let most = self.rounded(most);
+        let (ty, width, signed) = self.shape([0, most]);
+        let register = self.outside(name, ty, role, width);
+        let number = self.value(Value {
+            range: [0, most],
+            word: Some(Self::whole(register, width, signed)),
+            table: None,
+        });
+        (register, number)
+    }
+
+    /// An input register of `width` bits that holds an integer, and the integer.
+    pub(crate) fn given_index(
+        &mut self,
+        name: &str,
+        role: Role,
+        width: u32,
+    ) -> (RegisterId, Index) {
+        let register = self.outside(name, Type::UInt, role, width);
+        let index = self.choice_of(Self::whole(register, width, false));
+        (register, index)
+    }
+
+    /// `a < b`
+    pub(crate) fn index_less(&mut self, a: Index, b: Index) -> Bool {
+        let (a, b) = (self.choice_operand(a), self.choice_operand(b));
+        if let (Operand::Constant(a), Operand::Constant(b)) = (a, b) {
+            return Bool::Constant(a < b);
+        }
+        let target = self.emit(&[(Type::Bool, 1)], |t, _| Op::Less { a, b, target: t[0] })[0];
+        self.truth_of(Bit {
+            register: target,
+            index: 0,
+            inverted: false,
+        })
+    }
+
+    /// The bit that holds `a`; none if `a` is the same on every path.
+    pub(crate) fn truth_bit(&mut self, a: Bool) -> Option<Bit> {
+        matches!(a, Bool::Node { .. }).then(|| self.bit(a))
+    }
+
+    /// What follows belongs to the comparison with the nearest so far, until
+    /// [`crate::tracer::Arith::leave`].
+    pub(crate) fn enter_nearer(&mut self) {
+        self.begin(StageName::Nearer, None, false);
+    }
+
+    /// A number without its constant, and a bound that is looked up for it: moved by the constant,
+    /// and one unit outwards in the direction of `sign`. Neither costs an addition.
+    pub(super) fn beside(
+        &mut self,
+        value: Real,
+        table: &[[f64; 1]],
+        row: Index,
+        sign: f64,
+    ) -> (Real, Real) {
+        let outward = sign * self.ulp();
+        if !value.offset.is_constant() {
+            let bound = self.row(row, table.len(), |row| {
+                table.get(row).map_or(0.0, |[bound]| bound + outward)
+            });
+            return (value, bound);
+        }
+        let moved = outward - (value.offset.constant + value.bias);
+        let bound = self.row(row, table.len(), |row| {
+            table.get(row).map_or(0.0, |[bound]| bound + moved)
+        });
+        let bare = Real {
+            offset: Affine::ZERO,
+            bias: 0.0,
+            ..value
+        };
+        (bare, bound)
+    }
+}

@@ -1,0 +1,308 @@
+//! What the compiler knows registers and blocks of its programs as, and the words of a pixel.
+
+use crate::sampling::PathPoints;
+use qrt_circuit::{Block, Register, Tag, Type};
+use std::fmt;
+
+/// What a register is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Role {
+    /// The path index: in superposition.
+    Id,
+    /// The comparator: in superposition.
+    Comparator,
+    /// A value of the path: zero before the oracle and after it.
+    Work,
+    /// What an operation leaves behind: zero before the oracle and after it.
+    Scratch,
+    /// The path's colour, which the comparator is compared with: zero before and after.
+    Colour,
+    /// The outcome of the comparison, whose phase is flipped: zero before and after.
+    Flag,
+}
+
+impl Role {
+    /// All of them, in the order in which tables show them.
+    pub const ALL: [Self; 6] = [
+        Self::Id,
+        Self::Comparator,
+        Self::Work,
+        Self::Scratch,
+        Self::Colour,
+        Self::Flag,
+    ];
+
+    /// A register's role. Garbage has a type of its own; work is what has no tag.
+    pub fn of(register: &Register) -> Self {
+        let tagged = |role: &Self| role.tag() == register.tag;
+        match register.ty {
+            Type::Scratch => Self::Scratch,
+            _ => Self::ALL.into_iter().find(tagged).unwrap_or(Self::Work),
+        }
+    }
+
+    /// As programs carry it.
+    pub const fn tag(self) -> Tag {
+        Tag(match self {
+            Self::Work => 0,
+            Self::Id => 1,
+            Self::Comparator => 2,
+            Self::Scratch => 3,
+            Self::Colour => 4,
+            Self::Flag => 5,
+        })
+    }
+}
+
+impl fmt::Display for Role {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Id => "id",
+            Self::Comparator => "comparator",
+            Self::Work => "work",
+            Self::Scratch => "scratch",
+            Self::Colour => "colour",
+            Self::Flag => "flag",
+        })
+    }
+}
+
+/// A stage of the oracle, or a part of one: what a block of its program computes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum StageName {
+    /// All of it: the root.
+    Oracle,
+    /// The paper's *Generate Ray*: the camera's ray, or what a surface scatters.
+    GenerateRay,
+    /// The paper's *Find Intersection*: the nearest hit of a ray.
+    FindIntersection,
+    /// One plane (by number) and the primitives on it, within a search.
+    Plane(u32),
+    /// One primitive (by number), within a search.
+    Primitive(u32),
+    /// On which side a ray meets a surface.
+    Side,
+    /// A sampled direction in the local frame, within a ray.
+    Sample,
+    /// One component of a vector, within a ray: 0, 1, 2.
+    Component(u32),
+    /// The light that a vertex adds.
+    Shade,
+    /// The colour, rounded to the comparator's thresholds.
+    Count,
+    /// The comparison with the nearest hit so far.
+    Nearer,
+    /// What stands between compute and uncompute.
+    CompareAndFlip,
+    /// What the frame does at a hit, between blocks; no block of its own.
+    Surface,
+    /// What the frame does before the first block; no block of its own.
+    Frame,
+    /// The comparison of the colour with the comparator, or its undoing; no block of its own.
+    Compare,
+    /// The phase flip.
+    Flip,
+}
+
+impl StageName {
+    /// What it is called, without its number.
+    pub fn kind(self) -> &'static str {
+        match self {
+            Self::Plane(_) => "plane",
+            Self::Primitive(_) => "primitive",
+            Self::Component(axis) => ["x", "y", "z"].get(axis as usize).unwrap_or(&"component"),
+            Self::Oracle => "oracle",
+            Self::GenerateRay => "generate_ray",
+            Self::FindIntersection => "find_intersection",
+            Self::Side => "side",
+            Self::Sample => "sample",
+            Self::Shade => "shade",
+            Self::Count => "count",
+            Self::Nearer => "nearer",
+            Self::CompareAndFlip => "compare and flip",
+            Self::Surface => "surface",
+            Self::Frame => "frame",
+            Self::Compare => "compare",
+            Self::Flip => "flip",
+        }
+    }
+}
+
+impl fmt::Display for StageName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.kind())?;
+        match self {
+            Self::Plane(number) | Self::Primitive(number) => write!(f, " {number}"),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// Which block of the oracle's program it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Label {
+    /// The stage.
+    pub stage: StageName,
+    /// The depth of the ray that it belongs to.
+    pub depth: Option<u32>,
+}
+
+impl Label {
+    /// Of the stages that blocks can be, those without a number, by their place in a tag.
+    const PLAIN: [StageName; 10] = [
+        StageName::Oracle,
+        StageName::GenerateRay,
+        StageName::FindIntersection,
+        StageName::Side,
+        StageName::Sample,
+        StageName::Shade,
+        StageName::Count,
+        StageName::Nearer,
+        StageName::CompareAndFlip,
+        StageName::Flip,
+    ];
+
+    /// A block's label. Blocks without a tag are whole programs.
+    pub fn of(block: &Block) -> Self {
+        let Tag(bits) = block.tag;
+        let [number, depth, kind] = [
+            bits as u32,
+            (bits >> 32) as u32 & 0xff_ffff,
+            (bits >> 56) as u32,
+        ];
+        let plain = |kind: u32| Self::PLAIN.get(kind as usize).copied();
+        Self {
+            stage: match kind {
+                0xff => StageName::Plane(number),
+                0xfe => StageName::Primitive(number),
+                0xfd => StageName::Component(number),
+                kind => plain(kind).unwrap_or(StageName::Oracle),
+            },
+            depth: depth.checked_sub(1),
+        }
+    }
+
+    /// As programs carry it: the stage's number, the depth and one, the kind of stage.
+    pub fn tag(self) -> Tag {
+        let (kind, number) = match self.stage {
+            StageName::Plane(number) => (0xff, number),
+            StageName::Primitive(number) => (0xfe, number),
+            StageName::Component(number) => (0xfd, number),
+            plain => {
+                let place = Self::PLAIN.iter().position(|&known| known == plain);
+                (place.unwrap_or(0) as u64, 0)
+            }
+        };
+        let depth = self.depth.map_or(0, |depth| u64::from(depth) + 1);
+        Tag(u64::from(number) | depth << 32 | kind << 56)
+    }
+
+    /// The block that carries it.
+    pub fn block(self, parent: Option<qrt_circuit::BlockId>) -> Block {
+        Block {
+            parent,
+            name: self.stage.to_string(),
+            tag: self.tag(),
+        }
+    }
+}
+
+/// A classical parameter of an oracle: a word that depends on the pixel alone. The circuit of a
+/// pixel has it built in: it is loaded by Xs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PixelWord {
+    /// The XOR shift of a sample coordinate, its top `bits` bits.
+    Shift {
+        /// Depth of the ray.
+        depth: usize,
+        /// 0: u, 1: v.
+        axis: usize,
+        /// Bits of the coordinate.
+        bits: u32,
+    },
+    /// `round((constant + along[0] column + along[1] row) 2^fraction) mod 2^width`
+    Affine {
+        /// At the film's upper left corner.
+        constant: f64,
+        /// Its change per column and per row.
+        along: [f64; 2],
+        /// Bits after the point.
+        fraction: u32,
+        /// Bits in all.
+        width: u32,
+    },
+}
+
+impl PixelWord {
+    /// The parameter of the program that it is the value of.
+    pub fn parameter(&self) -> qrt_circuit::Parameter {
+        let (name, width) = match *self {
+            Self::Shift { depth, axis, bits } => {
+                let axis = ["u", "v"].get(axis).unwrap_or(&"w");
+                (format!("ray{depth}.shift.{axis}"), bits)
+            }
+            Self::Affine { width, .. } => ("pixel".to_owned(), width),
+        };
+        qrt_circuit::Parameter { name, width }
+    }
+
+    /// Its bits in pixel (column, row).
+    pub fn value(&self, points: &PathPoints, seed: u64, pixel: [u32; 2]) -> u64 {
+        match *self {
+            Self::Shift { depth, axis, bits } => {
+                let dimension = PathPoints::dimension(depth, axis);
+                let shift = points.shift(seed, pixel[0], pixel[1], dimension);
+                shift.checked_shr(64 - bits).unwrap_or(0)
+            }
+            Self::Affine {
+                constant,
+                along,
+                fraction,
+                width,
+            } => {
+                let value =
+                    constant + along[0] * f64::from(pixel[0]) + along[1] * f64::from(pixel[1]);
+                let scaled = (value * (1_u64 << fraction) as f64).round_ties_even() as i64;
+                scaled.cast_unsigned() & (u64::MAX >> (64 - width))
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn labels_come_back_from_blocks() {
+        let numbered = [
+            StageName::Plane(0),
+            StageName::Plane(u32::MAX),
+            StageName::Primitive(65_536),
+            StageName::Component(2),
+        ];
+        for stage in Label::PLAIN.into_iter().chain(numbered) {
+            for depth in [None, Some(0), Some(1_000)] {
+                let label = Label { stage, depth };
+                assert_eq!(Label::of(&label.block(None)), label);
+            }
+        }
+    }
+
+    #[test]
+    fn roles_come_back_from_registers() {
+        for role in Role::ALL {
+            let ty = if role == Role::Scratch {
+                Type::Scratch
+            } else {
+                Type::UInt
+            };
+            let tag = role.tag();
+            let register = Register {
+                tag,
+                ..Register::new("r", ty, 1)
+            };
+            assert_eq!(Role::of(&register), role);
+        }
+    }
+}

@@ -1,0 +1,151 @@
+//! What values are called in the layout of registers.
+
+use super::value::{Bool, Index, Real};
+use super::{Affine, Builder};
+use crate::tracer::Named;
+use qrt_circuit::{Bit, RegisterId, Word};
+use std::fmt;
+
+/// A value that the tracer has a name for.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Nameable {
+    Real(Real),
+    Bool(Bool),
+    Index(Index),
+}
+
+/// A register, or a part of one, that the tracer has a name for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NamedPlace {
+    /// The name and the ray.
+    pub name: Named,
+    /// Which component of a vector.
+    pub component: usize,
+    /// Where it is.
+    pub place: Place,
+}
+
+impl NamedPlace {
+    /// What the component is called, if there are several.
+    pub fn component_name(&self) -> Option<&'static str> {
+        let names = match self.name.name {
+            "origin" | "direction" => ["x", "y", "z"],
+            "throughput" => ["r", "g", "b"],
+            "sample" => ["u", "v", ""],
+            _ => return None,
+        };
+        names.get(self.component).copied()
+    }
+}
+
+/// `ray1.direction.x`
+impl fmt::Display for NamedPlace {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Named { depth, name } = self.name;
+        write!(f, "ray{depth}.{name}")?;
+        match self.component_name() {
+            Some(component) => write!(f, ".{component}"),
+            None => Ok(()),
+        }
+    }
+}
+
+/// Where a named value is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Place {
+    /// `-1^negated word 2^-fraction + offset[0] + offset[1] column + offset[2] row`
+    Number {
+        /// The bits.
+        word: Word,
+        /// Is the number's negative there?
+        negated: bool,
+        /// What is not in the register: the same on all paths of a pixel.
+        offset: [f64; 3],
+    },
+    /// A truth.
+    Truth(Bit),
+    /// An unsigned integer.
+    Index(Word),
+}
+
+impl Builder<'_> {
+    pub(super) fn name(&mut self, name: Named, values: impl IntoIterator<Item = Nameable>) {
+        let values = values.into_iter().enumerate();
+        self.names
+            .extend(values.map(|(component, value)| (name, component, value)));
+    }
+
+    /// Named values that are in registers. What is nowhere, because a table serves instead or
+    /// because it is the same on all paths, is left out.
+    pub(super) fn named_places(&self) -> Vec<NamedPlace> {
+        let samples = self.coordinates.iter().map(|(&(depth, v), &index)| {
+            let name = Named {
+                depth,
+                name: "sample",
+            };
+            (name, usize::from(v), Nameable::Index(index))
+        });
+        let all = self.names.iter().copied().chain(samples);
+        let placed = all.filter_map(|(name, component, value)| {
+            let place = self.place_of(value)?;
+            Some(NamedPlace {
+                name,
+                component,
+                place,
+            })
+        });
+        let mut placed: Vec<_> = placed.collect();
+        placed.sort_by_key(|named| (named.name, named.component));
+        placed
+    }
+
+    fn place_of(&self, value: Nameable) -> Option<Place> {
+        match value {
+            Nameable::Real(real) => {
+                let word = self.values[real.node? as usize].word?;
+                let Affine { constant, along } = real.offset;
+                Some(Place::Number {
+                    word,
+                    negated: real.negated,
+                    offset: [constant, along[0], along[1]],
+                })
+            }
+            Nameable::Bool(Bool::Node { node, inverted }) => {
+                let bit = self.truths[node as usize].bit?;
+                let inverted = bit.inverted != inverted;
+                Some(Place::Truth(Bit { inverted, ..bit }))
+            }
+            Nameable::Index(Index::Node(node)) => {
+                self.choices[node as usize].word.map(Place::Index)
+            }
+            Nameable::Bool(Bool::Constant(_)) | Nameable::Index(Index::Constant(_)) => None,
+        }
+    }
+}
+
+impl Place {
+    /// The same in registers that are named otherwise.
+    pub(crate) fn renamed(self, rename: impl FnOnce(RegisterId) -> RegisterId) -> Self {
+        match self {
+            Self::Number {
+                word,
+                negated,
+                offset,
+            } => Self::Number {
+                word: word.of(rename),
+                negated,
+                offset,
+            },
+            Self::Truth(bit) => Self::Truth(bit.of(rename)),
+            Self::Index(word) => Self::Index(word.of(rename)),
+        }
+    }
+
+    /// The register.
+    pub fn register(&self) -> RegisterId {
+        match self {
+            Self::Number { word, .. } | Self::Index(word) => word.register,
+            Self::Truth(bit) => bit.register,
+        }
+    }
+}

@@ -1,0 +1,412 @@
+//! From what the builder recorded to a program: what is needed, in which order, and when it is
+//! undone.
+//!
+//! 1. [`needed`]: operations that nothing needs vanish.
+//! 2. [`merge_tables`]: tables of one address become one table of several columns, which share the
+//!    selection of the row: the greater part of a table's Toffolis.
+//! 3. [`schedule`]: under `keep` all operations run once and stay; under `scoped` each scope
+//!    copies out what is needed outside of it and then runs backwards.
+
+use super::{Passes, PixelWord, Recorded};
+use qrt_circuit::{
+    Bit, Block, BlockId, Instruction, Op, Program, Register, RegisterId, Style, Word, lower,
+};
+use std::collections::{HashMap, HashSet};
+use std::sync::Arc;
+
+/// What passes work on.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Draft {
+    pub(super) registers: Vec<Register>,
+    pub(super) blocks: Vec<Block>,
+    /// By block: is its work uncomputed at its end, under `uncompute: scoped`?
+    pub(super) scopes: Vec<bool>,
+    pub(super) ops: Vec<(Op, BlockId)>,
+}
+
+/// What was found out about operations, by their targets: of use to programs that are assembled
+/// from parts of one recording.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Known {
+    /// [`lower::best_low`]
+    lows: HashMap<Box<[RegisterId]>, u32>,
+    /// [`lower::scratch_width`]
+    widths: HashMap<Box<[RegisterId]>, u32>,
+}
+
+impl Draft {
+    /// Blocks from `block` to the root.
+    fn ancestors(&self, block: BlockId) -> Vec<BlockId> {
+        let mut path = vec![block];
+        let mut at = block;
+        while let Some(parent) = self.blocks[at.index()].parent {
+            path.push(parent);
+            at = parent;
+        }
+        path
+    }
+
+    /// The block next below `above` on the way to `block`; none if they are one.
+    fn child_towards(&self, above: BlockId, block: BlockId) -> Option<BlockId> {
+        let path = self.ancestors(block);
+        let place = path.iter().position(|&b| b == above)?;
+        place.checked_sub(1).map(|below| path[below])
+    }
+
+    /// Gives every scratch register the width that its operation needs.
+    pub(super) fn size_scratch(&mut self, known: &mut Known) {
+        for (op, _) in &self.ops {
+            let registers = &self.registers;
+            if let Some(scratch) = op.scratch() {
+                let width = known.widths.entry(op.targets().into());
+                let width = *width.or_insert_with(|| {
+                    lower::scratch_width(op, |id: RegisterId| registers[id.index()].width)
+                });
+                self.registers[scratch.index()].width = width;
+            }
+        }
+    }
+}
+
+/// Removes the operations that `roots` do not need.
+pub(super) fn needed(draft: &mut Draft, roots: &[RegisterId]) {
+    let mut live = vec![false; draft.registers.len()];
+    for root in roots {
+        live[root.index()] = true;
+    }
+    let mut keep = vec![false; draft.ops.len()];
+    for (place, (op, _)) in draft.ops.iter().enumerate().rev() {
+        if op.targets().iter().any(|target| live[target.index()]) {
+            keep[place] = true;
+            for read in op.reads() {
+                live[read.index()] = true;
+            }
+        }
+    }
+    let mut keep = keep.into_iter();
+    draft.ops.retain(|_| keep.next().unwrap_or(false));
+}
+
+/// Makes one table of all that have the same address and can run where the first one does.
+pub(super) fn merge_tables(draft: &mut Draft, known_of: &mut Known) {
+    let mut defined: HashMap<RegisterId, usize> = HashMap::new();
+    let mut groups: HashMap<(Vec<Bit>, Option<BlockId>), Vec<usize>> = HashMap::new();
+    for (place, (op, block)) in draft.ops.iter().enumerate() {
+        for target in op.targets() {
+            defined.insert(target, place);
+        }
+        if let Op::Table { address, style, .. } = op {
+            // Without scratch a table is there for its block alone: what another one needs of it
+            // would have to be kept in between.
+            let block = (*style == Style::Lean).then_some(*block);
+            let key = (address.to_vec(), block);
+            groups.entry(key).or_default().push(place);
+        }
+    }
+    // By the place before which it is inserted.
+    let mut inserted: Vec<(usize, Op, BlockId)> = Vec::new();
+    let mut gone: HashSet<usize> = HashSet::new();
+    let mut groups: Vec<_> = groups.into_iter().collect();
+    groups.sort_by_key(|(_, places)| places[0]);
+    for ((address, _), places) in groups {
+        // The block around all of them, as far as the address is known before the part of it in
+        // which the first one stands.
+        let first = places[0];
+        let known = address.iter().filter_map(|bit| defined.get(&bit.register));
+        let known = known.copied().max();
+        let mut common = draft.ancestors(draft.ops[first].1);
+        for &place in &places[1..] {
+            let path = draft.ancestors(draft.ops[place].1);
+            common.retain(|block| path.contains(block));
+        }
+        let Some((block, start)) = common.iter().find_map(|&block| {
+            let start = match draft.child_towards(block, draft.ops[first].1) {
+                None => first,
+                Some(child) => (0..=first)
+                    .find(|&place| draft.ancestors(draft.ops[place].1).contains(&child))
+                    .unwrap_or(first),
+            };
+            known
+                .is_none_or(|known| known < start)
+                .then_some((block, start))
+        }) else {
+            continue;
+        };
+        let mut columns = Vec::new();
+        let mut targets = Vec::new();
+        let mut leavings = None;
+        let mut how = Style::Wide;
+        for &place in &places {
+            if let Op::Table {
+                columns: c,
+                targets: t,
+                scratch,
+                style,
+                ..
+            } = &draft.ops[place].0
+            {
+                how = *style;
+                columns.extend(c.iter().cloned());
+                targets.extend(t.iter().copied());
+                leavings.get_or_insert(*scratch);
+            }
+            gone.insert(place);
+        }
+        let Some(scratch) = leavings else { continue };
+        for &register in targets.iter().chain([&scratch]) {
+            draft.registers[register.index()].block = block;
+        }
+        let targets: Box<[RegisterId]> = targets.into();
+        let op = Op::Table {
+            low: match how {
+                Style::Wide => *known_of
+                    .lows
+                    .entry(targets.clone())
+                    .or_insert_with(|| lower::best_low(address.len() as u32, &columns)),
+                Style::Lean => 0,
+            },
+            style: how,
+            address: address.into(),
+            columns: Arc::from(columns),
+            targets,
+            scratch,
+        };
+        inserted.push((start, op, block));
+    }
+    inserted.sort_by_key(|&(place, ..)| place);
+    let mut inserted = inserted.into_iter().peekable();
+    let mut merged = Vec::with_capacity(draft.ops.len());
+    for (place, op) in std::mem::take(&mut draft.ops).into_iter().enumerate() {
+        while let Some((_, op, block)) = inserted.next_if(|&(before, ..)| before <= place) {
+            merged.push((op, block));
+        }
+        if !gone.contains(&place) {
+            merged.push(op);
+        }
+    }
+    draft.ops = merged;
+}
+
+/// A block's content, in order.
+#[derive(Clone, Copy, Debug)]
+enum Item {
+    Op(usize),
+    Block(BlockId),
+}
+
+struct Scheduler<'a> {
+    draft: &'a mut Draft,
+    items: Vec<Vec<Item>>,
+    /// By register: the blocks around the ops that read it, none for what stays to the end.
+    readers: HashMap<RegisterId, Vec<Option<BlockId>>>,
+    /// Copies that stand for registers of finished scopes.
+    renamed: HashMap<RegisterId, RegisterId>,
+}
+
+/// The order of instructions: all at once, or scope by scope. `roots` outlive everything; under
+/// scopes, some of them may end up in copies, which the result maps them to.
+pub(super) fn schedule(
+    draft: &mut Draft,
+    scoped: bool,
+    roots: &[RegisterId],
+) -> (Vec<Instruction>, HashMap<RegisterId, RegisterId>) {
+    if !scoped {
+        let instructions = draft.ops.iter().enumerate();
+        let instructions = instructions.map(|(op, &(_, block))| Instruction {
+            op: op as u32,
+            inverse: false,
+            block,
+        });
+        return (instructions.collect(), HashMap::new());
+    }
+    let mut readers: HashMap<RegisterId, Vec<Option<BlockId>>> = HashMap::new();
+    for root in roots {
+        readers.entry(*root).or_default().push(None);
+    }
+    for (op, block) in &draft.ops {
+        for read in op.reads() {
+            readers.entry(read).or_default().push(Some(*block));
+        }
+    }
+    // Blocks stand in their parents where their first op does.
+    let mut placed: HashSet<BlockId> = HashSet::new();
+    let mut items: Vec<Vec<Item>> = vec![Vec::new(); draft.blocks.len()];
+    for (place, (_, block)) in draft.ops.iter().enumerate() {
+        let path = draft.ancestors(*block);
+        for pair in path.windows(2) {
+            if placed.insert(pair[0]) {
+                items[pair[1].index()].push(Item::Block(pair[0]));
+            }
+        }
+        items[block.index()].push(Item::Op(place));
+    }
+    let mut scheduler = Scheduler {
+        draft,
+        items,
+        readers,
+        renamed: HashMap::new(),
+    };
+    let instructions = scheduler.block(BlockId::ROOT);
+    (instructions, scheduler.renamed)
+}
+
+impl Scheduler<'_> {
+    /// The instructions of a block. A scope leaves behind nothing but copies of what is read
+    /// outside of it.
+    fn block(&mut self, block: BlockId) -> Vec<Instruction> {
+        let mut forward = Vec::new();
+        for item in std::mem::take(&mut self.items[block.index()]) {
+            match item {
+                Item::Op(op) => {
+                    let renamed = &self.renamed;
+                    self.draft.ops[op].0.rename(|register, computed| {
+                        if !computed && let Some(copy) = renamed.get(register) {
+                            *register = *copy;
+                        }
+                    });
+                    forward.push(Instruction {
+                        op: op as u32,
+                        inverse: false,
+                        block,
+                    });
+                }
+                Item::Block(inner) => forward.extend(self.block(inner)),
+            }
+        }
+        if !self.draft.scopes[block.index()] {
+            return forward;
+        }
+        let parent = self.draft.blocks[block.index()]
+            .parent
+            .unwrap_or(BlockId::ROOT);
+        // What was computed here, or copied here by scopes within, and is read outside.
+        let mut held: Vec<RegisterId> = Vec::new();
+        for instruction in &forward {
+            for target in self.draft.ops[instruction.op as usize].0.targets() {
+                if instruction.inverse {
+                    held.retain(|&register| register != target);
+                } else {
+                    held.push(target);
+                }
+            }
+        }
+        let outside: Vec<RegisterId> = held
+            .into_iter()
+            .filter(|register| self.read_outside(*register, block))
+            .collect();
+        // A result of an operation that leaves nothing else behind may stay as it is.
+        let mut stays: HashSet<usize> = HashSet::new();
+        let mut copies = Vec::new();
+        for register in outside {
+            let own = forward.iter().find(|instruction| {
+                let op = &self.draft.ops[instruction.op as usize].0;
+                !instruction.inverse && op.targets().contains(&register)
+            });
+            let simple = own.filter(|instruction| {
+                let op = &self.draft.ops[instruction.op as usize];
+                op.1 == block && op.0.scratch().is_none()
+            });
+            match simple {
+                Some(instruction) => {
+                    stays.insert(instruction.op as usize);
+                }
+                None => copies.push(self.copy(register, parent)),
+            }
+        }
+        let backward: Vec<Instruction> = forward
+            .iter()
+            .rev()
+            .filter(|instruction| !stays.contains(&(instruction.op as usize)))
+            .map(|instruction| Instruction {
+                inverse: !instruction.inverse,
+                ..*instruction
+            })
+            .collect();
+        forward.extend(copies);
+        forward.extend(backward);
+        forward
+    }
+
+    fn read_outside(&self, register: RegisterId, block: BlockId) -> bool {
+        // A copy is read by whoever read the original.
+        let mut names = vec![register];
+        let mut at = register;
+        while let Some((original, _)) = self.renamed.iter().find(|&(_, &copy)| copy == at) {
+            names.push(*original);
+            at = *original;
+        }
+        names.iter().any(|name| {
+            self.readers.get(name).is_some_and(|readers| {
+                readers.iter().any(|reader| {
+                    reader.is_none_or(|reader| !self.draft.ancestors(reader).contains(&block))
+                })
+            })
+        })
+    }
+
+    fn copy(&mut self, register: RegisterId, parent: BlockId) -> Instruction {
+        let original = self.draft.registers[register.index()].clone();
+        let id = RegisterId(self.draft.registers.len() as u32);
+        let width = original.width;
+        self.draft.registers.push(Register {
+            name: format!("{}'", original.name),
+            block: parent,
+            ..original
+        });
+        // Earlier names lead to the newest copy.
+        for copy in self.renamed.values_mut() {
+            if *copy == register {
+                *copy = id;
+            }
+        }
+        self.renamed.insert(register, id);
+        let a = Word {
+            register,
+            offset: 0,
+            width,
+            signed: false,
+            shift: 0,
+        };
+        self.draft.ops.push((Op::Copy { a, target: id }, parent));
+        Instruction {
+            op: self.draft.ops.len() as u32 - 1,
+            inverse: false,
+            block: parent,
+        }
+    }
+}
+
+/// The program of what was recorded, and the copies that stand for some of its `roots`.
+pub(crate) fn assemble(
+    recorded: Recorded,
+    roots: &[RegisterId],
+    passes: Passes,
+    scoped: bool,
+    inputs: &[RegisterId],
+    known: &mut Known,
+) -> (Program, HashMap<RegisterId, RegisterId>) {
+    let mut draft = recorded.draft;
+    if passes.needed {
+        let mut kept = roots.to_vec();
+        kept.extend(recorded.records);
+        needed(&mut draft, &kept);
+    }
+    if passes.merge {
+        merge_tables(&mut draft, known);
+    }
+    draft.size_scratch(known);
+    let (instructions, renamed) = schedule(&mut draft, scoped, roots);
+    let program = Program {
+        registers: draft.registers,
+        blocks: draft.blocks,
+        parameters: recorded
+            .parameters
+            .iter()
+            .map(PixelWord::parameter)
+            .collect(),
+        ops: draft.ops.into_iter().map(|(op, _)| op).collect(),
+        instructions,
+        inputs: inputs.to_vec(),
+    };
+    (program, renamed)
+}

@@ -1,0 +1,212 @@
+//! Functions of few bits.
+
+use super::value::{Real, Tabulated, Value};
+use super::{Builder, FEW};
+use qrt_circuit::{Bit, Op, RegisterId, Type, Word};
+use std::rc::Rc;
+use std::sync::Arc;
+
+impl Tabulated {
+    fn constant(value: f64) -> Self {
+        Self {
+            address: Rc::new([]),
+            entries: Rc::new([value]),
+        }
+    }
+
+    /// Without the address bits that no entry depends on.
+    fn reduced(mut self) -> Self {
+        let mut place = 0;
+        while place < self.address.len() {
+            let step = 1 << place;
+            let entries = &self.entries;
+            let idle = (0..entries.len())
+                .filter(|i| i & step == 0)
+                .all(|i| entries[i] == entries[i | step]);
+            if !idle {
+                place += 1;
+                continue;
+            }
+            let kept = (0..entries.len()).filter(|i| i & step == 0);
+            let entries = kept.map(|i| entries[i]).collect();
+            let address = self.address.iter().enumerate();
+            let address = address.filter(|&(i, _)| i != place).map(|(_, &bit)| bit);
+            self = Self {
+                address: address.collect(),
+                entries,
+            };
+        }
+        self
+    }
+
+    /// `f(a, b)`, a function of the bits of both; none if these are more than `most`, unless both
+    /// have the same.
+    fn join(a: &Self, b: &Self, most: usize, f: impl Fn(f64, f64) -> f64) -> Option<Self> {
+        if a.address == b.address {
+            let pairs = a.entries.iter().zip(&*b.entries);
+            return Some(Self {
+                address: a.address.clone(),
+                entries: pairs.map(|(&a, &b)| f(a, b)).collect(),
+            });
+        }
+        let mut address = a.address.to_vec();
+        // Where bit i of b's address stands in the common one.
+        let places: Vec<usize> = b
+            .address
+            .iter()
+            .map(|bit| {
+                let known = address.iter().position(|known| known == bit);
+                known.unwrap_or_else(|| {
+                    address.push(*bit);
+                    address.len() - 1
+                })
+            })
+            .collect();
+        let free = a.address.is_empty() || b.address.is_empty();
+        if address.len() > most && !free {
+            return None;
+        }
+        let mask = a.entries.len() - 1;
+        let entries = (0..1_usize << address.len())
+            .map(|i| {
+                let spread = places.iter().enumerate();
+                let of_b = spread.fold(0, |sum, (bit, place)| sum | (i >> place & 1) << bit);
+                f(a.entries[i & mask], b.entries[of_b])
+            })
+            .collect();
+        Some(Self {
+            address: address.into(),
+            entries,
+        })
+    }
+}
+
+/// Toffolis of a table of `bits` address bits.
+fn one_hot_cost(bits: usize) -> u32 {
+    (1_u32 << bits) - bits as u32 - 1
+}
+
+/// `f(a, b)` as a table, if that is cheaper than arithmetic that costs `cost`.
+pub(super) fn joined(
+    a: &Tabulated,
+    b: &Tabulated,
+    cost: u32,
+    f: impl Fn(f64, f64) -> f64,
+) -> Option<Tabulated> {
+    let joined = Tabulated::join(a, b, FEW, f)?.reduced();
+    let bits = joined.address.len();
+    let free = bits <= a.address.len().max(b.address.len());
+    (free || one_hot_cost(bits) <= cost).then_some(joined)
+}
+
+impl Builder<'_> {
+    /// A number that is a function of few bits.
+    pub(super) fn tabulated(&mut self, table: Tabulated) -> Real {
+        let table = table.reduced();
+        let first = table.entries[0];
+        if table.address.is_empty() {
+            return Real::constant(first);
+        }
+        let low = table.entries.iter().copied().fold(first, f64::min);
+        let high = table.entries.iter().copied().fold(first, f64::max);
+        let range = [self.rounded(low), self.rounded(high)];
+        if range[0] == range[1] {
+            // What is rounded to one number is that number.
+            return Real::constant(range[0] as f64 * self.ulp());
+        }
+        self.value(Value {
+            range,
+            word: None,
+            table: Some(table),
+        })
+    }
+
+    /// The function that a number is, its sign and constant included.
+    pub(super) fn table_of(&self, a: Real) -> Option<Tabulated> {
+        if !a.offset.is_constant() {
+            return None;
+        }
+        let offset = a.offset.constant;
+        let Some(node) = a.node else {
+            return Some(Tabulated::constant(offset));
+        };
+        let table = self.values[node as usize].table.as_ref()?;
+        if offset == 0.0 && !a.negated {
+            return Some(table.clone());
+        }
+        let sign = if a.negated { -1.0 } else { 1.0 };
+        Some(table.map(|entry| sign * entry + offset))
+    }
+
+    /// `f(a)` as a table, if `a` is one.
+    pub(super) fn tabulate_one(&mut self, a: Real, f: impl Fn(f64) -> f64) -> Option<Real> {
+        let table = self.table_of(a)?.map(f);
+        Some(self.tabulated(table))
+    }
+
+    /// `f(a, b)` as a table, if both are and arithmetic would cost more.
+    pub(super) fn tabulate_pair(
+        &mut self,
+        a: Real,
+        b: Real,
+        cost: u32,
+        f: impl Fn(f64, f64) -> f64,
+    ) -> Option<Real> {
+        let (a, b) = (self.table_of(a)?, self.table_of(b)?);
+        if !self.target.passes.tabulate && a.address != b.address {
+            return None;
+        }
+        let table = joined(&a, &b, cost, f)?;
+        Some(self.tabulated(table))
+    }
+
+    /// The register's bits of a node, looked up now if it is a table.
+    pub(super) fn word_of(&mut self, node: u32) -> Word {
+        let value = &self.values[node as usize];
+        if let Some(word) = value.word {
+            return word;
+        }
+        let range = value.range;
+        let table = value.table.clone();
+        let word = match table {
+            Some(table) => {
+                let entries: Vec<i64> = table.entries.iter().map(|&e| self.rounded(e)).collect();
+                // Zeros below that all entries share are wiring.
+                let zeros = entries.iter().filter(|&&entry| entry != 0);
+                let zeros = zeros.map(|entry| entry.trailing_zeros()).min().unwrap_or(0);
+                let entries = entries.iter().map(|entry| entry >> zeros).collect();
+                let (ty, width, signed) = self.shape(range.map(|end| end >> zeros));
+                let target = self.look_up(&table.address, entries, ty, width);
+                Word {
+                    shift: zeros,
+                    ..Self::whole(target, width, signed)
+                }
+            }
+            // A value has a word or a table.
+            None => Self::whole(self.id, 1, false),
+        };
+        self.values[node as usize].word = Some(word);
+        word
+    }
+
+    /// The register of a table's column.
+    pub(super) fn look_up(
+        &mut self,
+        address: &[Bit],
+        entries: Box<[i64]>,
+        ty: Type,
+        width: u32,
+    ) -> RegisterId {
+        let columns: Arc<[Box<[i64]>]> = Arc::new([entries]);
+        let address: Box<[Bit]> = address.into();
+        let style = self.target.style;
+        self.emit(&[(ty, width)], |t, scratch| Op::Table {
+            low: 0,
+            style,
+            address,
+            columns,
+            targets: t.into(),
+            scratch,
+        })[0]
+    }
+}

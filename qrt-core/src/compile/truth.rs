@@ -1,0 +1,191 @@
+//! Truth values and comparisons.
+
+use super::table::joined;
+use super::value::{Bool, Real, Tabulated, Truth};
+use super::{Builder, negative_range};
+use qrt_circuit::{Bit, Op, Operand, Type};
+
+impl Builder<'_> {
+    fn truth_node(&mut self, truth: Truth) -> Bool {
+        self.truths.push(truth);
+        Bool::node(self.truths.len() as u32 - 1)
+    }
+
+    /// A truth value that is there.
+    pub(super) fn truth_of(&mut self, bit: Bit) -> Bool {
+        let node = self.truth_node(Truth {
+            bit: Some(Bit {
+                inverted: false,
+                ..bit
+            }),
+            table: None,
+        });
+        if bit.inverted { node.negated() } else { node }
+    }
+
+    /// A truth value that is a function of few bits; entries are 0 and 1.
+    pub(super) fn tabulated_truth(&mut self, table: Tabulated) -> Bool {
+        let first = table.entries[0];
+        if table.entries.iter().all(|&entry| entry == first) {
+            return Bool::Constant(first != 0.0);
+        }
+        self.truth_node(Truth {
+            bit: None,
+            table: Some(table),
+        })
+    }
+
+    pub(super) fn truth_table(&self, a: Bool) -> Option<Tabulated> {
+        match a {
+            Bool::Constant(_) => None,
+            Bool::Node { node, inverted } => {
+                let table = self.truths[node as usize].table.as_ref()?;
+                Some(if inverted {
+                    table.map(|entry| 1.0 - entry)
+                } else {
+                    table.clone()
+                })
+            }
+        }
+    }
+
+    /// The bit of a truth value, looked up now if it is a table.
+    pub(super) fn bit(&mut self, a: Bool) -> Bit {
+        let Bool::Node { node, inverted } = a else {
+            // Constants fold before anything asks for their bit.
+            return Bit {
+                register: self.id,
+                index: 0,
+                inverted: false,
+            };
+        };
+        let truth = self.truths[node as usize].clone();
+        let bit = match (truth.bit, truth.table) {
+            (Some(bit), _) => bit,
+            (None, Some(table)) => {
+                let entries = table.entries.iter().map(|&entry| entry as i64).collect();
+                let bit = Bit {
+                    register: self.look_up(&table.address, entries, Type::Bool, 1),
+                    index: 0,
+                    inverted: false,
+                };
+                self.truths[node as usize].bit = Some(bit);
+                bit
+            }
+            (None, None) => Bit {
+                register: self.id,
+                index: 0,
+                inverted: false,
+            },
+        };
+        Bit {
+            inverted: bit.inverted != inverted,
+            ..bit
+        }
+    }
+
+    pub(super) fn both(&mut self, a: Bool, b: Bool) -> Bool {
+        match (a, b) {
+            (Bool::Constant(false), _) | (_, Bool::Constant(false)) => Bool::Constant(false),
+            (Bool::Constant(true), other) | (other, Bool::Constant(true)) => other,
+            _ if a == b => a,
+            _ if a == b.negated() => Bool::Constant(false),
+            _ => {
+                if let (Some(x), Some(y)) = (self.truth_table(a), self.truth_table(b))
+                    && let Some(table) = joined(&x, &y, 1, |a, b| a * b)
+                {
+                    return self.tabulated_truth(table);
+                }
+                let (a, b) = (self.bit(a), self.bit(b));
+                let order = |bit: Bit| (bit.register, bit.index, bit.inverted);
+                let (a, b) = if order(a) <= order(b) { (a, b) } else { (b, a) };
+                let target =
+                    self.emit(&[(Type::Bool, 1)], |t, _| Op::And { a, b, target: t[0] })[0];
+                self.truth_of(Bit {
+                    register: target,
+                    index: 0,
+                    inverted: false,
+                })
+            }
+        }
+    }
+
+    pub(super) fn either(&mut self, a: Bool, b: Bool) -> Bool {
+        self.both(a.negated(), b.negated()).negated()
+    }
+
+    pub(super) fn differ(&mut self, a: Bool, b: Bool) -> Bool {
+        match (a, b) {
+            (Bool::Constant(known), other) | (other, Bool::Constant(known)) => {
+                if known {
+                    other.negated()
+                } else {
+                    other
+                }
+            }
+            _ => {
+                let (a, b) = (self.bit(a), self.bit(b));
+                let target =
+                    self.emit(&[(Type::Bool, 1)], |t, _| Op::Xor { a, b, target: t[0] })[0];
+                self.truth_of(Bit {
+                    register: target,
+                    index: 0,
+                    inverted: false,
+                })
+            }
+        }
+    }
+
+    /// `a < 0`
+    pub(super) fn negative_sign(&mut self, a: Real) -> Bool {
+        let range = self.range(a);
+        if range[0] >= 0 {
+            return Bool::Constant(false);
+        }
+        if range[1] < 0 {
+            return Bool::Constant(true);
+        }
+        if let Some(table) = self.table_of(a) {
+            let ulp = self.ulp();
+            let table = table.map(|entry| f64::from(entry < -0.5 * ulp));
+            return self.tabulated_truth(table);
+        }
+        let plain = self.plain(a);
+        let Operand::Word(word) = plain.operand else {
+            return Bool::Constant(false);
+        };
+        if !plain.negated {
+            return self.truth_of(Bit {
+                register: word.register,
+                index: word.offset + word.width - 1,
+                inverted: false,
+            });
+        }
+        // -x < 0
+        let range = negative_range(plain.range);
+        let word = self.sum(Operand::Constant(0), plain.operand, true, range);
+        self.truth_of(Bit {
+            register: word.register,
+            index: word.width - 1,
+            inverted: false,
+        })
+    }
+
+    pub(super) fn is_less(&mut self, a: Real, b: Real) -> Bool {
+        let (x, y) = (self.range(a), self.range(b));
+        if x[1] < y[0] {
+            return Bool::Constant(true);
+        }
+        if x[0] >= y[1] {
+            return Bool::Constant(false);
+        }
+        if let (Some(x), Some(y)) = (self.table_of(a), self.table_of(b))
+            && let Some(table) = joined(&x, &y, self.fraction(), |a, b| f64::from(a < b))
+        {
+            return self.tabulated_truth(table);
+        }
+        // a's and b's constants are rounded as one.
+        let difference = self.plus(a, b.negative());
+        self.negative_sign(difference)
+    }
+}
