@@ -36,11 +36,9 @@ pub struct LitFloorRay0 {
     pub distance:
         ::qrt::core::oracle::compiled::Field<LitFloor, ::qrt::circuit::format::UFixed<0, 8>>,
     /// The cell of the unit square that it samples.
-    pub sample_u:
-        ::qrt::core::oracle::compiled::Field<LitFloor, ::qrt::circuit::format::UInt<1>>,
+    pub sample_u: ::qrt::core::oracle::compiled::Field<LitFloor, ::qrt::circuit::format::UInt<1>>,
     /// The cell of the unit square that it samples.
-    pub sample_v:
-        ::qrt::core::oracle::compiled::Field<LitFloor, ::qrt::circuit::format::UInt<1>>,
+    pub sample_v: ::qrt::core::oracle::compiled::Field<LitFloor, ::qrt::circuit::format::UInt<1>>,
 }
 
 /// Numbers of ray 1 of [`LitFloor`] that are in registers.
@@ -62,11 +60,9 @@ pub struct LitFloorRay1 {
         ::qrt::circuit::format::Fixed<1, 8>,
     >,
     /// The cell of the unit square that it samples.
-    pub sample_u:
-        ::qrt::core::oracle::compiled::Field<LitFloor, ::qrt::circuit::format::UInt<2>>,
+    pub sample_u: ::qrt::core::oracle::compiled::Field<LitFloor, ::qrt::circuit::format::UInt<2>>,
     /// The cell of the unit square that it samples.
-    pub sample_v:
-        ::qrt::core::oracle::compiled::Field<LitFloor, ::qrt::circuit::format::UInt<2>>,
+    pub sample_v: ::qrt::core::oracle::compiled::Field<LitFloor, ::qrt::circuit::format::UInt<2>>,
 }
 
 /// Where the numbers of a path of [`LitFloor`] are among its registers.
@@ -84,11 +80,10 @@ const _: () = {
     // A name that nothing of what is imported below has.
     type __Scene = LitFloor;
     const _: () = {
-        use ::qrt::core::compile::{NamedPlace, Place};
         use ::qrt::circuit::{
-            Bit, BlockId, Declaration, Machine, Operand, Parameter, RegisterId, Role, Style, Type,
-            Word,
+            Bit, BlockId, Declaration, Machine, Operand, RegisterId, Style, Tag, Type, Word,
         };
+        use ::qrt::core::compile::{NamedPlace, PixelWord, Place};
         use ::qrt::core::oracle::Channel;
         use ::qrt::core::oracle::compiled::{
             BlockDeclaration, CompiledOracle, Computed, Field, Outline, Vector,
@@ -192,411 +187,312 @@ const _: () = {
         }
         /// Registers by number.
         static R: [Declaration; 98] = [
-            Declaration::at(0, "id", Type::UInt, Role::Id, 2),
-            Declaration::at(1, "comparator", Type::UInt, Role::Comparator, 4),
-            Declaration::at(2, "flag", Type::Bool, Role::Flag, 1),
-            Declaration::at(3, "ray0.sample.u", Type::UInt, Role::Work, 1).block(1),
-            Declaration::at(4, "ray0.sample.v", Type::UInt, Role::Work, 1).block(1),
-            Declaration::at(5, "add5", Type::UFixed { fraction: 8 }, Role::Work, 5).block(3),
-            Declaration::at(6, "load6", Type::UFixed { fraction: 8 }, Role::Work, 8).block(3),
+            Declaration::at(0, "id", Type::UInt, Tag(1), 2),
+            Declaration::at(1, "comparator", Type::UInt, Tag(2), 4),
+            Declaration::at(2, "flag", Type::Bool, Tag(5), 1),
+            Declaration::at(3, "ray0.sample.u", Type::UInt, Tag(0), 1).block(1),
+            Declaration::at(4, "ray0.sample.v", Type::UInt, Tag(0), 1).block(1),
+            Declaration::at(5, "add5", Type::UFixed { fraction: 8 }, Tag(0), 5).block(3),
+            Declaration::at(6, "load6", Type::UFixed { fraction: 8 }, Tag(0), 8).block(3),
             Declaration::at(
                 7,
                 "ray0.direction.y",
                 Type::UFixed { fraction: 8 },
-                Role::Work,
+                Tag(0),
                 2,
             )
             .block(3)
             .scratch(8),
-            Declaration::at(8, "table8", Type::Scratch, Role::Scratch, 2).block(3),
-            Declaration::at(9, "add9", Type::UFixed { fraction: 8 }, Role::Work, 8).block(3),
-            Declaration::at(
-                10,
-                "ray0.distance",
-                Type::UFixed { fraction: 8 },
-                Role::Work,
-                8,
-            )
-            .block(3)
-            .range(0, 136)
-            .scratch(12),
-            Declaration::at(11, "divide11", Type::Bool, Role::Work, 1).block(3),
-            Declaration::at(12, "divide12", Type::Scratch, Role::Scratch, 76).block(3),
-            Declaration::at(13, "load13", Type::Fixed { fraction: 8 }, Role::Work, 10).block(3),
-            Declaration::at(14, "add14", Type::Fixed { fraction: 8 }, Role::Work, 10).block(3),
-            Declaration::at(15, "multiply15", Type::Fixed { fraction: 8 }, Role::Work, 9)
+            Declaration::at(8, "table8", Type::Scratch, Tag(3), 2).block(3),
+            Declaration::at(9, "add9", Type::UFixed { fraction: 8 }, Tag(0), 8).block(3),
+            Declaration::at(10, "ray0.distance", Type::UFixed { fraction: 8 }, Tag(0), 8)
+                .block(3)
+                .range(0, 136)
+                .scratch(12),
+            Declaration::at(11, "divide11", Type::Bool, Tag(0), 1).block(3),
+            Declaration::at(12, "divide12", Type::Scratch, Tag(3), 76).block(3),
+            Declaration::at(13, "load13", Type::Fixed { fraction: 8 }, Tag(0), 10).block(3),
+            Declaration::at(14, "add14", Type::Fixed { fraction: 8 }, Tag(0), 10).block(3),
+            Declaration::at(15, "multiply15", Type::Fixed { fraction: 8 }, Tag(0), 9)
                 .block(3)
                 .range(-144, 0)
                 .scratch(16),
-            Declaration::at(16, "multiply16", Type::Scratch, Role::Scratch, 105).block(3),
-            Declaration::at(17, "load17", Type::Fixed { fraction: 8 }, Role::Work, 8).block(3),
+            Declaration::at(16, "multiply16", Type::Scratch, Tag(3), 105).block(3),
+            Declaration::at(17, "load17", Type::Fixed { fraction: 8 }, Tag(0), 8).block(3),
             Declaration::at(
                 18,
                 "ray0.direction.x",
                 Type::UFixed { fraction: 8 },
-                Role::Work,
+                Tag(0),
                 5,
             )
             .block(3)
             .scratch(19),
-            Declaration::at(19, "table19", Type::Scratch, Role::Scratch, 2).block(3),
-            Declaration::at(20, "add20", Type::Fixed { fraction: 8 }, Role::Work, 8).block(3),
-            Declaration::at(21, "multiply21", Type::Fixed { fraction: 8 }, Role::Work, 7)
+            Declaration::at(19, "table19", Type::Scratch, Tag(3), 2).block(3),
+            Declaration::at(20, "add20", Type::Fixed { fraction: 8 }, Tag(0), 8).block(3),
+            Declaration::at(21, "multiply21", Type::Fixed { fraction: 8 }, Tag(0), 7)
                 .block(3)
                 .range(-50, 49)
                 .scratch(22),
-            Declaration::at(22, "multiply22", Type::Scratch, Role::Scratch, 87).block(3),
-            Declaration::at(23, "add23", Type::Fixed { fraction: 8 }, Role::Work, 7).block(4),
-            Declaration::at(24, "divide24", Type::UFixed { fraction: 8 }, Role::Work, 8)
+            Declaration::at(22, "multiply22", Type::Scratch, Tag(3), 87).block(3),
+            Declaration::at(23, "add23", Type::Fixed { fraction: 8 }, Tag(0), 7).block(4),
+            Declaration::at(24, "divide24", Type::UFixed { fraction: 8 }, Tag(0), 8)
                 .block(4)
                 .range(0, 255),
-            Declaration::at(25, "divide25", Type::Bool, Role::Work, 1).block(4),
-            Declaration::at(26, "divide26", Type::Scratch, Role::Scratch, 0).block(4),
-            Declaration::at(
-                27,
-                "multiply27",
-                Type::Fixed { fraction: 8 },
-                Role::Work,
-                10,
-            )
-            .block(4)
-            .range(-270, 0),
-            Declaration::at(28, "multiply28", Type::Scratch, Role::Scratch, 0).block(4),
-            Declaration::at(29, "multiply29", Type::Fixed { fraction: 8 }, Role::Work, 8)
+            Declaration::at(25, "divide25", Type::Bool, Tag(0), 1).block(4),
+            Declaration::at(26, "divide26", Type::Scratch, Tag(3), 0).block(4),
+            Declaration::at(27, "multiply27", Type::Fixed { fraction: 8 }, Tag(0), 10)
+                .block(4)
+                .range(-270, 0),
+            Declaration::at(28, "multiply28", Type::Scratch, Tag(3), 0).block(4),
+            Declaration::at(29, "multiply29", Type::Fixed { fraction: 8 }, Tag(0), 8)
                 .block(4)
                 .range(-94, 93),
-            Declaration::at(30, "multiply30", Type::Scratch, Role::Scratch, 0).block(4),
-            Declaration::at(31, "add31", Type::Fixed { fraction: 8 }, Role::Work, 9).block(4),
-            Declaration::at(32, "add32", Type::Fixed { fraction: 8 }, Role::Work, 9)
+            Declaration::at(30, "multiply30", Type::Scratch, Tag(3), 0).block(4),
+            Declaration::at(31, "add31", Type::Fixed { fraction: 8 }, Tag(0), 9).block(4),
+            Declaration::at(32, "add32", Type::Fixed { fraction: 8 }, Tag(0), 9)
                 .block(4)
                 .range(-136, 255),
-            Declaration::at(33, "ray1.sample.u", Type::UInt, Role::Work, 2).block(6),
-            Declaration::at(34, "ray1.sample.v", Type::UInt, Role::Work, 2).block(6),
-            Declaration::at(
-                35,
-                "ray1.origin.x",
-                Type::Fixed { fraction: 8 },
-                Role::Work,
-                7,
-            )
-            .block(11)
-            .range(-50, 50),
-            Declaration::at(36, "load36", Type::Fixed { fraction: 8 }, Role::Work, 9).block(12),
-            Declaration::at(37, "add37", Type::Fixed { fraction: 8 }, Role::Work, 9).block(12),
-            Declaration::at(38, "multiply38", Type::Fixed { fraction: 8 }, Role::Work, 8)
+            Declaration::at(33, "ray1.sample.u", Type::UInt, Tag(0), 2).block(6),
+            Declaration::at(34, "ray1.sample.v", Type::UInt, Tag(0), 2).block(6),
+            Declaration::at(35, "ray1.origin.x", Type::Fixed { fraction: 8 }, Tag(0), 7)
+                .block(11)
+                .range(-50, 50),
+            Declaration::at(36, "load36", Type::Fixed { fraction: 8 }, Tag(0), 9).block(12),
+            Declaration::at(37, "add37", Type::Fixed { fraction: 8 }, Tag(0), 9).block(12),
+            Declaration::at(38, "multiply38", Type::Fixed { fraction: 8 }, Tag(0), 8)
                 .block(12)
                 .range(-106, 0)
                 .scratch(39),
-            Declaration::at(39, "multiply39", Type::Scratch, Role::Scratch, 96).block(12),
-            Declaration::at(
-                40,
-                "ray1.origin.y",
-                Type::Fixed { fraction: 8 },
-                Role::Work,
-                8,
-            )
-            .block(12)
-            .range(-106, 2),
-            Declaration::at(
-                41,
-                "ray1.origin.z",
-                Type::Fixed { fraction: 8 },
-                Role::Work,
-                9,
-            )
-            .block(13)
-            .range(-144, 3),
-            Declaration::at(42, "add42", Type::UFixed { fraction: 8 }, Role::Work, 8).block(15),
+            Declaration::at(39, "multiply39", Type::Scratch, Tag(3), 96).block(12),
+            Declaration::at(40, "ray1.origin.y", Type::Fixed { fraction: 8 }, Tag(0), 8)
+                .block(12)
+                .range(-106, 2),
+            Declaration::at(41, "ray1.origin.z", Type::Fixed { fraction: 8 }, Tag(0), 9)
+                .block(13)
+                .range(-144, 3),
+            Declaration::at(42, "add42", Type::UFixed { fraction: 8 }, Tag(0), 8).block(15),
             Declaration::at(
                 43,
                 "ray1.direction.y",
                 Type::UFixed { fraction: 8 },
-                Role::Work,
+                Tag(0),
                 8,
             )
             .block(15)
             .scratch(44),
-            Declaration::at(44, "table44", Type::Scratch, Role::Scratch, 4).block(15),
-            Declaration::at(45, "divide45", Type::UFixed { fraction: 8 }, Role::Work, 9)
+            Declaration::at(44, "table44", Type::Scratch, Tag(3), 4).block(15),
+            Declaration::at(45, "divide45", Type::UFixed { fraction: 8 }, Tag(0), 9)
                 .block(15)
                 .range(0, 478)
                 .scratch(47),
-            Declaration::at(46, "divide46", Type::Bool, Role::Work, 1).block(15),
-            Declaration::at(47, "divide47", Type::Scratch, Role::Scratch, 87).block(15),
+            Declaration::at(46, "divide46", Type::Bool, Tag(0), 1).block(15),
+            Declaration::at(47, "divide47", Type::Scratch, Tag(3), 87).block(15),
             Declaration::at(
                 48,
                 "ray1.direction.z",
                 Type::Fixed { fraction: 8 },
-                Role::Work,
+                Tag(0),
                 9,
             )
             .block(15)
             .scratch(49),
-            Declaration::at(49, "table49", Type::Scratch, Role::Scratch, 16).block(15),
-            Declaration::at(
-                50,
-                "multiply50",
-                Type::Fixed { fraction: 8 },
-                Role::Work,
-                10,
-            )
-            .block(15)
-            .range(-316, 315)
-            .scratch(51),
-            Declaration::at(51, "multiply51", Type::Scratch, Role::Scratch, 107).block(15),
+            Declaration::at(49, "table49", Type::Scratch, Tag(3), 16).block(15),
+            Declaration::at(50, "multiply50", Type::Fixed { fraction: 8 }, Tag(0), 10)
+                .block(15)
+                .range(-316, 315)
+                .scratch(51),
+            Declaration::at(51, "multiply51", Type::Scratch, Tag(3), 107).block(15),
             Declaration::at(
                 52,
                 "ray1.direction.x",
                 Type::Fixed { fraction: 8 },
-                Role::Work,
+                Tag(0),
                 9,
             )
             .block(15),
-            Declaration::at(53, "table53", Type::Scratch, Role::Scratch, 0).block(15),
-            Declaration::at(
-                54,
-                "multiply54",
-                Type::Fixed { fraction: 8 },
-                Role::Work,
-                10,
-            )
-            .block(15)
-            .range(-316, 315)
-            .scratch(55),
-            Declaration::at(55, "multiply55", Type::Scratch, Role::Scratch, 107).block(15),
-            Declaration::at(56, "add56", Type::Fixed { fraction: 8 }, Role::Work, 10)
+            Declaration::at(53, "table53", Type::Scratch, Tag(3), 0).block(15),
+            Declaration::at(54, "multiply54", Type::Fixed { fraction: 8 }, Tag(0), 10)
+                .block(15)
+                .range(-316, 315)
+                .scratch(55),
+            Declaration::at(55, "multiply55", Type::Scratch, Tag(3), 107).block(15),
+            Declaration::at(56, "add56", Type::Fixed { fraction: 8 }, Tag(0), 10)
                 .block(15)
                 .range(-460, 318),
-            Declaration::at(57, "add57", Type::Fixed { fraction: 8 }, Role::Work, 10)
+            Declaration::at(57, "add57", Type::Fixed { fraction: 8 }, Tag(0), 10)
                 .block(15)
                 .range(-366, 365),
-            Declaration::at(58, "add58", Type::Fixed { fraction: 8 }, Role::Work, 10).block(15),
-            Declaration::at(59, "add59", Type::Fixed { fraction: 8 }, Role::Work, 11).block(15),
-            Declaration::at(60, "and60", Type::Bool, Role::Work, 1).block(15),
-            Declaration::at(61, "add61", Type::Fixed { fraction: 8 }, Role::Work, 10).block(15),
-            Declaration::at(62, "add62", Type::Fixed { fraction: 8 }, Role::Work, 10).block(15),
-            Declaration::at(63, "and63", Type::Bool, Role::Work, 1).block(15),
-            Declaration::at(64, "and64", Type::Bool, Role::Work, 1).block(15),
-            Declaration::at(65, "select65", Type::UFixed { fraction: 8 }, Role::Work, 9)
+            Declaration::at(58, "add58", Type::Fixed { fraction: 8 }, Tag(0), 10).block(15),
+            Declaration::at(59, "add59", Type::Fixed { fraction: 8 }, Tag(0), 11).block(15),
+            Declaration::at(60, "and60", Type::Bool, Tag(0), 1).block(15),
+            Declaration::at(61, "add61", Type::Fixed { fraction: 8 }, Tag(0), 10).block(15),
+            Declaration::at(62, "add62", Type::Fixed { fraction: 8 }, Tag(0), 10).block(15),
+            Declaration::at(63, "and63", Type::Bool, Tag(0), 1).block(15),
+            Declaration::at(64, "and64", Type::Bool, Tag(0), 1).block(15),
+            Declaration::at(65, "select65", Type::UFixed { fraction: 8 }, Tag(0), 9)
                 .block(15)
                 .range(0, 511),
-            Declaration::at(66, "select66", Type::UInt, Role::Work, 2).block(15),
-            Declaration::at(67, "add67", Type::Fixed { fraction: 8 }, Role::Work, 8).block(16),
-            Declaration::at(68, "divide68", Type::UFixed { fraction: 8 }, Role::Work, 9)
+            Declaration::at(66, "select66", Type::UInt, Tag(0), 2).block(15),
+            Declaration::at(67, "add67", Type::Fixed { fraction: 8 }, Tag(0), 8).block(16),
+            Declaration::at(68, "divide68", Type::UFixed { fraction: 8 }, Tag(0), 9)
                 .block(16)
                 .range(0, 511),
-            Declaration::at(69, "divide69", Type::Bool, Role::Work, 1).block(16),
-            Declaration::at(70, "divide70", Type::Scratch, Role::Scratch, 0).block(16),
-            Declaration::at(71, "and71", Type::Bool, Role::Work, 1).block(16),
-            Declaration::at(
-                72,
-                "multiply72",
-                Type::Fixed { fraction: 8 },
-                Role::Work,
-                10,
-            )
-            .block(16)
-            .range(-338, 337),
-            Declaration::at(73, "multiply73", Type::Scratch, Role::Scratch, 0).block(16),
-            Declaration::at(
-                74,
-                "multiply74",
-                Type::Fixed { fraction: 8 },
-                Role::Work,
-                10,
-            )
-            .block(16)
-            .range(-338, 337),
-            Declaration::at(75, "multiply75", Type::Scratch, Role::Scratch, 0).block(16),
-            Declaration::at(76, "add76", Type::Fixed { fraction: 8 }, Role::Work, 10)
+            Declaration::at(69, "divide69", Type::Bool, Tag(0), 1).block(16),
+            Declaration::at(70, "divide70", Type::Scratch, Tag(3), 0).block(16),
+            Declaration::at(71, "and71", Type::Bool, Tag(0), 1).block(16),
+            Declaration::at(72, "multiply72", Type::Fixed { fraction: 8 }, Tag(0), 10)
+                .block(16)
+                .range(-338, 337),
+            Declaration::at(73, "multiply73", Type::Scratch, Tag(3), 0).block(16),
+            Declaration::at(74, "multiply74", Type::Fixed { fraction: 8 }, Tag(0), 10)
+                .block(16)
+                .range(-338, 337),
+            Declaration::at(75, "multiply75", Type::Scratch, Tag(3), 0).block(16),
+            Declaration::at(76, "add76", Type::Fixed { fraction: 8 }, Tag(0), 10)
                 .block(16)
                 .range(-482, 340),
-            Declaration::at(77, "add77", Type::Fixed { fraction: 8 }, Role::Work, 10)
+            Declaration::at(77, "add77", Type::Fixed { fraction: 8 }, Tag(0), 10)
                 .block(16)
                 .range(-388, 387),
-            Declaration::at(78, "add78", Type::Fixed { fraction: 8 }, Role::Work, 11).block(16),
-            Declaration::at(79, "add79", Type::Fixed { fraction: 8 }, Role::Work, 11).block(16),
-            Declaration::at(80, "and80", Type::Bool, Role::Work, 1).block(16),
-            Declaration::at(81, "add81", Type::Fixed { fraction: 8 }, Role::Work, 11).block(16),
-            Declaration::at(82, "add82", Type::Fixed { fraction: 8 }, Role::Work, 11).block(16),
-            Declaration::at(83, "and83", Type::Bool, Role::Work, 1).block(16),
-            Declaration::at(84, "and84", Type::Bool, Role::Work, 1).block(16),
-            Declaration::at(85, "add85", Type::Fixed { fraction: 8 }, Role::Work, 10)
+            Declaration::at(78, "add78", Type::Fixed { fraction: 8 }, Tag(0), 11).block(16),
+            Declaration::at(79, "add79", Type::Fixed { fraction: 8 }, Tag(0), 11).block(16),
+            Declaration::at(80, "and80", Type::Bool, Tag(0), 1).block(16),
+            Declaration::at(81, "add81", Type::Fixed { fraction: 8 }, Tag(0), 11).block(16),
+            Declaration::at(82, "add82", Type::Fixed { fraction: 8 }, Tag(0), 11).block(16),
+            Declaration::at(83, "and83", Type::Bool, Tag(0), 1).block(16),
+            Declaration::at(84, "and84", Type::Bool, Tag(0), 1).block(16),
+            Declaration::at(85, "add85", Type::Fixed { fraction: 8 }, Tag(0), 10)
                 .block(16)
                 .range(-511, 511),
-            Declaration::at(
-                86,
-                "colour.r",
-                Type::UFixed { fraction: 8 },
-                Role::Colour,
-                8,
-            )
-            .scratch(87),
-            Declaration::at(87, "table87", Type::Scratch, Role::Scratch, 4),
-            Declaration::at(88, "table88", Type::UFixed { fraction: 8 }, Role::Work, 8)
-                .range(7, 212),
-            Declaration::at(89, "table89", Type::Scratch, Role::Scratch, 0).block(20),
-            Declaration::at(
-                90,
-                "colour.g",
-                Type::UFixed { fraction: 8 },
-                Role::Colour,
-                1,
-            ),
-            Declaration::at(91, "table91", Type::Scratch, Role::Scratch, 0).block(21),
-            Declaration::at(92, "table92", Type::UFixed { fraction: 8 }, Role::Work, 8)
-                .range(7, 135),
-            Declaration::at(93, "table93", Type::Scratch, Role::Scratch, 0).block(21),
-            Declaration::at(
-                94,
-                "colour.b",
-                Type::UFixed { fraction: 8 },
-                Role::Colour,
-                6,
-            ),
-            Declaration::at(95, "table95", Type::Scratch, Role::Scratch, 0).block(22),
-            Declaration::at(96, "table96", Type::UFixed { fraction: 8 }, Role::Work, 6)
-                .range(7, 58),
-            Declaration::at(97, "table97", Type::Scratch, Role::Scratch, 0).block(22),
+            Declaration::at(86, "colour.r", Type::UFixed { fraction: 8 }, Tag(4), 8).scratch(87),
+            Declaration::at(87, "table87", Type::Scratch, Tag(3), 4),
+            Declaration::at(88, "table88", Type::UFixed { fraction: 8 }, Tag(0), 8).range(7, 212),
+            Declaration::at(89, "table89", Type::Scratch, Tag(3), 0).block(20),
+            Declaration::at(90, "colour.g", Type::UFixed { fraction: 8 }, Tag(4), 1),
+            Declaration::at(91, "table91", Type::Scratch, Tag(3), 0).block(21),
+            Declaration::at(92, "table92", Type::UFixed { fraction: 8 }, Tag(0), 8).range(7, 135),
+            Declaration::at(93, "table93", Type::Scratch, Tag(3), 0).block(21),
+            Declaration::at(94, "colour.b", Type::UFixed { fraction: 8 }, Tag(4), 6),
+            Declaration::at(95, "table95", Type::Scratch, Tag(3), 0).block(22),
+            Declaration::at(96, "table96", Type::UFixed { fraction: 8 }, Tag(0), 6).range(7, 58),
+            Declaration::at(97, "table97", Type::Scratch, Tag(3), 0).block(22),
         ];
         const BLOCKS: &[BlockDeclaration] = &[
             BlockDeclaration {
                 parent: None,
                 name: "oracle",
-                depth: None,
-                scope: false,
+                tag: Tag(0),
             },
             BlockDeclaration {
                 parent: Some(BlockId(0)),
                 name: "generate_ray",
-                depth: Some(0),
-                scope: true,
+                tag: Tag(72057598332895232),
             },
             BlockDeclaration {
                 parent: Some(BlockId(0)),
                 name: "find_intersection",
-                depth: Some(0),
-                scope: true,
+                tag: Tag(144115192370823168),
             },
             BlockDeclaration {
                 parent: Some(BlockId(2)),
                 name: "plane 0",
-                depth: Some(0),
-                scope: true,
+                tag: Tag(18374686483966590976),
             },
             BlockDeclaration {
                 parent: Some(BlockId(2)),
                 name: "plane 1",
-                depth: Some(0),
-                scope: true,
+                tag: Tag(18374686483966590977),
             },
             BlockDeclaration {
                 parent: Some(BlockId(0)),
                 name: "side",
-                depth: Some(0),
-                scope: true,
+                tag: Tag(216172786408751104),
             },
             BlockDeclaration {
                 parent: Some(BlockId(0)),
                 name: "generate_ray",
-                depth: Some(1),
-                scope: true,
+                tag: Tag(72057602627862528),
             },
             BlockDeclaration {
                 parent: Some(BlockId(6)),
                 name: "sample",
-                depth: Some(1),
-                scope: true,
+                tag: Tag(288230384741646336),
             },
             BlockDeclaration {
                 parent: Some(BlockId(6)),
                 name: "x",
-                depth: Some(1),
-                scope: true,
+                tag: Tag(18230571300185702400),
             },
             BlockDeclaration {
                 parent: Some(BlockId(6)),
                 name: "y",
-                depth: Some(1),
-                scope: true,
+                tag: Tag(18230571300185702401),
             },
             BlockDeclaration {
                 parent: Some(BlockId(6)),
                 name: "z",
-                depth: Some(1),
-                scope: true,
+                tag: Tag(18230571300185702402),
             },
             BlockDeclaration {
                 parent: Some(BlockId(6)),
                 name: "x",
-                depth: Some(1),
-                scope: true,
+                tag: Tag(18230571300185702400),
             },
             BlockDeclaration {
                 parent: Some(BlockId(6)),
                 name: "y",
-                depth: Some(1),
-                scope: true,
+                tag: Tag(18230571300185702401),
             },
             BlockDeclaration {
                 parent: Some(BlockId(6)),
                 name: "z",
-                depth: Some(1),
-                scope: true,
+                tag: Tag(18230571300185702402),
             },
             BlockDeclaration {
                 parent: Some(BlockId(0)),
                 name: "find_intersection",
-                depth: Some(1),
-                scope: true,
+                tag: Tag(144115196665790464),
             },
             BlockDeclaration {
                 parent: Some(BlockId(14)),
                 name: "plane 1",
-                depth: Some(1),
-                scope: true,
+                tag: Tag(18374686488261558273),
             },
             BlockDeclaration {
                 parent: Some(BlockId(14)),
                 name: "plane 0",
-                depth: Some(1),
-                scope: true,
+                tag: Tag(18374686488261558272),
             },
             BlockDeclaration {
                 parent: Some(BlockId(14)),
                 name: "plane 1",
-                depth: Some(1),
-                scope: true,
+                tag: Tag(18374686488261558273),
             },
             BlockDeclaration {
                 parent: Some(BlockId(0)),
                 name: "side",
-                depth: Some(1),
-                scope: true,
+                tag: Tag(216172790703718400),
             },
             BlockDeclaration {
                 parent: Some(BlockId(0)),
                 name: "shade",
-                depth: Some(1),
-                scope: true,
+                tag: Tag(360287978779574272),
             },
             BlockDeclaration {
                 parent: Some(BlockId(0)),
                 name: "count",
-                depth: None,
-                scope: false,
+                tag: Tag(432345564227567616),
             },
             BlockDeclaration {
                 parent: Some(BlockId(0)),
                 name: "count",
-                depth: None,
-                scope: false,
+                tag: Tag(432345564227567616),
             },
             BlockDeclaration {
                 parent: Some(BlockId(0)),
                 name: "count",
-                depth: None,
-                scope: false,
+                tag: Tag(432345564227567616),
             },
         ];
         static T7: &[i64] = &[0, 3];
@@ -614,46 +510,46 @@ const _: () = {
         static T92: &[i64] = &[7, 135, 7, 7];
         static T94: &[i64] = &[0, 51, 0, 0];
         static T96: &[i64] = &[7, 58, 7, 7];
-        const PARAMETERS: &[Parameter] = &[
-            Parameter::Shift {
+        const PARAMETERS: &[PixelWord] = &[
+            PixelWord::Shift {
                 depth: 0,
                 axis: 0,
                 bits: 1,
             },
-            Parameter::Shift {
+            PixelWord::Shift {
                 depth: 0,
                 axis: 1,
                 bits: 1,
             },
-            Parameter::Affine {
+            PixelWord::Affine {
                 constant: 0.12304020656595155,
                 along: [0.0, 0.18524193653371793],
                 fraction: 8,
                 width: 8,
             },
-            Parameter::Affine {
+            PixelWord::Affine {
                 constant: -1.0565138854669192,
                 along: [0.0, 0.09262096826685896],
                 fraction: 8,
                 width: 10,
             },
-            Parameter::Affine {
+            PixelWord::Affine {
                 constant: -0.36243686707645817,
                 along: [0.20710678118654752, 0.0],
                 fraction: 8,
                 width: 8,
             },
-            Parameter::Shift {
+            PixelWord::Shift {
                 depth: 1,
                 axis: 0,
                 bits: 2,
             },
-            Parameter::Shift {
+            PixelWord::Shift {
                 depth: 1,
                 axis: 1,
                 bits: 2,
             },
-            Parameter::Affine {
+            PixelWord::Affine {
                 constant: -0.12304020656595155,
                 along: [0.0, -0.18524193653371793],
                 fraction: 8,

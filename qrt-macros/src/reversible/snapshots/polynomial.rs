@@ -108,9 +108,7 @@ pub fn polynomial_inverse<M: ::qrt::circuit::Machine>(
 /// [`polynomial`] as a program, whose inputs are its registers in their order.
 #[allow(dead_code, reason = "not every author needs it")]
 #[must_use]
-pub fn polynomial_program(
-    style: ::qrt::circuit::Style,
-) -> ::qrt::circuit::Program {
+pub fn polynomial_program(style: ::qrt::circuit::Style) -> ::qrt::circuit::Program {
     use ::qrt::circuit::format::Reg;
     let mut recorder = ::qrt::circuit::Recorder::new(style);
     let x: Reg<_, UInt<4>> = Reg::input(&mut recorder, "x");
