@@ -3,8 +3,8 @@
 //! Only what changes a register in place needs to look at the condition. What is computed out of
 //! place is undone within the same code, whether the condition holds or not.
 
-use super::machine::{Declaration, Machine};
-use super::{Bit, BlockId, Operand, Type, When, Word};
+use super::machine::{Call, Declaration, Machine};
+use super::{Bit, Op, Type, When};
 
 /// A machine whose registers change only where a bit holds; made by [`controlled`].
 #[derive(Debug)]
@@ -75,16 +75,50 @@ impl<M: Machine> Controlled<'_, M> {
 impl<M: Machine> Machine for Controlled<'_, M> {
     type Register = M::Register;
 
-    fn zero(&mut self, t: &Declaration) -> M::Register {
-        self.machine.zero(t)
-    }
-
-    fn free(&mut self, register: M::Register) {
-        self.machine.free(register);
-    }
-
-    fn block(&mut self, block: BlockId) {
-        self.machine.block(block);
+    fn call(&mut self, call: Call<'_, M::Register>) -> Vec<M::Register> {
+        let Call::Compute(op) = call else {
+            return self.machine.call(call);
+        };
+        match op {
+            Op::XorInto { a, when, target } => self.under(when, |machine, when| {
+                machine.call(Call::Compute(Op::XorInto { a, when, target }));
+            }),
+            Op::AddInto {
+                a,
+                subtract,
+                when,
+                target,
+            } => {
+                let mut add = |when, subtract| {
+                    self.under(when, |machine, when| {
+                        let when = when.map_or(When::Always, When::If);
+                        machine.call(Call::Compute(Op::AddInto {
+                            a,
+                            subtract,
+                            when,
+                            target,
+                        }));
+                    });
+                };
+                match when {
+                    When::Always => add(None, subtract),
+                    When::If(bit) => add(Some(bit), subtract),
+                    When::Reversed(bit) => {
+                        add(Some(bit.inverted()), subtract);
+                        add(Some(bit), !subtract);
+                    }
+                }
+            }
+            Op::Swap { a, b, when } => self.under(when, |machine, when| {
+                machine.call(Call::Compute(Op::Swap { a, b, when }));
+            }),
+            Op::Phase { bit } => self.under(Some(bit), |machine, when| {
+                let bit = when.unwrap_or(bit);
+                machine.call(Call::Compute(Op::Phase { bit }));
+            }),
+            out_of_place => return self.machine.call(Call::Compute(out_of_place)),
+        }
+        Vec::new()
     }
 
     fn joined(&mut self, when: Bit<&M::Register>) -> Option<M::Register> {
@@ -98,172 +132,12 @@ impl<M: Machine> Machine for Controlled<'_, M> {
             self.unconditional -= 1;
         }
     }
-
-    fn copy(&mut self, t: &Declaration, a: Word<&M::Register>) -> M::Register {
-        self.machine.copy(t, a)
-    }
-
-    fn load(&mut self, t: &Declaration, parameter: u32) -> M::Register {
-        self.machine.load(t, parameter)
-    }
-
-    fn parity(
-        &mut self,
-        t: &Declaration,
-        source: &M::Register,
-        columns: &[u64],
-        parameter: Option<u32>,
-    ) -> M::Register {
-        self.machine.parity(t, source, columns, parameter)
-    }
-
-    fn and(&mut self, t: &Declaration, a: Bit<&M::Register>, b: Bit<&M::Register>) -> M::Register {
-        self.machine.and(t, a, b)
-    }
-
-    fn xor(&mut self, t: &Declaration, a: Bit<&M::Register>, b: Bit<&M::Register>) -> M::Register {
-        self.machine.xor(t, a, b)
-    }
-
-    fn add(
-        &mut self,
-        t: &Declaration,
-        a: Operand<&M::Register>,
-        b: Operand<&M::Register>,
-    ) -> M::Register {
-        self.machine.add(t, a, b)
-    }
-
-    fn subtract(
-        &mut self,
-        t: &Declaration,
-        a: Operand<&M::Register>,
-        b: Operand<&M::Register>,
-    ) -> M::Register {
-        self.machine.subtract(t, a, b)
-    }
-
-    fn negate(
-        &mut self,
-        t: &Declaration,
-        a: Word<&M::Register>,
-        when: Bit<&M::Register>,
-    ) -> M::Register {
-        self.machine.negate(t, a, when)
-    }
-
-    fn select(
-        &mut self,
-        t: &Declaration,
-        when: Bit<&M::Register>,
-        a: Operand<&M::Register>,
-        b: Operand<&M::Register>,
-    ) -> M::Register {
-        self.machine.select(t, when, a, b)
-    }
-
-    fn less(
-        &mut self,
-        t: &Declaration,
-        a: Operand<&M::Register>,
-        b: Operand<&M::Register>,
-    ) -> M::Register {
-        self.machine.less(t, a, b)
-    }
-
-    fn multiply(
-        &mut self,
-        t: &Declaration,
-        a: Word<&M::Register>,
-        b: Word<&M::Register>,
-        drop: u32,
-    ) -> M::Register {
-        self.machine.multiply(t, a, b, drop)
-    }
-
-    fn square(&mut self, t: &Declaration, a: Word<&M::Register>, drop: u32) -> M::Register {
-        self.machine.square(t, a, drop)
-    }
-
-    fn scale(
-        &mut self,
-        t: &Declaration,
-        a: Word<&M::Register>,
-        factor: i64,
-        drop: u32,
-    ) -> M::Register {
-        self.machine.scale(t, a, factor, drop)
-    }
-
-    fn divide(
-        &mut self,
-        quotient: &Declaration,
-        fits: &Declaration,
-        a: Word<&M::Register>,
-        b: Word<&M::Register>,
-    ) -> [M::Register; 2] {
-        self.machine.divide(quotient, fits, a, b)
-    }
-
-    fn square_root(&mut self, t: &Declaration, a: Word<&M::Register>) -> M::Register {
-        self.machine.square_root(t, a)
-    }
-
-    fn table<const N: usize>(
-        &mut self,
-        targets: [&Declaration; N],
-        address: &[Bit<&M::Register>],
-        columns: [&[i64]; N],
-        low: u32,
-    ) -> [M::Register; N] {
-        self.machine.table(targets, address, columns, low)
-    }
-
-    fn undo<const N: usize>(&mut self, computed: [M::Register; N]) {
-        self.machine.undo(computed);
-    }
-
-    fn xor_into(
-        &mut self,
-        t: &mut M::Register,
-        a: Operand<&M::Register>,
-        when: Option<Bit<&M::Register>>,
-    ) {
-        self.under(when, |machine, when| machine.xor_into(t, a, when));
-    }
-
-    fn add_into(
-        &mut self,
-        t: &mut M::Register,
-        a: Operand<&M::Register>,
-        subtract: bool,
-        when: When<&M::Register>,
-    ) {
-        let mut add = |when, subtract| {
-            self.under(when, |machine, when| {
-                let when = when.map_or(When::Always, When::If);
-                machine.add_into(t, a, subtract, when);
-            });
-        };
-        match when {
-            When::Always => add(None, subtract),
-            When::If(bit) => add(Some(bit), subtract),
-            When::Reversed(bit) => {
-                add(Some(bit.inverted()), subtract);
-                add(Some(bit), !subtract);
-            }
-        }
-    }
-
-    fn swap(&mut self, a: &mut M::Register, b: &mut M::Register, when: Option<Bit<&M::Register>>) {
-        self.under(when, |machine, when| machine.swap(a, b, when));
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::format::{Bool, Reg, UInt};
-    use super::super::{Contents, Recorded, Recorder, Style};
+    use super::super::{Contents, Operand, Recorded, Recorder, Style};
     use super::*;
 
     type Number = Reg<Recorded, UInt<3>>;
@@ -280,21 +154,10 @@ mod tests {
         );
         let program = m.finish();
         let after = (0..32_u64).map(|state| {
-            let mut contents = Contents {
-                registers: vec![0; program.registers.len()],
-                parameters: Vec::new(),
-                widths: program.registers.iter().map(|r| r.width).collect(),
-                negative: false,
-            };
-            let [p, q, b] = [state & 1, state >> 1 & 1, state >> 2];
-            contents.registers[..3].copy_from_slice(&[p, q, b]);
+            let inputs = [state & 1, state >> 1 & 1, state >> 2];
+            let mut contents = Contents::new(&program, &inputs, &[]);
             for instruction in &program.instructions {
-                let op = &program.ops[instruction.op as usize];
-                if instruction.inverse {
-                    contents.uncompute(op);
-                } else {
-                    contents.compute(op);
-                }
+                contents.follow(&program, *instruction).unwrap();
             }
             assert!(contents.registers[3..].iter().all(|bits| *bits == 0));
             contents.registers[2]

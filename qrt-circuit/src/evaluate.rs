@@ -1,6 +1,18 @@
 //! What operations compute, on integers: the definition that every machine is held against.
 
-use super::{Bit, Op, Operand, RegisterId, When, Word};
+use super::{Bit, Instruction, Op, Operand, Program, RegisterId, When, Word};
+
+/// A register that is undone, and does not hold what its operation makes of its operands now:
+/// its inverse would not leave 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Unclean {
+    /// The register.
+    pub register: RegisterId,
+    /// What it holds.
+    pub held: u64,
+    /// What its operation computes.
+    pub expected: u64,
+}
 
 /// The contents of a program's registers, one path's.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -20,6 +32,52 @@ fn mask(width: u32) -> u64 {
 }
 
 impl Contents {
+    /// Before a program's first instruction: its inputs hold `inputs`, everything else 0.
+    ///
+    /// # Panics
+    /// If there are fewer inputs than the program has.
+    pub fn new(program: &Program, inputs: &[u64], parameters: &[u64]) -> Self {
+        let widths: Vec<u32> = program.registers.iter().map(|r| r.width).collect();
+        let mut contents = Self {
+            registers: vec![0; widths.len()],
+            parameters: parameters.to_vec(),
+            widths,
+            negative: false,
+        };
+        for (place, register) in program.inputs.iter().enumerate() {
+            contents.registers[register.index()] = inputs[place];
+        }
+        contents
+    }
+
+    /// Follows one instruction of a program.
+    ///
+    /// # Errors
+    /// An inverse that does not find what its operation computes; the register is 0 after it all
+    /// the same.
+    pub fn follow(&mut self, program: &Program, instruction: Instruction) -> Result<(), Unclean> {
+        let op = &program.ops[instruction.op as usize];
+        if !instruction.inverse {
+            self.compute(op);
+            return Ok(());
+        }
+        let targets = op.targets();
+        let held: Vec<u64> = targets.iter().map(|t| self.registers[t.index()]).collect();
+        self.uncompute(op);
+        if targets.is_empty() {
+            return Ok(());
+        }
+        self.compute(op);
+        let mut found = targets.iter().zip(held).map(|(&register, held)| Unclean {
+            register,
+            held,
+            expected: self.registers[register.index()],
+        });
+        let unclean = found.find(|unclean| unclean.held != unclean.expected);
+        self.uncompute(op);
+        unclean.map_or(Ok(()), Err)
+    }
+
     fn word(&self, word: Word) -> i64 {
         word.read(self.registers[word.register.index()])
     }

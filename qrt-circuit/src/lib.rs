@@ -45,10 +45,10 @@ mod record;
 mod register;
 
 pub use controlled::{Controlled, controlled, unconditional};
-pub use evaluate::Contents;
+pub use evaluate::{Contents, Unclean};
 pub use gate::{Circuit, Gate, Gates, Qubit};
-pub use machine::{Declaration, Machine};
-pub use op::{Op, Style, When};
+pub use machine::{Call, Declaration, Machine};
+pub use op::{Argument, Op, Style, When};
 pub use program::{Instruction, Parameter, Program};
 pub use record::{Recorded, Recorder};
 pub use register::{Bit, Block, BlockId, Operand, Register, RegisterId, Tag, Type, Word};

@@ -5,7 +5,7 @@
 //! that program; over a machine that holds numbers it computes with them, compiled by `rustc` and
 //! inlined, without a list of operations to look through.
 
-use super::{Bit, BlockId, Operand, RegisterId, Tag, Type, When, Word};
+use super::{Bit, BlockId, Op, Operand, RegisterId, Style, Tag, Type, When, Word};
 
 /// A register as it is declared in code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -89,165 +89,350 @@ impl Declaration {
     }
 }
 
+/// What reversible code asks of a [`Machine`].
+#[derive(Debug)]
+pub enum Call<'a, R> {
+    /// An operation. What it leaves behind is the machine's own affair, and so is how it is
+    /// lowered: the register declared for its garbage is a placeholder.
+    Compute(Op<&'a R, &'a Declaration>),
+    /// The inverse of the operation that computed these registers, all of them and no others, in
+    /// its order. Registers that no operation computed have none, and nothing happens.
+    Undo(&'a [R]),
+    /// What follows is charged to this block.
+    Block(BlockId),
+}
+
 /// What reversible code runs on.
 ///
-/// Code that the macros generate is a straight line of calls of it: over a [`super::Recorder`] it
-/// yields a program, over a machine that holds numbers it computes with them.
+/// A machine needs [`Machine::call`] alone. All other methods are provided: one for each
+/// [`Op`], of the same name, whose documentation says what it computes; `t` declares its target.
+/// Operations return their targets, which are theirs alone until [`Machine::undo`] takes them back:
+/// a register can be read by reference as often as one likes, and be undone once.
 ///
-/// Each method is an [`super::Op`], whose documentation says what it computes; `t` declares its
-/// target. What an operation leaves behind (its scratch) is the machine's own affair. Operations
-/// return their targets, which are theirs alone until [`Machine::undo`] takes them back: a register
-/// can be read by reference as often as one likes, and be undone once.
-///
-/// An operation's inverse finds its operands as the operation found them. Generated code sees to
-/// that; code written by hand is checked by `#[reversible]`.
+/// Code that the macros generate is a straight line of calls of these methods: over a
+/// [`super::Recorder`] it yields a program, over a machine that holds numbers it computes with
+/// them. An operation's inverse finds its operands as the operation found them. Generated code sees
+/// to that; code written by hand is checked by `#[reversible]`.
 pub trait Machine {
-    /// A register: what was computed and is not yet undone.
+    /// A register: a handle on what was computed and is not yet undone.
     type Register;
 
-    /// A register of one's own, which holds 0.
-    fn zero(&mut self, t: &Declaration) -> Self::Register;
-    /// Gives a register of one's own back, which holds 0 again.
-    fn free(&mut self, register: Self::Register);
-    /// What follows is charged to this block.
-    #[inline(always)]
-    fn block(&mut self, _block: BlockId) {}
+    /// Does what is asked. Returns the registers that an operation out of place computes, in their
+    /// order, and nothing else.
+    fn call(&mut self, call: Call<'_, Self::Register>) -> Vec<Self::Register>;
+
     /// The conjunction of a bit and the condition under which this machine's registers change, to
     /// be undone by the caller; none where they change on every path. See [`super::controlled`].
-    #[inline(always)]
     fn joined(&mut self, _when: Bit<&Self::Register>) -> Option<Self::Register> {
         None
     }
     /// Enters or leaves a part that is undone again by what follows, and therefore needs no
     /// condition. See [`super::unconditional`].
-    #[inline(always)]
     fn unconditional(&mut self, _entered: bool) {}
 
-    /// [`super::Op::Copy`]
-    fn copy(&mut self, t: &Declaration, a: Word<&Self::Register>) -> Self::Register;
-    /// [`super::Op::Load`]
-    fn load(&mut self, t: &Declaration, parameter: u32) -> Self::Register;
-    /// [`super::Op::Parity`]
+    /// What follows is charged to this block.
+    fn block(&mut self, block: BlockId) {
+        self.call(Call::Block(block));
+    }
+    /// A register of one's own, which holds 0. It is computed by an operation without gates, so
+    /// that its qubits have an owner.
+    fn zero(&mut self, t: &Declaration) -> Self::Register {
+        self.add(t, Operand::Constant(0), Operand::Constant(0))
+    }
+    /// Gives a register of one's own back, which holds 0 again.
+    fn free(&mut self, register: Self::Register) {
+        self.undo([register]);
+    }
+    /// The inverse of the operation that computed these registers: see [`Call::Undo`].
+    fn undo<const N: usize>(&mut self, computed: [Self::Register; N]) {
+        self.call(Call::Undo(&computed));
+    }
+
+    /// [`Op::Copy`]
+    fn copy(&mut self, t: &Declaration, a: Word<&Self::Register>) -> Self::Register {
+        compute(self, Op::Copy { a, target: t })
+    }
+    /// [`Op::Load`]
+    fn load(&mut self, t: &Declaration, parameter: u32) -> Self::Register {
+        compute(
+            self,
+            Op::Load {
+                parameter,
+                target: t,
+            },
+        )
+    }
+    /// [`Op::Parity`]
     fn parity(
         &mut self,
         t: &Declaration,
         source: &Self::Register,
         columns: &[u64],
         parameter: Option<u32>,
-    ) -> Self::Register;
-    /// [`super::Op::And`]
+    ) -> Self::Register {
+        compute(
+            self,
+            Op::Parity {
+                source,
+                columns: columns.into(),
+                parameter,
+                target: t,
+            },
+        )
+    }
+    /// [`Op::And`]
     fn and(
         &mut self,
         t: &Declaration,
         a: Bit<&Self::Register>,
         b: Bit<&Self::Register>,
-    ) -> Self::Register;
-    /// [`super::Op::Xor`]
+    ) -> Self::Register {
+        compute(self, Op::And { a, b, target: t })
+    }
+    /// [`Op::Xor`]
     fn xor(
         &mut self,
         t: &Declaration,
         a: Bit<&Self::Register>,
         b: Bit<&Self::Register>,
-    ) -> Self::Register;
-    /// [`super::Op::Add`], not subtracting.
+    ) -> Self::Register {
+        compute(self, Op::Xor { a, b, target: t })
+    }
+    /// [`Op::Add`], not subtracting.
     fn add(
         &mut self,
         t: &Declaration,
         a: Operand<&Self::Register>,
         b: Operand<&Self::Register>,
-    ) -> Self::Register;
-    /// [`super::Op::Add`], subtracting.
+    ) -> Self::Register {
+        compute(
+            self,
+            Op::Add {
+                a,
+                b,
+                subtract: false,
+                target: t,
+            },
+        )
+    }
+    /// [`Op::Add`], subtracting.
     fn subtract(
         &mut self,
         t: &Declaration,
         a: Operand<&Self::Register>,
         b: Operand<&Self::Register>,
-    ) -> Self::Register;
-    /// [`super::Op::Negate`]
+    ) -> Self::Register {
+        compute(
+            self,
+            Op::Add {
+                a,
+                b,
+                subtract: true,
+                target: t,
+            },
+        )
+    }
+    /// [`Op::Negate`]
     fn negate(
         &mut self,
         t: &Declaration,
         a: Word<&Self::Register>,
         when: Bit<&Self::Register>,
-    ) -> Self::Register;
-    /// [`super::Op::Select`]
+    ) -> Self::Register {
+        compute(self, Op::Negate { a, when, target: t })
+    }
+    /// [`Op::Select`]
     fn select(
         &mut self,
         t: &Declaration,
         when: Bit<&Self::Register>,
         a: Operand<&Self::Register>,
         b: Operand<&Self::Register>,
-    ) -> Self::Register;
-    /// [`super::Op::Less`]
+    ) -> Self::Register {
+        compute(
+            self,
+            Op::Select {
+                when,
+                a,
+                b,
+                target: t,
+            },
+        )
+    }
+    /// [`Op::Less`]
     fn less(
         &mut self,
         t: &Declaration,
         a: Operand<&Self::Register>,
         b: Operand<&Self::Register>,
-    ) -> Self::Register;
-    /// [`super::Op::Multiply`]
+    ) -> Self::Register {
+        compute(self, Op::Less { a, b, target: t })
+    }
+    /// [`Op::Multiply`]
     fn multiply(
         &mut self,
         t: &Declaration,
         a: Word<&Self::Register>,
         b: Word<&Self::Register>,
         drop: u32,
-    ) -> Self::Register;
-    /// [`super::Op::Square`]
-    fn square(&mut self, t: &Declaration, a: Word<&Self::Register>, drop: u32) -> Self::Register;
-    /// [`super::Op::Scale`]
+    ) -> Self::Register {
+        compute(
+            self,
+            Op::Multiply {
+                a,
+                b,
+                drop,
+                style: STYLE,
+                target: t,
+                scratch: &GARBAGE,
+            },
+        )
+    }
+    /// [`Op::Square`]
+    fn square(&mut self, t: &Declaration, a: Word<&Self::Register>, drop: u32) -> Self::Register {
+        compute(
+            self,
+            Op::Square {
+                a,
+                drop,
+                style: STYLE,
+                target: t,
+                scratch: &GARBAGE,
+            },
+        )
+    }
+    /// [`Op::Scale`]
     fn scale(
         &mut self,
         t: &Declaration,
         a: Word<&Self::Register>,
         factor: i64,
         drop: u32,
-    ) -> Self::Register;
-    /// [`super::Op::Divide`]: the quotient, and whether it fits.
+    ) -> Self::Register {
+        compute(
+            self,
+            Op::Scale {
+                a,
+                factor,
+                drop,
+                style: STYLE,
+                target: t,
+                scratch: &GARBAGE,
+            },
+        )
+    }
+    /// [`Op::Divide`]: the quotient, and whether it fits.
     fn divide(
         &mut self,
         quotient: &Declaration,
         fits: &Declaration,
         a: Word<&Self::Register>,
         b: Word<&Self::Register>,
-    ) -> [Self::Register; 2];
-    /// [`super::Op::SquareRoot`]
-    fn square_root(&mut self, t: &Declaration, a: Word<&Self::Register>) -> Self::Register;
-    /// [`super::Op::Table`], of which the `low` lowest address bits select among words read
-    /// together where the scratch for that is there. An address beyond the columns may not occur.
+    ) -> [Self::Register; 2] {
+        compute_all(
+            self,
+            Op::Divide {
+                a,
+                b,
+                style: STYLE,
+                quotient,
+                fits,
+                scratch: &GARBAGE,
+            },
+        )
+    }
+    /// [`Op::SquareRoot`]
+    fn square_root(&mut self, t: &Declaration, a: Word<&Self::Register>) -> Self::Register {
+        compute(
+            self,
+            Op::SquareRoot {
+                a,
+                style: STYLE,
+                target: t,
+                scratch: &GARBAGE,
+            },
+        )
+    }
+    /// [`Op::Table`], of which the `low` lowest address bits select among words read together where
+    /// the scratch for that is there. An address beyond the columns may not occur.
     fn table<const N: usize>(
         &mut self,
         targets: [&Declaration; N],
         address: &[Bit<&Self::Register>],
         columns: [&[i64]; N],
         low: u32,
-    ) -> [Self::Register; N];
-    /// The inverse of the operation that computed these registers, all of them and no others, in
-    /// its order. Registers that no operation computed have none, and nothing happens.
-    fn undo<const N: usize>(&mut self, computed: [Self::Register; N]);
+    ) -> [Self::Register; N] {
+        compute_all(
+            self,
+            Op::Table {
+                address: address
+                    .iter()
+                    .map(|bit| bit.of(|register| register))
+                    .collect(),
+                columns: columns.iter().map(|&column| column.into()).collect(),
+                low,
+                style: STYLE,
+                targets: targets.into(),
+                scratch: &GARBAGE,
+            },
+        )
+    }
 
-    /// [`super::Op::XorInto`]
+    /// [`Op::XorInto`]
     fn xor_into(
         &mut self,
         t: &mut Self::Register,
         a: Operand<&Self::Register>,
         when: Option<Bit<&Self::Register>>,
-    );
-    /// [`super::Op::AddInto`], or its inverse.
+    ) {
+        self.call(Call::Compute(Op::XorInto { a, when, target: t }));
+    }
+    /// [`Op::AddInto`], or its inverse.
     fn add_into(
         &mut self,
         t: &mut Self::Register,
         a: Operand<&Self::Register>,
         subtract: bool,
         when: When<&Self::Register>,
-    );
-    /// [`super::Op::Swap`]
+    ) {
+        self.call(Call::Compute(Op::AddInto {
+            a,
+            subtract,
+            when,
+            target: t,
+        }));
+    }
+    /// [`Op::Swap`]
     fn swap(
         &mut self,
         a: &mut Self::Register,
         b: &mut Self::Register,
         when: Option<Bit<&Self::Register>>,
-    );
+    ) {
+        self.call(Call::Compute(Op::Swap { a, b, when }));
+    }
+}
+
+/// What stands for an operation's garbage, and for its style, until a machine decides on them.
+const GARBAGE: Declaration = Declaration::work("scratch", Type::Scratch, 0);
+const STYLE: Style = Style::Wide;
+
+fn compute<M: Machine + ?Sized>(
+    machine: &mut M,
+    op: Op<&M::Register, &Declaration>,
+) -> M::Register {
+    let [target] = compute_all(machine, op);
+    target
+}
+
+fn compute_all<M: Machine + ?Sized, const N: usize>(
+    machine: &mut M,
+    op: Op<&M::Register, &Declaration>,
+) -> [M::Register; N] {
+    match machine.call(Call::Compute(op)).try_into() {
+        Ok(targets) => targets,
+        Err(_) => unreachable!("a machine returns an operation's targets, each once"),
+    }
 }
 
 impl<R> Word<R> {

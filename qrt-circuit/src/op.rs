@@ -1,230 +1,39 @@
-//! Operations: what they compute, as integers.
+//! Operations: each stated once, with what it reads, what it computes and how it is lowered.
+//!
+//! The list below is all that a program, a recorder, a machine and the lowering know of an
+//! operation's shape: names, targets, garbage and renamings follow from it. What an operation
+//! computes on integers is in [`super::Contents`]; its gates are in [`super::lower`].
 
 use super::{Bit, Operand, RegisterId, Word};
+use std::fmt::Debug;
 use std::sync::Arc;
 
-/// An operation of a [`super::Program`].
-///
-/// Most compute into *targets* that are zero before: out of place. The inverse returns such a
-/// target to zero, given the same operands; it is not asked what it makes of anything else. The
-/// others, at the end of the list, change a register in place, and their inverses are exact for
-/// every content.
-///
-/// Numbers are those of [`Word::read`]. Targets hold a result's lowest bits: `w` stands for the
-/// target's width and "mod 2^w" for what fits. All operands, and all results before they are cut
-/// to their target, lie within 63 bits, products within 126.
-///
-/// A target never overlaps an operand. `scratch` registers are computed beside the target and
-/// returned to zero with it; their content is the lowering's own affair. Their width is
-/// `lower::scratch_width`.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub enum Op {
-    /// `t = a mod 2^w`
-    Copy {
-        /// What is copied.
-        a: Word,
-        /// t
-        target: RegisterId,
-    },
-    /// `t = parameter`: a classical word that the pixel decides.
-    Load {
-        /// Its place in the program's list.
-        parameter: u32,
-        /// t
-        target: RegisterId,
-    },
-    /// `t = parameter ^ XOR_b source_b columns[b]`, over the bits b of `source`: a linear map over
-    /// GF(2), shifted.
-    Parity {
-        /// The id register.
-        source: RegisterId,
-        /// By bit of the source: the bits of t that it flips.
-        columns: Arc<[u64]>,
-        /// The pixel's shift, if there is one: its place in the program's list.
-        parameter: Option<u32>,
-        /// t
-        target: RegisterId,
-    },
-    /// `t = a and b`
-    And {
-        /// The one.
-        a: Bit,
-        /// The other.
-        b: Bit,
-        /// t: one bit.
-        target: RegisterId,
-    },
-    /// `t = a xor b`
-    Xor {
-        /// The one.
-        a: Bit,
-        /// The other.
-        b: Bit,
-        /// t: one bit.
-        target: RegisterId,
-    },
-    /// `t = a + b mod 2^w`, or `a - b mod 2^w`.
-    Add {
-        /// The first.
-        a: Operand,
-        /// The second.
-        b: Operand,
-        /// Is b subtracted?
-        subtract: bool,
-        /// t
-        target: RegisterId,
-    },
-    /// `t = if when { -a } else { a } mod 2^w`
-    Negate {
-        /// The number.
-        a: Word,
-        /// The condition.
-        when: Bit,
-        /// t
-        target: RegisterId,
-    },
-    /// `t = if when { a } else { b } mod 2^w`
-    Select {
-        /// The condition.
-        when: Bit,
-        /// Where it holds.
-        a: Operand,
-        /// Where it does not.
-        b: Operand,
-        /// t
-        target: RegisterId,
-    },
-    /// `t = a < b`, leaving nothing behind.
-    Less {
-        /// The one.
-        a: Operand,
-        /// The other.
-        b: Operand,
-        /// t: one bit.
-        target: RegisterId,
-    },
-    /// `t = floor(a b / 2^drop) mod 2^w`
-    Multiply {
-        /// The first factor: its bits choose the rows.
-        a: Word,
-        /// The second factor.
-        b: Word,
-        /// Bits dropped below.
-        drop: u32,
-        /// How it is lowered.
-        style: Style,
-        /// t
-        target: RegisterId,
-        /// What is left behind.
-        scratch: RegisterId,
-    },
-    /// `t = floor(a^2 / 2^drop) mod 2^w`
-    Square {
-        /// The number.
-        a: Word,
-        /// Bits dropped below.
-        drop: u32,
-        /// How it is lowered.
-        style: Style,
-        /// t
-        target: RegisterId,
-        /// What is left behind.
-        scratch: RegisterId,
-    },
-    /// `t = floor(factor a / 2^drop) mod 2^w`, for a constant factor other than 0.
-    Scale {
-        /// The number.
-        a: Word,
-        /// The factor.
-        factor: i64,
-        /// Bits dropped below.
-        drop: u32,
-        /// How it is lowered.
-        style: Style,
-        /// t
-        target: RegisterId,
-        /// What is left behind.
-        scratch: RegisterId,
-    },
-    /// `f = a < b 2^n`, and `q = floor(a' / b)`, where n is q's width and `a'` is a where f holds
-    /// and 0 where it does not; `q = 2^n - 1` where b is 0. Both operands are unsigned.
-    Divide {
-        /// The dividend.
-        a: Word,
-        /// The divisor.
-        b: Word,
-        /// How it is lowered.
-        style: Style,
-        /// q
-        quotient: RegisterId,
-        /// f: one bit.
-        fits: RegisterId,
-        /// What is left behind.
-        scratch: RegisterId,
-    },
-    /// `t = floor(sqrt(a)) mod 2^w`, for an unsigned a.
-    SquareRoot {
-        /// The number.
-        a: Word,
-        /// How it is lowered.
-        style: Style,
-        /// t
-        target: RegisterId,
-        /// What is left behind.
-        scratch: RegisterId,
-    },
-    /// `t_k = columns[k][address] mod 2^w_k`: a QROM of `columns[k].len()` entries, the same number
-    /// for all k. An address beyond them reads what suits the lowering; it may not occur.
-    Table {
-        /// Bits of the address, the least significant first.
-        address: Box<[Bit]>,
-        /// Entries by column.
-        columns: Arc<[Box<[i64]>]>,
-        /// Of the address bits, how many of the lowest select among words read together, under
-        /// [`Style::Wide`].
-        low: u32,
-        /// How it is lowered.
-        style: Style,
-        /// t_k
-        targets: Box<[RegisterId]>,
-        /// What is left behind.
-        scratch: RegisterId,
-    },
+/// Something that an operation reads: registers of the type `R`.
+trait Reads<R> {
+    /// The same of registers of the type `S`.
+    type Of<S>;
+    fn renamed<S>(self, rename: &mut impl FnMut(R) -> S) -> Self::Of<S>;
+    fn each<'a>(&'a self, see: &mut dyn FnMut(&'a R));
+    fn argument(&self) -> Argument<'_, R>;
+}
 
-    /// `t ^= a mod 2^w`, where `when` holds. In place, and its own inverse.
-    XorInto {
-        /// What is added over GF(2).
-        a: Operand,
-        /// The condition, if there is one.
-        when: Option<Bit>,
-        /// t
-        target: RegisterId,
-    },
-    /// `t += a mod 2^w` or `t -= a mod 2^w`. In place.
-    AddInto {
-        /// What is added.
-        a: Operand,
-        /// Is it subtracted?
-        subtract: bool,
-        /// The condition, if there is one.
-        when: When,
-        /// t
-        target: RegisterId,
-    },
-    /// `(a, b) = (b, a)` where `when` holds; both of one width. In place, and its own inverse.
-    Swap {
-        /// The one.
-        a: RegisterId,
-        /// The other.
-        b: RegisterId,
-        /// The condition, if there is one.
-        when: Option<Bit>,
-    },
-    /// The sign of a basis state's amplitude, where `bit` holds: a Z. Its own inverse.
-    Phase {
-        /// The condition.
-        bit: Bit,
-    },
+/// A field of an operation, as an argument of the method of [`super::Machine`] that computes it.
+#[derive(Clone, Copy, Debug)]
+pub enum Argument<'a, R = RegisterId> {
+    /// A whole register.
+    Register(&'a R),
+    /// A number read from a register.
+    Word(&'a Word<R>),
+    /// A bit of a register.
+    Bit(&'a Bit<R>),
+    /// Bits, the least significant first.
+    Bits(&'a [Bit<R>]),
+    /// A number from a register, or a constant.
+    Operand(&'a Operand<R>),
+    /// The condition of a change in place.
+    Condition,
+    /// A constant, whose debug form is Rust.
+    Constant(&'a dyn Debug),
 }
 
 /// When an addition in place happens.
@@ -248,8 +57,527 @@ pub enum Style {
     Lean,
 }
 
+impl<R> Reads<R> for Word<R> {
+    type Of<S> = Word<S>;
+    fn renamed<S>(self, rename: &mut impl FnMut(R) -> S) -> Word<S> {
+        self.of(rename)
+    }
+    fn each<'a>(&'a self, see: &mut dyn FnMut(&'a R)) {
+        see(&self.register);
+    }
+    fn argument(&self) -> Argument<'_, R> {
+        Argument::Word(self)
+    }
+}
+
+impl<R> Reads<R> for Bit<R> {
+    type Of<S> = Bit<S>;
+    fn renamed<S>(self, rename: &mut impl FnMut(R) -> S) -> Bit<S> {
+        self.of(rename)
+    }
+    fn each<'a>(&'a self, see: &mut dyn FnMut(&'a R)) {
+        see(&self.register);
+    }
+    fn argument(&self) -> Argument<'_, R> {
+        Argument::Bit(self)
+    }
+}
+
+impl<R> Reads<R> for Box<[Bit<R>]> {
+    type Of<S> = Box<[Bit<S>]>;
+    fn renamed<S>(self, rename: &mut impl FnMut(R) -> S) -> Box<[Bit<S>]> {
+        self.into_iter().map(|bit| bit.of(&mut *rename)).collect()
+    }
+    fn each<'a>(&'a self, see: &mut dyn FnMut(&'a R)) {
+        self.iter().for_each(|bit| see(&bit.register));
+    }
+    fn argument(&self) -> Argument<'_, R> {
+        Argument::Bits(self)
+    }
+}
+
+impl<R> Reads<R> for Operand<R> {
+    type Of<S> = Operand<S>;
+    fn renamed<S>(self, rename: &mut impl FnMut(R) -> S) -> Operand<S> {
+        self.of(rename)
+    }
+    fn each<'a>(&'a self, see: &mut dyn FnMut(&'a R)) {
+        if let Self::Word(word) = self {
+            see(&word.register);
+        }
+    }
+    fn argument(&self) -> Argument<'_, R> {
+        Argument::Operand(self)
+    }
+}
+
+impl<R> Reads<R> for Option<Bit<R>> {
+    type Of<S> = Option<Bit<S>>;
+    fn renamed<S>(self, rename: &mut impl FnMut(R) -> S) -> Option<Bit<S>> {
+        self.map(|bit| bit.of(rename))
+    }
+    fn each<'a>(&'a self, see: &mut dyn FnMut(&'a R)) {
+        self.iter().for_each(|bit| see(&bit.register));
+    }
+    fn argument(&self) -> Argument<'_, R> {
+        Argument::Condition
+    }
+}
+
+impl<R> Reads<R> for When<R> {
+    type Of<S> = When<S>;
+    fn renamed<S>(self, rename: &mut impl FnMut(R) -> S) -> When<S> {
+        match self {
+            Self::Always => When::Always,
+            Self::If(bit) => When::If(bit.of(rename)),
+            Self::Reversed(bit) => When::Reversed(bit.of(rename)),
+        }
+    }
+    fn each<'a>(&'a self, see: &mut dyn FnMut(&'a R)) {
+        if let Self::If(bit) | Self::Reversed(bit) = self {
+            see(&bit.register);
+        }
+    }
+    fn argument(&self) -> Argument<'_, R> {
+        Argument::Condition
+    }
+}
+
+/// What becomes of a field, by its kind:
+///
+/// * `reads`: a number, a bit or a condition from registers; `register`: a whole register that is
+///   read or changed in place;
+/// * `target`, `targets`: zero before the operation; `garbage`: what it leaves behind;
+/// * `constant`: the same on all paths; `style`: how the operation is lowered.
+macro_rules! field {
+    (map reads $field:ident, $read:ident, $write:ident) => {
+        $field.renamed(&mut $read)
+    };
+    (map register $field:ident, $read:ident, $write:ident) => {
+        $read($field)
+    };
+    (map target $field:ident, $read:ident, $write:ident) => {
+        $write($field)
+    };
+    (map garbage $field:ident, $read:ident, $write:ident) => {
+        $write($field)
+    };
+    (map targets $field:ident, $read:ident, $write:ident) => {
+        $field.into_iter().map(&mut $write).collect()
+    };
+    (map $constant:ident $field:ident, $read:ident, $write:ident) => {
+        $field
+    };
+
+    (each reads $field:ident, $see:ident) => {
+        $field.each($see)
+    };
+    (each register $field:ident, $see:ident) => {
+        $see($field)
+    };
+    (each $other:ident $field:ident, $see:ident) => {
+        let _ = $field;
+    };
+
+    (targets target $field:ident, $all:ident) => {
+        $all.push(*$field)
+    };
+    (targets targets $field:ident, $all:ident) => {
+        $all.extend($field.iter().copied())
+    };
+    (targets $other:ident $field:ident, $all:ident) => {
+        let _ = $field;
+    };
+
+    (garbage garbage $field:ident, $found:ident) => {
+        $found = Some($field)
+    };
+    (garbage $other:ident $field:ident, $found:ident) => {
+        let _ = $field;
+    };
+
+    (style style $field:ident, $found:ident) => {
+        $found = Some($field)
+    };
+    (style $other:ident $field:ident, $found:ident) => {
+        let _ = $field;
+    };
+
+    (argument reads $field:ident, $all:ident) => {
+        $all.push($field.argument())
+    };
+    (argument register $field:ident, $all:ident) => {
+        $all.push(Argument::Register($field))
+    };
+    (argument constant $field:ident, $all:ident) => {
+        $all.push(Argument::Constant($field))
+    };
+    (argument $other:ident $field:ident, $all:ident) => {
+        let _ = $field;
+    };
+}
+
+macro_rules! operations {
+    (
+        $(#[$op_doc:meta])*
+        $( { $(#[$doc:meta])* $name:ident = $word:literal
+            $( $(#[$field_doc:meta])* $kind:ident $field:ident: $ty:ty, )*
+        } )*
+    ) => {
+        $(#[$op_doc])*
+        #[derive(Clone, Debug, PartialEq, Eq, Hash)]
+        pub enum Op<R = RegisterId, T = R> {
+            $( $(#[$doc])* $name { $( $(#[$field_doc])* $field: $ty, )* }, )*
+        }
+
+        impl<R, T> Op<R, T> {
+            /// What it is called; so is the method of [`super::Machine`] that computes it.
+            pub fn name(&self) -> &'static str {
+                match self { $( Self::$name { .. } => $word, )* }
+            }
+
+            /// The same operation on other registers: `read` of those that it reads or changes in
+            /// place, then `write` of those that it computes, garbage last.
+            pub fn map<S, U>(
+                self,
+                mut read: impl FnMut(R) -> S,
+                mut write: impl FnMut(T) -> U,
+            ) -> Op<S, U> {
+                // Not every operation has both.
+                let (_, _) = (&mut read, &mut write);
+                match self {
+                    $( Self::$name { $($field),* } => Op::$name {
+                        $( $field: field!(map $kind $field, read, write), )*
+                    }, )*
+                }
+            }
+
+            fn each_read<'a>(&'a self, see: &mut dyn FnMut(&'a R)) {
+                match self {
+                    $( Self::$name { $($field),* } => { $( field!(each $kind $field, see); )* } )*
+                }
+            }
+
+            /// What holds what it leaves behind.
+            pub fn scratch(&self) -> Option<T>
+            where
+                T: Copy,
+            {
+                #[allow(unused_assignments, unused_mut, reason = "most leave nothing")]
+                match self {
+                    $( Self::$name { $($field),* } => {
+                        let mut found: Option<&T> = None;
+                        $( field!(garbage $kind $field, found); )*
+                        found.copied()
+                    } )*
+                }
+            }
+
+            fn scratch_mut(&mut self) -> Option<&mut T> {
+                #[allow(unused_assignments, unused_mut, reason = "most leave nothing")]
+                match self {
+                    $( Self::$name { $($field),* } => {
+                        let mut found = None;
+                        $( field!(garbage $kind $field, found); )*
+                        found
+                    } )*
+                }
+            }
+
+            /// How it is lowered, where there is a choice.
+            pub fn style(&self) -> Option<Style> {
+                #[allow(unused_assignments, unused_mut, reason = "most are lowered in one way")]
+                match self {
+                    $( Self::$name { $($field),* } => {
+                        let mut found: Option<&Style> = None;
+                        $( field!(style $kind $field, found); )*
+                        found.copied()
+                    } )*
+                }
+            }
+
+            fn style_mut(&mut self) -> Option<&mut Style> {
+                #[allow(unused_assignments, unused_mut, reason = "most are lowered in one way")]
+                match self {
+                    $( Self::$name { $($field),* } => {
+                        let mut found = None;
+                        $( field!(style $kind $field, found); )*
+                        found
+                    } )*
+                }
+            }
+
+            /// What it reads and its constants, in the order of the arguments of the method of
+            /// [`super::Machine`] that computes it.
+            pub fn arguments(&self) -> Vec<Argument<'_, R>> {
+                let mut all = Vec::new();
+                match self {
+                    $( Self::$name { $($field),* } => {
+                        $( field!(argument $kind $field, all); )*
+                    } )*
+                }
+                all
+            }
+        }
+
+        impl<R, T: Copy> Op<R, T> {
+            /// What holds its results, out of place.
+            pub fn targets(&self) -> Vec<T> {
+                let mut all = Vec::new();
+                match self {
+                    $( Self::$name { $($field),* } => {
+                        $( field!(targets $kind $field, all); )*
+                    } )*
+                }
+                all
+            }
+        }
+    };
+}
+
+operations! {
+    /// An operation of a [`super::Program`].
+    ///
+    /// Most compute into *targets* that are zero before: out of place. The inverse returns such a
+    /// target to zero, given the same operands; it is not asked what it makes of anything else. The
+    /// others, at the end of the list, change a register in place, and their inverses are exact for
+    /// every content.
+    ///
+    /// Numbers are those of [`Word::read`]. Targets hold a result's lowest bits: `w` stands for the
+    /// target's width and "mod 2^w" for what fits. All operands, and all results before they are cut
+    /// to their target, lie within 63 bits, products within 126.
+    ///
+    /// A target never overlaps an operand. `scratch` registers are computed beside the target and
+    /// returned to zero with it; their content is the lowering's own affair. Their width is
+    /// `lower::scratch_width`.
+    {
+        /// `t = a mod 2^w`
+        Copy = "copy"
+        /// What is copied.
+        reads a: Word<R>,
+        /// The target.
+        target target: T,
+    }
+    {
+        /// `t = parameter`: a classical word that the pixel decides.
+        Load = "load"
+        /// Its place in the program's list.
+        constant parameter: u32,
+        /// The target.
+        target target: T,
+    }
+    {
+        /// `t = parameter ^ XOR_b source_b columns[b]`, over the bits b of `source`: a linear map over
+        /// GF(2), shifted.
+        Parity = "parity"
+        /// The id register.
+        register source: R,
+        /// By bit of the source: the bits of t that it flips.
+        constant columns: Arc<[u64]>,
+        /// The pixel's shift, if there is one: its place in the program's list.
+        constant parameter: Option<u32>,
+        /// The target.
+        target target: T,
+    }
+    {
+        /// `t = a and b`
+        And = "and"
+        /// The first operand.
+        reads a: Bit<R>,
+        /// The second operand.
+        reads b: Bit<R>,
+        /// The target: one bit.
+        target target: T,
+    }
+    {
+        /// `t = a xor b`
+        Xor = "xor"
+        /// The first operand.
+        reads a: Bit<R>,
+        /// The second operand.
+        reads b: Bit<R>,
+        /// The target: one bit.
+        target target: T,
+    }
+    {
+        /// `t = a + b mod 2^w`, or `a - b mod 2^w`.
+        Add = "add"
+        /// The first operand.
+        reads a: Operand<R>,
+        /// The second operand.
+        reads b: Operand<R>,
+        /// Whether b is subtracted.
+        constant subtract: bool,
+        /// The target.
+        target target: T,
+    }
+    {
+        /// `t = if when { -a } else { a } mod 2^w`
+        Negate = "negate"
+        /// The number.
+        reads a: Word<R>,
+        /// The condition.
+        reads when: Bit<R>,
+        /// The target.
+        target target: T,
+    }
+    {
+        /// `t = if when { a } else { b } mod 2^w`
+        Select = "select"
+        /// The condition.
+        reads when: Bit<R>,
+        /// The number where it holds.
+        reads a: Operand<R>,
+        /// The number where it does not.
+        reads b: Operand<R>,
+        /// The target.
+        target target: T,
+    }
+    {
+        /// `t = a < b`, leaving nothing behind.
+        Less = "less"
+        /// The first operand.
+        reads a: Operand<R>,
+        /// The second operand.
+        reads b: Operand<R>,
+        /// The target: one bit.
+        target target: T,
+    }
+    {
+        /// `t = floor(a b / 2^drop) mod 2^w`
+        Multiply = "multiply"
+        /// The first factor: its bits choose the rows.
+        reads a: Word<R>,
+        /// The second factor.
+        reads b: Word<R>,
+        /// Bits dropped below.
+        constant drop: u32,
+        /// How it is lowered.
+        style style: Style,
+        /// The target.
+        target target: T,
+        /// The garbage.
+        garbage scratch: T,
+    }
+    {
+        /// `t = floor(a^2 / 2^drop) mod 2^w`
+        Square = "square"
+        /// The number.
+        reads a: Word<R>,
+        /// Bits dropped below.
+        constant drop: u32,
+        /// How it is lowered.
+        style style: Style,
+        /// The target.
+        target target: T,
+        /// The garbage.
+        garbage scratch: T,
+    }
+    {
+        /// `t = floor(factor a / 2^drop) mod 2^w`, for a constant factor other than 0.
+        Scale = "scale"
+        /// The number.
+        reads a: Word<R>,
+        /// The factor.
+        constant factor: i64,
+        /// Bits dropped below.
+        constant drop: u32,
+        /// How it is lowered.
+        style style: Style,
+        /// The target.
+        target target: T,
+        /// The garbage.
+        garbage scratch: T,
+    }
+    {
+        /// `f = a < b 2^n`, and `q = floor(a' / b)`, where n is q's width and `a'` is a where f holds
+        /// and 0 where it does not; `q = 2^n - 1` where b is 0. Both operands are unsigned.
+        Divide = "divide"
+        /// The dividend.
+        reads a: Word<R>,
+        /// The divisor.
+        reads b: Word<R>,
+        /// How it is lowered.
+        style style: Style,
+        /// The quotient.
+        target quotient: T,
+        /// Whether the quotient fits: one bit.
+        target fits: T,
+        /// The garbage.
+        garbage scratch: T,
+    }
+    {
+        /// `t = floor(sqrt(a)) mod 2^w`, for an unsigned a.
+        SquareRoot = "square_root"
+        /// The number.
+        reads a: Word<R>,
+        /// How it is lowered.
+        style style: Style,
+        /// The target.
+        target target: T,
+        /// The garbage.
+        garbage scratch: T,
+    }
+    {
+        /// `t_k = columns[k][address] mod 2^w_k`: a QROM of `columns[k].len()` entries, the same number
+        /// for all k. An address beyond them reads what suits the lowering; it may not occur.
+        Table = "table"
+        /// Bits of the address, the least significant first.
+        reads address: Box<[Bit<R>]>,
+        /// Entries by column.
+        constant columns: Arc<[Box<[i64]>]>,
+        /// Of the address bits, how many of the lowest select among words read together, under
+        /// [`Style::Wide`].
+        constant low: u32,
+        /// How it is lowered.
+        style style: Style,
+        /// The targets.
+        targets targets: Box<[T]>,
+        /// The garbage.
+        garbage scratch: T,
+    }
+    {
+        /// `t ^= a mod 2^w`, where `when` holds. In place, and its own inverse.
+        XorInto = "xor_into"
+        /// What is added over GF(2).
+        reads a: Operand<R>,
+        /// The condition; none: everywhere.
+        reads when: Option<Bit<R>>,
+        /// The target.
+        register target: R,
+    }
+    {
+        /// `t += a mod 2^w` or `t -= a mod 2^w`. In place.
+        AddInto = "add_into"
+        /// What is added.
+        reads a: Operand<R>,
+        /// Whether it is subtracted.
+        constant subtract: bool,
+        /// The condition; none: everywhere.
+        reads when: When<R>,
+        /// The target.
+        register target: R,
+    }
+    {
+        /// `(a, b) = (b, a)` where `when` holds; both of one width. In place, and its own inverse.
+        Swap = "swap"
+        /// The first operand.
+        register a: R,
+        /// The second operand.
+        register b: R,
+        /// The condition; none: everywhere.
+        reads when: Option<Bit<R>>,
+    }
+    {
+        /// The sign of a basis state's amplitude, where `bit` holds: a Z. Its own inverse.
+        Phase = "phase"
+        /// The condition.
+        reads bit: Bit<R>,
+    }
+}
+
 impl Op {
-    /// Registers that are zero before it and hold its results after it, scratch included; none for
+    /// Registers that are zero before it and hold its results after it, garbage included; none for
     /// an operation in place.
     pub fn fresh(&self) -> Vec<RegisterId> {
         let mut fresh = self.targets();
@@ -257,197 +585,28 @@ impl Op {
         fresh
     }
 
-    /// Registers that hold its results, out of place.
-    pub fn targets(&self) -> Vec<RegisterId> {
-        match self {
-            Self::Copy { target, .. }
-            | Self::Load { target, .. }
-            | Self::Parity { target, .. }
-            | Self::And { target, .. }
-            | Self::Xor { target, .. }
-            | Self::Add { target, .. }
-            | Self::Negate { target, .. }
-            | Self::Select { target, .. }
-            | Self::Less { target, .. }
-            | Self::Multiply { target, .. }
-            | Self::Square { target, .. }
-            | Self::Scale { target, .. }
-            | Self::SquareRoot { target, .. } => vec![*target],
-            Self::Divide { quotient, fits, .. } => vec![*quotient, *fits],
-            Self::Table { targets, .. } => targets.to_vec(),
-            Self::XorInto { .. }
-            | Self::AddInto { .. }
-            | Self::Swap { .. }
-            | Self::Phase { .. } => Vec::new(),
-        }
-    }
-
-    /// The register of what it leaves behind.
-    pub fn scratch(&self) -> Option<RegisterId> {
-        match self {
-            Self::Multiply { scratch, .. }
-            | Self::Square { scratch, .. }
-            | Self::Scale { scratch, .. }
-            | Self::Divide { scratch, .. }
-            | Self::SquareRoot { scratch, .. }
-            | Self::Table { scratch, .. } => Some(*scratch),
-            _ => None,
-        }
-    }
-
-    /// What it is called.
-    pub fn name(&self) -> &'static str {
-        match self {
-            Self::Copy { .. } => "copy",
-            Self::Load { .. } => "load",
-            Self::Parity { .. } => "parity",
-            Self::And { .. } => "and",
-            Self::Xor { .. } => "xor",
-            Self::Add { .. } => "add",
-            Self::Negate { .. } => "negate",
-            Self::Select { .. } => "select",
-            Self::Less { .. } => "less",
-            Self::Multiply { .. } => "multiply",
-            Self::Square { .. } => "square",
-            Self::Scale { .. } => "scale",
-            Self::Divide { .. } => "divide",
-            Self::SquareRoot { .. } => "square_root",
-            Self::Table { .. } => "table",
-            Self::XorInto { .. } => "xor_into",
-            Self::AddInto { .. } => "add_into",
-            Self::Swap { .. } => "swap",
-            Self::Phase { .. } => "phase",
-        }
-    }
-
-    /// Calls `rename` on every register that the operation reads or changes in place (`false`) or
-    /// computes (`true`).
-    pub fn rename(&mut self, mut rename: impl FnMut(&mut RegisterId, bool)) {
-        match self {
-            Self::Copy { a, target } => {
-                rename(&mut a.register, false);
-                rename(target, true);
-            }
-            Self::Load { target, .. } => rename(target, true),
-            Self::Parity { source, target, .. } => {
-                rename(source, false);
-                rename(target, true);
-            }
-            Self::And { a, b, target } | Self::Xor { a, b, target } => {
-                rename(&mut a.register, false);
-                rename(&mut b.register, false);
-                rename(target, true);
-            }
-            Self::Add { a, b, target, .. } | Self::Less { a, b, target } => {
-                rename_operand(a, &mut rename);
-                rename_operand(b, &mut rename);
-                rename(target, true);
-            }
-            Self::Negate { a, when, target } => {
-                rename(&mut a.register, false);
-                rename(&mut when.register, false);
-                rename(target, true);
-            }
-            Self::Select { when, a, b, target } => {
-                rename(&mut when.register, false);
-                rename_operand(a, &mut rename);
-                rename_operand(b, &mut rename);
-                rename(target, true);
-            }
-            Self::Multiply {
-                a,
-                b,
-                target,
-                scratch,
-                ..
-            } => {
-                rename(&mut a.register, false);
-                rename(&mut b.register, false);
-                rename(target, true);
-                rename(scratch, true);
-            }
-            Self::Square {
-                a, target, scratch, ..
-            }
-            | Self::Scale {
-                a, target, scratch, ..
-            }
-            | Self::SquareRoot {
-                a, target, scratch, ..
-            } => {
-                rename(&mut a.register, false);
-                rename(target, true);
-                rename(scratch, true);
-            }
-            Self::Divide {
-                a,
-                b,
-                quotient,
-                fits,
-                scratch,
-                ..
-            } => {
-                rename(&mut a.register, false);
-                rename(&mut b.register, false);
-                rename(quotient, true);
-                rename(fits, true);
-                rename(scratch, true);
-            }
-            Self::Table {
-                address,
-                targets,
-                scratch,
-                ..
-            } => {
-                for bit in address {
-                    rename(&mut bit.register, false);
-                }
-                for target in targets {
-                    rename(target, true);
-                }
-                rename(scratch, true);
-            }
-            Self::XorInto { a, when, target } => {
-                rename_operand(a, &mut rename);
-                if let Some(bit) = when {
-                    rename(&mut bit.register, false);
-                }
-                rename(target, false);
-            }
-            Self::AddInto {
-                a, when, target, ..
-            } => {
-                rename_operand(a, &mut rename);
-                if let When::If(bit) | When::Reversed(bit) = when {
-                    rename(&mut bit.register, false);
-                }
-                rename(target, false);
-            }
-            Self::Swap { a, b, when } => {
-                rename(a, false);
-                rename(b, false);
-                if let Some(bit) = when {
-                    rename(&mut bit.register, false);
-                }
-            }
-            Self::Phase { bit } => rename(&mut bit.register, false),
-        }
-    }
-
     /// Registers that it reads or changes in place.
     pub fn reads(&self) -> Vec<RegisterId> {
         let mut reads = Vec::new();
-        self.clone().rename(|register, computed| {
-            if !computed {
-                reads.push(*register);
-            }
-        });
+        self.each_read(&mut |register| reads.push(*register));
         reads
     }
 }
 
-fn rename_operand(operand: &mut Operand, rename: &mut impl FnMut(&mut RegisterId, bool)) {
-    if let Operand::Word(word) = operand {
-        rename(&mut word.register, false);
+impl<R, T> Op<R, T> {
+    /// With its garbage in this register, if it leaves any behind.
+    pub fn with_scratch(mut self, scratch: T) -> Self {
+        if let Some(field) = self.scratch_mut() {
+            *field = scratch;
+        }
+        self
+    }
+
+    /// Lowered in this style, where there is a choice.
+    pub fn with_style(mut self, style: Style) -> Self {
+        if let Some(field) = self.style_mut() {
+            *field = style;
+        }
+        self
     }
 }

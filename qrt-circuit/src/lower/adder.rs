@@ -196,7 +196,7 @@ impl Lowering {
                 (None, Some((carry, addend))) => {
                     self.cx(addend, t);
                     self.cx(addend, carry);
-                    self.ccx(carry, t, addend);
+                    self.carry(carry, t, addend);
                     (Wire::qubit(addend), Step::Replaced { carry, addend })
                 }
                 (None, None) => {
@@ -216,7 +216,7 @@ impl Lowering {
             match steps[place] {
                 Step::Free => {}
                 Step::Replaced { carry, addend } => {
-                    self.ccx(carry, t, addend);
+                    self.carry(carry, t, addend);
                     self.cx(addend, carry);
                     if when == Wire::ONE {
                         self.cx(carry, t);
@@ -231,6 +231,12 @@ impl Lowering {
             }
             self.sum_when(a[place], carries[place], when, t);
         }
+    }
+
+    /// A carry in the addend's place, or its inverse.
+    fn carry(&mut self, carry: Qubit, t: Qubit, addend: Qubit) {
+        self.carried.push(self.gates.len());
+        self.ccx(carry, t, addend);
     }
 
     /// `t ^= when (a ^ b)`
@@ -291,18 +297,4 @@ pub(super) fn settled(a: &[Wire], b: &[Wire]) -> usize {
         place -= 1;
     }
     place
-}
-
-/// ANDs that the carries out of the lowest `places` places of a + b + carry take, none of whose
-/// wires are in `0xf0000000..`; and the last carry.
-pub(super) fn carries(a: &[Wire], b: &[Wire], carry: Wire, places: usize) -> (u64, Wire) {
-    let mut carry = carry;
-    let mut ands = 0;
-    for (a, b) in a.iter().zip(b).take(places) {
-        carry = Wire::majority(*a, *b, carry).unwrap_or_else(|| {
-            ands += 1;
-            Wire::qubit(u32::MAX - ands)
-        });
-    }
-    (u64::from(ands), carry)
 }

@@ -17,9 +17,9 @@
 //!
 //! # Counts
 //!
-//! [`cost`] counts Toffolis from the operands' shapes alone, without emitting gates; that it agrees
-//! with what is emitted is tested. Where the ANDs into clean bits are undone by measurement
-//! (Gidney, *Halving the cost of quantum addition*, 2018), `and_measured` of them remain.
+//! [`cost`] counts the gates that the lowering emits; that they agree with the published formulas
+//! is tested. Where the ANDs into clean bits are undone by measurement (Gidney, *Halving the cost
+//! of quantum addition*, 2018), `and_measured` of them remain.
 
 mod adder;
 mod choose;
@@ -37,7 +37,7 @@ mod tests;
 mod walk;
 mod wire;
 
-pub use cost::{Cost, cost, op_toffoli, tally, toffoli};
+pub use cost::{Cost, cost, costs, tally, toffoli};
 pub use place::{circuit, parts, scratch_width};
 pub use size::{Size, depth, most_qubits, size};
 pub use table::best_low;
@@ -56,7 +56,10 @@ struct Lowering {
     /// By register: its qubits; empty where it has none.
     registers: Vec<Vec<Qubit>>,
     /// What of the current operation's scratch register has been drawn.
-    drawn: usize,
+    drawn: Vec<Qubit>,
+    /// Gates that compute a carry in the place of a qubit that holds something, and, each after its
+    /// own, those that take it back.
+    carried: Vec<usize>,
     /// The current operation's scratch register; none: bits are made as they are asked for.
     scratch: Option<Vec<Qubit>>,
 }
@@ -104,12 +107,11 @@ impl Lowering {
 
     /// The next bit that stays behind.
     fn draw(&mut self) -> Qubit {
-        let next = self.drawn;
-        self.drawn += 1;
-        match self.scratch.as_ref().and_then(|scratch| scratch.get(next)) {
-            Some(qubit) => *qubit,
-            None => self.pool.take(),
-        }
+        let scratch = self.scratch.as_ref();
+        let own = scratch.and_then(|scratch| scratch.get(self.drawn.len()));
+        let qubit = own.copied().unwrap_or_else(|| self.pool.make());
+        self.drawn.push(qubit);
+        qubit
     }
 
     fn draws(&mut self, bits: usize) -> Vec<Qubit> {
@@ -151,7 +153,8 @@ impl Lowering {
 
     /// Emits an operation. Registers of what it computes have been placed.
     fn lower(&mut self, op: &Op) {
-        self.drawn = 0;
+        self.drawn.clear();
+        self.carried.clear();
         match op {
             Op::Copy { a, target } => {
                 let target = self.register(*target);

@@ -85,6 +85,53 @@ impl Product {
     pub(super) fn digits(&self) -> usize {
         self.rows + usize::from(!self.a_signed)
     }
+
+    /// Toffolis in plain rows.
+    fn plain(&self, style: Style) -> u64 {
+        let (row, needed) = (self.row, self.needed);
+        let negated = if self.rows == 1 && self.a_signed {
+            negation((row + 1).min(needed))
+        } else {
+            0
+        };
+        let rows = (1..self.rows.min(needed)).map(|place| {
+            let bits = (row + 1).min(needed - place);
+            let carries = bits - 1;
+            match style {
+                Style::Wide if row == 1 && place == 1 && !self.b_signed => 1,
+                Style::Wide => row.min(bits) + carries,
+                Style::Lean => 2 * carries + bits,
+            }
+        });
+        let negated = carried(negated, style);
+        (row.min(needed) + negated + rows.sum::<usize>()) as u64
+    }
+
+    /// Toffolis in rows of signed digits; there are none of a single bit.
+    fn signed(&self, style: Style) -> u64 {
+        let (row, needed) = (self.row, self.needed);
+        if self.digits() == 1 {
+            return u64::MAX;
+        }
+        let rows = 1..self.digits().min(needed + 1);
+        let carries = rows.map(|place| (row + 2).min(needed + 1 - place) - 1);
+        let carries = negation((row + 1).min(needed)) + carries.sum::<usize>();
+        (row.min(needed) + carried(carries, style)) as u64
+    }
+}
+
+/// Toffolis of a sum of `bits` bits of which the first carry follows from the wires, as a
+/// negation's does.
+fn negation(bits: usize) -> usize {
+    bits.saturating_sub(2)
+}
+
+/// Toffolis of carries that stay, or that a sum in place takes back.
+fn carried(carries: usize, style: Style) -> usize {
+    match style {
+        Style::Wide => carries,
+        Style::Lean => 2 * carries,
+    }
 }
 
 impl Lowering {
@@ -127,7 +174,7 @@ impl Lowering {
         if product.needed == 0 {
             return;
         }
-        let plain = product.plain(style).toffoli <= product.signed(style).toffoli;
+        let plain = product.plain(style) <= product.signed(style);
         let mut a = self.word(Word { shift: 0, ..a }, product.rows);
         let b = self.word(Word { shift: 0, ..b }, product.row);
         let copies = self.detach(&mut a, &b);

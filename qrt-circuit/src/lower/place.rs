@@ -15,17 +15,26 @@ pub(super) struct Pool {
 impl Pool {
     /// A qubit that is zero.
     pub(super) fn take(&mut self) -> Qubit {
-        let qubit = self.free.pop().unwrap_or_else(|| {
-            self.made += 1;
-            self.made - 1
-        });
+        let qubit = self.free.pop().unwrap_or_else(|| self.make());
         self.peak = self.peak.max(self.in_use());
         qubit
+    }
+
+    /// A qubit that nobody has had before.
+    pub(super) fn make(&mut self) -> Qubit {
+        self.made += 1;
+        self.peak = self.peak.max(self.in_use());
+        self.made - 1
     }
 
     /// Takes back a qubit, which is zero.
     pub(super) fn give(&mut self, qubit: Qubit) {
         self.free.push(qubit);
+    }
+
+    /// Qubits that there are.
+    pub(super) fn made(&self) -> u32 {
+        self.made
     }
 
     pub(super) fn in_use(&self) -> u32 {
@@ -97,27 +106,30 @@ pub fn scratch_width(op: &Op, width: impl Fn(RegisterId) -> u32) -> u32 {
     }
     let (op, mut lowering) = alone(op, width);
     lowering.lower(&op);
-    lowering.drawn as u32
+    lowering.drawn.len() as u32
 }
 
 /// An operation with its registers, other than its scratch, placed on qubits of its own.
 pub(super) fn alone(op: &Op, width: impl Fn(RegisterId) -> u32) -> (Op, Lowering) {
     let mut lowering = Lowering::default();
-    let mut op = op.clone();
-    let scratch = op.scratch();
-    let mut seen: Vec<RegisterId> = Vec::new();
-    op.rename(|id, _| {
-        let place = seen.iter().position(|known| known == id);
-        let place = place.unwrap_or_else(|| {
-            let width = if Some(*id) == scratch { 0 } else { width(*id) };
-            let place = RegisterId(seen.len() as u32);
-            seen.push(*id);
+    let mut ids: Vec<RegisterId> = Vec::new();
+    for id in op.reads().into_iter().chain(op.fresh()) {
+        if !ids.contains(&id) {
+            let width = if Some(id) == op.scratch() {
+                0
+            } else {
+                width(id)
+            };
             lowering.registers.push(Vec::new());
-            lowering.place(place, width);
-            place.index()
-        });
-        *id = RegisterId(place as u32);
-    });
+            lowering.place(RegisterId(ids.len() as u32), width);
+            ids.push(id);
+        }
+    }
+    let placed = |id| {
+        let place = ids.iter().position(|known| *known == id);
+        RegisterId(place.unwrap_or_default() as u32)
+    };
+    let op = op.clone().map(placed, placed);
     (op, lowering)
 }
 

@@ -47,28 +47,6 @@ fn all_zero(columns: &[Box<[i64]>], masks: &[i64], range: &Range) -> bool {
     range.clone().all(zero)
 }
 
-/// ANDs of the walk, each of which is computed and returned.
-pub(super) fn ands(address: usize, columns: &[Box<[i64]>], width: impl Fn(usize) -> usize) -> u64 {
-    let masks = masks(columns.len(), width);
-    below(columns, &masks, &(0..1 << address), true)
-}
-
-fn below(columns: &[Box<[i64]>], masks: &[i64], range: &Range, free: bool) -> u64 {
-    if range.len() == 1 || all_zero(columns, masks, range) {
-        return 0;
-    }
-    let one = range.start..range.start.midpoint(range.end);
-    match halves(columns, masks, range) {
-        None => below(columns, masks, &one, free),
-        Some([low, high]) => {
-            // The first split needs no AND: its condition is a bit.
-            u64::from(!free)
-                + below(columns, masks, &low, false)
-                + below(columns, masks, &high, false)
-        }
-    }
-}
-
 impl Lowering {
     pub(super) fn walk(
         &mut self,

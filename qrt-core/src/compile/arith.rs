@@ -316,11 +316,11 @@ impl Builder<'_> {
         let range = [xr[0].min(yr[0]), xr[1].max(yr[1])];
         let when = self.bit(node);
         let (ty, width, signed) = self.shape(range);
-        let target = self.emit(&[(ty, width)], |t, _| Op::Select {
+        let target = self.emit(Op::Select {
             when,
             a: x,
             b: y,
-            target: t[0],
+            target: (ty, width),
         })[0];
         debug_assert!(bits_of(range).0 <= width);
         let chosen = self.computed(Self::whole(target, width, signed), range);

@@ -115,11 +115,11 @@ impl Builder<'_> {
         let width = bits_below(bound).max(1);
         let (a, b) = (self.choice_operand(a), self.choice_operand(b));
         let when = self.bit(node);
-        let target = self.emit(&[(Type::UInt, width)], |t, _| Op::Select {
+        let target = self.emit(Op::Select {
             when,
             a,
             b,
-            target: t[0],
+            target: (Type::UInt, width),
         })[0];
         let index = self.choice_of(Self::whole(target, width, false));
         if let Index::Node(node) = index {

@@ -1,7 +1,7 @@
 //! Quotients.
 
 use super::value::{Bool, Real, bits_above};
-use super::{BuildError, Builder, MAX_BITS};
+use super::{BuildError, Builder, GARBAGE, MAX_BITS};
 use qrt_circuit::{Bit, Op, Operand, Type, Word};
 
 /// A quotient of magnitudes.
@@ -42,15 +42,13 @@ impl Builder<'_> {
         let width = (bits_above(most) + shift).clamp(1, MAX_BITS);
         let fraction_type = Type::UFixed { fraction: shift };
         let style = self.target.style;
-        let results = self.emit(&[(fraction_type, width), (Type::Bool, 1)], |t, scratch| {
-            Op::Divide {
-                a,
-                b,
-                style,
-                quotient: t[0],
-                fits: t[1],
-                scratch,
-            }
+        let results = self.emit(Op::Divide {
+            a,
+            b,
+            style,
+            quotient: (fraction_type, width),
+            fits: (Type::Bool, 1),
+            scratch: GARBAGE,
         });
         let all = (1_i64 << width) - 1;
         let value = self.computed(
@@ -104,11 +102,11 @@ impl Builder<'_> {
     /// A register that holds a constant.
     fn constant_word(&mut self, value: i64) -> Word {
         let (ty, width, signed) = self.shape([value; 2]);
-        let target = self.emit(&[(ty, width)], |t, _| Op::Add {
+        let target = self.emit(Op::Add {
             a: Operand::Constant(value),
             b: Operand::Constant(0),
             subtract: false,
-            target: t[0],
+            target: (ty, width),
         })[0];
         Self::whole(target, width, signed)
     }

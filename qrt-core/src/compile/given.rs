@@ -35,7 +35,11 @@ impl Builder<'_> {
         if let (Operand::Constant(a), Operand::Constant(b)) = (a, b) {
             return Bool::Constant(a < b);
         }
-        let target = self.emit(&[(Type::Bool, 1)], |t, _| Op::Less { a, b, target: t[0] })[0];
+        let target = self.emit(Op::Less {
+            a,
+            b,
+            target: (Type::Bool, 1),
+        })[0];
         self.truth_of(Bit {
             register: target,
             index: 0,

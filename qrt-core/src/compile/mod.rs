@@ -61,6 +61,12 @@ const MAX_ADDRESS: u32 = 16;
 /// Most address bits of a function that is tabulated although arithmetic could compute it.
 const FEW: usize = 10;
 
+/// The type and the width of an operation's result, before it has a register.
+type Shape = (Type, u32);
+
+/// What an operation leaves behind, before its width is known.
+const GARBAGE: Shape = (Type::Scratch, 0);
+
 /// Why a scene has no circuit.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
@@ -159,7 +165,7 @@ pub struct Builder<'a> {
     values: Vec<Value>,
     truths: Vec<Truth>,
     choices: Vec<Choice>,
-    known: HashMap<Op, usize>,
+    known: HashMap<Op<RegisterId, u32>, usize>,
     coordinates: HashMap<(usize, bool), Index>,
     names: Vec<(Named, usize, Nameable)>,
     asked: u64,
@@ -308,55 +314,38 @@ impl<'a> Builder<'a> {
         id
     }
 
-    /// The targets of the operation that `op` makes of them, or of an equal one that is there.
-    /// `targets` are the results' types and widths.
-    fn emit(
-        &mut self,
-        targets: &[(Type, u32)],
-        op: impl FnOnce(&[RegisterId], RegisterId) -> Op,
-    ) -> Vec<RegisterId> {
-        const NOBODY: RegisterId = RegisterId(u32::MAX);
+    /// The targets of an operation, or of an equal one that is there. It is given with its results'
+    /// shapes in place of its targets.
+    fn emit(&mut self, op: Op<RegisterId, Shape>) -> Vec<RegisterId> {
         self.asked += 1;
         // Equal operands at another width are another operation.
-        let widths: Vec<RegisterId> = targets
-            .iter()
-            .map(|&(_, width)| RegisterId(u32::MAX - 1 - width))
-            .collect();
-        let mut op = op(&widths, NOBODY);
-        if let (true, Some(&known)) = (self.target.passes.share, self.known.get(&op)) {
+        let key = op.clone().map(|read| read, |(_, width)| width);
+        if let (true, Some(&known)) = (self.target.passes.share, self.known.get(&key)) {
             self.shared += 1;
             return self.ops[known].0.targets();
         }
-        let key = op.clone();
-        for &(_, width) in targets {
-            if width > MAX_BITS {
-                self.fail(BuildError::TooWide {
-                    what: "a value of the tracer",
-                    bits: width,
-                });
+        for (_, bits) in op.targets() {
+            if bits > MAX_BITS {
+                let what = "a value of the tracer";
+                self.fail(BuildError::TooWide { what, bits });
             }
         }
         let name = op.name();
-        let mut next = targets.iter();
-        let scratch = op.scratch().is_some();
-        let mut made = Vec::with_capacity(targets.len() + 1);
-        for &(ty, width) in next.by_ref() {
-            made.push(self.register(name, ty, Role::Work, width.min(MAX_BITS)));
-        }
-        if scratch {
-            made.push(self.register(name, Type::Scratch, Role::Scratch, 0));
-        }
-        let mut fresh = made.iter();
-        op.rename(|register, computed| {
-            if computed && let Some(&id) = fresh.next() {
-                *register = id;
-            }
-        });
+        let op = op.map(
+            |read| read,
+            |(ty, width)| {
+                let role = match ty {
+                    Type::Scratch => Role::Scratch,
+                    _ => Role::Work,
+                };
+                self.register(name, ty, role, width.min(MAX_BITS))
+            },
+        );
         self.known.insert(key, self.ops.len());
+        let targets = op.targets();
         let block = self.block();
         self.ops.push((op, block));
-        made.truncate(targets.len());
-        made
+        targets
     }
 
     fn number_type(&self, signed: bool) -> Type {
@@ -400,11 +389,11 @@ impl<'a> Builder<'a> {
                 })
             });
             let source = self.id;
-            let target = self.emit(&[(Type::UInt, bits)], |t, _| Op::Parity {
+            let target = self.emit(Op::Parity {
                 source,
                 columns,
                 parameter,
-                target: t[0],
+                target: (Type::UInt, bits),
             })[0];
             self.choice_of(Word {
                 register: target,

@@ -167,11 +167,11 @@ impl Builder<'_> {
     /// `a ± b`, of which `range` is known.
     pub(super) fn sum(&mut self, a: Operand, b: Operand, subtract: bool, range: [i64; 2]) -> Word {
         let (ty, width, signed) = self.shape(range);
-        let target = self.emit(&[(ty, width)], |t, _| Op::Add {
+        let target = self.emit(Op::Add {
             a,
             b,
             subtract,
-            target: t[0],
+            target: (ty, width),
         })[0];
         Self::whole(target, width, signed)
     }
@@ -185,9 +185,9 @@ impl Builder<'_> {
             fraction: self.fraction(),
             width,
         });
-        let target = self.emit(&[(ty, width)], |t, _| Op::Load {
+        let target = self.emit(Op::Load {
             parameter,
-            target: t[0],
+            target: (ty, width),
         })[0];
         (Self::whole(target, width, signed), range)
     }

@@ -43,10 +43,10 @@ impl Builder<'_> {
             [low.min(-high), high.max(-low)]
         };
         let (ty, width, signed) = self.shape(range);
-        let target = self.emit(&[(ty, width)], |t, _| Op::Negate {
+        let target = self.emit(Op::Negate {
             a: word,
             when: bit,
-            target: t[0],
+            target: (ty, width),
         })[0];
         self.computed(Self::whole(target, width, signed), range)
     }

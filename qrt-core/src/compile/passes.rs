@@ -258,12 +258,9 @@ impl Scheduler<'_> {
         for item in std::mem::take(&mut self.items[block.index()]) {
             match item {
                 Item::Op(op) => {
-                    let renamed = &self.renamed;
-                    self.draft.ops[op].0.rename(|register, computed| {
-                        if !computed && let Some(copy) = renamed.get(register) {
-                            *register = *copy;
-                        }
-                    });
+                    let renamed = |read| self.renamed.get(&read).copied().unwrap_or(read);
+                    let at = &mut self.draft.ops[op].0;
+                    *at = at.clone().map(renamed, |computed| computed);
                     forward.push(Instruction {
                         op: op as u32,
                         inverse: false,

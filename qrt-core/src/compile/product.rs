@@ -1,7 +1,7 @@
 //! Products, squares, and products with constants.
 
 use super::value::{Real, bits_of};
-use super::{Builder, MAX_BITS};
+use super::{Builder, GARBAGE, MAX_BITS};
 use qrt_circuit::{Op, Operand, Word};
 
 fn hull(ends: [i128; 4]) -> [i64; 2] {
@@ -71,13 +71,13 @@ impl Builder<'_> {
         let a = self.word_of(node);
         let (ty, width, signed) = self.shape(range);
         let style = self.target.style;
-        let target = self.emit(&[(ty, width)], |t, scratch| Op::Scale {
+        let target = self.emit(Op::Scale {
             a,
             factor: odd,
             drop,
             style,
-            target: t[0],
-            scratch,
+            target: (ty, width),
+            scratch: GARBAGE,
         })[0];
         let product = self.computed(Self::whole(target, width, signed), range);
         match (product.node, (-k).max(0)) {
@@ -160,13 +160,13 @@ impl Builder<'_> {
             let (rows, other) = if order(x) <= order(y) { (x, y) } else { (y, x) };
             let (ty, width, signed) = self.shape(range);
             let style = self.target.style;
-            let target = self.emit(&[(ty, width)], |t, scratch| Op::Multiply {
+            let target = self.emit(Op::Multiply {
                 a: rows,
                 b: other,
                 drop,
                 style,
-                target: t[0],
-                scratch,
+                target: (ty, width),
+                scratch: GARBAGE,
             })[0];
             self.computed(Self::whole(target, width, signed), range)
         };
@@ -182,12 +182,12 @@ impl Builder<'_> {
     pub(super) fn square(&mut self, a: Word, drop: u32, range: [i64; 2]) -> Real {
         let (ty, width, signed) = self.shape(range);
         let style = self.target.style;
-        let target = self.emit(&[(ty, width)], |t, scratch| Op::Square {
+        let target = self.emit(Op::Square {
             a,
             drop,
             style,
-            target: t[0],
-            scratch,
+            target: (ty, width),
+            scratch: GARBAGE,
         })[0];
         self.computed(Self::whole(target, width, signed), range)
     }

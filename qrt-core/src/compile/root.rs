@@ -1,7 +1,7 @@
 //! Square roots and lengths.
 
 use super::value::Real;
-use super::{Builder, MAX_BITS};
+use super::{Builder, GARBAGE, MAX_BITS};
 use qrt_circuit::{Op, Operand, Word};
 
 impl Builder<'_> {
@@ -86,11 +86,11 @@ impl Builder<'_> {
             signed: false,
             ..word
         };
-        let target = self.emit(&[(ty, width)], |t, scratch| Op::SquareRoot {
+        let target = self.emit(Op::SquareRoot {
             a,
             style,
-            target: t[0],
-            scratch,
+            target: (ty, width),
+            scratch: GARBAGE,
         })[0];
         self.computed(Self::whole(target, width, signed), range)
     }

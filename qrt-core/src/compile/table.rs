@@ -1,7 +1,7 @@
 //! Functions of few bits.
 
 use super::value::{Real, Tabulated, Value};
-use super::{Builder, FEW};
+use super::{Builder, FEW, GARBAGE};
 use qrt_circuit::{Bit, Op, RegisterId, Type, Word};
 use std::rc::Rc;
 use std::sync::Arc;
@@ -200,13 +200,13 @@ impl Builder<'_> {
         let columns: Arc<[Box<[i64]>]> = Arc::new([entries]);
         let address: Box<[Bit]> = address.into();
         let style = self.target.style;
-        self.emit(&[(ty, width)], |t, scratch| Op::Table {
+        self.emit(Op::Table {
             low: 0,
             style,
             address,
             columns,
-            targets: t.into(),
-            scratch,
+            targets: Box::new([(ty, width)]),
+            scratch: GARBAGE,
         })[0]
     }
 }

@@ -99,8 +99,11 @@ impl Builder<'_> {
                 let (a, b) = (self.bit(a), self.bit(b));
                 let order = |bit: Bit| (bit.register, bit.index, bit.inverted);
                 let (a, b) = if order(a) <= order(b) { (a, b) } else { (b, a) };
-                let target =
-                    self.emit(&[(Type::Bool, 1)], |t, _| Op::And { a, b, target: t[0] })[0];
+                let target = self.emit(Op::And {
+                    a,
+                    b,
+                    target: (Type::Bool, 1),
+                })[0];
                 self.truth_of(Bit {
                     register: target,
                     index: 0,
@@ -125,8 +128,11 @@ impl Builder<'_> {
             }
             _ => {
                 let (a, b) = (self.bit(a), self.bit(b));
-                let target =
-                    self.emit(&[(Type::Bool, 1)], |t, _| Op::Xor { a, b, target: t[0] })[0];
+                let target = self.emit(Op::Xor {
+                    a,
+                    b,
+                    target: (Type::Bool, 1),
+                })[0];
                 self.truth_of(Bit {
                     register: target,
                     index: 0,

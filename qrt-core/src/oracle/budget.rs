@@ -29,7 +29,7 @@ pub fn spent(channels: &[Oracle]) -> Spent {
         let program = &oracle.program;
         for instruction in &program.instructions {
             let op = &program.ops[instruction.op as usize];
-            let cost = || lower::op_toffoli(op, |register| program.width(register));
+            let cost = || lower::cost(op, false, |register| program.width(register)).toffoli;
             let Some(target) = op.targets().first().copied() else {
                 toffoli += 2 * cost();
                 continue;

@@ -2,7 +2,7 @@
 
 use super::lines::{self, Line};
 use super::names::Names;
-use qrt_circuit::{Bit, BlockId, Instruction, Op, Operand, Program, RegisterId, Word};
+use qrt_circuit::{Argument, Bit, BlockId, Instruction, Op, Operand, Program, RegisterId, Word};
 use qrt_core::oracle::{Channel, Oracle};
 use std::fmt::Write as _;
 
@@ -139,117 +139,47 @@ impl Coder<'_> {
         self.lines.push(Line { text, bound, taken });
     }
 
-    /// An operation out of place.
+    /// The call that computes an operation out of place: a method of its name takes its targets'
+    /// declarations, what it reads, and its constants. Compute has no others: what is left in place
+    /// could not be undone by a copy.
     fn call(&self, op: &Op) -> String {
         let declared = |target: &RegisterId| format!("&R[{}]", target.0);
-        match op {
-            Op::Copy { a, target } => format!("copy({}, {})", declared(target), self.word(*a)),
-            Op::Load { parameter, target } => format!("load({}, {parameter})", declared(target)),
-            Op::Parity {
-                source,
-                columns,
-                parameter,
-                target,
-            } => format!(
-                "parity({}, {}, &{columns:?}, {parameter:?})",
-                declared(target),
-                self.borrowed(*source)
-            ),
-            Op::And { a, b, target } | Op::Xor { a, b, target } => format!(
-                "{}({}, {}, {})",
-                op.name(),
-                declared(target),
-                self.bit(*a),
-                self.bit(*b)
-            ),
-            Op::Add {
-                a,
-                b,
-                subtract,
-                target,
-            } => format!(
-                "{}({}, {}, {})",
-                if *subtract { "subtract" } else { "add" },
-                declared(target),
-                self.operand(*a),
-                self.operand(*b)
-            ),
-            Op::Negate { a, when, target } => format!(
-                "negate({}, {}, {})",
-                declared(target),
-                self.word(*a),
-                self.bit(*when)
-            ),
-            Op::Select { when, a, b, target } => format!(
-                "select({}, {}, {}, {})",
-                declared(target),
-                self.bit(*when),
-                self.operand(*a),
-                self.operand(*b)
-            ),
-            Op::Less { a, b, target } => format!(
-                "less({}, {}, {})",
-                declared(target),
-                self.operand(*a),
-                self.operand(*b)
-            ),
-            Op::Multiply {
-                a, b, drop, target, ..
-            } => format!(
-                "multiply({}, {}, {}, {drop})",
-                declared(target),
-                self.word(*a),
-                self.word(*b)
-            ),
-            Op::Square {
-                a, drop, target, ..
-            } => format!("square({}, {}, {drop})", declared(target), self.word(*a)),
-            Op::Scale {
-                a,
-                factor,
-                drop,
-                target,
-                ..
-            } => format!(
-                "scale({}, {}, {factor}, {drop})",
-                declared(target),
-                self.word(*a)
-            ),
-            Op::Divide {
-                a,
-                b,
-                quotient,
-                fits,
-                ..
-            } => format!(
-                "divide({}, {}, {}, {})",
-                declared(quotient),
-                declared(fits),
-                self.word(*a),
-                self.word(*b)
-            ),
-            Op::SquareRoot { a, target, .. } => {
-                format!("square_root({}, {})", declared(target), self.word(*a))
-            }
-            Op::Table {
-                address,
-                low,
-                targets,
-                ..
-            } => {
-                let list = |items: Vec<String>| items.join(", ");
-                let address = list(address.iter().map(|bit| self.bit(*bit)).collect());
-                let column = |target: &RegisterId| format!("T{}", target.0);
-                format!(
-                    "table([{}], &[{address}], [{}], {low})",
-                    list(targets.iter().map(declared).collect()),
-                    list(targets.iter().map(column).collect()),
-                )
-            }
-            // Compute has none of them: what is left in place could not be undone by a copy.
-            Op::XorInto { .. } | Op::AddInto { .. } | Op::Swap { .. } | Op::Phase { .. } => {
-                String::new()
-            }
+        let targets: Vec<String> = op.targets().iter().map(declared).collect();
+        let mut name = op.name();
+        let mut arguments = Vec::new();
+        if let Op::Table {
+            targets: ids,
+            low,
+            address,
+            ..
+        } = op
+        {
+            let address: Vec<String> = address.iter().map(|bit| self.bit(*bit)).collect();
+            let columns: Vec<String> = ids.iter().map(|id| format!("T{}", id.0)).collect();
+            arguments.push(format!("[{}]", targets.join(", ")));
+            arguments.push(format!("&[{}]", address.join(", ")));
+            arguments.push(format!("[{}]", columns.join(", ")));
+            arguments.push(low.to_string());
+        } else {
+            arguments.extend(targets);
+            let read = op.arguments().into_iter().map(|argument| match argument {
+                Argument::Register(register) => self.borrowed(*register),
+                Argument::Word(word) => self.word(*word),
+                Argument::Bit(bit) => self.bit(*bit),
+                Argument::Operand(operand) => self.operand(*operand),
+                Argument::Constant(constant) => format!("{constant:?}"),
+                Argument::Bits(_) | Argument::Condition => String::new(),
+            });
+            arguments.extend(read);
         }
+        match op {
+            Op::Add { subtract, .. } => {
+                arguments.pop();
+                name = if *subtract { "subtract" } else { name };
+            }
+            Op::Parity { .. } => arguments[2].insert(0, '&'),
+            _ => {}
+        }
+        format!("{name}({})", arguments.join(", "))
     }
 }

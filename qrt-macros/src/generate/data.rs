@@ -129,15 +129,7 @@ fn place(place: Place) -> String {
 }
 
 fn outline(out: &mut String, oracle: &Oracle) {
-    let style = oracle.program.ops.iter().find_map(|op| match op {
-        Op::Multiply { style, .. }
-        | Op::Square { style, .. }
-        | Op::Scale { style, .. }
-        | Op::Divide { style, .. }
-        | Op::SquareRoot { style, .. }
-        | Op::Table { style, .. } => Some(*style),
-        _ => None,
-    });
+    let style = oracle.program.ops.iter().find_map(Op::style);
     let program = &oracle.program;
     let mut seen = vec![false; program.ops.len()];
     let mut first_runs = Vec::new();

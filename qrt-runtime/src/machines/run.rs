@@ -22,7 +22,7 @@
 //! ```
 
 use super::{Fixed, Gates, InvalidGate};
-use qrt_circuit::{Contents, Instruction, Op, Operand, Program, Qubit, RegisterId, Word, lower};
+use qrt_circuit::{Contents, Op, Operand, Program, Qubit, RegisterId, Word, lower};
 use std::fmt;
 
 /// Why a program did not run as a routine does.
@@ -97,21 +97,13 @@ pub fn on_definition(
     states: &[impl AsRef<[u64]>],
 ) -> Result<Vec<Vec<u64>>, RunError> {
     check(program, states)?;
-    let widths: Vec<u32> = program.registers.iter().map(|r| r.width).collect();
     let run = |(state, inputs): (usize, &[u64])| {
-        let mut contents = Contents {
-            registers: vec![0; widths.len()],
-            parameters: Vec::new(),
-            widths: widths.clone(),
-            negative: false,
-        };
-        for (register, bits) in program.inputs.iter().zip(inputs) {
-            contents.registers[register.index()] = *bits;
-        }
+        let mut contents = Contents::new(program, inputs, &[]);
         for instruction in &program.instructions {
-            follow(program, *instruction, &mut contents).map_err(|register| RunError::Dirty {
+            let dirty = contents.follow(program, *instruction);
+            dirty.map_err(|unclean| RunError::Dirty {
                 state,
-                register: name(program, register),
+                register: name(program, unclean.register),
             })?;
         }
         let inputs = program.inputs.iter();
@@ -121,28 +113,29 @@ pub fn on_definition(
     states.map(run).collect()
 }
 
-fn follow(
+/// A block of states on a machine: columns of contents by input before it and after it, or the
+/// lane and the name of what is not zero.
+type BlockRun = Result<Vec<Vec<u64>>, (usize, String)>;
+
+/// Runs a program on all states, `lanes` of them at a time.
+fn on_blocks(
     program: &Program,
-    instruction: Instruction,
-    contents: &mut Contents,
-) -> Result<(), RegisterId> {
-    let op = &program.ops[instruction.op as usize];
-    if !instruction.inverse {
-        contents.compute(op);
-        return Ok(());
+    states: &[impl AsRef<[u64]>],
+    lanes: usize,
+    mut run: impl FnMut(&[Vec<u64>], usize) -> BlockRun,
+) -> Result<Vec<Vec<u64>>, RunError> {
+    let mut results = Vec::with_capacity(states.len());
+    for (block, states) in states.chunks(lanes).enumerate() {
+        let column = |input| states.iter().map(|state| state.as_ref()[input]).collect();
+        let columns: Vec<Vec<u64>> = (0..program.inputs.len()).map(column).collect();
+        let outputs = run(&columns, states.len()).map_err(|(lane, register)| RunError::Dirty {
+            state: block * lanes + lane,
+            register,
+        })?;
+        let state = |lane: usize| outputs.iter().map(|output| output[lane]).collect();
+        results.extend((0..states.len()).map(state));
     }
-    let targets = op.targets();
-    if !targets.is_empty() {
-        let mut expected = contents.clone();
-        expected.compute(op);
-        let differs =
-            |id: &&RegisterId| expected.registers[id.index()] != contents.registers[id.index()];
-        if let Some(dirty) = targets.iter().find(differs) {
-            return Err(*dirty);
-        }
-    }
-    contents.uncompute(op);
-    Ok(())
+    Ok(results)
 }
 
 /// On the fixed machine. It undoes nothing; registers of the routine's own are read after it
@@ -160,26 +153,20 @@ pub fn on_fixed(
     let held = program.inputs.iter().chain(&own).map(|id| read(*id));
     let machine = Fixed::new(program, &held.collect::<Vec<_>>());
     let mut lanes = machine.lanes();
-    let mut results = Vec::with_capacity(states.len());
-    for (block, states) in states.chunks(Fixed::LANES).enumerate() {
-        let columns = columns(program, states);
+    on_blocks(program, states, Fixed::LANES, |columns, count| {
         let inputs: Vec<&[u64]> = columns.iter().map(Vec::as_slice).collect();
-        let mut outputs = vec![vec![0_i64; states.len()]; program.inputs.len() + own.len()];
+        let mut outputs = vec![vec![0_i64; count]; program.inputs.len() + own.len()];
         let mut slices: Vec<&mut [i64]> = outputs.iter_mut().map(Vec::as_mut_slice).collect();
         machine.run(&mut lanes, &inputs, &[], &mut slices);
-        let (outputs, own_outputs) = outputs.split_at(program.inputs.len());
-        for (id, contents) in own.iter().zip(own_outputs) {
+        let own_outputs = outputs.split_off(program.inputs.len());
+        for (id, contents) in own.iter().zip(&own_outputs) {
             if let Some(lane) = contents.iter().position(|bits| *bits != 0) {
-                return Err(RunError::Dirty {
-                    state: block * Fixed::LANES + lane,
-                    register: name(program, *id),
-                });
+                return Err((lane, name(program, *id)));
             }
         }
-        let state = |lane: usize| outputs.iter().map(|o| o[lane].cast_unsigned()).collect();
-        results.extend((0..states.len()).map(state));
-    }
-    Ok(results)
+        let unsigned = |column: Vec<i64>| column.into_iter().map(i64::cast_unsigned).collect();
+        Ok(outputs.into_iter().map(unsigned).collect())
+    })
 }
 
 /// On the gates machine: every gate of its circuit. All qubits but those of the inputs must be
@@ -201,27 +188,21 @@ pub fn on_gates(
     };
     let inputs: Vec<&[Qubit]> = program.inputs.iter().map(qubits).collect();
     let mut rows = machine.rows();
-    let mut results = Vec::with_capacity(states.len());
-    for (block, states) in states.chunks(Gates::LANES).enumerate() {
+    on_blocks(program, states, Gates::LANES, |columns, count| {
         rows.clear();
-        for (qubits, column) in inputs.iter().zip(columns(program, states)) {
-            rows.set(qubits, &column);
+        for (qubits, column) in inputs.iter().zip(columns) {
+            rows.set(qubits, column);
         }
         machine.run(0, &mut rows);
-        if let Some(dirty) = rows.dirty(&inputs.concat(), states.len()) {
-            return Err(RunError::Dirty {
-                state: block * Gates::LANES + dirty.lane,
-                register: format!("qubit {}", dirty.qubit),
-            });
+        if let Some(dirty) = rows.dirty(&inputs.concat(), count) {
+            return Err((dirty.lane, format!("qubit {}", dirty.qubit)));
         }
-        let mut outputs = vec![vec![0; states.len()]; inputs.len()];
+        let mut outputs = vec![vec![0; count]; inputs.len()];
         for (qubits, output) in inputs.iter().zip(&mut outputs) {
             rows.get(qubits, output);
         }
-        let state = |lane: usize| outputs.iter().map(|output| output[lane]).collect();
-        results.extend((0..states.len()).map(state));
-    }
-    Ok(results)
+        Ok(outputs)
+    })
 }
 
 fn name(program: &Program, register: RegisterId) -> String {
@@ -240,11 +221,6 @@ fn own(program: &Program) -> Vec<RegisterId> {
         _ => None,
     };
     program.ops.iter().filter_map(zero).collect()
-}
-
-fn columns(program: &Program, states: &[impl AsRef<[u64]>]) -> Vec<Vec<u64>> {
-    let column = |input| states.iter().map(|state| state.as_ref()[input]).collect();
-    (0..program.inputs.len()).map(column).collect()
 }
 
 fn check(program: &Program, states: &[impl AsRef<[u64]>]) -> Result<(), RunError> {

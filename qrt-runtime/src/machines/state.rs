@@ -1,7 +1,7 @@
 //! One basis state: reversible code, run on integers by the definition of its operations.
 
 use qrt_circuit::{
-    Bit, BlockId, Contents, Declaration, Machine, Operand, Recorded, Recorder, Style, When, Word,
+    Call, Contents, Declaration, Machine, Operand, Program, Recorded, Recorder, Style, Word,
 };
 use qrt_core::oracle::compiled::CompiledOracle;
 use qrt_core::sampling::SamplingError;
@@ -53,18 +53,13 @@ pub struct State {
 impl State {
     /// Without registers.
     pub fn new() -> Self {
-        Self::of(Recorder::new(Style::Lean), Vec::new())
+        Self::of(Recorder::new(Style::Lean), &[])
     }
 
-    fn of(recorder: Recorder, parameters: Vec<u64>) -> Self {
+    fn of(recorder: Recorder, parameters: &[u64]) -> Self {
         let mut state = Self {
             recorder,
-            contents: Contents {
-                registers: Vec::new(),
-                parameters,
-                widths: Vec::new(),
-                negative: false,
-            },
+            contents: Contents::new(&Program::default(), &[], parameters),
             unclean: None,
         };
         state.declared();
@@ -87,7 +82,7 @@ impl State {
         let words = parameters.map(|parameter| parameter.value(&points, seed, pixel));
         let mut recorder = outline.recorder();
         let id = outline.inputs(&mut recorder);
-        let mut state = Self::of(recorder, words.collect());
+        let mut state = Self::of(recorder, &words.collect::<Vec<_>>());
         let width = outline.registers[outline.id.index()].width;
         state.contents.registers[id.id().index()] = lowest(path, width);
         Ok((state, id))
@@ -138,35 +133,16 @@ impl State {
 
     /// Runs what was recorded last.
     fn run(&mut self) {
-        self.declared();
         let program = self.recorder.program();
         let Some(instruction) = program.instructions.last() else {
             return;
         };
-        let op = &program.ops[instruction.op as usize];
-        if !instruction.inverse {
-            self.contents.compute(op);
-            return;
-        }
-        let targets = op.targets();
-        let held = |contents: &Contents| -> Vec<u64> {
-            let targets = targets.iter();
-            targets.map(|t| contents.registers[t.index()]).collect()
-        };
-        let before = held(&self.contents);
-        // The inverse undoes what the operation makes of its operands as they are now.
-        self.contents.uncompute(op);
-        self.contents.compute(op);
-        let again = held(&self.contents);
-        self.contents.uncompute(op);
-        for ((target, held), expected) in targets.iter().zip(before).zip(again) {
-            if held != expected {
-                self.unclean.get_or_insert_with(|| Unclean {
-                    register: program.registers[target.index()].name.clone(),
-                    held,
-                    expected,
-                });
-            }
+        if let Err(unclean) = self.contents.follow(program, *instruction) {
+            self.unclean.get_or_insert_with(|| Unclean {
+                register: program.registers[unclean.register.index()].name.clone(),
+                held: unclean.held,
+                expected: unclean.expected,
+            });
         }
     }
 }
@@ -184,161 +160,22 @@ impl Default for State {
 
 impl Machine for State {
     type Register = Recorded;
-    fn zero(&mut self, t: &Declaration) -> Recorded {
-        let computed = self.recorder.zero(t);
-        self.run();
+
+    fn call(&mut self, call: Call<'_, Recorded>) -> Vec<Recorded> {
+        let recorded = self.recorder.program().instructions.len();
+        let computed = self.recorder.call(call);
+        self.declared();
+        if self.recorder.program().instructions.len() > recorded {
+            self.run();
+        }
         computed
-    }
-    fn free(&mut self, register: Recorded) {
-        self.recorder.free(register);
-        self.run();
-    }
-    fn block(&mut self, block: BlockId) {
-        self.recorder.block(block);
-    }
-    fn copy(&mut self, t: &Declaration, a: Word<&Recorded>) -> Recorded {
-        let computed = self.recorder.copy(t, a);
-        self.run();
-        computed
-    }
-    fn load(&mut self, t: &Declaration, parameter: u32) -> Recorded {
-        let computed = self.recorder.load(t, parameter);
-        self.run();
-        computed
-    }
-    fn parity(
-        &mut self,
-        t: &Declaration,
-        source: &Recorded,
-        columns: &[u64],
-        parameter: Option<u32>,
-    ) -> Recorded {
-        let computed = self.recorder.parity(t, source, columns, parameter);
-        self.run();
-        computed
-    }
-    fn and(&mut self, t: &Declaration, a: Bit<&Recorded>, b: Bit<&Recorded>) -> Recorded {
-        let computed = self.recorder.and(t, a, b);
-        self.run();
-        computed
-    }
-    fn xor(&mut self, t: &Declaration, a: Bit<&Recorded>, b: Bit<&Recorded>) -> Recorded {
-        let computed = self.recorder.xor(t, a, b);
-        self.run();
-        computed
-    }
-    fn add(&mut self, t: &Declaration, a: Operand<&Recorded>, b: Operand<&Recorded>) -> Recorded {
-        let computed = self.recorder.add(t, a, b);
-        self.run();
-        computed
-    }
-    fn subtract(
-        &mut self,
-        t: &Declaration,
-        a: Operand<&Recorded>,
-        b: Operand<&Recorded>,
-    ) -> Recorded {
-        let computed = self.recorder.subtract(t, a, b);
-        self.run();
-        computed
-    }
-    fn negate(&mut self, t: &Declaration, a: Word<&Recorded>, when: Bit<&Recorded>) -> Recorded {
-        let computed = self.recorder.negate(t, a, when);
-        self.run();
-        computed
-    }
-    fn select(
-        &mut self,
-        t: &Declaration,
-        when: Bit<&Recorded>,
-        a: Operand<&Recorded>,
-        b: Operand<&Recorded>,
-    ) -> Recorded {
-        let computed = self.recorder.select(t, when, a, b);
-        self.run();
-        computed
-    }
-    fn less(&mut self, t: &Declaration, a: Operand<&Recorded>, b: Operand<&Recorded>) -> Recorded {
-        let computed = self.recorder.less(t, a, b);
-        self.run();
-        computed
-    }
-    fn multiply(
-        &mut self,
-        t: &Declaration,
-        a: Word<&Recorded>,
-        b: Word<&Recorded>,
-        drop: u32,
-    ) -> Recorded {
-        let computed = self.recorder.multiply(t, a, b, drop);
-        self.run();
-        computed
-    }
-    fn square(&mut self, t: &Declaration, a: Word<&Recorded>, drop: u32) -> Recorded {
-        let computed = self.recorder.square(t, a, drop);
-        self.run();
-        computed
-    }
-    fn scale(&mut self, t: &Declaration, a: Word<&Recorded>, factor: i64, drop: u32) -> Recorded {
-        let computed = self.recorder.scale(t, a, factor, drop);
-        self.run();
-        computed
-    }
-    fn divide(
-        &mut self,
-        quotient: &Declaration,
-        fits: &Declaration,
-        a: Word<&Recorded>,
-        b: Word<&Recorded>,
-    ) -> [Recorded; 2] {
-        let computed = self.recorder.divide(quotient, fits, a, b);
-        self.run();
-        computed
-    }
-    fn square_root(&mut self, t: &Declaration, a: Word<&Recorded>) -> Recorded {
-        let computed = self.recorder.square_root(t, a);
-        self.run();
-        computed
-    }
-    fn table<const N: usize>(
-        &mut self,
-        targets: [&Declaration; N],
-        address: &[Bit<&Recorded>],
-        columns: [&[i64]; N],
-        low: u32,
-    ) -> [Recorded; N] {
-        let computed = self.recorder.table(targets, address, columns, low);
-        self.run();
-        computed
-    }
-    fn undo<const N: usize>(&mut self, computed: [Recorded; N]) {
-        self.recorder.undo(computed);
-        self.run();
-    }
-    fn xor_into(&mut self, t: &mut Recorded, a: Operand<&Recorded>, when: Option<Bit<&Recorded>>) {
-        self.recorder.xor_into(t, a, when);
-        self.run();
-    }
-    fn add_into(
-        &mut self,
-        t: &mut Recorded,
-        a: Operand<&Recorded>,
-        subtract: bool,
-        when: When<&Recorded>,
-    ) {
-        self.recorder.add_into(t, a, subtract, when);
-        self.run();
-    }
-    fn swap(&mut self, a: &mut Recorded, b: &mut Recorded, when: Option<Bit<&Recorded>>) {
-        self.recorder.swap(a, b, when);
-        self.run();
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use qrt_circuit::Type;
+    use qrt_circuit::{Type, When};
 
     const A: Declaration = Declaration::work("a", Type::UInt, 4);
     const DOUBLE: Declaration = Declaration::work("double", Type::UInt, 5);

@@ -17,16 +17,7 @@ fn follow(
     parameters: &[u64],
     mut after: impl FnMut(&Contents),
 ) -> Contents {
-    let widths: Vec<u32> = program.registers.iter().map(|r| r.width).collect();
-    let mut contents = Contents {
-        registers: vec![0; widths.len()],
-        parameters: parameters.to_vec(),
-        widths,
-        negative: false,
-    };
-    for (place, register) in program.inputs.iter().enumerate() {
-        contents.registers[register.index()] = inputs[place];
-    }
+    let mut contents = Contents::new(program, inputs, parameters);
     after(&contents);
     for instruction in &program.instructions {
         let op = &program.ops[instruction.op as usize];
