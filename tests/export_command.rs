@@ -8,10 +8,10 @@ mod openqasm;
 use circuits::{oracle, paths, written};
 use command::Folder;
 use openqasm::Circuit;
+use qrt::circuit::export::{Export, ExportError, Format};
 use qrt::circuit::quantum::{Conjunction, Counting, Part, PhaseOracle, QuantumGate, Turns};
 use qrt::core::scene::Window;
 use qrt::runtime::counting::PhaseDistribution;
-use qrt::runtime::export::{Export, ExportError, Format};
 use qrt::runtime::machines::OracleMachine;
 use qrt::runtime::machines::statevector::{Dense, Sparse, StateVector, fold};
 use serde_json::Value;
@@ -194,7 +194,7 @@ fn the_iterate_is_the_circuits_own_amplitude_by_amplitude() {
                 // Qubits may have been renumbered: where each is in the text.
                 let mut places = vec![0; circuit.qubits as usize];
                 for register in export.registers() {
-                    let places_of = circuit.register(register.name);
+                    let places_of = circuit.register(&register.name);
                     for (qubit, place) in register.qubits.iter().zip(places_of) {
                         places[*qubit as usize] = place;
                     }

@@ -1,4 +1,134 @@
-//! Reversible programs: registers, operations, and their lowering to gates.
+//! Reversible circuits: registers, word-level operations and their inverses, lowering to X, CNOT
+//! and Toffoli, costs, and quantum counting around them.
+//!
+//! A computation that runs on a superposition has to be reversible: it may flip bits and swap
+//! states, never overwrite or forget. This crate lets you write such a computation on *numbers*
+//! (add, multiply, divide, compare, look up in a table), and gives you its inverse, its gates and
+//! its price. It knows nothing of what the numbers mean.
+//!
+//! # In ten minutes: a squarer
+//!
+//! A [`Recorder`] is a [`Machine`] that writes down what it is asked to do. A [`Declaration`] names
+//! a register and says how many qubits it has and what they mean.
+//!
+//! ```
+//! use qrt_circuit::{Declaration, Machine, Program, Recorder, Style, Type, Word};
+//!
+//! fn squarer() -> Program {
+//!     let mut m = Recorder::new(Style::Lean);
+//!     let x = m.input(&Declaration::work("x", Type::UInt, 3));
+//!     // All three bits of x, as an unsigned number; no bit of the square is dropped.
+//!     m.square(&Declaration::work("square", Type::UInt, 6), Word::unsigned(&x, 0, 3), 0);
+//!     m.finish()
+//! }
+//!
+//! let program = squarer();
+//! assert_eq!(program.ops[0].name(), "square");
+//! // What is held after it: x, the square, and what the lowering leaves behind.
+//! let names: Vec<&str> = program.registers.iter().map(|r| r.name.as_str()).collect();
+//! assert_eq!(names, ["x", "square", "scratch"]);
+//! ```
+//!
+//! **Definition.** [`Contents`] follows the program on integers, one basis state at a time. This is
+//! what an operation means; everything else is held against it.
+//!
+//! ```
+//! # use qrt_circuit::{Declaration, Machine, Program, Recorder, Style, Type, Word};
+//! # fn squarer() -> Program {
+//! #     let mut m = Recorder::new(Style::Lean);
+//! #     let x = m.input(&Declaration::work("x", Type::UInt, 3));
+//! #     m.square(&Declaration::work("square", Type::UInt, 6), Word::unsigned(&x, 0, 3), 0);
+//! #     m.finish()
+//! # }
+//! use qrt_circuit::Contents;
+//!
+//! let program = squarer();
+//! let mut contents = Contents::new(&program, &[7], &[]);
+//! for instruction in &program.instructions {
+//!     contents.follow(&program, *instruction)?;
+//! }
+//! assert_eq!(contents.registers[..2], [7, 49]);
+//! # Ok::<(), qrt_circuit::Unclean>(())
+//! ```
+//!
+//! **Lowering and cost.** [`lower::circuit`] places registers on qubits and writes the gates;
+//! [`lower::tally`] counts them, instruction by instruction. `Style` chooses between few gates and
+//! few qubits. Measurement could undo some Toffolis for free ([`lower::Cost::and_measured`]).
+//!
+//! ```
+//! # use qrt_circuit::{Declaration, Machine, Program, Recorder, Style, Type, Word};
+//! # fn squarer() -> Program {
+//! #     let mut m = Recorder::new(Style::Lean);
+//! #     let x = m.input(&Declaration::work("x", Type::UInt, 3));
+//! #     m.square(&Declaration::work("square", Type::UInt, 6), Word::unsigned(&x, 0, 3), 0);
+//! #     m.finish()
+//! # }
+//! use qrt_circuit::{Gate, lower};
+//!
+//! let program = squarer();
+//! let circuit = lower::circuit(&program);
+//! let toffoli = |gate: &&Gate| matches!(gate, Gate::Ccx(..));
+//! let toffolis = circuit.gates.iter().filter(toffoli).count() as u64;
+//! assert_eq!(toffolis, lower::tally(&program)[0].toffoli);
+//!
+//! // Run the gates on bits: 5 in the qubits of x, everything else 0.
+//! let mut bits = vec![false; circuit.qubits as usize];
+//! for (place, qubit) in circuit.inputs[0].1.iter().enumerate() {
+//!     bits[*qubit as usize] = 5 >> place & 1 == 1;
+//! }
+//! for gate in &circuit.gates {
+//!     match *gate {
+//!         Gate::X(t) => bits[t as usize] ^= true,
+//!         Gate::Cx(a, t) => bits[t as usize] ^= bits[a as usize],
+//!         Gate::Ccx(a, b, t) => bits[t as usize] ^= bits[a as usize] & bits[b as usize],
+//!         Gate::Load { .. } | Gate::Z(_) => unreachable!("no parameter, no phase"),
+//!     }
+//! }
+//! let qubits = &circuit.outputs[1].1;
+//! let square: u32 = qubits.iter().rev().fold(0, |sum, q| 2 * sum + u32::from(bits[*q as usize]));
+//! assert_eq!(square, 25);
+//! ```
+//!
+//! **Inverse.** [`Program::inverse`] lists the inverses in reverse order: uncomputation is never
+//! written by hand. Here it gives all qubits but those of `x` back.
+//!
+//! ```
+//! # use qrt_circuit::{Declaration, Machine, Program, Recorder, Style, Type, Word};
+//! # fn squarer() -> Program {
+//! #     let mut m = Recorder::new(Style::Lean);
+//! #     let x = m.input(&Declaration::work("x", Type::UInt, 3));
+//! #     m.square(&Declaration::work("square", Type::UInt, 6), Word::unsigned(&x, 0, 3), 0);
+//! #     m.finish()
+//! # }
+//! let mut program = squarer();
+//! let undo = program.inverse().instructions;
+//! program.instructions.extend(undo);
+//! assert_eq!(program.outputs(), program.inputs);
+//! ```
+//!
+//! **Export.** [`export::write_program`] writes OpenQASM that Qiskit, Q#, Cirq and others read.
+//!
+//! ```
+//! # use qrt_circuit::{Declaration, Machine, Program, Recorder, Style, Type, Word};
+//! # fn squarer() -> Program {
+//! #     let mut m = Recorder::new(Style::Lean);
+//! #     let x = m.input(&Declaration::work("x", Type::UInt, 3));
+//! #     m.square(&Declaration::work("square", Type::UInt, 6), Word::unsigned(&x, 0, 3), 0);
+//! #     m.finish()
+//! # }
+//! use qrt_circuit::export::{Format, write_program};
+//!
+//! let mut text = Vec::new();
+//! let written = write_program(&squarer(), &[], Format::OpenQasm3, &[], &mut text)?;
+//! let text = String::from_utf8(text)?;
+//! assert!(text.starts_with("OPENQASM 3.0;\ninclude \"stdgates.inc\";\nqubit[3] r_x;\n"));
+//! assert_eq!(written.by_name["ccx"], text.matches("ccx ").count() as u64 - 1);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! From here: [`format`] gives registers types (`UInt<8>`, `Fixed<2, 14>`); [`controlled`] runs code
+//! under a condition; [`quantum`] makes a phase oracle of a program that turns a sign, and puts
+//! Grover's iterate and quantum counting around it.
 //!
 //! # What a program means
 //!
@@ -34,6 +164,7 @@
 
 mod controlled;
 mod evaluate;
+pub mod export;
 pub mod format;
 mod gate;
 pub mod lower;
@@ -43,6 +174,7 @@ mod program;
 pub mod quantum;
 mod record;
 mod register;
+mod text;
 
 pub use controlled::{Controlled, controlled, unconditional};
 pub use evaluate::{Contents, Unclean};
@@ -52,3 +184,4 @@ pub use op::{Argument, Op, Style, When};
 pub use program::{Instruction, Parameter, Program};
 pub use record::{Recorded, Recorder};
 pub use register::{Bit, Block, BlockId, Operand, Register, RegisterId, Tag, Type, Word};
+pub use text::grouped;

@@ -2,7 +2,6 @@
 pub mod checkpoint;
 pub mod counting;
 pub mod estimators;
-pub mod export;
 pub mod image;
 pub mod machines;
 pub mod peak_memory;

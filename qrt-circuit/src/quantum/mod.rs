@@ -12,8 +12,7 @@
 //! oracle `T - 1` times. A *sink* is a closure that takes each gate and may refuse, which ends it:
 //!
 //! ```
-//! use qrt_circuit::quantum::{Counting, Part, PhaseOracle, QuantumGate};
-//! use qrt_core::scene::Window;
+//! use qrt_circuit::quantum::{Counting, Part, PhaseOracle, QuantumGate, Window};
 //! use std::convert::Infallible;
 //!
 //! // 3 of 8 ids are good; the phase is read to 4 bits.

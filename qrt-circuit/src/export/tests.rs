@@ -1,6 +1,5 @@
 use super::*;
-use qrt_circuit::quantum::{Conjunction, PhaseOracle};
-use qrt_core::scene::Window;
+use crate::quantum::{Conjunction, PhaseOracle, Window};
 
 fn text(counting: &Counting<'_>, part: Part, format: Format) -> String {
     let mut text = Vec::new();
@@ -99,4 +98,56 @@ fn the_last_line_is_grammatical() {
         tally(&[("ccx", 1200), ("x", 7), ("cx", 1200)], 1234).text(),
         "1,234 qubits, 2,407 gates: 1,200 ccx, 1,200 cx, 7 x"
     );
+}
+
+#[test]
+fn a_programs_registers_keep_their_names() {
+    use crate::{Declaration, Machine, Recorder, Style, Type, Word};
+    let mut m = Recorder::new(Style::Lean);
+    let of = |name| Declaration::work(name, Type::UInt, 2);
+    let a = m.input(&of("ray1.x"));
+    let b = m.input(&of("x"));
+    let [a, b] = [&a, &b].map(|register| Word::unsigned(register, 0, 2));
+    m.add(&of("ray1_x"), a.into(), b.into());
+    let program = m.finish();
+    let mut text = Vec::new();
+    write_program(&program, &[], Format::OpenQasm3, &[], &mut text).unwrap();
+    let text = String::from_utf8(text).unwrap();
+    let declared: Vec<&str> = text
+        .lines()
+        .filter(|line| line.starts_with("qubit"))
+        .collect();
+    assert_eq!(
+        declared,
+        ["qubit[2] ray1_x;", "qubit[2] r_x;", "qubit[2] ray1_x_2;"]
+    );
+}
+
+#[test]
+fn a_parameter_without_a_word_is_refused() {
+    use crate::{Declaration, Machine, Parameter, Recorder, Style, Type};
+    let parameter = Parameter {
+        name: "word".to_owned(),
+        width: 2,
+    };
+    let mut m = Recorder::of(
+        &[],
+        vec![crate::Block::default()],
+        vec![parameter],
+        Style::Lean,
+    );
+    m.load(&Declaration::work("t", Type::UInt, 2), 0);
+    let program = m.finish();
+    let write = |words: &[u64]| {
+        let mut text = Vec::new();
+        write_program(&program, words, Format::OpenQasm2, &[], &mut text).map(|tally| tally.gates())
+    };
+    assert_eq!(write(&[0b10]).unwrap(), 1);
+    assert!(matches!(
+        write(&[]),
+        Err(ExportError::MissingWord {
+            parameter: 0,
+            bit: 0
+        })
+    ));
 }

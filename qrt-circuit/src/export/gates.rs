@@ -1,9 +1,8 @@
 //! Gates, a line each.
 
 use super::{ExportError, Format, Register};
-use qrt_circuit::Qubit;
-use qrt_circuit::quantum::{QuantumGate, Turns};
-use qrt_core::inspect::grouped;
+use crate::quantum::{QuantumGate, Turns};
+use crate::{Qubit, grouped};
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
@@ -127,7 +126,6 @@ impl<'a, W: Write> Writer<'a, W> {
         line.clear();
         line.push_str(gate);
         if let Some(angle) = angle {
-            // The shortest decimal that is read as the same number.
             // As a decimal that is read as the same number; without a point it would be a whole one.
             let point = if angle.fract() == 0.0 { ".0" } else { "" };
             // Writing to a string cannot fail.

@@ -13,6 +13,13 @@ pub enum ExportError {
         /// Bits of the id.
         id: u32,
     },
+    /// A gate reads a bit of a classical parameter for which no word was given.
+    MissingWord {
+        /// The parameter's place in the program's list.
+        parameter: u32,
+        /// Its bit.
+        bit: u32,
+    },
     /// A sign or phase on so many qubits has no gate in the libraries.
     TooManyQubits(usize),
     /// It was asked to end.
@@ -26,6 +33,12 @@ impl fmt::Display for ExportError {
         match self {
             Self::PathBits { path_bits, id } => {
                 write!(f, "a path of {path_bits} bits in an id of {id}")
+            }
+            Self::MissingWord { parameter, bit } => {
+                write!(
+                    f,
+                    "no word was given for bit {bit} of parameter {parameter}"
+                )
             }
             Self::TooManyQubits(qubits) => write!(
                 f,

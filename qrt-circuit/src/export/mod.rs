@@ -28,9 +28,8 @@
 //! before and after. Bit 0 of each is its least significant.
 //!
 //! ```
-//! use qrt_circuit::quantum::{Counting, Part, PhaseOracle};
-//! use qrt_core::scene::Window;
-//! use qrt_runtime::export::{Export, Format};
+//! use qrt_circuit::quantum::{Counting, Part, PhaseOracle, Window};
+//! use qrt_circuit::export::{Export, Format};
 //!
 //! // 3 of 4 ids are good; one bit of phase.
 //! let oracle = PhaseOracle::polynomial(2, vec![vec![0], vec![1], vec![0, 1]])?;
@@ -63,9 +62,10 @@ pub use error::ExportError;
 pub use format::Format;
 pub use gates::Tally;
 
+use crate::quantum::{Counting, Part, QuantumGate, Turns};
+use crate::{Circuit, Gate, Program, Qubit, lower};
 use gates::Writer;
-use qrt_circuit::Qubit;
-use qrt_circuit::quantum::{Counting, Part};
+use std::borrow::Cow;
 use std::io::Write;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -76,7 +76,7 @@ const STRIDE: u64 = 1 << 16;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Register {
     /// Its name.
-    pub name: &'static str,
+    pub name: Cow<'static, str>,
     /// Its qubits in the circuit that is exported, bit 0 first.
     pub qubits: Vec<Qubit>,
 }
@@ -85,7 +85,7 @@ pub struct Register {
 ///
 /// OpenQASM's libraries have no sign on more than three qubits. O_0's is on those of the id and, in a
 /// counting circuit, on its control: [`Counting::with`] and
-/// [`Conjunction::Toffolis`](qrt_circuit::quantum::Conjunction::Toffolis) make circuits without.
+/// [`Conjunction::Toffolis`](crate::quantum::Conjunction::Toffolis) make circuits without.
 #[derive(Clone)]
 pub struct Export<'a> {
     counting: &'a Counting<'a>,
@@ -143,7 +143,10 @@ impl<'a> Export<'a> {
             registers: registers
                 .into_iter()
                 .filter(|(_, qubits)| !qubits.is_empty())
-                .map(|(name, qubits)| Register { name, qubits })
+                .map(|(name, qubits)| Register {
+                    name: name.into(),
+                    qubits,
+                })
                 .collect(),
             cancel: None,
             progress: None,
@@ -217,4 +220,91 @@ impl<'a> Export<'a> {
             _ => Ok(()),
         }
     }
+}
+
+/// Writes a reversible program: its inputs and what it computes as registers of their names, in
+/// which characters that OpenQASM's names lack become `_`, and all other qubits, which are zero
+/// before and after, as `work`. `words` are the contents of its parameters, `comments` as in
+/// [`Export::write`].
+///
+/// # Errors
+/// What `out` says, and a parameter without a word.
+pub fn write_program(
+    program: &Program,
+    words: &[u64],
+    format: Format,
+    comments: &[String],
+    out: &mut impl Write,
+) -> Result<Tally, ExportError> {
+    let circuit = lower::circuit(program);
+    let registers = registers(program, &circuit);
+    let mut out = Writer::new(format, &registers, circuit.qubits, out);
+    out.header(comments)?;
+    for gate in &circuit.gates {
+        match *gate {
+            Gate::X(t) => out.gate(QuantumGate::X(t))?,
+            Gate::Cx(a, t) => out.gate(QuantumGate::Cx(a, t))?,
+            Gate::Ccx(a, b, t) => out.gate(QuantumGate::Ccx(a, b, t))?,
+            Gate::Z(on) => out.gate(QuantumGate::Phase {
+                turns: Turns::HALF,
+                on: &[on],
+            })?,
+            Gate::Load {
+                parameter,
+                bit,
+                target,
+            } => {
+                let word = words.get(parameter as usize);
+                let word = word.ok_or(ExportError::MissingWord { parameter, bit })?;
+                if word >> bit & 1 == 1 {
+                    out.gate(QuantumGate::X(target))?;
+                }
+            }
+        }
+    }
+    Ok(out.end()?)
+}
+
+/// The registers of a program's circuit, each with a name of its own.
+fn registers(program: &Program, circuit: &Circuit) -> Vec<Register> {
+    let held = circuit.inputs.iter().chain(&circuit.outputs);
+    let mut seen = Vec::new();
+    let mut registers: Vec<Register> = Vec::new();
+    let mut taken = vec![false; circuit.qubits as usize];
+    for (id, qubits) in held {
+        if seen.contains(id) || qubits.is_empty() {
+            continue;
+        }
+        seen.push(*id);
+        for qubit in qubits {
+            taken[*qubit as usize] = true;
+        }
+        let legal = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };
+        let name: String = program.registers[id.index()]
+            .name
+            .chars()
+            .map(legal)
+            .collect();
+        // Names of one letter are gates; others begin with a letter.
+        let plain = name.len() > 1 && name.starts_with(|c: char| c.is_ascii_lowercase());
+        let name = if plain { name } else { format!("r_{name}") };
+        let alike = |name: &str| registers.iter().any(|other| other.name == name) || name == "work";
+        let numbered = (2..).map(|number| format!("{name}_{number}"));
+        let mut names = std::iter::once(name.clone()).chain(numbered);
+        let name = names.find(|name| !alike(name)).unwrap_or_default();
+        registers.push(Register {
+            name: name.into(),
+            qubits: qubits.clone(),
+        });
+    }
+    let work: Vec<Qubit> = (0..circuit.qubits)
+        .filter(|qubit| !taken[*qubit as usize])
+        .collect();
+    if !work.is_empty() {
+        registers.push(Register {
+            name: "work".into(),
+            qubits: work,
+        });
+    }
+    registers
 }
