@@ -65,7 +65,7 @@ fn scene(name: &str, error: f64) -> ValidScene {
         }),
         ..scene
     };
-    validate(scene, &root).unwrap()
+    validate(scene, &Default::default()).unwrap()
 }
 
 /// Of `values`, the share that is within `error` of the truth.

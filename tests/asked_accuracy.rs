@@ -134,6 +134,6 @@ fn what_cannot_be_kept_is_refused_with_the_reason() {
         depth.bits = [2, 1];
     }
     coarse.sampling.path_bits = 6;
-    let coarse = validate(coarse, "".as_ref()).unwrap();
+    let coarse = validate(coarse, &Default::default()).unwrap();
     refused(&coarse, "sequence: digital-net");
 }

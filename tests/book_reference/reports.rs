@@ -125,7 +125,7 @@ fn elsewhere() -> Vec<String> {
     let whole = |problem| Report::of_file("a scene made in Rust", problem).render(false);
     let mut scene = fine.valid.scene().clone();
     scene.materials.push(scene.materials[0].clone());
-    let problems = validate(scene, "".as_ref()).unwrap_err();
+    let problems = validate(scene, &Default::default()).unwrap_err();
     texts.extend(problems.into_iter().map(whole));
 
     let grey = Bsdf {

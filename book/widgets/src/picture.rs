@@ -64,7 +64,7 @@ impl Picture {
     /// # Errors
     /// A scene that is no scene.
     pub fn new() -> Result<Self, Box<dyn Error>> {
-        let valid = validate(made::scene(), "".as_ref()).map_err(|_| "the scene is wrong")?;
+        let valid = validate(made::scene(), &Default::default()).map_err(|_| "the scene is wrong")?;
         let real = Real::new(&valid, 0)?;
         let scene = valid.scene();
         let scale = real.stage().bound();

@@ -1,5 +1,6 @@
 //! Where the files come from that a scene names: a folder on disk, or bytes that a program holds.
 
+use std::fmt;
 use std::fs::File;
 use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
@@ -60,25 +61,41 @@ impl<'a> Files<'a> {
         self.folder.join(name)
     }
 
-    /// The bytes at `path`, the first `most` of them. Only of a regular file: anything else (a
-    /// pipe, a device) might never end.
+    /// The bytes at `path`, at most `most`. Only of a regular file: anything else (a pipe, a
+    /// device) might never end. Whatever a front end reads, it reads here.
     pub(crate) fn read(&self, path: &Path, most: u64) -> Result<Vec<u8>, Unread> {
-        match self.origin {
-            Origin::Disk(root) => read(&root.join(path), most),
+        let bytes = match self.origin {
+            Origin::Disk(root) => {
+                let path = root.join(path);
+                let kind = std::fs::metadata(&path)?;
+                if !kind.is_file() {
+                    let is_folder = kind.is_dir();
+                    return Err(Unread::Irregular { is_folder });
+                }
+                let mut bytes = Vec::new();
+                File::open(path)?.take(most + 1).read_to_end(&mut bytes)?;
+                bytes
+            }
             Origin::Held(files) => {
                 let found = files.iter().find(|(name, _)| Path::new(name) == path);
                 let (_, bytes) = found.ok_or_else(|| io::Error::from(io::ErrorKind::NotFound))?;
-                let most = usize::try_from(most).unwrap_or(usize::MAX);
-                Ok(bytes[..bytes.len().min(most)].to_vec())
+                bytes.to_vec()
             }
+        };
+        if bytes.len() as u64 > most {
+            return Err(Unread::TooLarge(most));
         }
+        Ok(bytes)
     }
 }
 
 /// Why a file cannot be read.
+#[derive(Debug)]
 pub(crate) enum Unread {
     /// It is not a regular file, but perhaps a folder.
     Irregular { is_folder: bool },
+    /// It has more than so many bytes.
+    TooLarge(u64),
     /// What the system says.
     Failed(io::Error),
 }
@@ -89,13 +106,17 @@ impl From<io::Error> for Unread {
     }
 }
 
-fn read(path: &Path, most: u64) -> Result<Vec<u8>, Unread> {
-    let kind = std::fs::metadata(path)?;
-    if !kind.is_file() {
-        let is_folder = kind.is_dir();
-        return Err(Unread::Irregular { is_folder });
+impl fmt::Display for Unread {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Irregular { is_folder: true } => f.write_str("this is a folder"),
+            Self::Irregular { is_folder: false } => f.write_str("this is not a regular file"),
+            Self::TooLarge(most) => write!(f, "the file is larger than {} MiB", most >> 20),
+            Self::Failed(error) => match error.kind() {
+                io::ErrorKind::NotFound => f.write_str("there is no such file"),
+                io::ErrorKind::PermissionDenied => f.write_str("you may not read this file"),
+                _ => write!(f, "the file cannot be read: {error}"),
+            },
+        }
     }
-    let mut bytes = Vec::new();
-    File::open(path)?.take(most).read_to_end(&mut bytes)?;
-    Ok(bytes)
 }

@@ -1,13 +1,13 @@
 //! Meshes from Wavefront OBJ files, with the materials of their MTL files.
 //!
-//! `tobj` reads the files, but it accepts what is no mesh (NaN vertices, faces of two corners,
-//! materials that no library has), panics on a colour of two numbers, and names no lines. So the
-//! text is first checked statement by statement and brought into a plain form (`scan`, `mtl`):
-//! joined continuations, vertices first, positive indices. What stands in that form `tobj` reads
-//! without surprises, and its faces are then cut into triangles (`polygon`).
+//! `tobj` reads the shape, but it accepts what is no mesh (NaN vertices, faces of two corners),
+//! knows no continued lines and no comment behind a statement, and names no line. So it reads
+//! through a [`Scanner`], which checks statement by statement and hands on the vertices and faces;
+//! the faces are then cut into triangles (`polygon`).
 //!
 //! Of a material, `Kd` is the albedo of a Lambertian surface and `Ke` its radiance; what an MTL
-//! file says about highlights and transparency has no part in a scene.
+//! file says about highlights and transparency has no part in a scene. (`tobj` reads no grey in a
+//! single number, and panics on two, so that `mtl` reads these colours.)
 
 mod mtl;
 mod polygon;
@@ -15,97 +15,43 @@ mod scan;
 #[cfg(test)]
 mod tests;
 
-use super::{Files, Unread};
-use crate::scene::Rgb;
+use super::Files;
+use super::files::Unread;
+use crate::codes;
+use crate::scene::meshes::{Meshes, ObjError, ObjFace, ObjMesh};
+use crate::scene::{Geometry, Scene};
 use glam::DVec3;
-use std::cell::RefCell;
-use std::fmt;
-use std::iter::Enumerate;
-use std::path::{Path, PathBuf};
+use mtl::{Libraries, Materials};
+use scan::Scanner;
+use std::borrow::Cow;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
 
 /// The largest file that is read, in bytes: about five million triangles.
 pub const MAX_BYTES: u64 = 256 << 20;
 
-/// A mesh as it is in its file.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ObjMesh {
-    /// Triangles in the order of the file; a polygon is several.
-    pub faces: Vec<ObjFace>,
-    /// The materials of all its libraries; empty if they were not wanted.
-    pub materials: Vec<ObjMaterial>,
-    /// What was read: the file itself, then its libraries.
-    pub files: Vec<PathBuf>,
-}
-
-/// A triangle.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ObjFace {
-    /// Its corners, in the file's units.
-    pub vertices: [DVec3; 3],
-    /// Index into [`ObjMesh::materials`]; `None` if they were not wanted.
-    pub material: Option<usize>,
-}
-
-/// A material of an MTL file.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ObjMaterial {
-    /// `FILE.mtl:NAME`.
-    pub name: String,
-    /// `Ke`, or black.
-    pub radiance: Rgb,
-    /// `Kd`, or black.
-    pub albedo: Rgb,
-}
-
-/// What is wrong with a file; codes are `QRT0320` to `QRT0344`.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct ObjError {
-    /// Stable code.
-    pub code: &'static str,
-    /// The file: the OBJ itself or one of its libraries.
-    pub file: PathBuf,
-    /// The line, from 1.
-    pub line: Option<usize>,
-    /// What is wrong, in one sentence without a full stop.
-    pub message: String,
-    /// The right thing to do.
-    pub help: Option<String>,
-}
-
-impl ObjError {
-    fn new(code: &'static str, file: &Path, message: impl Into<String>) -> Self {
-        let file = file.to_owned();
-        Self {
-            code,
-            file,
-            line: None,
-            message: message.into(),
-            help: None,
+/// The meshes that a scene names. Each file is read once, however many entries name it.
+pub fn load_all(scene: &Scene, files: Files<'_>) -> Meshes {
+    let mut wanted = BTreeMap::<&str, BTreeSet<bool>>::new();
+    for primitive in &scene.geometry {
+        if let Geometry::Mesh(mesh) = primitive {
+            let kinds = wanted.entry(&mesh.obj).or_default();
+            kinds.insert(mesh.material.is_none());
         }
     }
-
-    fn at(mut self, line: usize) -> Self {
-        self.line = Some(line);
-        self
-    }
-
-    fn help(mut self, help: impl Into<String>) -> Self {
-        self.help = Some(help.into());
-        self
-    }
-}
-
-impl fmt::Display for ObjError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}", self.file.display())?;
-        if let Some(line) = self.line {
-            write!(f, ":{line}")?;
+    let mut libraries = Libraries::of(files);
+    let mut meshes = Meshes::default();
+    for (name, kinds) in wanted {
+        let path = files.path(name);
+        let bytes = bytes_of(files, &path, codes::OBJ_UNREADABLE);
+        for wants_materials in kinds {
+            let read = bytes.as_ref().map_err(ObjError::clone);
+            let mesh = read.and_then(|bytes| parse(&path, bytes, wants_materials, &mut libraries));
+            meshes.insert(name, wants_materials, mesh);
         }
-        write!(f, ": {} ({})", self.message, self.code)
     }
+    meshes
 }
-
-impl std::error::Error for ObjError {}
 
 /// Reads a mesh, and with `wants_materials` the libraries that it names, which stand beside it.
 ///
@@ -123,94 +69,69 @@ impl std::error::Error for ObjError {}
 ///
 /// The first problem of the file: see [`ObjError`].
 pub fn load(path: &Path, wants_materials: bool) -> Result<ObjMesh, ObjError> {
-    load_from(Files::of_folder("".as_ref()), path, wants_materials)
-}
-
-/// As [`load`], from wherever `files` says.
-pub(crate) fn load_from(
-    files: Files<'_>,
-    path: &Path,
-    wants_materials: bool,
-) -> Result<ObjMesh, ObjError> {
-    let bytes = bytes_of(files, path, "QRT0320")?;
-    let read = RefCell::new(vec![path.to_owned()]);
-    let mesh = parse(path, &bytes, wants_materials, &|library| {
-        let bytes = bytes_of(files, library, "QRT0334")?;
-        read.borrow_mut().push(library.to_owned());
-        Ok(bytes)
-    })?;
-    let files = read.into_inner();
-    Ok(ObjMesh { files, ..mesh })
+    let files = Files::of_folder("".as_ref());
+    let bytes = bytes_of(files, path, codes::OBJ_UNREADABLE)?;
+    parse(path, &bytes, wants_materials, &mut Libraries::of(files))
 }
 
 /// The whole of a file.
 fn bytes_of(files: Files<'_>, path: &Path, code: &'static str) -> Result<Vec<u8>, ObjError> {
-    let unreadable = |why: Unread| {
-        let error = match why {
-            Unread::Irregular { .. } => {
-                let message = format!("`{}` is not a regular file", path.display());
-                return ObjError::new(code, path, message);
+    let unreadable = |why| {
+        let path = path.display();
+        match why {
+            Unread::TooLarge(_) => {
+                ObjError::new(codes::OBJ_TOO_LARGE, why.to_string()).help("use a coarser mesh")
             }
-            Unread::Failed(error) => error,
-        };
-        let why = match error.kind() {
-            std::io::ErrorKind::NotFound => "there is no such file".to_owned(),
-            _ => error.to_string(),
-        };
-        ObjError::new(
-            code,
-            path,
-            format!("cannot read `{}`: {why}", path.display()),
-        )
-        .help("relative names are looked up beside the file that names them")
+            Unread::Irregular { .. } => {
+                ObjError::new(code, format!("`{path}` is not a regular file"))
+            }
+            Unread::Failed(_) => ObjError::new(code, format!("cannot read `{path}`: {why}"))
+                .help("relative names are looked up beside the file that names them"),
+        }
     };
-    let bytes = files.read(path, MAX_BYTES + 1).map_err(unreadable)?;
-    if bytes.len() as u64 > MAX_BYTES {
-        let message = format!("the file is larger than {} MiB", MAX_BYTES >> 20);
-        return Err(ObjError::new("QRT0321", path, message).help("use a coarser mesh"));
-    }
-    Ok(bytes)
+    let read = files.read(path, MAX_BYTES);
+    read.map_err(|why| unreadable(why).at(path, None))
 }
 
-type Library<'a> = &'a dyn Fn(&Path) -> Result<Vec<u8>, ObjError>;
-
-/// As [`load`], of the text itself; `library` gives the bytes of a material library.
+/// As [`load`], of the bytes themselves.
 fn parse(
     path: &Path,
     bytes: &[u8],
     wants_materials: bool,
-    library: Library<'_>,
+    libraries: &mut Libraries<'_>,
 ) -> Result<ObjMesh, ObjError> {
-    let scan = scan::scan(path, bytes, wants_materials, library)?;
-    let options = tobj::LoadOptions {
-        single_index: true,
-        ..tobj::LoadOptions::default()
+    let text = String::from_utf8_lossy(bytes);
+    let mut scanner = Scanner::new(path, &text, wants_materials);
+    let options = tobj::LoadOptions::default();
+    // The scanner hands on no `mtllib`.
+    let no_library = |_: &Path| tobj::load_mtl_buf(&mut std::io::empty());
+    let models = match tobj::load_obj_buf(&mut scanner, &options, no_library) {
+        Ok((models, _)) => models,
+        Err(error) => {
+            return Err(scanner.fault.unwrap_or_else(|| {
+                let message = format!("the file cannot be read as an OBJ mesh: {error}");
+                ObjError::new(codes::OBJ_REFUSED, message).at(path, None)
+            }));
+        }
     };
-    let refused = |error: tobj::LoadError| {
-        ObjError::new(
-            "QRT0344",
-            path,
-            format!("the file cannot be read as an OBJ mesh: {error}"),
-        )
+    let mut materials = Materials::default();
+    let mut files = vec![path.to_owned()];
+    materials.read_all(path, &scanner.libraries, libraries, &mut files)?;
+    let find = |(name, line): &(String, usize)| {
+        let found = materials.find(name).map_err(|error| {
+            if !scanner.libraries.is_empty() {
+                return error;
+            }
+            let help = "the file names no material library: a `mtllib` statement is missing";
+            ObjError::new(codes::OBJ_NO_LIBRARY, error.message).help(help)
+        });
+        found.map_err(|error| error.at(path, *line))
     };
-    let (models, materials) = tobj::load_obj_buf(&mut scan.plain.as_bytes(), &options, |_| {
-        tobj::load_mtl_buf(&mut scan.library.as_bytes())
-    })
-    .map_err(refused)?;
-    let materials = materials.map_err(refused)?;
+    let uses: Vec<usize> = scanner.uses.iter().map(find).collect::<Result<_, _>>()?;
 
     let mut faces = Vec::new();
-    let mut lines = scan.face_lines.iter();
-    for model in &models {
-        let mesh = &model.mesh;
-        let corner = |index: &u32| {
-            let at = *index as usize * 3;
-            DVec3::new(
-                mesh.positions[at],
-                mesh.positions[at + 1],
-                mesh.positions[at + 2],
-            )
-        };
+    let mut lines = scanner.faces.iter();
+    for mesh in models.iter().map(|model| &model.mesh) {
         // Without arities, every face is a triangle.
         let triangles = mesh.indices.len() / 3 * usize::from(mesh.face_arities.is_empty());
         let arities = mesh.face_arities.iter().map(|n| *n as usize);
@@ -218,29 +139,21 @@ fn parse(
         for arity in arities.chain(std::iter::repeat_n(3, triangles)) {
             let (face, others) = rest.split_at(arity);
             rest = others;
+            let corner = |index: &u32| DVec3::from_slice(&mesh.positions[*index as usize * 3..]);
             let corners: Vec<DVec3> = face.iter().map(corner).collect();
-            let line = lines.next().copied().unwrap_or_default();
-            let triangles = polygon::triangles(&corners).map_err(|fault| {
-                let (code, message, help) = fault.words();
-                ObjError::new(code, path, message).at(line).help(help)
-            })?;
-            faces.extend(triangles.into_iter().map(|vertices| ObjFace {
-                vertices,
-                material: mesh.material_id,
-            }));
+            let (line, use_before) = lines.next().copied().unwrap_or_default();
+            let triangles = polygon::triangles(&corners).map_err(|error| error.at(path, line))?;
+            let material = use_before.map(|number| uses[number]);
+            faces.extend(
+                triangles
+                    .into_iter()
+                    .map(|vertices| ObjFace { vertices, material }),
+            );
         }
     }
-    let materials = std::iter::zip(scan.names, materials)
-        .map(|(name, material)| ObjMaterial {
-            name,
-            radiance: material.emissive.unwrap_or_default(),
-            albedo: material.diffuse.unwrap_or_default(),
-        })
-        .collect();
-    let files = Vec::new();
     Ok(ObjMesh {
         faces,
-        materials,
+        materials: materials.into_list(),
         files,
     })
 }
@@ -248,49 +161,42 @@ fn parse(
 /// Lines as statements: comments and blank lines left out, continued lines joined.
 struct Statements<'a> {
     path: &'a Path,
-    lines: Enumerate<Lines<'a>>,
+    lines: std::iter::Enumerate<std::str::Split<'a, char>>,
 }
-
-type Lines<'a> = std::slice::Split<'a, u8, fn(&u8) -> bool>;
 
 /// One statement: the line it starts in, and its text without blanks around it.
 struct Statement<'a> {
     line: usize,
-    text: std::borrow::Cow<'a, str>,
+    text: Cow<'a, str>,
 }
 
 impl<'a> Statements<'a> {
-    fn new(path: &'a Path, bytes: &'a [u8]) -> Self {
-        let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-        let is_end: fn(&u8) -> bool = |byte| *byte == b'\n';
-        Self {
-            path,
-            lines: bytes.split(is_end).enumerate(),
-        }
+    fn new(path: &'a Path, text: &'a str) -> Self {
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let lines = text.split('\n').enumerate();
+        Self { path, lines }
     }
 
     fn next(&mut self) -> Result<Option<Statement<'a>>, ObjError> {
-        while let Some((index, bytes)) = self.lines.next() {
-            let line = index + 1;
-            let mut text = self.text(line, bytes)?;
-            if text.starts_with('#') {
+        while let Some((line, text)) = self.line()? {
+            if text.is_empty() || text.starts_with('#') {
                 continue;
             }
+            let mut text = Cow::Borrowed(text);
             while text.ends_with('\\') {
-                let Some((index, bytes)) = self.lines.next() else {
+                let Some((_, next)) = self.line()? else {
                     let message = "the file ends within a continued line";
-                    return Err(ObjError::new("QRT0332", self.path, message)
-                        .at(line)
-                        .help("is the file whole?"));
+                    return Err(ObjError::new(codes::OBJ_CONTINUATION, message)
+                        .help("is the file whole?")
+                        .at(self.path, line));
                 };
-                let next = self.text(index + 1, bytes)?;
                 let joined = text.to_mut();
                 joined.pop();
                 joined.truncate(joined.trim_end().len());
                 if !(joined.is_empty() || next.is_empty()) {
                     joined.push(' ');
                 }
-                joined.push_str(&next);
+                joined.push_str(next);
             }
             if !text.is_empty() {
                 return Ok(Some(Statement { line, text }));
@@ -299,28 +205,25 @@ impl<'a> Statements<'a> {
         Ok(None)
     }
 
-    /// A line's text. Bytes that are not UTF-8 are kept from being anything but part of a comment
-    /// or a name.
-    fn text(&self, line: usize, bytes: &'a [u8]) -> Result<std::borrow::Cow<'a, str>, ObjError> {
-        if bytes.contains(&0) {
-            let message = "this is not a text file";
-            return Err(ObjError::new("QRT0322", self.path, message).at(line));
+    /// A line's number and its text without blanks around it.
+    fn line(&mut self) -> Result<Option<(usize, &'a str)>, ObjError> {
+        let Some((index, text)) = self.lines.next() else {
+            return Ok(None);
+        };
+        if text.contains('\0') {
+            let error = ObjError::new(codes::OBJ_NOT_TEXT, "this is not a text file");
+            return Err(error.at(self.path, index + 1));
         }
-        Ok(match std::str::from_utf8(bytes) {
-            Ok(text) => text.trim().into(),
-            Err(_) => String::from_utf8_lossy(bytes).trim().to_owned().into(),
-        })
+        Ok(Some((index + 1, text.trim())))
     }
 }
 
 impl Statement<'_> {
     /// The keyword and what follows it.
     fn split(&self) -> (&str, &str) {
-        let end = self
-            .text
-            .find(char::is_whitespace)
-            .unwrap_or(self.text.len());
-        (&self.text[..end], self.text[end..].trim_start())
+        let parts = self.text.split_once(char::is_whitespace);
+        let (keyword, rest) = parts.unwrap_or((&self.text, ""));
+        (keyword, rest.trim_start())
     }
 }
 
@@ -330,14 +233,34 @@ fn words(text: &str) -> impl Iterator<Item = &str> {
         .take_while(|word| !word.starts_with('#'))
 }
 
-/// A finite number.
-fn number(path: &Path, line: usize, word: &str) -> Result<f64, ObjError> {
-    match word.parse::<f64>() {
+/// The finite numbers of a statement, the first `most` of them.
+fn numbers(text: &str, most: usize) -> Result<Vec<f64>, ObjError> {
+    let number = |word: &str| match word.parse::<f64>() {
         Ok(value) if value.is_finite() => Ok(value),
         Ok(_) => {
             let message = format!("`{word}` is not a finite number");
-            Err(ObjError::new("QRT0326", path, message).at(line))
+            Err(ObjError::new(codes::OBJ_NOT_FINITE, message))
         }
-        Err(_) => Err(ObjError::new("QRT0325", path, format!("`{word}` is not a number")).at(line)),
+        Err(_) => {
+            let message = format!("`{word}` is not a number");
+            Err(ObjError::new(codes::OBJ_NUMBER, message))
+        }
+    };
+    words(text).take(most).map(number).collect()
+}
+
+/// A name after `keyword`, which is not empty and is text.
+fn name<'a>(keyword: &str, name: &'a str, nameless: &'static str) -> Result<&'a str, ObjError> {
+    if name.is_empty() {
+        return Err(ObjError::new(
+            nameless,
+            format!("`{keyword}` without a name"),
+        ));
     }
+    // Bytes that are not UTF-8 do no harm in a comment.
+    if name.contains(char::REPLACEMENT_CHARACTER) {
+        let message = format!("the name after `{keyword}` is not UTF-8 text");
+        return Err(ObjError::new(codes::OBJ_NOT_TEXT, message));
+    }
+    Ok(name)
 }

@@ -1,25 +1,20 @@
 //! What the reader promises: right meshes as they are, wrong ones refused at their line.
 
 use super::*;
+use crate::scene::meshes::ObjMaterial;
 use proptest::prelude::*;
 
 /// The mesh of a text whose libraries are `files`.
 fn read_with(text: &str, files: &[(&str, &str)]) -> Result<ObjMesh, ObjError> {
-    let library = |path: &Path| {
-        let found = files
-            .iter()
-            .find(|(name, _)| Path::new("dir").join(name) == path);
-        found
-            .map(|(_, text)| text.as_bytes().to_vec())
-            .ok_or_else(|| {
-                ObjError::new("QRT0334", path, format!("cannot read `{}`", path.display()))
-            })
-    };
+    let names = files.iter().map(|(name, _)| format!("dir/{name}"));
+    let names: Vec<String> = names.collect();
+    let bytes = files.iter().map(|(_, text)| text.as_bytes());
+    let held: Vec<(&str, &[u8])> = names.iter().map(String::as_str).zip(bytes).collect();
     parse(
         Path::new("dir/mesh.obj"),
         text.as_bytes(),
         !files.is_empty(),
-        &library,
+        &mut Libraries::of(Files::held(&held)),
     )
 }
 
@@ -514,8 +509,9 @@ proptest! {
         mtl in mutated(COLOURS),
         wants in any::<bool>(),
     ) {
-        let library = |_: &Path| Ok(mtl.clone());
-        match parse(Path::new("mesh.obj"), &obj, wants, &library) {
+        let held: &[(&str, &[u8])] = &[("my colours.mtl", &mtl)];
+        let mut libraries = Libraries::of(Files::held(held));
+        match parse(Path::new("mesh.obj"), &obj, wants, &mut libraries) {
             Ok(mesh) => {
                 prop_assert!(!mesh.faces.is_empty());
                 for face in &mesh.faces {
