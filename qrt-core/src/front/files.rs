@@ -1,6 +1,5 @@
 //! Where the files come from that a scene names: a folder on disk, or bytes that a program holds.
 
-use std::fmt;
 use std::fs::File;
 use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
@@ -83,19 +82,18 @@ impl<'a> Files<'a> {
             }
         };
         if bytes.len() as u64 > most {
-            return Err(Unread::TooLarge(most));
+            return Err(Unread::TooLarge);
         }
         Ok(bytes)
     }
 }
 
 /// Why a file cannot be read.
-#[derive(Debug)]
 pub(crate) enum Unread {
     /// It is not a regular file, but perhaps a folder.
     Irregular { is_folder: bool },
-    /// It has more than so many bytes.
-    TooLarge(u64),
+    /// It has more bytes than may be.
+    TooLarge,
     /// What the system says.
     Failed(io::Error),
 }
@@ -103,20 +101,5 @@ pub(crate) enum Unread {
 impl From<io::Error> for Unread {
     fn from(error: io::Error) -> Self {
         Self::Failed(error)
-    }
-}
-
-impl fmt::Display for Unread {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Irregular { is_folder: true } => f.write_str("this is a folder"),
-            Self::Irregular { is_folder: false } => f.write_str("this is not a regular file"),
-            Self::TooLarge(most) => write!(f, "the file is larger than {} MiB", most >> 20),
-            Self::Failed(error) => match error.kind() {
-                io::ErrorKind::NotFound => f.write_str("there is no such file"),
-                io::ErrorKind::PermissionDenied => f.write_str("you may not read this file"),
-                _ => write!(f, "the file cannot be read: {error}"),
-            },
-        }
     }
 }

@@ -166,16 +166,30 @@ fn read_file(files: Files<'_>, path: &std::path::Path) -> Result<Source, Report>
         Report::of_file(&name, problem)
     };
     let unreadable = |why: Unread| {
-        let (code, help) = match &why {
-            Unread::Irregular { .. } => (codes::UNREADABLE, Some("name a scene file")),
-            Unread::TooLarge(_) => (codes::TOO_LARGE, Some("put large geometry into OBJ meshes")),
-            Unread::Failed(error) => {
-                let missing = error.kind() == std::io::ErrorKind::NotFound;
-                let help = "check the path, or start a scene with `qrt new NAME`";
-                (codes::UNREADABLE, missing.then_some(help))
+        use std::io::ErrorKind;
+        let (message, help) = match why {
+            Unread::Irregular { is_folder: true } => {
+                ("this is a folder".to_owned(), Some("name a scene file"))
             }
+            Unread::Irregular { is_folder: false } => {
+                let message = "this is not a regular file".to_owned();
+                (message, Some("name a scene file"))
+            }
+            Unread::TooLarge => {
+                let message = format!("the file is larger than {} MiB", MAX_BYTES >> 20);
+                let help = "put large geometry into OBJ meshes";
+                return fail(codes::TOO_LARGE, message, Some(help));
+            }
+            Unread::Failed(error) => match error.kind() {
+                ErrorKind::NotFound => (
+                    "there is no such file".to_owned(),
+                    Some("check the path, or start a scene with `qrt new NAME`"),
+                ),
+                ErrorKind::PermissionDenied => ("you may not read this file".to_owned(), None),
+                _ => (format!("the file cannot be read: {error}"), None),
+            },
         };
-        fail(code, why.to_string(), help)
+        fail(codes::UNREADABLE, message, help)
     };
     let bytes = files.read(path, MAX_BYTES).map_err(unreadable)?;
     let text = String::from_utf8(bytes).map_err(|error| {

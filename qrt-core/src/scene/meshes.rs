@@ -2,6 +2,7 @@
 //! ([`crate::front::obj`]); [`crate::valid::validate`] checks them along with the scene.
 
 use super::{Mesh, Rgb};
+use crate::codes;
 use glam::DVec3;
 use std::collections::BTreeMap;
 use std::fmt;
@@ -16,9 +17,18 @@ pub struct Meshes(BTreeMap<Key, Result<Arc<ObjMesh>, ObjError>>);
 type Key = (String, bool);
 
 impl Meshes {
-    /// What an entry of the scene is placed from; `None` if nobody read it.
-    pub fn get(&self, mesh: &Mesh) -> Option<&Result<Arc<ObjMesh>, ObjError>> {
-        self.0.get(&(mesh.obj.clone(), mesh.material.is_none()))
+    /// What an entry of the scene places.
+    ///
+    /// # Errors
+    /// What is wrong with its file, or that nobody read it.
+    pub fn get(&self, mesh: &Mesh) -> Result<&ObjMesh, ObjError> {
+        match self.0.get(&(mesh.obj.clone(), mesh.material.is_none())) {
+            Some(read) => read.as_deref().map_err(ObjError::clone),
+            None => {
+                let message = format!("`{}` is not among the meshes that were read", mesh.obj);
+                Err(ObjError::new(codes::OBJ_UNREADABLE, message))
+            }
+        }
     }
 
     /// Adds the file that a scene calls `obj`, read with its own materials or without.

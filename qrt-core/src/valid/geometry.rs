@@ -180,21 +180,14 @@ impl Build<'_> {
     fn mesh(&mut self, mesh: &Mesh, path: &Path) {
         let named = mesh.material.as_ref().map(|name| self.surface(name, path));
         let read = match self.meshes.get(mesh) {
-            Some(Ok(read)) => read,
-            Some(Err(error)) => {
-                let mut problem = Problem::new(error.code, path.key("obj"), &error.message);
+            Ok(read) => read,
+            Err(error) => {
+                let mut problem = Problem::new(error.code, path.key("obj"), error.message);
                 if let Some(line) = error.line {
                     problem.label = format!("{}:{line}", error.file.display());
                 }
-                problem.help.clone_from(&error.help);
+                problem.help = error.help;
                 self.problems.push(problem);
-                return;
-            }
-            None => {
-                let message = format!("`{}` is not among the meshes that were read", mesh.obj);
-                let problem = Problem::new(codes::OBJ_UNREADABLE, path.key("obj"), message);
-                self.problems
-                    .push(problem.help("`front::obj::load_all` reads a scene's meshes"));
                 return;
             }
         };

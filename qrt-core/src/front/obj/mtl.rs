@@ -1,37 +1,13 @@
 //! The material libraries of a mesh: what their materials reflect and emit.
 
-use super::{ObjError, Statements, bytes_of, name, numbers, words};
+use super::{Library, ObjError, name, numbers, split, statements, text_of, words};
 use crate::codes;
 use crate::expr::suggest::nearest;
-use crate::front::Files;
 use crate::front::tree::shorten;
 use crate::scene::Rgb;
 use crate::scene::meshes::ObjMaterial;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
-use std::rc::Rc;
-
-/// Where libraries are read from, each once, whichever meshes name it.
-pub(super) struct Libraries<'a> {
-    files: Files<'a>,
-    read: BTreeMap<PathBuf, Result<Rc<[u8]>, ObjError>>,
-}
-
-impl<'a> Libraries<'a> {
-    pub(super) fn of(files: Files<'a>) -> Self {
-        let read = BTreeMap::new();
-        Self { files, read }
-    }
-
-    fn bytes(&mut self, path: &Path) -> Result<Rc<[u8]>, ObjError> {
-        if let Some(read) = self.read.get(path) {
-            return read.clone();
-        }
-        let read = bytes_of(self.files, path, codes::MTL_UNREADABLE).map(Rc::from);
-        self.read.insert(path.to_owned(), read.clone());
-        read
-    }
-}
 
 /// The materials of all libraries of a mesh, in order.
 #[derive(Default)]
@@ -51,19 +27,19 @@ struct Material {
 }
 
 impl Materials {
-    /// Adds those of the libraries that the OBJ file at `obj` names, each name with its line;
-    /// `files` are the files that were read.
-    pub(super) fn read_all(
-        &mut self,
+    /// Those of the libraries that the OBJ file at `obj` names, each name with its line. The files
+    /// are added to `files`.
+    pub(super) fn read(
         obj: &Path,
         names: &[(String, usize)],
-        libraries: &mut Libraries<'_>,
+        library: Library<'_>,
         files: &mut Vec<PathBuf>,
-    ) -> Result<(), ObjError> {
+    ) -> Result<Self, ObjError> {
+        let mut materials = Self::default();
         let beside = |name: &str| obj.parent().unwrap_or(Path::new("")).join(name);
         for (name, line) in names {
             // A statement may name several files, and a file's name may hold blanks.
-            let names = if libraries.bytes(&beside(name)).is_ok() {
+            let names = if library(&beside(name)).is_ok() {
                 vec![name.as_str()]
             } else {
                 name.split_whitespace().collect()
@@ -73,19 +49,22 @@ impl Materials {
                 if files.contains(&path) {
                     continue;
                 }
-                let read = libraries.bytes(&path);
-                let bytes = read.map_err(|error| error.at(obj, *line))?;
-                self.read(&path, name, &bytes)?;
+                let bytes = library(&path).map_err(|error| error.at(obj, *line))?;
+                materials.add_all(&path, name, &bytes)?;
                 files.push(path);
             }
         }
-        Ok(())
+        Ok(materials)
     }
 
     /// The place of `name` in the list.
-    pub(super) fn find(&self, name: &str) -> Result<usize, ObjError> {
+    pub(super) fn find(&self, name: &str, no_libraries: bool) -> Result<usize, ObjError> {
         self.by_name.get(name).copied().ok_or_else(|| {
             let message = format!("no material `{}`", shorten(name));
+            if no_libraries {
+                return ObjError::new(codes::OBJ_NO_LIBRARY, message)
+                    .help("the file names no material library: a `mtllib` statement is missing");
+            }
             let names = self.list.iter().map(|material| material.name.as_str());
             ObjError::new(codes::OBJ_MATERIAL, message).help(match nearest(name, names) {
                 Some(near) => format!("did you mean `{near}`?"),
@@ -104,14 +83,10 @@ impl Materials {
     }
 
     /// Adds those of the library at `path`, which the OBJ file calls `file`.
-    fn read(&mut self, path: &Path, file: &str, bytes: &[u8]) -> Result<(), ObjError> {
+    fn add_all(&mut self, path: &Path, file: &str, bytes: &[u8]) -> Result<(), ObjError> {
         let first = self.list.len();
-        let text = String::from_utf8_lossy(bytes);
-        let mut statements = Statements::new(path, &text);
-        while let Some(statement) = statements.next()? {
-            let (keyword, rest) = statement.split();
-            let line = statement.line;
-            let read = match keyword {
+        for (line, statement) in statements(&text_of(path, bytes)?) {
+            let read = split(&statement).and_then(|(keyword, rest)| match keyword {
                 "newmtl" => self.add(file, line, rest),
                 "Kd" | "Ke" | "map_Kd" | "map_Ke" => match self.list[first..].last_mut() {
                     Some(material) => material.set(keyword, rest),
@@ -122,7 +97,7 @@ impl Materials {
                 },
                 // What has no part in a scene; its operands are of many kinds.
                 _ => Ok(()),
-            };
+            });
             read.map_err(|error| error.at(path, line))?;
         }
         let mut added = self.list[first..].iter();
@@ -140,14 +115,14 @@ impl Materials {
     fn add(&mut self, file: &str, line: usize, rest: &str) -> Result<(), ObjError> {
         let name = name("newmtl", rest, codes::MTL_STATEMENT)?;
         let number = self.list.len();
-        if let Some(old) = self.by_name.insert(name.to_owned(), number) {
+        if let Some(old) = self.by_name.insert(name.clone(), number) {
             let Material { file, line, .. } = &self.list[old];
-            let message = format!("a second material `{}`", shorten(name));
+            let message = format!("a second material `{}`", shorten(&name));
             return Err(ObjError::new(codes::MTL_DUPLICATE, message)
                 .help(format!("the first is in {file}, line {line}")));
         }
         self.list.push(Material {
-            name: name.to_owned(),
+            name,
             file: file.to_owned(),
             line,
             albedo: None,

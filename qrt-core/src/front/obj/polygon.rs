@@ -28,16 +28,16 @@ fn uncut(why: &str) -> ObjError {
 /// The triangles of a polygon of three or more corners, wound as it is; none is without area.
 pub(super) fn triangles(corners: &[DVec3]) -> Result<Vec<[DVec3; 3]>, ObjError> {
     if let [a, b, c] = *corners {
-        return match area([a, b, c]) {
-            Some(true) => Ok(vec![[a, b, c]]),
-            Some(false) => Err(no_area()),
-            None => Err(too_large()),
+        return if has_area([a, b, c])? {
+            Ok(vec![[a, b, c]])
+        } else {
+            Err(no_area())
         };
     }
     let flat = flatten(corners)?;
     let fan: Vec<[usize; 3]> = (1..corners.len() - 1).map(|i| [0, i, i + 1]).collect();
     let place = |triangle: &[usize; 3]| triangle.map(|i| corners[i]);
-    let convex = is_convex(&flat) && fan.iter().all(|t| area(place(t)) == Some(true));
+    let convex = is_convex(&flat) && fan.iter().all(|t| matches!(has_area(place(t)), Ok(true)));
     let indices = if convex {
         fan
     } else if corners.len() <= MAX_CONCAVE {
@@ -50,15 +50,15 @@ pub(super) fn triangles(corners: &[DVec3]) -> Result<Vec<[DVec3; 3]>, ObjError> 
     Ok(indices.iter().map(place).collect())
 }
 
-/// Whether a triangle has an area; `None` if that is no finite number.
-fn area([a, b, c]: [DVec3; 3]) -> Option<bool> {
+fn has_area([a, b, c]: [DVec3; 3]) -> Result<bool, ObjError> {
     let (ab, ac, bc) = (b - a, c - a, c - b);
     let twice = ab.cross(ac).length();
-    let longest = ab
-        .length_squared()
-        .max(ac.length_squared())
-        .max(bc.length_squared());
-    (twice.is_finite() && longest.is_finite()).then_some(twice > NO_AREA * longest)
+    let edges = [ab, ac, bc].map(DVec3::length_squared);
+    let longest = edges.into_iter().fold(0.0, f64::max);
+    if !(twice.is_finite() && longest.is_finite()) {
+        return Err(too_large());
+    }
+    Ok(twice > NO_AREA * longest)
 }
 
 /// The polygon seen along the axis that its (Newell) normal is nearest to, counterclockwise.
@@ -75,18 +75,13 @@ fn flatten(corners: &[DVec3]) -> Result<Vec<DVec2>, ObjError> {
     if !(normal.is_finite() && longest.is_finite()) {
         return Err(too_large());
     }
-    let size = normal.abs();
-    if size.max_element() <= NO_AREA * longest {
+    let axis = normal.abs().max_position();
+    if normal[axis].abs() <= NO_AREA * longest {
         return Err(no_area());
     }
     let project = |p: &DVec3| {
-        if size.x >= size.y && size.x >= size.z {
-            DVec2::new(p.y, p.z) * DVec2::new(normal.x.signum(), 1.0)
-        } else if size.y >= size.z {
-            DVec2::new(p.z, p.x) * DVec2::new(normal.y.signum(), 1.0)
-        } else {
-            DVec2::new(p.x, p.y) * DVec2::new(normal.z.signum(), 1.0)
-        }
+        let side = normal[axis].signum();
+        DVec2::new(p[(axis + 1) % 3] * side, p[(axis + 2) % 3])
     };
     Ok(corners.iter().map(project).collect())
 }

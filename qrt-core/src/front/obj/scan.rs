@@ -1,12 +1,13 @@
 //! The check of an OBJ file, statement by statement, as `tobj` reads it.
 
-use super::{ObjError, Statement, Statements, name, numbers, words};
+use super::{ObjError, name, numbers, split, statements, words};
 use crate::codes;
 use crate::expr::suggest::nearest;
 use crate::front::tree::shorten;
 use glam::DVec3;
+use std::borrow::Cow;
 use std::collections::VecDeque;
-use std::io::{self, BufRead, Read};
+use std::io::{self, Read};
 use std::path::Path;
 
 const READ: &str = "v vt vn f mtllib usemtl";
@@ -20,10 +21,10 @@ const CURVED: &str =
 /// What corners refer to.
 const KINDS: [&str; 3] = ["vertex", "texture coordinate", "normal"];
 
-/// Reads as the `v` and `f` statements of a file, all of them checked.
+/// Reads as the `v` and `f` statements of a file, all statements of which it checks.
 pub(super) struct Scanner<'a> {
     path: &'a Path,
-    statements: Statements<'a>,
+    statements: Box<dyn Iterator<Item = (usize, Cow<'a, str>)> + 'a>,
     wants_materials: bool,
     /// How many there are so far of each of [`KINDS`].
     counts: [i64; 3],
@@ -41,11 +42,30 @@ pub(super) struct Scanner<'a> {
     pub(super) libraries: Vec<(String, usize)>,
 }
 
+impl Read for Scanner<'_> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let mut read = Ok(());
+        while self.pending.is_empty() && read.is_ok() {
+            let Some((line, statement)) = self.statements.next() else {
+                read = self.finish();
+                break;
+            };
+            let checked = self.statement(line, &statement);
+            read = checked.map_err(|error| error.at(self.path, line));
+        }
+        if let Err(fault) = read {
+            self.fault = Some(fault);
+            return Err(io::ErrorKind::InvalidData.into());
+        }
+        self.pending.read(buffer)
+    }
+}
+
 impl<'a> Scanner<'a> {
     pub(super) fn new(path: &'a Path, text: &'a str, wants_materials: bool) -> Self {
         Self {
             path,
-            statements: Statements::new(path, text),
+            statements: Box::new(statements(text)),
             wants_materials,
             counts: [0; 3],
             greatest: [(0, 0); 3],
@@ -57,21 +77,9 @@ impl<'a> Scanner<'a> {
         }
     }
 
-    /// Goes on to the next statement that is handed on, or to the end.
-    fn advance(&mut self) -> Result<(), ObjError> {
-        while self.pending.is_empty() {
-            let Some(statement) = self.statements.next()? else {
-                return self.finish();
-            };
-            let checked = self.statement(&statement);
-            checked.map_err(|error| error.at(self.path, statement.line))?;
-        }
-        Ok(())
-    }
-
-    fn statement(&mut self, statement: &Statement<'_>) -> Result<(), ObjError> {
-        let (keyword, rest) = statement.split();
-        let lists = |keywords: &str| keywords.split(' ').any(|known| known == keyword);
+    fn statement(&mut self, line: usize, statement: &str) -> Result<(), ObjError> {
+        let (keyword, rest) = split(statement)?;
+        let is_in = |keywords: &str| keywords.split(' ').any(|known| known == keyword);
         match keyword {
             "v" => self.vertex(rest)?,
             "vt" => {
@@ -82,14 +90,14 @@ impl<'a> Scanner<'a> {
                 self.counts[2] += 1;
                 counted(keyword, rest, 3, 3)?;
             }
-            "f" | "fo" => self.face(statement.line, rest)?,
+            "f" | "fo" => self.face(line, rest)?,
             "mtllib" if self.wants_materials => {
                 let name = name(keyword, rest, codes::OBJ_NO_LIBRARY)?;
-                self.libraries.push((name.to_owned(), statement.line));
+                self.libraries.push((name, line));
             }
             "usemtl" if self.wants_materials => {
                 let name = name(keyword, rest, codes::OBJ_MATERIAL)?;
-                self.uses.push((name.to_owned(), statement.line));
+                self.uses.push((name, line));
             }
             "mtllib" | "usemtl" => {}
             "l" | "p" => {
@@ -98,19 +106,20 @@ impl<'a> Scanner<'a> {
                 return Err(ObjError::new(codes::OBJ_NO_POLYGON, message)
                     .help(format!("leave out the `{keyword}` statements")));
             }
-            _ if lists(IGNORED) => {}
-            _ if lists(CURVED) => {
+            _ if is_in(IGNORED) => {}
+            _ if is_in(CURVED) => {
                 let message = format!("`{keyword}`: free-form shapes are not read");
                 return Err(ObjError::new(codes::OBJ_NO_POLYGON, message)
                     .help("export the mesh as polygons"));
             }
             _ => {
                 let message = format!("`{}` is no OBJ statement", shorten(keyword));
-                let mut error = ObjError::new(codes::OBJ_STATEMENT, message);
                 let known = READ.split(' ').chain(IGNORED.split(' '));
                 let near = nearest(keyword, known.filter(|known| known.len() > 2));
-                error.help = near.map(|near| format!("did you mean `{near}`?"));
-                return Err(error);
+                return Err(ObjError {
+                    help: near.map(|near| format!("did you mean `{near}`?")),
+                    ..ObjError::new(codes::OBJ_STATEMENT, message)
+                });
             }
         }
         Ok(())
@@ -224,25 +233,4 @@ fn counted(keyword: &str, rest: &str, least: usize, most: usize) -> Result<Vec<f
     let given = words(rest).count();
     let message = format!("`{keyword}` takes {count} numbers, not {given}");
     Err(ObjError::new(codes::OBJ_NUMBER, message))
-}
-
-impl BufRead for Scanner<'_> {
-    fn fill_buf(&mut self) -> io::Result<&[u8]> {
-        if let Err(fault) = self.advance() {
-            self.fault = Some(fault);
-            return Err(io::ErrorKind::InvalidData.into());
-        }
-        self.pending.fill_buf()
-    }
-
-    fn consume(&mut self, bytes: usize) {
-        self.pending.consume(bytes);
-    }
-}
-
-impl Read for Scanner<'_> {
-    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
-        self.fill_buf()?;
-        self.pending.read(buffer)
-    }
 }

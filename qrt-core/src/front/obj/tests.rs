@@ -6,15 +6,22 @@ use proptest::prelude::*;
 
 /// The mesh of a text whose libraries are `files`.
 fn read_with(text: &str, files: &[(&str, &str)]) -> Result<ObjMesh, ObjError> {
-    let names = files.iter().map(|(name, _)| format!("dir/{name}"));
-    let names: Vec<String> = names.collect();
-    let bytes = files.iter().map(|(_, text)| text.as_bytes());
-    let held: Vec<(&str, &[u8])> = names.iter().map(String::as_str).zip(bytes).collect();
+    let mut library = |path: &Path| {
+        let found = files
+            .iter()
+            .find(|(name, _)| Path::new("dir").join(name) == path);
+        found
+            .map(|(_, text)| text.as_bytes().into())
+            .ok_or_else(|| {
+                let message = format!("cannot read `{}`", path.display());
+                ObjError::new("QRT0334", message).at(path, None)
+            })
+    };
     parse(
         Path::new("dir/mesh.obj"),
         text.as_bytes(),
         !files.is_empty(),
-        &mut Libraries::of(Files::held(&held)),
+        &mut library,
     )
 }
 
@@ -509,9 +516,8 @@ proptest! {
         mtl in mutated(COLOURS),
         wants in any::<bool>(),
     ) {
-        let held: &[(&str, &[u8])] = &[("my colours.mtl", &mtl)];
-        let mut libraries = Libraries::of(Files::held(held));
-        match parse(Path::new("mesh.obj"), &obj, wants, &mut libraries) {
+        let mut library = |_: &Path| Ok(mtl.clone().into());
+        match parse(Path::new("mesh.obj"), &obj, wants, &mut library) {
             Ok(mesh) => {
                 prop_assert!(!mesh.faces.is_empty());
                 for face in &mesh.faces {
