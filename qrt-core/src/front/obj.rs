@@ -177,7 +177,7 @@ fn text_of<'a>(path: &Path, bytes: &'a [u8]) -> Result<Cow<'a, str>, ObjError> {
 /// continued lines joined, no blanks around them.
 fn statements(text: &str) -> impl Iterator<Item = (usize, Cow<'_, str>)> {
     let mut lines = (1..).zip(text.split('\n').map(str::trim));
-    std::iter::from_fn(move || {
+    let next = move || {
         let (line, first) = lines.find(|(_, text)| !text.is_empty() && !text.starts_with('#'))?;
         let mut text = Cow::Borrowed(first);
         while text.ends_with('\\')
@@ -192,7 +192,8 @@ fn statements(text: &str) -> impl Iterator<Item = (usize, Cow<'_, str>)> {
             joined.push_str(next);
         }
         Some((line, text))
-    })
+    };
+    std::iter::from_fn(next).filter(|(_, text)| !text.is_empty())
 }
 
 /// The keyword of a statement, and what follows it.

@@ -9,7 +9,8 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// The meshes of a scene, or why they cannot be read. Entries that name one file share its mesh.
+/// The meshes of a scene, or why they cannot be read. Entries that name one file share its mesh, and
+/// so do copies of this.
 #[derive(Clone, Debug, Default)]
 pub struct Meshes(BTreeMap<Key, Result<Arc<ObjMesh>, ObjError>>);
 
@@ -22,13 +23,12 @@ impl Meshes {
     /// # Errors
     /// What is wrong with its file, or that nobody read it.
     pub fn get(&self, mesh: &Mesh) -> Result<&ObjMesh, ObjError> {
-        match self.0.get(&(mesh.obj.clone(), mesh.material.is_none())) {
-            Some(read) => read.as_deref().map_err(ObjError::clone),
-            None => {
-                let message = format!("`{}` is not among the meshes that were read", mesh.obj);
-                Err(ObjError::new(codes::OBJ_UNREADABLE, message))
-            }
-        }
+        let key = (mesh.obj.clone(), mesh.material.is_none());
+        let Some(read) = self.0.get(&key) else {
+            let message = format!("`{}` is not among the meshes that were read", mesh.obj);
+            return Err(ObjError::new(codes::OBJ_UNREADABLE, message));
+        };
+        read.as_deref().map_err(ObjError::clone)
     }
 
     /// Adds the file that a scene calls `obj`, read with its own materials or without.
@@ -97,15 +97,14 @@ impl ObjError {
     }
 
     /// In this file, at this line if it is of one.
-    pub(crate) fn at(mut self, file: &Path, line: impl Into<Option<usize>>) -> Self {
-        self.file = file.to_owned();
-        self.line = line.into();
-        self
+    pub(crate) fn at(self, file: &Path, line: impl Into<Option<usize>>) -> Self {
+        let (file, line) = (file.to_owned(), line.into());
+        Self { file, line, ..self }
     }
 
-    pub(crate) fn help(mut self, help: impl Into<String>) -> Self {
-        self.help = Some(help.into());
-        self
+    pub(crate) fn help(self, help: impl Into<String>) -> Self {
+        let help = Some(help.into());
+        Self { help, ..self }
     }
 }
 

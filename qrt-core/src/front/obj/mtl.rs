@@ -88,13 +88,9 @@ impl Materials {
         for (line, statement) in statements(&text_of(path, bytes)?) {
             let read = split(&statement).and_then(|(keyword, rest)| match keyword {
                 "newmtl" => self.add(file, line, rest),
-                "Kd" | "Ke" | "map_Kd" | "map_Ke" => match self.list[first..].last_mut() {
-                    Some(material) => material.set(keyword, rest),
-                    None => {
-                        let message = format!("`{keyword}` stands before any `newmtl`");
-                        Err(ObjError::new(codes::MTL_STATEMENT, message))
-                    }
-                },
+                "Kd" | "Ke" | "map_Kd" | "map_Ke" => {
+                    set(self.list[first..].last_mut(), keyword, rest)
+                }
                 // What has no part in a scene; its operands are of many kinds.
                 _ => Ok(()),
             });
@@ -132,30 +128,33 @@ impl Materials {
     }
 }
 
-impl Material {
-    /// What a statement says of its colours.
-    fn set(&mut self, keyword: &str, rest: &str) -> Result<(), ObjError> {
-        if keyword.starts_with("map_") {
-            let message = format!("`{keyword}`: there are no textures");
-            return Err(ObjError::new(codes::MTL_TEXTURE, message)
-                .help("give the mesh a `material` in the scene, or a plain colour here"));
-        }
-        let colour = colour(keyword, rest)?;
-        if keyword == "Ke" {
-            if let Some(off) = colour.iter().find(|c| **c < 0.0) {
-                let message = format!("the radiance `Ke` is {off}, which is negative");
-                return Err(ObjError::new(codes::MTL_RADIANCE, message));
-            }
-            self.radiance = Some(colour);
-        } else {
-            if let Some(off) = colour.iter().find(|c| !(0.0..=1.0).contains(*c)) {
-                let message = format!("the albedo `Kd` is {off}, which is not in [0, 1]");
-                return Err(ObjError::new(codes::MTL_ALBEDO, message));
-            }
-            self.albedo = Some(colour);
-        }
-        Ok(())
+/// What a statement says of the colours of the material that it stands below.
+fn set(material: Option<&mut Material>, keyword: &str, rest: &str) -> Result<(), ObjError> {
+    let Some(material) = material else {
+        let message = format!("`{keyword}` stands before any `newmtl`");
+        return Err(ObjError::new(codes::MTL_STATEMENT, message));
+    };
+    if keyword.starts_with("map_") {
+        let message = format!("`{keyword}`: there are no textures");
+        return Err(ObjError::new(codes::MTL_TEXTURE, message)
+            .help("give the mesh a `material` in the scene, or a plain colour here"));
     }
+    let colour = colour(keyword, rest)?;
+    let off = |is_off: fn(&f64) -> bool| colour.iter().copied().find(is_off);
+    if keyword == "Ke" {
+        if let Some(off) = off(|c| *c < 0.0) {
+            let message = format!("the radiance `Ke` is {off}, which is negative");
+            return Err(ObjError::new(codes::MTL_RADIANCE, message));
+        }
+        material.radiance = Some(colour);
+    } else {
+        if let Some(off) = off(|c| !(0.0..=1.0).contains(c)) {
+            let message = format!("the albedo `Kd` is {off}, which is not in [0, 1]");
+            return Err(ObjError::new(codes::MTL_ALBEDO, message));
+        }
+        material.albedo = Some(colour);
+    }
+    Ok(())
 }
 
 /// `r g b`, or one number for grey.

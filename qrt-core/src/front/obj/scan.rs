@@ -91,15 +91,15 @@ impl<'a> Scanner<'a> {
                 counted(keyword, rest, 3, 3)?;
             }
             "f" | "fo" => self.face(line, rest)?,
-            "mtllib" if self.wants_materials => {
+            "mtllib" | "usemtl" if !self.wants_materials => {}
+            "mtllib" => {
                 let name = name(keyword, rest, codes::OBJ_NO_LIBRARY)?;
                 self.libraries.push((name, line));
             }
-            "usemtl" if self.wants_materials => {
+            "usemtl" => {
                 let name = name(keyword, rest, codes::OBJ_MATERIAL)?;
                 self.uses.push((name, line));
             }
-            "mtllib" | "usemtl" => {}
             "l" | "p" => {
                 let what = if keyword == "l" { "lines" } else { "points" };
                 let message = format!("{what} have no area, so no light meets them");
