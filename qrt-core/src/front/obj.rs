@@ -2,7 +2,7 @@
 //!
 //! `tobj` reads the shape, but it accepts what is no mesh (NaN vertices, faces of two corners),
 //! knows no continued lines and no comment behind a statement, and names no line. So it reads
-//! through a [`Scanner`], which checks each statement and hands on vertices and faces; the faces
+//! through a `Scanner`, which checks each statement and hands on vertices and faces; the faces
 //! are then cut into triangles (`polygon`).
 //!
 //! Of a material, `Kd` is the albedo of a Lambertian surface and `Ke` its radiance; what an MTL
