@@ -9,6 +9,7 @@
 // A bench that cannot run has nothing to report.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
+use qrt_core::scene::meshes::Meshes;
 use qrt_core::scene::{
     Accuracy, Comparator, Counting, Estimator, Film, Precision, Sampling, Scene,
 };
@@ -65,7 +66,7 @@ fn scene(name: &str, error: f64) -> ValidScene {
         }),
         ..scene
     };
-    validate(scene, &root).unwrap()
+    validate(scene, &Meshes::default()).unwrap()
 }
 
 /// Of `values`, the share that is within `error` of the truth.

@@ -3,6 +3,7 @@
 
 use qrt::core::front::parse;
 use qrt::core::scene::Estimator;
+use qrt::core::scene::meshes::Meshes;
 use qrt::core::valid::{ValidScene, validate};
 use qrt::runtime::machines::Real;
 use qrt::runtime::plan::{Options, Plan, plan};
@@ -134,6 +135,6 @@ fn what_cannot_be_kept_is_refused_with_the_reason() {
         depth.bits = [2, 1];
     }
     coarse.sampling.path_bits = 6;
-    let coarse = validate(coarse, "".as_ref()).unwrap();
+    let coarse = validate(coarse, &Meshes::default()).unwrap();
     refused(&coarse, "sequence: digital-net");
 }

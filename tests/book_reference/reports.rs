@@ -4,6 +4,7 @@ use qrt::core::compile::BuildError;
 use qrt::core::diagnostics::Report;
 use qrt::core::front::{Loaded, obj, parse};
 use qrt::core::oracle::{MOST_FACES, Oracle, OracleError, check_budget, spent};
+use qrt::core::scene::meshes::Meshes;
 use qrt::core::scene::{Bsdf, Jacobian};
 use qrt::core::valid::{bsdf, validate};
 use std::collections::BTreeMap;
@@ -125,7 +126,7 @@ fn elsewhere() -> Vec<String> {
     let whole = |problem| Report::of_file("a scene made in Rust", problem).render(false);
     let mut scene = fine.valid.scene().clone();
     scene.materials.push(scene.materials[0].clone());
-    let problems = validate(scene, "".as_ref()).unwrap_err();
+    let problems = validate(scene, &Meshes::default()).unwrap_err();
     texts.extend(problems.into_iter().map(whole));
 
     let grey = Bsdf {

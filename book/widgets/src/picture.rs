@@ -7,6 +7,7 @@
 
 use crate::answer::Answer;
 use qrt_core::scene::Counting;
+use qrt_core::scene::meshes::Meshes;
 use qrt_core::valid::validate;
 use qrt_runtime::counting::Comparators;
 use qrt_runtime::estimators::{
@@ -64,7 +65,7 @@ impl Picture {
     /// # Errors
     /// A scene that is no scene.
     pub fn new() -> Result<Self, Box<dyn Error>> {
-        let valid = validate(made::scene(), "".as_ref()).map_err(|_| "the scene is wrong")?;
+        let valid = validate(made::scene(), &Meshes::default()).map_err(|_| "the scene is wrong")?;
         let real = Real::new(&valid, 0)?;
         let scene = valid.scene();
         let scale = real.stage().bound();

@@ -60,18 +60,31 @@ impl<'a> Files<'a> {
         self.folder.join(name)
     }
 
-    /// The bytes at `path`, the first `most` of them. Only of a regular file: anything else (a
-    /// pipe, a device) might never end.
+    /// The bytes at `path`, at most `most`. Only of a regular file: anything else (a pipe, a
+    /// device) might never end. Whatever a front end reads, it reads here.
     pub(crate) fn read(&self, path: &Path, most: u64) -> Result<Vec<u8>, Unread> {
-        match self.origin {
-            Origin::Disk(root) => read(&root.join(path), most),
+        let bytes = match self.origin {
+            Origin::Disk(root) => {
+                let path = root.join(path);
+                let kind = std::fs::metadata(&path)?;
+                if !kind.is_file() {
+                    let is_folder = kind.is_dir();
+                    return Err(Unread::Irregular { is_folder });
+                }
+                let mut bytes = Vec::new();
+                File::open(path)?.take(most + 1).read_to_end(&mut bytes)?;
+                bytes
+            }
             Origin::Held(files) => {
                 let found = files.iter().find(|(name, _)| Path::new(name) == path);
                 let (_, bytes) = found.ok_or_else(|| io::Error::from(io::ErrorKind::NotFound))?;
-                let most = usize::try_from(most).unwrap_or(usize::MAX);
-                Ok(bytes[..bytes.len().min(most)].to_vec())
+                bytes.to_vec()
             }
+        };
+        if bytes.len() as u64 > most {
+            return Err(Unread::TooLarge);
         }
+        Ok(bytes)
     }
 }
 
@@ -79,6 +92,8 @@ impl<'a> Files<'a> {
 pub(crate) enum Unread {
     /// It is not a regular file, but perhaps a folder.
     Irregular { is_folder: bool },
+    /// It has more bytes than may be.
+    TooLarge,
     /// What the system says.
     Failed(io::Error),
 }
@@ -87,15 +102,4 @@ impl From<io::Error> for Unread {
     fn from(error: io::Error) -> Self {
         Self::Failed(error)
     }
-}
-
-fn read(path: &Path, most: u64) -> Result<Vec<u8>, Unread> {
-    let kind = std::fs::metadata(path)?;
-    if !kind.is_file() {
-        let is_folder = kind.is_dir();
-        return Err(Unread::Irregular { is_folder });
-    }
-    let mut bytes = Vec::new();
-    File::open(path)?.take(most).read_to_end(&mut bytes)?;
-    Ok(bytes)
 }

@@ -12,9 +12,9 @@ use crate::report::{Faulty, Path, Problem};
 use crate::scene::Scene;
 use crate::scene::decode::{Decoder, Place};
 use crate::scene::shape::Part;
-use crate::valid::{ValidScene, validate_with};
+use crate::valid::{ValidScene, validate};
 pub use files::Files;
-pub(crate) use files::Unread;
+use files::Unread;
 use tree::Node;
 use yaml::Reading;
 
@@ -136,7 +136,8 @@ fn from_source(source: Source, sets: &[String], files: Files<'_>) -> Result<Load
 pub fn of_tree(tree: &Node, files: Files<'_>) -> Result<ValidScene, Vec<Problem>> {
     let mut decoder = Decoder::default();
     let scene = Scene::decode(tree, &Place::ROOT, &mut decoder);
-    let checked = validate_with(scene, files);
+    let meshes = obj::load_all(&scene, files);
+    let checked = validate(scene, &meshes);
     let Decoder {
         mut problems,
         replaced,
@@ -174,6 +175,11 @@ fn read_file(files: Files<'_>, path: &std::path::Path) -> Result<Source, Report>
                 let message = "this is not a regular file".to_owned();
                 (message, Some("name a scene file"))
             }
+            Unread::TooLarge => {
+                let message = format!("the file is larger than {} MiB", MAX_BYTES >> 20);
+                let help = "put large geometry into OBJ meshes";
+                return fail(codes::TOO_LARGE, message, Some(help));
+            }
             Unread::Failed(error) => match error.kind() {
                 ErrorKind::NotFound => (
                     "there is no such file".to_owned(),
@@ -185,15 +191,7 @@ fn read_file(files: Files<'_>, path: &std::path::Path) -> Result<Source, Report>
         };
         fail(codes::UNREADABLE, message, help)
     };
-    let bytes = files.read(path, MAX_BYTES + 1).map_err(unreadable)?;
-    if bytes.len() as u64 > MAX_BYTES {
-        let message = format!("the file is larger than {} MiB", MAX_BYTES >> 20);
-        return Err(fail(
-            codes::TOO_LARGE,
-            message,
-            Some("put large geometry into OBJ meshes"),
-        ));
-    }
+    let bytes = files.read(path, MAX_BYTES).map_err(unreadable)?;
     let text = String::from_utf8(bytes).map_err(|error| {
         let at = error.utf8_error().valid_up_to();
         let line = error.as_bytes()[..at].split(|&byte| byte == b'\n').count();

@@ -1,13 +1,13 @@
 //! Meshes from Wavefront OBJ files, with the materials of their MTL files.
 //!
-//! `tobj` reads the files, but it accepts what is no mesh (NaN vertices, faces of two corners,
-//! materials that no library has), panics on a colour of two numbers, and names no lines. So the
-//! text is first checked statement by statement and brought into a plain form (`scan`, `mtl`):
-//! joined continuations, vertices first, positive indices. What stands in that form `tobj` reads
-//! without surprises, and its faces are then cut into triangles (`polygon`).
+//! `tobj` reads the shape, but it accepts what is no mesh (NaN vertices, faces of two corners),
+//! knows no continued lines and no comment behind a statement, and names no line. So it reads
+//! through a `Scanner`, which checks each statement and hands on vertices and faces; the faces
+//! are then cut into triangles (`polygon`).
 //!
 //! Of a material, `Kd` is the albedo of a Lambertian surface and `Ke` its radiance; what an MTL
-//! file says about highlights and transparency has no part in a scene.
+//! file says about highlights and transparency has no part in a scene. `tobj` panics on a colour
+//! of one number, which is a grey, or of two: `mtl` reads them.
 
 mod mtl;
 mod polygon;
@@ -16,96 +16,47 @@ mod scan;
 mod tests;
 
 use super::{Files, Unread};
-use crate::scene::Rgb;
+use crate::codes;
+use crate::scene::meshes::{Meshes, ObjError, ObjFace, ObjMesh};
+use crate::scene::{Geometry, Scene};
 use glam::DVec3;
-use std::cell::RefCell;
-use std::fmt;
-use std::iter::Enumerate;
-use std::path::{Path, PathBuf};
+use mtl::Materials;
+use scan::Scanner;
+use std::borrow::Cow;
+use std::collections::{BTreeMap, BTreeSet};
+use std::io::BufReader;
+use std::path::Path;
+use std::rc::Rc;
 
 /// The largest file that is read, in bytes: about five million triangles.
 pub const MAX_BYTES: u64 = 256 << 20;
 
-/// A mesh as it is in its file.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ObjMesh {
-    /// Triangles in the order of the file; a polygon is several.
-    pub faces: Vec<ObjFace>,
-    /// The materials of all its libraries; empty if they were not wanted.
-    pub materials: Vec<ObjMaterial>,
-    /// What was read: the file itself, then its libraries.
-    pub files: Vec<PathBuf>,
-}
-
-/// A triangle.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ObjFace {
-    /// Its corners, in the file's units.
-    pub vertices: [DVec3; 3],
-    /// Index into [`ObjMesh::materials`]; `None` if they were not wanted.
-    pub material: Option<usize>,
-}
-
-/// A material of an MTL file.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ObjMaterial {
-    /// `FILE.mtl:NAME`.
-    pub name: String,
-    /// `Ke`, or black.
-    pub radiance: Rgb,
-    /// `Kd`, or black.
-    pub albedo: Rgb,
-}
-
-/// What is wrong with a file; codes are `QRT0320` to `QRT0344`.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct ObjError {
-    /// Stable code.
-    pub code: &'static str,
-    /// The file: the OBJ itself or one of its libraries.
-    pub file: PathBuf,
-    /// The line, from 1.
-    pub line: Option<usize>,
-    /// What is wrong, in one sentence without a full stop.
-    pub message: String,
-    /// The right thing to do.
-    pub help: Option<String>,
-}
-
-impl ObjError {
-    fn new(code: &'static str, file: &Path, message: impl Into<String>) -> Self {
-        let file = file.to_owned();
-        Self {
-            code,
-            file,
-            line: None,
-            message: message.into(),
-            help: None,
+/// The meshes that a scene names. Each file is read once, however many entries name it.
+pub fn load_all(scene: &Scene, files: Files<'_>) -> Meshes {
+    let mut wanted = BTreeMap::<&str, BTreeSet<bool>>::new();
+    for primitive in &scene.geometry {
+        if let Geometry::Mesh(mesh) = primitive {
+            let kinds = wanted.entry(&mesh.obj).or_default();
+            kinds.insert(mesh.material.is_none());
         }
     }
-
-    fn at(mut self, line: usize) -> Self {
-        self.line = Some(line);
-        self
-    }
-
-    fn help(mut self, help: impl Into<String>) -> Self {
-        self.help = Some(help.into());
-        self
-    }
-}
-
-impl fmt::Display for ObjError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}", self.file.display())?;
-        if let Some(line) = self.line {
-            write!(f, ":{line}")?;
+    let mut read = BTreeMap::new();
+    let mut library = |path: &Path| {
+        let bytes = || bytes_of(files, path, codes::MTL_UNREADABLE);
+        read.entry(path.to_owned()).or_insert_with(bytes).clone()
+    };
+    let mut meshes = Meshes::default();
+    for (name, kinds) in wanted {
+        let path = files.path(name);
+        let bytes = bytes_of(files, &path, codes::OBJ_UNREADABLE);
+        for wants_materials in kinds {
+            let bytes = bytes.clone();
+            let mesh = bytes.and_then(|bytes| parse(&path, &bytes, wants_materials, &mut library));
+            meshes.insert(name, wants_materials, mesh);
         }
-        write!(f, ": {} ({})", self.message, self.code)
     }
+    meshes
 }
-
-impl std::error::Error for ObjError {}
 
 /// Reads a mesh, and with `wants_materials` the libraries that it names, which stand beside it.
 ///
@@ -123,205 +74,137 @@ impl std::error::Error for ObjError {}
 ///
 /// The first problem of the file: see [`ObjError`].
 pub fn load(path: &Path, wants_materials: bool) -> Result<ObjMesh, ObjError> {
-    load_from(Files::of_folder("".as_ref()), path, wants_materials)
-}
-
-/// As [`load`], from wherever `files` says.
-pub(crate) fn load_from(
-    files: Files<'_>,
-    path: &Path,
-    wants_materials: bool,
-) -> Result<ObjMesh, ObjError> {
-    let bytes = bytes_of(files, path, "QRT0320")?;
-    let read = RefCell::new(vec![path.to_owned()]);
-    let mesh = parse(path, &bytes, wants_materials, &|library| {
-        let bytes = bytes_of(files, library, "QRT0334")?;
-        read.borrow_mut().push(library.to_owned());
-        Ok(bytes)
-    })?;
-    let files = read.into_inner();
-    Ok(ObjMesh { files, ..mesh })
+    let files = Files::of_folder("".as_ref());
+    let bytes = bytes_of(files, path, codes::OBJ_UNREADABLE)?;
+    let mut library = |path: &Path| bytes_of(files, path, codes::MTL_UNREADABLE);
+    parse(path, &bytes, wants_materials, &mut library)
 }
 
 /// The whole of a file.
-fn bytes_of(files: Files<'_>, path: &Path, code: &'static str) -> Result<Vec<u8>, ObjError> {
-    let unreadable = |why: Unread| {
+fn bytes_of(files: Files<'_>, path: &Path, code: &'static str) -> Result<Rc<[u8]>, ObjError> {
+    let unreadable = |why| {
         let error = match why {
-            Unread::Irregular { .. } => {
-                let message = format!("`{}` is not a regular file", path.display());
-                return ObjError::new(code, path, message);
+            Unread::TooLarge => {
+                let message = format!("the file is larger than {} MiB", MAX_BYTES >> 20);
+                ObjError::new(codes::OBJ_TOO_LARGE, message).help("use a coarser mesh")
             }
-            Unread::Failed(error) => error,
+            Unread::Irregular { .. } => {
+                ObjError::new(code, format!("`{}` is not a regular file", path.display()))
+            }
+            Unread::Failed(error) => {
+                let why = match error.kind() {
+                    std::io::ErrorKind::NotFound => "there is no such file".to_owned(),
+                    _ => error.to_string(),
+                };
+                ObjError::new(code, format!("cannot read `{}`: {why}", path.display()))
+                    .help("relative names are looked up beside the file that names them")
+            }
         };
-        let why = match error.kind() {
-            std::io::ErrorKind::NotFound => "there is no such file".to_owned(),
-            _ => error.to_string(),
-        };
-        ObjError::new(
-            code,
-            path,
-            format!("cannot read `{}`: {why}", path.display()),
-        )
-        .help("relative names are looked up beside the file that names them")
+        error.at(path, None)
     };
-    let bytes = files.read(path, MAX_BYTES + 1).map_err(unreadable)?;
-    if bytes.len() as u64 > MAX_BYTES {
-        let message = format!("the file is larger than {} MiB", MAX_BYTES >> 20);
-        return Err(ObjError::new("QRT0321", path, message).help("use a coarser mesh"));
-    }
-    Ok(bytes)
+    files
+        .read(path, MAX_BYTES)
+        .map(Rc::from)
+        .map_err(unreadable)
 }
 
-type Library<'a> = &'a dyn Fn(&Path) -> Result<Vec<u8>, ObjError>;
+/// The bytes of a material library.
+type Library<'a> = &'a mut dyn FnMut(&Path) -> Result<Rc<[u8]>, ObjError>;
 
-/// As [`load`], of the text itself; `library` gives the bytes of a material library.
+/// As [`load`], of the bytes themselves.
 fn parse(
     path: &Path,
     bytes: &[u8],
     wants_materials: bool,
     library: Library<'_>,
 ) -> Result<ObjMesh, ObjError> {
-    let scan = scan::scan(path, bytes, wants_materials, library)?;
-    let options = tobj::LoadOptions {
-        single_index: true,
-        ..tobj::LoadOptions::default()
-    };
-    let refused = |error: tobj::LoadError| {
-        ObjError::new(
-            "QRT0344",
-            path,
-            format!("the file cannot be read as an OBJ mesh: {error}"),
-        )
-    };
-    let (models, materials) = tobj::load_obj_buf(&mut scan.plain.as_bytes(), &options, |_| {
-        tobj::load_mtl_buf(&mut scan.library.as_bytes())
-    })
-    .map_err(refused)?;
-    let materials = materials.map_err(refused)?;
-
-    let mut faces = Vec::new();
-    let mut lines = scan.face_lines.iter();
-    for model in &models {
-        let mesh = &model.mesh;
-        let corner = |index: &u32| {
-            let at = *index as usize * 3;
-            DVec3::new(
-                mesh.positions[at],
-                mesh.positions[at + 1],
-                mesh.positions[at + 2],
-            )
-        };
-        // Without arities, every face is a triangle.
-        let triangles = mesh.indices.len() / 3 * usize::from(mesh.face_arities.is_empty());
-        let arities = mesh.face_arities.iter().map(|n| *n as usize);
-        let mut rest = &mesh.indices[..];
-        for arity in arities.chain(std::iter::repeat_n(3, triangles)) {
-            let (face, others) = rest.split_at(arity);
-            rest = others;
-            let corners: Vec<DVec3> = face.iter().map(corner).collect();
-            let line = lines.next().copied().unwrap_or_default();
-            let triangles = polygon::triangles(&corners).map_err(|fault| {
-                let (code, message, help) = fault.words();
-                ObjError::new(code, path, message).at(line).help(help)
-            })?;
-            faces.extend(triangles.into_iter().map(|vertices| ObjFace {
-                vertices,
-                material: mesh.material_id,
-            }));
-        }
-    }
-    let materials = std::iter::zip(scan.names, materials)
-        .map(|(name, material)| ObjMaterial {
-            name,
-            radiance: material.emissive.unwrap_or_default(),
-            albedo: material.diffuse.unwrap_or_default(),
+    let text = text_of(path, bytes)?;
+    let mut scanner = Scanner::new(path, &text, wants_materials);
+    let mut shape = BufReader::new(&mut scanner);
+    // The scanner hands on no `mtllib`.
+    let no_library = |_: &Path| tobj::load_mtl_buf(&mut std::io::empty());
+    let read = tobj::load_obj_buf(&mut shape, &tobj::LoadOptions::default(), no_library);
+    let (models, _) = read.map_err(|error| {
+        scanner.fault.take().unwrap_or_else(|| {
+            let message = format!("the file cannot be read as an OBJ mesh: {error}");
+            ObjError::new(codes::OBJ_REFUSED, message).at(path, None)
         })
-        .collect();
-    let files = Vec::new();
+    })?;
+    let mut files = vec![path.to_owned()];
+    let materials = Materials::read(path, &scanner.libraries, library, &mut files)?;
+    let uses = scanner.uses.iter().map(|(name, line)| {
+        let found = materials.find(name, scanner.libraries.is_empty());
+        found.map_err(|error| error.at(path, *line))
+    });
+    let uses: Vec<usize> = uses.collect::<Result<_, _>>()?;
+
+    // It hands on no groups either: all is one model.
+    let mesh = models.into_iter().next().map(|model| model.mesh);
+    let mesh = mesh.unwrap_or_default();
+    let corner = |index: &u32| DVec3::from_slice(&mesh.positions[3 * *index as usize..]);
+    let mut corners = mesh.indices.iter().map(corner);
+    let mut faces = Vec::with_capacity(scanner.faces.len());
+    for (number, (line, use_before)) in scanner.faces.iter().enumerate() {
+        // Without arities, every face is a triangle.
+        let arity = mesh.face_arities.get(number).map_or(3, |n| *n as usize);
+        let face: Vec<DVec3> = corners.by_ref().take(arity).collect();
+        let triangles = polygon::triangles(&face).map_err(|error| error.at(path, *line))?;
+        let material = use_before.map(|number| uses[number]);
+        faces.extend(
+            triangles
+                .into_iter()
+                .map(|vertices| ObjFace { vertices, material }),
+        );
+    }
     Ok(ObjMesh {
         faces,
-        materials,
+        materials: materials.into_list(),
         files,
     })
 }
 
-/// Lines as statements: comments and blank lines left out, continued lines joined.
-struct Statements<'a> {
-    path: &'a Path,
-    lines: Enumerate<Lines<'a>>,
+/// A file as text. Bytes that are not UTF-8 do no harm in a comment.
+fn text_of<'a>(path: &Path, bytes: &'a [u8]) -> Result<Cow<'a, str>, ObjError> {
+    if let Some(at) = bytes.iter().position(|byte| *byte == 0) {
+        let line = bytes[..at].split(|byte| *byte == b'\n').count();
+        return Err(ObjError::new(codes::OBJ_NOT_TEXT, "this is not a text file").at(path, line));
+    }
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    Ok(String::from_utf8_lossy(bytes))
 }
 
-type Lines<'a> = std::slice::Split<'a, u8, fn(&u8) -> bool>;
-
-/// One statement: the line it starts in, and its text without blanks around it.
-struct Statement<'a> {
-    line: usize,
-    text: std::borrow::Cow<'a, str>,
+/// The statements of a text, each with the line it starts in: comments and blank lines left out,
+/// continued lines joined, no blanks around them.
+fn statements(text: &str) -> impl Iterator<Item = (usize, Cow<'_, str>)> {
+    let mut lines = (1..).zip(text.split('\n').map(str::trim));
+    let next = move || {
+        let (line, first) = lines.find(|(_, text)| !text.is_empty() && !text.starts_with('#'))?;
+        let mut text = Cow::Borrowed(first);
+        while text.ends_with('\\')
+            && let Some((_, next)) = lines.next()
+        {
+            let joined = text.to_mut();
+            joined.pop();
+            joined.truncate(joined.trim_end().len());
+            if !(joined.is_empty() || next.is_empty()) {
+                joined.push(' ');
+            }
+            joined.push_str(next);
+        }
+        Some((line, text))
+    };
+    std::iter::from_fn(next).filter(|(_, text)| !text.is_empty())
 }
 
-impl<'a> Statements<'a> {
-    fn new(path: &'a Path, bytes: &'a [u8]) -> Self {
-        let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-        let is_end: fn(&u8) -> bool = |byte| *byte == b'\n';
-        Self {
-            path,
-            lines: bytes.split(is_end).enumerate(),
-        }
+/// The keyword of a statement, and what follows it.
+fn split(statement: &str) -> Result<(&str, &str), ObjError> {
+    if statement.ends_with('\\') {
+        let message = "the file ends within a continued line";
+        return Err(ObjError::new(codes::OBJ_CONTINUATION, message).help("is the file whole?"));
     }
-
-    fn next(&mut self) -> Result<Option<Statement<'a>>, ObjError> {
-        while let Some((index, bytes)) = self.lines.next() {
-            let line = index + 1;
-            let mut text = self.text(line, bytes)?;
-            if text.starts_with('#') {
-                continue;
-            }
-            while text.ends_with('\\') {
-                let Some((index, bytes)) = self.lines.next() else {
-                    let message = "the file ends within a continued line";
-                    return Err(ObjError::new("QRT0332", self.path, message)
-                        .at(line)
-                        .help("is the file whole?"));
-                };
-                let next = self.text(index + 1, bytes)?;
-                let joined = text.to_mut();
-                joined.pop();
-                joined.truncate(joined.trim_end().len());
-                if !(joined.is_empty() || next.is_empty()) {
-                    joined.push(' ');
-                }
-                joined.push_str(&next);
-            }
-            if !text.is_empty() {
-                return Ok(Some(Statement { line, text }));
-            }
-        }
-        Ok(None)
-    }
-
-    /// A line's text. Bytes that are not UTF-8 are kept from being anything but part of a comment
-    /// or a name.
-    fn text(&self, line: usize, bytes: &'a [u8]) -> Result<std::borrow::Cow<'a, str>, ObjError> {
-        if bytes.contains(&0) {
-            let message = "this is not a text file";
-            return Err(ObjError::new("QRT0322", self.path, message).at(line));
-        }
-        Ok(match std::str::from_utf8(bytes) {
-            Ok(text) => text.trim().into(),
-            Err(_) => String::from_utf8_lossy(bytes).trim().to_owned().into(),
-        })
-    }
-}
-
-impl Statement<'_> {
-    /// The keyword and what follows it.
-    fn split(&self) -> (&str, &str) {
-        let end = self
-            .text
-            .find(char::is_whitespace)
-            .unwrap_or(self.text.len());
-        (&self.text[..end], self.text[end..].trim_start())
-    }
+    let parts = statement.split_once(char::is_whitespace);
+    let (keyword, rest) = parts.unwrap_or((statement, ""));
+    Ok((keyword, rest.trim_start()))
 }
 
 /// The words of a statement up to a comment.
@@ -330,14 +213,31 @@ fn words(text: &str) -> impl Iterator<Item = &str> {
         .take_while(|word| !word.starts_with('#'))
 }
 
-/// A finite number.
-fn number(path: &Path, line: usize, word: &str) -> Result<f64, ObjError> {
-    match word.parse::<f64>() {
+/// The finite numbers of a statement, the first `most` of them.
+fn numbers(text: &str, most: usize) -> Result<Vec<f64>, ObjError> {
+    let number = |word: &str| match word.parse::<f64>() {
         Ok(value) if value.is_finite() => Ok(value),
-        Ok(_) => {
-            let message = format!("`{word}` is not a finite number");
-            Err(ObjError::new("QRT0326", path, message).at(line))
-        }
-        Err(_) => Err(ObjError::new("QRT0325", path, format!("`{word}` is not a number")).at(line)),
+        Ok(_) => Err((
+            codes::OBJ_NOT_FINITE,
+            format!("`{word}` is not a finite number"),
+        )),
+        Err(_) => Err((codes::OBJ_NUMBER, format!("`{word}` is not a number"))),
+    };
+    let numbers = words(text).take(most).map(number).collect::<Result<_, _>>();
+    numbers.map_err(|(code, message)| ObjError::new(code, message))
+}
+
+/// The name after a keyword, which must be there and be text.
+fn name(keyword: &str, name: &str, nameless: &'static str) -> Result<String, ObjError> {
+    if name.is_empty() {
+        return Err(ObjError::new(
+            nameless,
+            format!("`{keyword}` without a name"),
+        ));
     }
+    if name.contains(char::REPLACEMENT_CHARACTER) {
+        let message = format!("the name after `{keyword}` is not UTF-8 text");
+        return Err(ObjError::new(codes::OBJ_NOT_TEXT, message));
+    }
+    Ok(name.to_owned())
 }

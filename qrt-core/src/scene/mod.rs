@@ -6,6 +6,7 @@
 //! [`crate::valid::ValidScene`] that everything downstream demands.
 
 pub(crate) mod decode;
+pub mod meshes;
 mod record;
 pub(crate) mod settle;
 pub(crate) mod shape;

@@ -4,15 +4,15 @@
 //! origin is judged as any other.
 
 use crate::codes;
-use crate::front::{Files, obj};
 use crate::report::{Path, Problem};
 use crate::scene::decode::nearest;
+use crate::scene::meshes::Meshes;
 use crate::scene::shape::LARGEST;
 use crate::scene::text::number as number_text;
 use crate::scene::{Geometry, Mesh, Scene};
 use crate::valid::{Polygon, Surface, matte};
 use glam::DVec3;
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 use std::path::PathBuf;
 
 /// Twice the area over the square of the longest edge: below it, rounding decides where the normal
@@ -31,19 +31,19 @@ pub(super) struct Shapes {
 
 pub(super) fn polygons(
     scene: &Scene,
-    files: Files<'_>,
+    meshes: &Meshes,
     surfaces: &mut Vec<Surface>,
     problems: &mut Vec<Problem>,
 ) -> Shapes {
     let names = HashMap::new();
     let mut build = Build {
         scene,
-        files,
+        meshes,
         surfaces,
         problems,
         names,
         out: vec![],
-        read: vec![],
+        files: BTreeSet::new(),
         unknown: 0,
     };
     for (index, (name, _)) in scene.materials.iter().enumerate() {
@@ -66,19 +66,19 @@ pub(super) fn polygons(
     }
     Shapes {
         polygons: build.out,
-        files: build.read,
+        files: build.files.into_iter().collect(),
     }
 }
 
 struct Build<'a> {
     scene: &'a Scene,
-    files: Files<'a>,
+    meshes: &'a Meshes,
     surfaces: &'a mut Vec<Surface>,
     problems: &'a mut Vec<Problem>,
     names: HashMap<&'a str, u32>,
     out: Vec<Polygon>,
     /// Files that were read.
-    read: Vec<PathBuf>,
+    files: BTreeSet<PathBuf>,
     /// Unknown materials so far.
     unknown: usize,
 }
@@ -179,8 +179,7 @@ impl Build<'_> {
 
     fn mesh(&mut self, mesh: &Mesh, path: &Path) {
         let named = mesh.material.as_ref().map(|name| self.surface(name, path));
-        let file = self.files.path(&mesh.obj);
-        let read = match obj::load_from(self.files, &file, mesh.material.is_none()) {
+        let read = match self.meshes.get(mesh) {
             Ok(read) => read,
             Err(error) => {
                 let mut problem = Problem::new(error.code, path.key("obj"), error.message);
@@ -192,15 +191,11 @@ impl Build<'_> {
                 return;
             }
         };
-        for file in read.files {
-            if !self.read.contains(&file) {
-                self.read.push(file);
-            }
-        }
+        self.files.extend(read.files.iter().cloned());
         let transform = Transform::of(mesh);
         let first = self.surfaces.len() as u32;
         if named.is_none() {
-            for material in read.materials {
+            for material in &read.materials {
                 if let Some(radiance) = material.radiance.iter().find(|value| **value > LARGEST) {
                     let message = format!(
                         "the radiance {} of `{}` is too large",
@@ -212,7 +207,7 @@ impl Build<'_> {
                         .push(problem.label(format!("must be at most {LARGEST:e}")));
                 }
                 self.surfaces.push(Surface {
-                    name: material.name,
+                    name: material.name.clone(),
                     radiance: material.radiance,
                     scatter: matte(material.albedo),
                 });

@@ -14,9 +14,9 @@ pub use knobs::Knobs;
 pub use sampling::{MAX_ID_BITS, MAX_NET_DEPTHS};
 
 use crate::expr::Expr;
-use crate::front::Files;
 use crate::report::{Faulty, Path, Problem};
 use crate::scene::decode::Place;
+use crate::scene::meshes::Meshes;
 use crate::scene::shape::Part;
 use crate::scene::text::Fingerprint;
 use crate::scene::{Bsdf, Material, Rgb, Scene};
@@ -139,7 +139,7 @@ impl ValidScene {
     }
 }
 
-/// Checks a scene and reads its meshes, whose files are relative to `folder`.
+/// Checks a scene and its meshes, which [`crate::front::obj::load_all`] reads.
 ///
 /// # Errors
 /// Everything that is wrong with it.
@@ -165,18 +165,10 @@ impl ValidScene {
 ///     accuracy: None,
 ///     budget: None,
 /// };
-/// let problems = qrt_core::valid::validate(scene, "".as_ref()).unwrap_err();
+/// let problems = qrt_core::valid::validate(scene, &Default::default()).unwrap_err();
 /// assert_eq!(problems[0].path.to_string(), "film.height");
 /// ```
-pub fn validate(scene: Scene, folder: &std::path::Path) -> Result<ValidScene, Vec<Problem>> {
-    validate_with(scene, Files::of_folder(folder))
-}
-
-/// As [`validate`], with meshes from wherever `files` says.
-///
-/// # Errors
-/// Everything that is wrong with it.
-pub fn validate_with(scene: Scene, files: Files<'_>) -> Result<ValidScene, Vec<Problem>> {
+pub fn validate(scene: Scene, meshes: &Meshes) -> Result<ValidScene, Vec<Problem>> {
     let mut problems = Vec::new();
     scene.check(&Place::ROOT, &mut problems);
     // What is out of range by itself is not measured against anything else.
@@ -185,7 +177,7 @@ pub fn validate_with(scene: Scene, files: Files<'_>) -> Result<ValidScene, Vec<P
     camera::check(&scene.camera, &mut more);
     sampling::check(&scene, &mut more);
     let mut materials = surfaces(&scene, &mut more);
-    let shapes = geometry::polygons(&scene, files, &mut materials, &mut more);
+    let shapes = geometry::polygons(&scene, meshes, &mut materials, &mut more);
     let geometry::Shapes { polygons, files } = shapes;
     more.retain(|problem| !faulty.touches(&problem.path));
     problems.extend(more);

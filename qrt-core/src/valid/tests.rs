@@ -9,7 +9,7 @@ fn scene() -> Scene {
 }
 
 fn codes_of(scene: Scene) -> Vec<&'static str> {
-    match validate(scene, "".as_ref()) {
+    match validate(scene, &Meshes::default()) {
         Ok(_) => vec![],
         Err(problems) => problems.iter().map(|problem| problem.code).collect(),
     }

@@ -1,11 +1,13 @@
-//! The check of an MTL file's text, and its plain form.
+//! The material libraries of a mesh: what their materials reflect and emit.
 
-use super::scan::shown;
-use super::{ObjError, Statements, number, words};
+use super::{Library, ObjError, name, numbers, split, statements, text_of, words};
+use crate::codes;
+use crate::expr::suggest::nearest;
+use crate::front::tree::shorten;
 use crate::scene::Rgb;
+use crate::scene::meshes::ObjMaterial;
 use std::collections::HashMap;
-use std::fmt::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// The materials of all libraries of a mesh, in order.
 #[derive(Default)]
@@ -25,141 +27,148 @@ struct Material {
 }
 
 impl Materials {
-    /// The number of the material `name`.
-    pub(super) fn find(&self, name: &str) -> Option<usize> {
-        self.by_name.get(name).copied()
-    }
-
-    /// Their names.
-    pub(super) fn names(&self) -> impl Iterator<Item = &str> {
-        self.list.iter().map(|material| material.name.as_str())
-    }
-
-    /// Their names as `FILE.mtl:NAME`.
-    pub(super) fn full_names(&self) -> Vec<String> {
-        self.list
-            .iter()
-            .map(|m| format!("{}:{}", m.file, m.name))
-            .collect()
-    }
-
-    /// All of them as one library, by number, with digits that read back as the same numbers.
-    pub(super) fn plain(&self) -> String {
-        let mut text = String::new();
-        for (number, material) in self.list.iter().enumerate() {
-            // Writing to a string cannot fail.
-            let _ = writeln!(text, "newmtl {number}");
-            for (keyword, colour) in [("Kd", material.albedo), ("Ke", material.radiance)] {
-                if let Some([r, g, b]) = colour {
-                    let _ = writeln!(text, "{keyword} {r} {g} {b}");
+    /// Those of the libraries that the OBJ file at `obj` names, each name with its line. The files
+    /// are added to `files`.
+    pub(super) fn read(
+        obj: &Path,
+        names: &[(String, usize)],
+        library: Library<'_>,
+        files: &mut Vec<PathBuf>,
+    ) -> Result<Self, ObjError> {
+        let mut materials = Self::default();
+        let beside = |name: &str| obj.parent().unwrap_or(Path::new("")).join(name);
+        for (name, line) in names {
+            // A statement may name several files, and a file's name may hold blanks.
+            let names = if library(&beside(name)).is_ok() {
+                vec![name.as_str()]
+            } else {
+                name.split_whitespace().collect()
+            };
+            for name in names {
+                let path = beside(name);
+                if files.contains(&path) {
+                    continue;
                 }
+                let bytes = library(&path).map_err(|error| error.at(obj, *line))?;
+                materials.add_all(&path, name, &bytes)?;
+                files.push(path);
             }
         }
-        text
+        Ok(materials)
+    }
+
+    /// The place of `name` in the list.
+    pub(super) fn find(&self, name: &str, no_libraries: bool) -> Result<usize, ObjError> {
+        self.by_name.get(name).copied().ok_or_else(|| {
+            let message = format!("no material `{}`", shorten(name));
+            if no_libraries {
+                return ObjError::new(codes::OBJ_NO_LIBRARY, message)
+                    .help("the file names no material library: a `mtllib` statement is missing");
+            }
+            let names = self.list.iter().map(|material| material.name.as_str());
+            ObjError::new(codes::OBJ_MATERIAL, message).help(match nearest(name, names) {
+                Some(near) => format!("did you mean `{near}`?"),
+                None => "`newmtl` in a material library names it".to_owned(),
+            })
+        })
+    }
+
+    pub(super) fn into_list(self) -> Vec<ObjMaterial> {
+        let public = |material: Material| ObjMaterial {
+            name: format!("{}:{}", material.file, material.name),
+            radiance: material.radiance.unwrap_or_default(),
+            albedo: material.albedo.unwrap_or_default(),
+        };
+        self.list.into_iter().map(public).collect()
     }
 
     /// Adds those of the library at `path`, which the OBJ file calls `file`.
-    pub(super) fn read(&mut self, path: &Path, file: &str, bytes: &[u8]) -> Result<(), ObjError> {
-        let materials = &mut self.list;
-        let first = materials.len();
-        let mut statements = Statements::new(path, bytes);
-        while let Some(statement) = statements.next()? {
-            let line = statement.line;
-            let error = |code, message: String| ObjError::new(code, path, message).at(line);
-            let (keyword, rest) = statement.split();
-            match keyword {
-                "newmtl" => {
-                    if rest.is_empty() {
-                        return Err(error("QRT0337", "`newmtl` without a name".to_owned()));
-                    }
-                    if rest.contains(char::REPLACEMENT_CHARACTER) {
-                        let message = "the name after `newmtl` is not UTF-8 text";
-                        return Err(error("QRT0322", message.to_owned()));
-                    }
-                    if let Some(old) = self.by_name.get(rest).and_then(|old| materials.get(*old)) {
-                        let message = format!("a second material `{}`", shown(rest));
-                        let place = format!("the first is in {}, line {}", old.file, old.line);
-                        return Err(error("QRT0340", message).help(place));
-                    }
-                    self.by_name.insert(rest.to_owned(), materials.len());
-                    materials.push(Material {
-                        name: rest.to_owned(),
-                        file: file.to_owned(),
-                        line,
-                        albedo: None,
-                        radiance: None,
-                    });
-                }
+    fn add_all(&mut self, path: &Path, file: &str, bytes: &[u8]) -> Result<(), ObjError> {
+        let first = self.list.len();
+        for (line, statement) in statements(&text_of(path, bytes)?) {
+            let read = split(&statement).and_then(|(keyword, rest)| match keyword {
+                "newmtl" => self.add(file, line, rest),
                 "Kd" | "Ke" | "map_Kd" | "map_Ke" => {
-                    let Some(material) = materials[first..].last_mut() else {
-                        let message = format!("`{keyword}` stands before any `newmtl`");
-                        return Err(error("QRT0337", message));
-                    };
-                    if keyword.starts_with("map_") {
-                        let message = format!("`{keyword}`: there are no textures");
-                        return Err(error("QRT0342", message).help(
-                            "give the mesh a `material` in the scene, or a plain colour here",
-                        ));
-                    }
-                    let colour = colour(path, line, keyword, rest)?;
-                    if keyword == "Kd" {
-                        if let Some(off) = colour.iter().find(|c| !(0.0..=1.0).contains(*c)) {
-                            let message =
-                                format!("the albedo `Kd` is {off}, which is not in [0, 1]");
-                            return Err(error("QRT0338", message));
-                        }
-                        material.albedo = Some(colour);
-                    } else {
-                        if let Some(off) = colour.iter().find(|c| **c < 0.0) {
-                            let message = format!("the radiance `Ke` is {off}, which is negative");
-                            return Err(error("QRT0339", message));
-                        }
-                        material.radiance = Some(colour);
-                    }
+                    set(self.list[first..].last_mut(), keyword, rest)
                 }
                 // What has no part in a scene; its operands are of many kinds.
-                _ => {}
-            }
+                _ => Ok(()),
+            });
+            read.map_err(|error| error.at(path, line))?;
         }
-        match materials[first..]
-            .iter()
-            .find(|m| m.albedo.is_none() && m.radiance.is_none())
-        {
+        let mut added = self.list[first..].iter();
+        match added.find(|added| added.albedo.is_none() && added.radiance.is_none()) {
             None => Ok(()),
-            Some(material) => {
-                let message = format!(
-                    "material `{}` has neither `Kd` nor `Ke`",
-                    shown(&material.name)
-                );
-                Err(ObjError::new("QRT0341", path, message)
-                    .at(material.line)
-                    .help("`Kd r g b` is its albedo, `Ke r g b` its radiance"))
+            Some(Material { name, line, .. }) => {
+                let message = format!("material `{}` has neither `Kd` nor `Ke`", shorten(name));
+                Err(ObjError::new(codes::MTL_EMPTY, message)
+                    .help("`Kd r g b` is its albedo, `Ke r g b` its radiance")
+                    .at(path, *line))
             }
         }
+    }
+
+    fn add(&mut self, file: &str, line: usize, rest: &str) -> Result<(), ObjError> {
+        let name = name("newmtl", rest, codes::MTL_STATEMENT)?;
+        let number = self.list.len();
+        if let Some(old) = self.by_name.insert(name.clone(), number) {
+            let Material { file, line, .. } = &self.list[old];
+            let message = format!("a second material `{}`", shorten(&name));
+            return Err(ObjError::new(codes::MTL_DUPLICATE, message)
+                .help(format!("the first is in {file}, line {line}")));
+        }
+        self.list.push(Material {
+            name,
+            file: file.to_owned(),
+            line,
+            albedo: None,
+            radiance: None,
+        });
+        Ok(())
     }
 }
 
-/// `r g b`, or one number for grey.
-fn colour(path: &Path, line: usize, keyword: &str, rest: &str) -> Result<Rgb, ObjError> {
-    let first = words(rest).next().unwrap_or_default();
-    if matches!(first, "spectral" | "xyz") {
-        let message = format!("`{keyword} {first}` is not read: colours are linear RGB");
-        return Err(ObjError::new("QRT0337", path, message).at(line));
+/// What a statement says of the colours of the material that it stands below.
+fn set(material: Option<&mut Material>, keyword: &str, rest: &str) -> Result<(), ObjError> {
+    let Some(material) = material else {
+        let message = format!("`{keyword}` stands before any `newmtl`");
+        return Err(ObjError::new(codes::MTL_STATEMENT, message));
+    };
+    if keyword.starts_with("map_") {
+        let message = format!("`{keyword}`: there are no textures");
+        return Err(ObjError::new(codes::MTL_TEXTURE, message)
+            .help("give the mesh a `material` in the scene, or a plain colour here"));
     }
-    let numbers = words(rest)
-        .take(4)
-        .map(|word| number(path, line, word))
-        .collect::<Result<Vec<f64>, _>>()
-        .map_err(|error| ObjError {
-            code: "QRT0337",
-            ..error
-        })?;
-    match numbers[..] {
-        [grey] => Ok([grey; 3]),
-        [r, g, b] => Ok([r, g, b]),
-        _ => {
-            let message = format!("`{keyword}` takes 3 numbers, or 1, not {}", numbers.len());
-            Err(ObjError::new("QRT0337", path, message).at(line))
+    let colour = colour(keyword, rest)?;
+    let off = |is_off: fn(&f64) -> bool| colour.iter().copied().find(is_off);
+    if keyword == "Ke" {
+        if let Some(off) = off(|c| *c < 0.0) {
+            let message = format!("the radiance `Ke` is {off}, which is negative");
+            return Err(ObjError::new(codes::MTL_RADIANCE, message));
         }
+        material.radiance = Some(colour);
+    } else {
+        if let Some(off) = off(|c| !(0.0..=1.0).contains(c)) {
+            let message = format!("the albedo `Kd` is {off}, which is not in [0, 1]");
+            return Err(ObjError::new(codes::MTL_ALBEDO, message));
+        }
+        material.albedo = Some(colour);
     }
+    Ok(())
+}
+
+/// `r g b`, or one number for grey.
+fn colour(keyword: &str, rest: &str) -> Result<Rgb, ObjError> {
+    let first = words(rest).next().unwrap_or_default();
+    let message = if matches!(first, "spectral" | "xyz") {
+        format!("`{keyword} {first}` is not read: colours are linear RGB")
+    } else {
+        match numbers(rest, 4).as_deref() {
+            Ok([grey]) => return Ok([*grey; 3]),
+            Ok([r, g, b]) => return Ok([*r, *g, *b]),
+            Ok(other) => format!("`{keyword}` takes 3 numbers, or 1, not {}", other.len()),
+            Err(error) => error.message.clone(),
+        }
+    };
+    Err(ObjError::new(codes::MTL_STATEMENT, message))
 }

@@ -1,5 +1,7 @@
 //! From a polygon to triangles: a fan where it is convex, else ears cut off one by one.
 
+use crate::codes;
+use crate::scene::meshes::ObjError;
 use glam::{DVec2, DVec3};
 
 /// More corners than a face that is not convex may have: cutting ears takes up to their cube.
@@ -8,79 +10,59 @@ const MAX_CONCAVE: usize = 256;
 /// An area, as a part of the square of the longest edge, that is rounding alone.
 const NO_AREA: f64 = 1e-14;
 
-/// Why a polygon is no surface.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Fault {
-    NoArea,
-    CrossesItself,
-    TooManyCorners,
-    TooLarge,
+fn no_area() -> ObjError {
+    ObjError::new(codes::OBJ_ZERO_AREA, "this face has no area")
+        .help("remove it: its corners lie on a line")
 }
 
-impl Fault {
-    /// Code, message and help.
-    pub(super) fn words(self) -> (&'static str, &'static str, &'static str) {
-        match self {
-            Self::NoArea => (
-                "QRT0343",
-                "this face has no area",
-                "remove it: its corners lie on a line",
-            ),
-            Self::CrossesItself => (
-                "QRT0330",
-                "this face cannot be cut into triangles: its outline crosses itself",
-                "export the mesh as triangles",
-            ),
-            Self::TooManyCorners => (
-                "QRT0330",
-                "this face is not convex and has more than 256 corners",
-                "export the mesh as triangles",
-            ),
-            Self::TooLarge => (
-                "QRT0326",
-                "this face is too large: its area is not a finite number",
-                "scale the mesh in the file, and back in the scene",
-            ),
-        }
-    }
+fn too_large() -> ObjError {
+    let message = "this face is too large: its area is not a finite number";
+    ObjError::new(codes::OBJ_NOT_FINITE, message)
+        .help("scale the mesh in the file, and back in the scene")
+}
+
+fn uncut(why: &str) -> ObjError {
+    ObjError::new(codes::OBJ_OUTLINE, why).help("export the mesh as triangles")
 }
 
 /// The triangles of a polygon of three or more corners, wound as it is; none is without area.
-pub(super) fn triangles(corners: &[DVec3]) -> Result<Vec<[DVec3; 3]>, Fault> {
+pub(super) fn triangles(corners: &[DVec3]) -> Result<Vec<[DVec3; 3]>, ObjError> {
     if let [a, b, c] = *corners {
-        return match area([a, b, c]) {
-            Some(true) => Ok(vec![[a, b, c]]),
-            Some(false) => Err(Fault::NoArea),
-            None => Err(Fault::TooLarge),
+        return if has_area([a, b, c])? {
+            Ok(vec![[a, b, c]])
+        } else {
+            Err(no_area())
         };
     }
     let flat = flatten(corners)?;
     let fan: Vec<[usize; 3]> = (1..corners.len() - 1).map(|i| [0, i, i + 1]).collect();
     let place = |triangle: &[usize; 3]| triangle.map(|i| corners[i]);
-    let convex = is_convex(&flat) && fan.iter().all(|t| area(place(t)) == Some(true));
+    let convex = is_convex(&flat) && fan.iter().all(|t| matches!(has_area(place(t)), Ok(true)));
     let indices = if convex {
         fan
     } else if corners.len() <= MAX_CONCAVE {
         ears(&flat)?
     } else {
-        return Err(Fault::TooManyCorners);
+        return Err(uncut(
+            "this face is not convex and has more than 256 corners",
+        ));
     };
     Ok(indices.iter().map(place).collect())
 }
 
-/// Whether a triangle has an area; `None` if that is no finite number.
-fn area([a, b, c]: [DVec3; 3]) -> Option<bool> {
+fn has_area([a, b, c]: [DVec3; 3]) -> Result<bool, ObjError> {
     let (ab, ac, bc) = (b - a, c - a, c - b);
     let twice = ab.cross(ac).length();
-    let longest = ab
-        .length_squared()
-        .max(ac.length_squared())
-        .max(bc.length_squared());
-    (twice.is_finite() && longest.is_finite()).then_some(twice > NO_AREA * longest)
+    let edges = [ab, ac, bc].map(DVec3::length_squared);
+    let longest = edges.into_iter().fold(0.0, f64::max);
+    if !(twice.is_finite() && longest.is_finite()) {
+        return Err(too_large());
+    }
+    Ok(twice > NO_AREA * longest)
 }
 
 /// The polygon seen along the axis that its (Newell) normal is nearest to, counterclockwise.
-fn flatten(corners: &[DVec3]) -> Result<Vec<DVec2>, Fault> {
+fn flatten(corners: &[DVec3]) -> Result<Vec<DVec2>, ObjError> {
     let mut normal = DVec3::ZERO;
     let mut longest: f64 = 0.0;
     for (i, b) in corners.iter().enumerate().skip(1) {
@@ -91,20 +73,15 @@ fn flatten(corners: &[DVec3]) -> Result<Vec<DVec2>, Fault> {
             .max((*b - corners[0]).length_squared());
     }
     if !(normal.is_finite() && longest.is_finite()) {
-        return Err(Fault::TooLarge);
+        return Err(too_large());
     }
-    let size = normal.abs();
-    if size.max_element() <= NO_AREA * longest {
-        return Err(Fault::NoArea);
+    let axis = normal.abs().max_position();
+    if normal[axis].abs() <= NO_AREA * longest {
+        return Err(no_area());
     }
     let project = |p: &DVec3| {
-        if size.x >= size.y && size.x >= size.z {
-            DVec2::new(p.y, p.z) * DVec2::new(normal.x.signum(), 1.0)
-        } else if size.y >= size.z {
-            DVec2::new(p.z, p.x) * DVec2::new(normal.y.signum(), 1.0)
-        } else {
-            DVec2::new(p.x, p.y) * DVec2::new(normal.z.signum(), 1.0)
-        }
+        let side = normal[axis].signum();
+        DVec2::new(p[(axis + 1) % 3] * side, p[(axis + 2) % 3])
     };
     Ok(corners.iter().map(project).collect())
 }
@@ -123,7 +100,7 @@ fn is_convex(flat: &[DVec2]) -> bool {
     left_only && once
 }
 
-fn ears(flat: &[DVec2]) -> Result<Vec<[usize; 3]>, Fault> {
+fn ears(flat: &[DVec2]) -> Result<Vec<[usize; 3]>, ObjError> {
     let mut left: Vec<usize> = (0..flat.len()).collect();
     let mut triangles = Vec::with_capacity(flat.len() - 2);
     while left.len() > 2 {
@@ -133,7 +110,8 @@ fn ears(flat: &[DVec2]) -> Result<Vec<[usize; 3]>, Fault> {
             is_ear(flat, &left, triangle).then_some((i, triangle))
         });
         let Some((i, triangle)) = ear else {
-            return Err(Fault::CrossesItself);
+            let why = "this face cannot be cut into triangles: its outline crosses itself";
+            return Err(uncut(why));
         };
         triangles.push(triangle);
         left.remove(i);

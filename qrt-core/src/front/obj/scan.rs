@@ -1,188 +1,155 @@
-//! The check of an OBJ file's text, statement by statement, and its plain form.
+//! The check of an OBJ file, statement by statement, as `tobj` reads it.
 
-use super::{Library, ObjError, Statement, Statements, mtl, number, words};
+use super::{ObjError, name, numbers, split, statements, words};
+use crate::codes;
 use crate::expr::suggest::nearest;
-use std::fmt::Write;
+use crate::front::tree::shorten;
+use glam::DVec3;
+use std::borrow::Cow;
+use std::collections::VecDeque;
+use std::io::{self, Read};
 use std::path::Path;
 
-/// What a checked file says.
-pub(super) struct Scan {
-    /// The mesh, as only `mtllib`, `v x y z [w]`, `f` with positive vertex indices and `usemtl`
-    /// with a material's number.
-    pub(super) plain: String,
-    /// All materials in use or not, as only `newmtl` with their numbers, `Kd` and `Ke`.
-    pub(super) library: String,
-    /// `FILE.mtl:NAME` of each material.
-    pub(super) names: Vec<String>,
-    /// The line of each face.
-    pub(super) face_lines: Vec<usize>,
-}
-
+const READ: &str = "v vt vn f mtllib usemtl";
 /// Statements that have no part in a mesh's shape.
-const IGNORED: [&str; 14] = [
-    "o",
-    "g",
-    "s",
-    "mg",
-    "vp",
-    "bevel",
-    "c_interp",
-    "d_interp",
-    "lod",
-    "shadow_obj",
-    "trace_obj",
-    "usemap",
-    "maplib",
-    "end",
-];
+const IGNORED: &str =
+    "o g s mg vp bevel c_interp d_interp lod shadow_obj trace_obj usemap maplib end";
 /// Statements whose shapes would be missing.
-const CURVED: [&str; 16] = [
-    "cstype", "deg", "bmat", "step", "curv", "curv2", "surf", "parm", "trim", "hole", "scrv", "sp",
-    "con", "ctech", "stech", "call",
-];
-const READ: [&str; 6] = ["v", "vt", "vn", "f", "mtllib", "usemtl"];
+const CURVED: &str =
+    "cstype deg bmat step curv curv2 surf parm trim hole scrv sp con ctech stech call";
 
-struct Scanner<'a> {
+/// What corners refer to.
+const KINDS: [&str; 3] = ["vertex", "texture coordinate", "normal"];
+
+/// Reads as the `v` and `f` statements of a file, all statements of which it checks.
+pub(super) struct Scanner<'a> {
     path: &'a Path,
+    statements: Box<dyn Iterator<Item = (usize, Cow<'a, str>)> + 'a>,
     wants_materials: bool,
-    vertices: usize,
-    texture: usize,
-    normals: usize,
-    /// `v` statements.
-    points: String,
-    /// `f` and `usemtl` statements.
-    faces: String,
-    face_lines: Vec<usize>,
+    /// How many there are so far of each of [`KINDS`].
+    counts: [i64; 3],
     /// The greatest index of each kind so far, and its line: a vertex may follow its face.
-    greatest: [(usize, usize); 3],
+    greatest: [(i64, usize); 3],
+    /// The statement that is being read.
+    pending: VecDeque<u8>,
+    /// What is wrong: the reader of this sees only that something is.
+    pub(super) fault: Option<ObjError>,
+    /// The line of each face, and the place in `uses` of its material.
+    pub(super) faces: Vec<(usize, Option<usize>)>,
     /// Names after `usemtl`, with their lines.
-    uses: Vec<(String, usize)>,
+    pub(super) uses: Vec<(String, usize)>,
     /// Names after `mtllib`, with their lines.
-    libraries: Vec<(String, usize)>,
+    pub(super) libraries: Vec<(String, usize)>,
 }
 
-pub(super) fn scan(
-    path: &Path,
-    bytes: &[u8],
-    wants_materials: bool,
-    library: Library<'_>,
-) -> Result<Scan, ObjError> {
-    let mut scanner = Scanner {
-        path,
-        wants_materials,
-        vertices: 0,
-        texture: 0,
-        normals: 0,
-        points: String::new(),
-        faces: String::new(),
-        face_lines: Vec::new(),
-        greatest: [(0, 0); 3],
-        uses: Vec::new(),
-        libraries: Vec::new(),
-    };
-    let mut statements = Statements::new(path, bytes);
-    while let Some(statement) = statements.next()? {
-        scanner.statement(&statement)?;
+impl Read for Scanner<'_> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let mut read = Ok(());
+        while self.pending.is_empty() && read.is_ok() {
+            let Some((line, statement)) = self.statements.next() else {
+                read = self.finish();
+                break;
+            };
+            let checked = self.statement(line, &statement);
+            read = checked.map_err(|error| error.at(self.path, line));
+        }
+        if let Err(fault) = read {
+            self.fault = Some(fault);
+            return Err(io::ErrorKind::InvalidData.into());
+        }
+        self.pending.read(buffer)
     }
-    scanner.finish(library)
 }
 
-impl Scanner<'_> {
-    fn error(&self, code: &'static str, line: usize, message: impl Into<String>) -> ObjError {
-        ObjError::new(code, self.path, message).at(line)
+impl<'a> Scanner<'a> {
+    pub(super) fn new(path: &'a Path, text: &'a str, wants_materials: bool) -> Self {
+        Self {
+            path,
+            statements: Box::new(statements(text)),
+            wants_materials,
+            counts: [0; 3],
+            greatest: [(0, 0); 3],
+            pending: VecDeque::new(),
+            fault: None,
+            faces: Vec::new(),
+            uses: Vec::new(),
+            libraries: Vec::new(),
+        }
     }
 
-    fn statement(&mut self, statement: &Statement<'_>) -> Result<(), ObjError> {
-        let line = statement.line;
-        let (keyword, rest) = statement.split();
+    fn statement(&mut self, line: usize, statement: &str) -> Result<(), ObjError> {
+        let (keyword, rest) = split(statement)?;
+        let is_in = |keywords: &str| keywords.split(' ').any(|known| known == keyword);
         match keyword {
-            "v" => self.vertex(line, rest),
+            "v" => self.vertex(rest)?,
             "vt" => {
-                self.texture += 1;
-                self.numbers(line, keyword, rest, 1, 3).map(drop)
+                self.counts[1] += 1;
+                counted(keyword, rest, 1, 3)?;
             }
             "vn" => {
-                self.normals += 1;
-                self.numbers(line, keyword, rest, 3, 3).map(drop)
+                self.counts[2] += 1;
+                counted(keyword, rest, 3, 3)?;
             }
-            "f" | "fo" => self.face(line, rest),
-            "mtllib" | "usemtl" => self.name(line, keyword, rest),
+            "f" | "fo" => self.face(line, rest)?,
+            "mtllib" | "usemtl" if !self.wants_materials => {}
+            "mtllib" => {
+                let name = name(keyword, rest, codes::OBJ_NO_LIBRARY)?;
+                self.libraries.push((name, line));
+            }
+            "usemtl" => {
+                let name = name(keyword, rest, codes::OBJ_MATERIAL)?;
+                self.uses.push((name, line));
+            }
             "l" | "p" => {
                 let what = if keyword == "l" { "lines" } else { "points" };
-                Err(self
-                    .error(
-                        "QRT0324",
-                        line,
-                        format!("{what} have no area, so no light meets them"),
-                    )
-                    .help(format!("leave out the `{keyword}` statements")))
+                let message = format!("{what} have no area, so no light meets them");
+                return Err(ObjError::new(codes::OBJ_NO_POLYGON, message)
+                    .help(format!("leave out the `{keyword}` statements")));
             }
-            _ if IGNORED.contains(&keyword) => Ok(()),
-            _ if CURVED.contains(&keyword) => Err(self
-                .error(
-                    "QRT0324",
-                    line,
-                    format!("`{keyword}`: free-form shapes are not read"),
-                )
-                .help("export the mesh as polygons")),
+            _ if is_in(IGNORED) => {}
+            _ if is_in(CURVED) => {
+                let message = format!("`{keyword}`: free-form shapes are not read");
+                return Err(ObjError::new(codes::OBJ_NO_POLYGON, message)
+                    .help("export the mesh as polygons"));
+            }
             _ => {
-                let message = format!("`{}` is no OBJ statement", shown(keyword));
-                let error = self.error("QRT0323", line, message);
-                let known = READ.into_iter().chain(IGNORED).chain(["l", "p"]);
-                Err(match nearest(keyword, known.filter(|k| k.len() > 2)) {
-                    Some(near) => error.help(format!("did you mean `{near}`?")),
-                    None => error,
-                })
+                let message = format!("`{}` is no OBJ statement", shorten(keyword));
+                let known = READ.split(' ').chain(IGNORED.split(' '));
+                let near = nearest(keyword, known.filter(|known| known.len() > 2));
+                return Err(ObjError {
+                    help: near.map(|near| format!("did you mean `{near}`?")),
+                    ..ObjError::new(codes::OBJ_STATEMENT, message)
+                });
             }
         }
+        Ok(())
     }
 
-    fn numbers(
-        &self,
-        line: usize,
-        keyword: &str,
-        rest: &str,
-        least: usize,
-        most: usize,
-    ) -> Result<Vec<f64>, ObjError> {
-        let numbers = words(rest)
-            .take(most + 1)
-            .map(|word| number(self.path, line, word))
-            .collect::<Result<Vec<f64>, _>>()?;
-        if (least..=most).contains(&numbers.len()) {
-            return Ok(numbers);
+    fn hand_on<'w>(&mut self, keyword: &str, words: impl Iterator<Item = &'w str>) {
+        self.pending.extend(keyword.as_bytes());
+        for word in words {
+            self.pending.push_back(b' ');
+            self.pending.extend(word.as_bytes());
         }
-        let count = if least == most {
-            least.to_string()
-        } else {
-            format!("{least} to {most}")
-        };
-        let given = words(rest).count();
-        Err(self.error(
-            "QRT0325",
-            line,
-            format!("`{keyword}` takes {count} numbers, not {given}"),
-        ))
+        self.pending.push_back(b'\n');
     }
 
     /// `v x y z`, `v x y z w` or `v x y z r g b`, whose colours are dropped.
-    fn vertex(&mut self, line: usize, rest: &str) -> Result<(), ObjError> {
-        let numbers = self.numbers(line, "v", rest, 3, 6)?;
-        if numbers.len() == 5 {
-            let message = "`v` takes 3 numbers, or 4 with a weight, or 6 with a colour, not 5";
-            return Err(self.error("QRT0325", line, message));
-        }
-        if numbers.len() == 4 && !numbers[..3].iter().all(|x| (x / numbers[3]).is_finite()) {
-            let message = format!("the weight {} takes the vertex to infinity", numbers[3]);
-            return Err(self.error("QRT0326", line, message));
-        }
-        self.vertices += 1;
-        self.points.push('v');
-        for word in words(rest).take(if numbers.len() == 4 { 4 } else { 3 }) {
-            self.points.push(' ');
-            self.points.push_str(word);
-        }
-        self.points.push('\n');
+    fn vertex(&mut self, rest: &str) -> Result<(), ObjError> {
+        let kept = match counted("v", rest, 3, 6)?[..] {
+            [x, y, z, w] if (DVec3::new(x, y, z) / w).is_finite() => 4,
+            [_, _, _, w] => {
+                let message = format!("the weight {w} takes the vertex to infinity");
+                return Err(ObjError::new(codes::OBJ_NOT_FINITE, message));
+            }
+            [_, _, _, _, _] => {
+                let message = "`v` takes 3 numbers, or 4 with a weight, or 6 with a colour, not 5";
+                return Err(ObjError::new(codes::OBJ_NUMBER, message));
+            }
+            _ => 3,
+        };
+        self.counts[0] += 1;
+        self.hand_on("v", words(rest).take(kept));
         Ok(())
     }
 
@@ -191,200 +158,79 @@ impl Scanner<'_> {
         if corners < 3 {
             let s = if corners == 1 { "" } else { "s" };
             let message = format!("a face of {corners} corner{s}");
-            return Err(self
-                .error("QRT0327", line, message)
-                .help("a face has three or more"));
+            return Err(ObjError::new(codes::OBJ_CORNERS, message).help("a face has three or more"));
         }
-        if self.wants_materials && self.uses.is_empty() {
-            return Err(self
-                .error(
-                    "QRT0336",
-                    line,
-                    "this face has no material: no `usemtl` stands before it",
-                )
+        let material = self.uses.len().checked_sub(1);
+        if self.wants_materials && material.is_none() {
+            let message = "this face has no material: no `usemtl` stands before it";
+            return Err(ObjError::new(codes::OBJ_NO_MATERIAL, message)
                 .help("give the mesh a `material` in the scene, or the face one in the file"));
         }
-        self.faces.push('f');
         for corner in words(rest) {
-            let vertex = self.corner(line, corner)?;
-            // Writing to a string cannot fail.
-            let _ = write!(self.faces, " {vertex}");
+            self.corner(line, corner)?;
         }
-        self.faces.push('\n');
-        self.face_lines.push(line);
+        self.hand_on("f", words(rest));
+        self.faces.push((line, material));
         Ok(())
     }
 
-    /// `v`, `v/vt`, `v//vn` or `v/vt/vn`, from 1, or backwards from -1: the vertex, from 1.
-    fn corner(&mut self, line: usize, corner: &str) -> Result<usize, ObjError> {
-        let counts = [self.vertices, self.texture, self.normals];
-        let mut vertex = None;
+    /// `v`, `v/vt`, `v//vn` or `v/vt/vn`, from 1, or backwards from -1.
+    fn corner(&mut self, line: usize, corner: &str) -> Result<(), ObjError> {
         for (kind, part) in corner.split('/').enumerate() {
             if part.is_empty() && (1..3).contains(&kind) {
                 continue;
             }
-            let index = part.parse::<i64>().ok().filter(|_| kind < 3);
-            let Some(index) = index else {
-                let message = format!("`{}` is not a corner of a face", shown(corner));
-                return Err(self
-                    .error("QRT0328", line, message)
+            let Some(index) = part.parse::<i64>().ok().filter(|_| kind < 3) else {
+                let message = format!("`{}` is not a corner of a face", shorten(corner));
+                return Err(ObjError::new(codes::OBJ_CORNER, message)
                     .help("a corner is `v`, `v/vt`, `v//vn` or `v/vt/vn`, with whole numbers"));
             };
-            let what = ["vertex", "texture coordinate", "normal"][kind];
-            let before = counts[kind];
-            let absolute = match index {
-                1.. => usize::try_from(index).ok(),
-                0 => {
-                    let message = format!("there is no {what} 0");
-                    return Err(self
-                        .error("QRT0328", line, message)
-                        .help("indices start at 1"));
-                }
-                _ => usize::try_from(index.unsigned_abs())
-                    .ok()
-                    .and_then(|back| (before + 1).checked_sub(back))
-                    .filter(|index| *index > 0),
-            };
-            let Some(absolute) = absolute else {
+            let (what, before) = (KINDS[kind], self.counts[kind]);
+            if index == 0 {
+                let message = format!("there is no {what} 0");
+                return Err(ObjError::new(codes::OBJ_CORNER, message).help("indices start at 1"));
+            }
+            if index < -before {
                 let message = format!("there is no {what} {index}: {before} stand before it");
-                return Err(self.error("QRT0329", line, message));
-            };
-            if absolute > self.greatest[kind].0 {
-                self.greatest[kind] = (absolute, line);
+                return Err(ObjError::new(codes::OBJ_INDEX, message));
             }
-            if kind == 0 {
-                vertex = Some(absolute);
+            if index > self.greatest[kind].0 {
+                self.greatest[kind] = (index, line);
             }
-        }
-        vertex.ok_or_else(|| {
-            let message = format!("`{}` is not a corner of a face", shown(corner));
-            self.error("QRT0328", line, message)
-        })
-    }
-
-    fn name(&mut self, line: usize, keyword: &str, name: &str) -> Result<(), ObjError> {
-        if !self.wants_materials {
-            return Ok(());
-        }
-        if name.is_empty() {
-            let code = if keyword == "mtllib" {
-                "QRT0333"
-            } else {
-                "QRT0335"
-            };
-            return Err(self.error(code, line, format!("`{keyword}` without a name")));
-        }
-        if name.contains(char::REPLACEMENT_CHARACTER) {
-            let message = format!("the name after `{keyword}` is not UTF-8 text");
-            return Err(self.error("QRT0322", line, message));
-        }
-        if keyword == "mtllib" {
-            self.libraries.push((name.to_owned(), line));
-        } else {
-            let _ = writeln!(self.faces, "usemtl {}", self.uses.len());
-            self.uses.push((name.to_owned(), line));
         }
         Ok(())
     }
 
-    fn finish(self, library: Library<'_>) -> Result<Scan, ObjError> {
-        let counts = [self.vertices, self.texture, self.normals];
-        let kinds = ["vertex", "texture coordinate", "normal"];
-        for ((count, kind), (index, line)) in counts.iter().zip(kinds).zip(self.greatest) {
+    /// What can be told at the end only.
+    fn finish(&self) -> Result<(), ObjError> {
+        for ((count, kind), (index, line)) in self.counts.iter().zip(KINDS).zip(self.greatest) {
             if index > *count {
                 let message = format!("there is no {kind} {index}: the file has {count}");
-                return Err(self
-                    .error("QRT0329", line, message)
-                    .help("is the file whole?"));
+                return Err(ObjError::new(codes::OBJ_INDEX, message)
+                    .help("is the file whole?")
+                    .at(self.path, line));
             }
         }
-        if self.face_lines.is_empty() {
-            return Err(ObjError::new("QRT0331", self.path, "the mesh has no faces"));
+        if self.faces.is_empty() {
+            let error = ObjError::new(codes::OBJ_NO_FACES, "the mesh has no faces");
+            return Err(error.at(self.path, None));
         }
-        let materials = self.materials(library)?;
-        let mut plain = String::new();
-        if self.wants_materials {
-            plain.push_str("mtllib all\n");
-        }
-        plain.push_str(&self.points);
-        // Now that all libraries are known, names after `usemtl` become numbers.
-        for statement in self.faces.lines() {
-            let used = statement
-                .strip_prefix("usemtl ")
-                .and_then(|n| n.parse::<usize>().ok());
-            match used.and_then(|n| self.uses.get(n)) {
-                None => plain.push_str(statement),
-                Some((name, line)) => {
-                    let Some(number) = materials.find(name) else {
-                        return Err(self.unknown(name, *line, &materials));
-                    };
-                    // Writing to a string cannot fail.
-                    let _ = write!(plain, "usemtl {number}");
-                }
-            }
-            plain.push('\n');
-        }
-        let library = materials.plain();
-        Ok(Scan {
-            plain,
-            library,
-            names: materials.full_names(),
-            face_lines: self.face_lines,
-        })
-    }
-
-    fn materials(&self, library: Library<'_>) -> Result<mtl::Materials, ObjError> {
-        let mut materials = mtl::Materials::default();
-        let mut files: Vec<&str> = Vec::new();
-        for (name, line) in &self.libraries {
-            // A statement may name several files, and a file's name may hold blanks.
-            let whole = files.contains(&name.as_str()) || library(&self.beside(name)).is_ok();
-            let names: Vec<&str> = if whole {
-                vec![name]
-            } else {
-                name.split_whitespace().collect()
-            };
-            for name in names {
-                if files.contains(&name) {
-                    continue;
-                }
-                files.push(name);
-                let path = self.beside(name);
-                let bytes = library(&path).map_err(|error| ObjError {
-                    file: self.path.to_owned(),
-                    line: Some(*line),
-                    ..error
-                })?;
-                materials.read(&path, name, &bytes)?;
-            }
-        }
-        Ok(materials)
-    }
-
-    fn beside(&self, name: &str) -> std::path::PathBuf {
-        self.path.parent().unwrap_or(Path::new("")).join(name)
-    }
-
-    fn unknown(&self, name: &str, line: usize, materials: &mtl::Materials) -> ObjError {
-        let error = self.error("QRT0335", line, format!("no material `{}`", shown(name)));
-        if self.libraries.is_empty() {
-            return ObjError {
-                code: "QRT0333",
-                ..error
-            }
-            .help("the file names no material library: a `mtllib` statement is missing");
-        }
-        match nearest(name, materials.names()) {
-            Some(near) => error.help(format!("did you mean `{near}`?")),
-            None => error.help("`newmtl` in a material library names it"),
-        }
+        Ok(())
     }
 }
 
-/// A word for a message: not longer than a person reads.
-pub(super) fn shown(word: &str) -> String {
-    if word.chars().count() <= 40 {
-        return word.to_owned();
+/// The numbers of a statement that takes `least` to `most` of them.
+fn counted(keyword: &str, rest: &str, least: usize, most: usize) -> Result<Vec<f64>, ObjError> {
+    let numbers = numbers(rest, most + 1)?;
+    if (least..=most).contains(&numbers.len()) {
+        return Ok(numbers);
     }
-    word.chars().take(40).chain(['.', '.', '.']).collect()
+    let count = if least == most {
+        least.to_string()
+    } else {
+        format!("{least} to {most}")
+    };
+    let given = words(rest).count();
+    let message = format!("`{keyword}` takes {count} numbers, not {given}");
+    Err(ObjError::new(codes::OBJ_NUMBER, message))
 }

@@ -1,25 +1,28 @@
 //! What the reader promises: right meshes as they are, wrong ones refused at their line.
 
 use super::*;
+use crate::scene::meshes::ObjMaterial;
 use proptest::prelude::*;
+use std::path::PathBuf;
 
 /// The mesh of a text whose libraries are `files`.
 fn read_with(text: &str, files: &[(&str, &str)]) -> Result<ObjMesh, ObjError> {
-    let library = |path: &Path| {
+    let mut library = |path: &Path| {
         let found = files
             .iter()
             .find(|(name, _)| Path::new("dir").join(name) == path);
         found
-            .map(|(_, text)| text.as_bytes().to_vec())
+            .map(|(_, text)| text.as_bytes().into())
             .ok_or_else(|| {
-                ObjError::new("QRT0334", path, format!("cannot read `{}`", path.display()))
+                let message = format!("cannot read `{}`", path.display());
+                ObjError::new("QRT0334", message).at(path, None)
             })
     };
     parse(
         Path::new("dir/mesh.obj"),
         text.as_bytes(),
         !files.is_empty(),
-        &library,
+        &mut library,
     )
 }
 
@@ -72,6 +75,7 @@ fn all_ways_to_write_a_face_say_the_same() {
         "f 1/ 2// 3/1/",
         "f 1/1/1 2/2/2 -1/-1/-1",
         "f\t1 \\\n 2 \\\r\n 3   # a comment",
+        "\\\n\\\n\nf 1 2 3\n\\\n",
         "  f  1  2  3  ",
     ] {
         let text = format!("\u{feff}o thing\ng a b\ns off\n{vertices}{others}{face}");
@@ -447,6 +451,71 @@ fn an_endless_file_is_refused() {
     );
 }
 
+#[cfg(unix)]
+#[test]
+fn a_pipe_is_refused_at_once() {
+    let dir = std::env::temp_dir().join(format!("qrt-pipe-{}", std::process::id()));
+    std::fs::create_dir_all(&dir).unwrap();
+    let pipe = dir.join("pipe");
+    let made = std::process::Command::new("mkfifo").arg(&pipe).status();
+    assert!(made.unwrap().success());
+    refused(load(&pipe, false), "QRT0320", None, "not a regular file");
+    let report = crate::front::load(&pipe, &[]).unwrap_err();
+    assert!(
+        report.to_string().contains("not a regular file"),
+        "{report}"
+    );
+    std::fs::remove_dir_all(&dir).unwrap();
+}
+
+#[test]
+fn entries_that_name_one_file_share_its_mesh() {
+    let entry = "{ mesh: { obj: two.obj, material: a } }, { mesh: { obj: two.obj } }";
+    let text = format!(
+        "{{ name: a, film: {{ width: 1, height: 1 }}, \
+         materials: {{ a: {{ lambertian: {{ albedo: [1, 1, 1] }} }} }}, \
+         camera: {{ perspective: {{ eye: [0, 0, 1], target: [0, 0, 0], vfov: 40 }} }}, \
+         geometry: [{}] }}",
+        vec![entry; 2500].join(", ")
+    );
+    let scene = Scene::from_yaml(&text, "two.yaml").unwrap();
+    let obj = format!("{TWO}l 1 2 # a fault\n");
+    for (obj, is_right) in [(TWO, true), (&obj, false)] {
+        let held: &[(&str, &[u8])] = &[
+            ("two.obj", obj.as_bytes()),
+            ("my colours.mtl", COLOURS.as_bytes()),
+        ];
+        let meshes = load_all(&scene, Files::held(held));
+        let of = |index: usize| match &scene.geometry[index] {
+            Geometry::Mesh(mesh) => meshes.get(mesh),
+            other => panic!("{other:?}"),
+        };
+        if is_right {
+            for index in 0..5000 {
+                assert!(std::ptr::eq(of(index).unwrap(), of(index % 2).unwrap()));
+            }
+            assert_eq!(
+                [0, 1].map(|index| of(index).unwrap().materials.len()),
+                [0, 2]
+            );
+            let valid = crate::valid::validate(scene.clone(), &meshes).unwrap();
+            assert_eq!(valid.polygons().len(), 5000 * 3);
+            assert_eq!(
+                valid.files(),
+                ["my colours.mtl", "two.obj"].map(PathBuf::from)
+            );
+        } else {
+            let problems = crate::valid::validate(scene.clone(), &meshes).unwrap_err();
+            assert_eq!(problems.len(), 5000);
+            assert_eq!(problems[4999].label, "two.obj:11");
+        }
+    }
+    // Nobody read it: validation does not either.
+    let problems = crate::valid::validate(scene, &Meshes::default()).unwrap_err();
+    assert_eq!(problems.len(), 5000);
+    assert_eq!(problems[0].code, codes::OBJ_UNREADABLE);
+}
+
 /// A text with some of its bytes or lines changed, lost or doubled.
 fn mutated(text: &'static str) -> impl Strategy<Value = Vec<u8>> {
     let piece = prop::sample::select(vec![
@@ -514,8 +583,8 @@ proptest! {
         mtl in mutated(COLOURS),
         wants in any::<bool>(),
     ) {
-        let library = |_: &Path| Ok(mtl.clone());
-        match parse(Path::new("mesh.obj"), &obj, wants, &library) {
+        let mut library = |_: &Path| Ok(mtl.clone().into());
+        match parse(Path::new("mesh.obj"), &obj, wants, &mut library) {
             Ok(mesh) => {
                 prop_assert!(!mesh.faces.is_empty());
                 for face in &mesh.faces {

@@ -26,12 +26,12 @@ fn built(vertices: &[DVec3; 4]) -> Vec<Polygon> {
     let (mut surfaces, mut problems) = (Vec::new(), Vec::new());
     let mut build = Build {
         scene: &scene,
-        files: Files::held(&[]),
+        meshes: &Meshes::default(),
         surfaces: &mut surfaces,
         problems: &mut problems,
         names: HashMap::new(),
         out: vec![],
-        read: vec![],
+        files: BTreeSet::new(),
         unknown: 0,
     };
     build.quad(vertices, 0, &Path::root());

@@ -1,0 +1,121 @@
+//! What the mesh files of a scene hold, as plain data. The front end reads them
+//! ([`crate::front::obj`]); [`crate::valid::validate`] checks them along with the scene.
+
+use super::{Mesh, Rgb};
+use crate::codes;
+use glam::DVec3;
+use std::collections::BTreeMap;
+use std::fmt;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// The meshes of a scene, or why they cannot be read. Entries that name one file share its mesh, and
+/// so do copies of this.
+#[derive(Clone, Debug, Default)]
+pub struct Meshes(BTreeMap<Key, Result<Arc<ObjMesh>, ObjError>>);
+
+/// A file as the scene calls it, and whether its own materials are wanted.
+type Key = (String, bool);
+
+impl Meshes {
+    /// What an entry of the scene places.
+    ///
+    /// # Errors
+    /// What is wrong with its file, or that nobody read it.
+    pub fn get(&self, mesh: &Mesh) -> Result<&ObjMesh, ObjError> {
+        let key = (mesh.obj.clone(), mesh.material.is_none());
+        let Some(read) = self.0.get(&key) else {
+            let message = format!("`{}` is not among the meshes that were read", mesh.obj);
+            return Err(ObjError::new(codes::OBJ_UNREADABLE, message));
+        };
+        read.as_deref().map_err(ObjError::clone)
+    }
+
+    /// Adds the file that a scene calls `obj`, read with its own materials or without.
+    pub fn insert(&mut self, obj: &str, own_materials: bool, read: Result<ObjMesh, ObjError>) {
+        let key = (obj.to_owned(), own_materials);
+        self.0.insert(key, read.map(Arc::new));
+    }
+}
+
+/// A mesh as it is in its file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ObjMesh {
+    /// Triangles in the order of the file; a polygon is several.
+    pub faces: Vec<ObjFace>,
+    /// The materials of all its libraries; empty if they were not wanted.
+    pub materials: Vec<ObjMaterial>,
+    /// What was read: the file itself, then its libraries.
+    pub files: Vec<PathBuf>,
+}
+
+/// A triangle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ObjFace {
+    /// Its corners, in the file's units.
+    pub vertices: [DVec3; 3],
+    /// Index into [`ObjMesh::materials`]; `None` if they were not wanted.
+    pub material: Option<usize>,
+}
+
+/// A material of an MTL file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ObjMaterial {
+    /// `FILE.mtl:NAME`.
+    pub name: String,
+    /// `Ke`, or black.
+    pub radiance: Rgb,
+    /// `Kd`, or black.
+    pub albedo: Rgb,
+}
+
+/// What is wrong with a file; codes are `QRT0320` to `QRT0344`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ObjError {
+    /// Stable code.
+    pub code: &'static str,
+    /// The file: the OBJ itself or one of its libraries.
+    pub file: PathBuf,
+    /// The line, from 1.
+    pub line: Option<usize>,
+    /// What is wrong, in one sentence without a full stop.
+    pub message: String,
+    /// The right thing to do.
+    pub help: Option<String>,
+}
+
+impl ObjError {
+    /// An error whose place is still to be said.
+    pub(crate) fn new(code: &'static str, message: impl Into<String>) -> Self {
+        Self {
+            code,
+            file: PathBuf::new(),
+            line: None,
+            message: message.into(),
+            help: None,
+        }
+    }
+
+    /// In this file, at this line if it is of one.
+    pub(crate) fn at(self, file: &Path, line: impl Into<Option<usize>>) -> Self {
+        let (file, line) = (file.to_owned(), line.into());
+        Self { file, line, ..self }
+    }
+
+    pub(crate) fn help(self, help: impl Into<String>) -> Self {
+        let help = Some(help.into());
+        Self { help, ..self }
+    }
+}
+
+impl fmt::Display for ObjError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.file.display())?;
+        if let Some(line) = self.line {
+            write!(f, ":{line}")?;
+        }
+        write!(f, ": {} ({})", self.message, self.code)
+    }
+}
+
+impl std::error::Error for ObjError {}
