@@ -122,7 +122,7 @@
 //! let written = write_program(&squarer(), &[], Format::OpenQasm3, &[], &mut text)?;
 //! let text = String::from_utf8(text)?;
 //! assert!(text.starts_with("OPENQASM 3.0;\ninclude \"stdgates.inc\";\nqubit[3] r_x;\n"));
-//! assert_eq!(written.by_name["ccx"], text.matches("ccx ").count() as u64 - 1);
+//! assert_eq!(written.by_name["ccx"], text.matches("ccx ").count() as u64);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
