@@ -4,12 +4,6 @@
 //! their own; so has what each box computes *and another box reads*. All other qubits, with the
 //! ancillas that operations borrow, are the wire `work`.
 
-mod drawing;
-mod text;
-
-pub use drawing::svg;
-pub use text::text;
-
 use super::{Inspection, Part, Stage};
 use crate::circuit::lower::Cost;
 use crate::circuit::{RegisterId, Role};

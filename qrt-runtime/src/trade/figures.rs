@@ -4,8 +4,8 @@ use super::fronts::fronts;
 use super::setting::Sweep;
 use super::table::Row;
 use super::{Band, Trade};
-use crate::plot::{Axis, Drawn, Plot, Point, Series};
 use qrt_core::scene::{Estimator, Sequence};
+use qrt_drawing::{Axis, Drawn, Plot, Point, Series};
 
 /// A plot, and what is said of it.
 pub(super) struct Figure {

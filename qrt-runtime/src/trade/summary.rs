@@ -5,7 +5,7 @@ use super::fronts::{PRICES, candidates, front};
 use super::setting::Setting;
 use super::table::ERRORS;
 use super::{Sweep, Trade};
-use crate::plot::Fit;
+use qrt_drawing::Fit;
 use std::fmt::Write as _;
 
 /// Lines of a front that are shown.

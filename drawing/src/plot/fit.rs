@@ -4,7 +4,7 @@
 /// count alike.
 ///
 /// ```
-/// use qrt_runtime::plot::Fit;
+/// use qrt_drawing::Fit;
 /// let fit = Fit::of([(0.0, 1.0), (1.0, 0.0), (2.0, -1.0)].into_iter()).unwrap();
 /// assert_eq!((fit.slope, fit.slope_band), (-1.0, 0.0));
 /// assert_eq!(fit.at(5.0), -4.0);
