@@ -218,9 +218,5 @@ fn main() -> ExitCode {
             }
         }
     }
-    if fine {
-        ExitCode::SUCCESS
-    } else {
-        ExitCode::FAILURE
-    }
+    ExitCode::from(u8::from(!fine))
 }

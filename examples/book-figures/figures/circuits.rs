@@ -1,6 +1,5 @@
 //! Circuits: drawn, and what they cost.
 
-#[allow(dead_code, reason = "powers are fitted by plots")]
 #[path = "../../../benches/common/growth.rs"]
 mod scenes;
 
@@ -10,7 +9,7 @@ use qrt::core::inspect::{Inspection, grouped};
 use qrt::core::oracle::{Options, Oracle};
 use qrt::core::scene::Estimator;
 use qrt::core::valid::ValidScene;
-use qrt::drawing::{Axis, Drawn, Fit, Plot, Series};
+use qrt::drawing::{Axis, Drawn, Plot, Series};
 use qrt::runtime::draw;
 use qrt::runtime::render::{self, Model, Rendered};
 
@@ -109,10 +108,7 @@ pub(super) fn growth() -> Figure {
 }
 
 fn said(name: &str, points: &[(f64, f64)]) -> String {
-    let logarithms = points
-        .iter()
-        .map(|(x, y)| (libm::log10(*x), libm::log10(*y)));
-    let slope = Fit::of(logarithms).map_or(0.0, |fit| fit.slope);
+    let slope = scenes::fit(points.iter().map(|&(x, y)| [x, y])).slope;
     let ends = [points.first(), points.last()].map(|p| p.copied().unwrap_or_default());
     let [from, to] = ends.map(|(x, y)| format!("{} at {x}", grouped(y as u64)));
     format!("{name}: {from} to {to}, slope {slope:.2}")
