@@ -42,19 +42,18 @@ const RULES: &str = "\
 .drawing.large{font-size:12px}.drawing.large .title{font-size:18px}
 .drawing.large .small{font-size:10.5px}
 .drawing .mid{text-anchor:middle}.drawing .end{text-anchor:end}
-.drawing .grid{stroke:$grid;fill:none}.drawing .axis{stroke:$soft;color:$soft;fill:none}
+.drawing .grid{stroke:$grid;fill:none}.drawing .axis{color:$soft;stroke:currentColor;fill:none}
 .drawing .lead{stroke:$soft;fill:none;stroke-width:.7}
-.drawing .s0{stroke:$s0;color:$s0}.drawing .s1{stroke:$s1;color:$s1}
-.drawing .s2{stroke:$s2;color:$s2}.drawing .s3{stroke:$s3;color:$s3}
-.drawing .s4{stroke:$s4;color:$s4}.drawing .s5{stroke:$s5;color:$s5}
-.drawing .s6{stroke:$s6;color:$s6}
-.drawing .line{fill:none;stroke-width:1.8}.drawing .thin{fill:none;stroke-width:1}
-.drawing .dash{stroke-dasharray:6 4}.drawing .bar{fill:none;stroke-width:1.2;opacity:.65}
-.drawing .band{fill:currentColor;stroke:none;opacity:.13}
-.drawing .mark{fill:currentColor;stroke-width:1.6}.drawing .hollow{fill:$page}
-.drawing .dots{fill:none;stroke-width:3.4;stroke-linecap:round}
+.drawing .s0{color:$s0}.drawing .s1{color:$s1}.drawing .s2{color:$s2}.drawing .s3{color:$s3}
+.drawing .s4{color:$s4}.drawing .s5{color:$s5}.drawing .s6{color:$s6}
+.drawing .line{fill:none;stroke:currentColor;stroke-width:1.8}
+.drawing .thin{fill:none;stroke:currentColor;stroke-width:1}.drawing .dash{stroke-dasharray:6 4}
+.drawing .bar{fill:none;stroke:currentColor;stroke-width:1.2;opacity:.65}
+.drawing .band{fill:currentColor;opacity:.13}
+.drawing .mark{fill:currentColor;stroke:currentColor;stroke-width:1.6}.drawing .hollow{fill:$page}
+.drawing .dots{fill:none;stroke:currentColor;stroke-width:3.4;stroke-linecap:round}
 .drawing .solid{fill:currentColor;stroke:none}
-.drawing .pale{fill:currentColor;fill-opacity:.22;stroke-width:1}
+.drawing .pale{fill:currentColor;fill-opacity:.22;stroke:currentColor;stroke-width:1}
 .drawing .wire{stroke:$ink;fill:none}.drawing .dot{fill:$ink}
 .drawing .box{fill:$box;stroke:$ink}.drawing .undo{fill:$undo}.drawing .flip{fill:$flip}
 .drawing .stage{fill:$undo}.drawing .stage2{fill:$box}
@@ -71,7 +70,8 @@ pub fn style_sheet() -> String {
 }
 
 /// Rules of a style sheet in which `$name` is a colour of the palette: as they are on light pages,
-/// and in a second part what differs on dark ones.
+/// and in a second part what differs on dark ones. There a colour outranks all rules of the first
+/// part that are as specific: what has none, such as `stroke:none`, may not rely on coming later.
 ///
 /// The colours are written into the rules, not into variables, which few programs besides browsers
 /// know.

@@ -90,7 +90,7 @@ fn relative() -> Axis {
 }
 
 /// Estimators of a sweep, in its order.
-fn estimators(trade: &Trade, sweep: Sweep) -> Vec<Estimator> {
+pub(super) fn estimators(trade: &Trade, sweep: Sweep) -> Vec<Estimator> {
     let mut found: Vec<Estimator> = Vec::new();
     for row in trade.of(sweep) {
         if !found.contains(&row.setting.estimator) {
