@@ -133,8 +133,10 @@ impl Canvas {
 
     /// Round dots, all in one element.
     pub fn dots(&mut self, class: &str, places: impl IntoIterator<Item = [f64; 2]>) {
-        let places = places.into_iter().map(|at| at.map(number));
-        let d: String = places.map(|[x, y]| format!("M{x} {y}h0")).collect();
+        let mut d = String::new();
+        for [x, y] in places.into_iter().map(|at| at.map(number)) {
+            let _ = write!(d, "M{x} {y}h0");
+        }
         self.path(&format!("dots {class}"), &d);
     }
 

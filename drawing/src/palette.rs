@@ -1,5 +1,7 @@
 //! One palette, for light and for dark pages.
 
+use std::fmt::Write as _;
+
 /// Styles of series; beyond, they come again.
 pub const STYLES: usize = 14;
 
@@ -89,7 +91,8 @@ pub fn coloured(rules: &str) -> String {
         let of_colour: Vec<&str> = (declarations.split(';'))
             .filter(|declaration| declaration.contains('$'))
             .collect();
-        dark.push_str(&format!("{}{{{}}}", selector.trim(), of_colour.join(";")));
+        // Writing to a string cannot fail.
+        let _ = write!(dark, "{}{{{}}}", selector.trim(), of_colour.join(";"));
     }
     let [light, dark] = [(rules, 0), (&*dark, 1)].map(|(rules, page)| named(rules, page));
     format!("{light}@media (prefers-color-scheme:dark){{{dark}}}\n")

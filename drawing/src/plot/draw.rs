@@ -5,6 +5,7 @@ use super::{Axis, Drawn, Fit, Plot, Series};
 use crate::canvas::{Canvas, number, polyline};
 use crate::palette::{hollow, mark, series as class};
 use crate::panel::{Panel, minus};
+use std::fmt::Write as _;
 
 const WIDTH: f64 = 580.0;
 const LEFT: f64 = 76.0;
@@ -139,9 +140,9 @@ impl Drawing<'_> {
             (Drawn::Steps, _) => {
                 let mut path = String::new();
                 for [x, y] in points().map(|at| at.map(number)) {
-                    path += &match &*path {
-                        "" => format!("M{x} {y}"),
-                        _ => format!("H{x}V{y}"),
+                    let _ = match &*path {
+                        "" => write!(path, "M{x} {y}"),
+                        _ => write!(path, "H{x}V{y}"),
                     };
                 }
                 path
