@@ -14,6 +14,7 @@ use crate::equation::Equation;
 use crate::formula::Formulas;
 use crate::source::Sources;
 use pulldown_cmark::Options;
+use qrt_drawing::escaped;
 
 /// What all chapters share while they are worked on.
 pub(crate) struct Workshop {
