@@ -219,9 +219,5 @@ fn main() -> ExitCode {
             }
         }
     }
-    if fine {
-        ExitCode::SUCCESS
-    } else {
-        ExitCode::FAILURE
-    }
+    ExitCode::from(u8::from(!fine))
 }

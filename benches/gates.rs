@@ -22,7 +22,10 @@ mod knot;
 mod mesh;
 #[path = "common/programs.rs"]
 mod programs;
+#[path = "common/promises.rs"]
+mod promises;
 
+use promises::Promises;
 use pulp::{Simd, WithSimd, bytemuck};
 use qrt::circuit::{
     BlockId, Circuit, Instruction, Op, Operand, Program, Qubit, Register, RegisterId, Style, Type,
@@ -103,25 +106,17 @@ fn main() -> ExitCode {
         println!("  {name:12} {}", times.join(" "));
     }
 
-    let mut kept = true;
-    let mut promise = |what: &str, kept_now: bool| {
-        println!("{} {what}", if kept_now { "kept  " } else { "BROKEN" });
-        kept &= kept_now;
-    };
+    let mut promises = Promises::new();
     println!();
-    promise(
+    promises.judge(
         &format!("lane-gates a second and core: {slowest:.1e}, at least {BAR:.0e} (aim {AIM:.0e})"),
         !wide || slowest >= BAR,
     );
-    promise(
+    promises.judge(
         "simple operations in an eighth of a nanosecond",
         !wide || simple <= SIMPLE,
     );
-    if kept {
-        ExitCode::SUCCESS
-    } else {
-        ExitCode::FAILURE
-    }
+    promises.exit()
 }
 
 /// Least seconds of [`RUNS`].

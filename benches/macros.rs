@@ -12,6 +12,10 @@
 // A bench that cannot run has nothing to report.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
+#[path = "common/promises.rs"]
+mod promises;
+
+use promises::Promises;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 use std::time::Instant;
@@ -47,26 +51,18 @@ fn main() -> ExitCode {
     let expansion = expansion.expect("the compiler's times");
     user.touch();
     let written = user.output(&["rustc", "--", "-Zunpretty=expanded"]).0.len();
-    let kept = [
-        bar("first build", first, 90.0, "s"),
-        bar("build after a change of the scene", next, 3.0, "s"),
-        bar("expansion", expansion, 0.5, "s"),
-        bar("expands to", written as f64 / 1e6, 2.0, "MB"),
-    ];
-    std::fs::remove_dir_all(&user.folder).ok();
-    if kept.iter().all(|&kept| kept) {
-        ExitCode::SUCCESS
-    } else {
-        ExitCode::FAILURE
+    let mut promises = Promises::new();
+    for (what, figure, bar, unit) in [
+        ("first build", first, 90.0, "s"),
+        ("build after a change of the scene", next, 3.0, "s"),
+        ("expansion", expansion, 0.5, "s"),
+        ("expands to", written as f64 / 1e6, 2.0, "MB"),
+    ] {
+        let what = format!("{what}: {figure:.2} {unit}, below {bar}");
+        promises.judge(&what, figure < bar);
     }
-}
-
-/// Prints a figure; is it below its bar?
-fn bar(what: &str, figure: f64, bar: f64, unit: &str) -> bool {
-    let kept = figure < bar;
-    let verdict = if kept { "kept  " } else { "BROKEN" };
-    println!("{verdict} {what}: {figure:.2} {unit}, below {bar}");
-    kept
+    std::fs::remove_dir_all(&user.folder).ok();
+    promises.exit()
 }
 
 /// A crate of an author's.

@@ -18,8 +18,11 @@
 
 #[path = "common/growth.rs"]
 mod growth;
+#[path = "common/promises.rs"]
+mod promises;
 
-use growth::{fit, quads};
+use growth::{chance, fit, quads};
+use promises::Promises;
 use qrt::core::front;
 use qrt::core::oracle::NearestOracle;
 use qrt::core::valid::ValidScene;
@@ -40,11 +43,7 @@ const PATHS: usize = 16;
 const SIDE: u32 = 16;
 
 fn main() -> ExitCode {
-    let mut kept = true;
-    let mut promise = |what: &str, kept_now: bool| {
-        println!("{} {what}", if kept_now { "kept  " } else { "BROKEN" });
-        kept &= kept_now;
-    };
+    let mut promises = Promises::new();
     println!("a search fails with probability {FAILURE} at most");
     for (name, text) in [
         ("askew", quads as fn(u32) -> String),
@@ -62,15 +61,15 @@ fn main() -> ExitCode {
         for (which, guess) in ["random", "coherent"].into_iter().zip(0..) {
             let points = rows.iter().map(|row| [row.faces, row.queries[guess]]);
             let fit = fit(points);
-            let within = (0.45..=0.55).contains(&fit.exponent);
+            let within = (0.45..=0.55).contains(&fit.slope);
             let text = format!(
                 "{name}, {which}: queries ~ P^{:.3}, up to {:.0} %",
-                fit.exponent,
+                fit.slope,
                 100.0 * fit.residual
             );
-            promise(&text, within);
+            promises.judge(&text, within);
         }
-        promises(&rows, name, &mut promise);
+        judge(&rows, name, &mut promises);
     }
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let scenes = ["cornell-box", "cornell-mirror", "floor-and-light", "knot"];
@@ -86,20 +85,16 @@ fn main() -> ExitCode {
             row.print();
             row
         });
-        promises(&rows, name, &mut promise);
+        judge(&rows, name, &mut promises);
         let coherent = rows.iter().all(|row| row.queries[1] < row.queries[0]);
-        promise(&format!("{name}: guesses save queries"), coherent);
+        promises.judge(&format!("{name}: guesses save queries"), coherent);
     }
-    if kept {
-        ExitCode::SUCCESS
-    } else {
-        ExitCode::FAILURE
-    }
+    promises.exit()
 }
 
-fn promises(rows: &[Row], name: &str, promise: &mut impl FnMut(&str, bool)) {
+fn judge(rows: &[Row], name: &str, promises: &mut Promises) {
     let bound = rows.iter().all(|row| row.queries[0] < row.durr_hoyer);
-    promise(
+    promises.judge(
         &format!("{name}: fewer queries than Durr & Hoyer's bound"),
         bound,
     );
@@ -109,7 +104,7 @@ fn promises(rows: &[Row], name: &str, promise: &mut impl FnMut(&str, bool)) {
         // Four standard deviations of so many rays.
         let mean = FAILURE * rays as f64;
         let text = format!("{name}, {which}: {missed} of {rays} rays missed, {mean:.0} allowed");
-        promise(&text, missed as f64 <= mean + 4.0 * mean.sqrt());
+        promises.judge(&text, missed as f64 <= mean + 4.0 * mean.sqrt());
     }
 }
 
@@ -224,12 +219,7 @@ fn rectangles(count: u32) -> String {
          materials: { grey: { lambertian: { albedo: [0.7, 0.6, 0.5] } } }\n\
          geometry:\n",
     );
-    let mut state = 7_u64;
-    let mut draw = || {
-        let next = state.wrapping_mul(6_364_136_223_846_793_005);
-        state = next.wrapping_add(1_442_695_040_888_963_407);
-        (state >> 43) as f64 / f64::from(1 << 20) - 1.0
-    };
+    let mut draw = chance(7);
     for _ in 0..count {
         let [x, y, z] = [0.8 * draw(), 0.8 * draw(), 0.9 * draw()];
         let [width, height] = [0.2 + 0.1 * draw(), 0.2 + 0.1 * draw()];

@@ -23,10 +23,13 @@ mod knot;
 #[allow(dead_code, reason = "of meshes only the small ones")]
 #[path = "common/mesh.rs"]
 mod mesh;
+#[path = "common/promises.rs"]
+mod promises;
 #[path = "common/scenes.rs"]
 mod scenes;
 
 use growth::{fit, quads};
+use promises::Promises;
 use qrt::circuit::lower::{self, Cost};
 use qrt::core::compile::Passes;
 use qrt::core::front;
@@ -54,29 +57,21 @@ fn main() -> ExitCode {
     passes(root);
     let rules = growth(root);
 
-    let mut kept = true;
-    let mut promise = |what: &str, kept_now: bool| {
-        println!("{} {what}", if kept_now { "kept  " } else { "BROKEN" });
-        kept &= kept_now;
-    };
+    let mut promises = Promises::new();
     println!();
     for (what, is, [bar, aim]) in [
         ("Toffolis of the box, keep", keep, TOFFOLIS),
         ("qubits of the box, scoped", scoped, QUBITS),
     ] {
-        promise(
+        promises.judge(
             &format!("{what}: {is}, at most {bar} (aim {aim})"),
             is <= bar,
         );
     }
     for (what, rule) in rules {
-        promise(what, rule);
+        promises.judge(what, rule);
     }
-    if kept {
-        ExitCode::SUCCESS
-    } else {
-        ExitCode::FAILURE
-    }
+    promises.exit()
 }
 
 /// An oracle, measured.
@@ -284,11 +279,11 @@ impl Grown {
             "    {:2}..{:<3} exponents {:.3} (residual {:.1} %) and {:.3} ({:.1} %)",
             sizes.start(),
             sizes.end(),
-            toffolis.exponent,
+            toffolis.slope,
             100.0 * toffolis.residual,
-            qubits.exponent,
+            qubits.slope,
             100.0 * qubits.residual,
         );
-        toffolis.exponent
+        toffolis.slope
     }
 }

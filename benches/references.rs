@@ -10,6 +10,7 @@
 mod independent;
 
 use independent::{asking, mean, reference, rms_difference, scene, traced};
+use std::process::ExitCode;
 use std::time::Instant;
 
 /// Scene, and its promise: the root mean square error over the mean.
@@ -27,7 +28,7 @@ const SCENES: [(&str, f64); 8] = [
 /// The promise for the mean.
 const MEAN: f64 = 0.003;
 
-fn main() -> std::process::ExitCode {
+fn main() -> ExitCode {
     let path_bits = std::env::args()
         .find_map(|argument| argument.parse().ok())
         .unwrap_or(18);
@@ -66,9 +67,5 @@ fn main() -> std::process::ExitCode {
             );
         }
     }
-    if kept {
-        std::process::ExitCode::SUCCESS
-    } else {
-        std::process::ExitCode::FAILURE
-    }
+    ExitCode::from(u8::from(!kept))
 }

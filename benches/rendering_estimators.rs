@@ -9,6 +9,7 @@
 
 use std::time::Instant;
 
+use qrt::drawing::Fit;
 use qrt_core::scene::{Counting, Estimator, Window};
 use qrt_runtime::estimators::{Device, Noise, Problem, Settings, estimator};
 use qrt_runtime::random::Stream;
@@ -64,16 +65,6 @@ fn uniform(total: u64) -> impl Fn(&mut Stream) -> u64 {
     move |stream| (stream.uniform() * (total + 1) as f64) as u64
 }
 
-/// The slope of a line through the points, by least squares.
-fn slope(points: &[(f64, f64)]) -> f64 {
-    let n = points.len() as f64;
-    let mean = |part: fn(&(f64, f64)) -> f64| points.iter().map(part).sum::<f64>() / n;
-    let (x, y) = (mean(|p| p.0), mean(|p| p.1));
-    let products: f64 = points.iter().map(|p| (p.0 - x) * (p.1 - y)).sum();
-    let squares: f64 = points.iter().map(|p| (p.0 - x) * (p.0 - x)).sum();
-    products / squares
-}
-
 fn main() {
     for (name, most) in ESTIMATORS {
         println!("{name}");
@@ -108,7 +99,7 @@ fn main() {
             points.push((libm::log(queries), libm::log(quantile)));
             largest = f64::max(largest, quantile * queries);
         }
-        let slope = slope(&points);
+        let slope = Fit::of(points).unwrap().slope;
         println!("  slope {slope:.3}");
         assert!((slope + 1.0).abs() < 0.1);
         assert!(largest < most, "{name}: {largest}");

@@ -13,8 +13,11 @@
 mod knot;
 #[path = "common/mesh.rs"]
 mod mesh;
+#[path = "common/promises.rs"]
+mod promises;
 
 use mesh::{CLOSE, SIDE, VIEW, WHOLE, load, mesh, sets};
+use promises::Promises;
 use qrt::core::valid::ValidScene;
 use qrt::runtime::machines::{Real, Simd};
 use std::path::Path;
@@ -65,29 +68,21 @@ fn main() -> ExitCode {
         println!("  {triangles:5} triangles     {turn:8.2} | {boxes:8.2}");
     }
 
-    let mut kept = true;
-    let mut promise = |what: &str, kept_now: bool| {
-        println!("{} {what}", if kept_now { "kept  " } else { "BROKEN" });
-        kept &= kept_now;
-    };
+    let mut promises = Promises::new();
     println!();
-    promise(
+    promises.judge(
         "box at D = 4: 4.65 million paths a second and core",
         box_speed >= BAR * cores as f64,
     );
-    promise(
+    promises.judge(
         "mesh on its table: at least a third of the box",
         3.0 * table_speed >= box_speed,
     );
-    promise(
+    promises.judge(
         "mesh filling the film: at least a third of the box",
         3.0 * close_speed >= box_speed,
     );
-    if kept {
-        ExitCode::SUCCESS
-    } else {
-        ExitCode::FAILURE
-    }
+    promises.exit()
 }
 
 fn triangles([around, along]: [u32; 2]) -> u32 {

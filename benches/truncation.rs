@@ -13,6 +13,7 @@
 mod independent;
 
 use independent::{Picture, SIDE, asking, mean, picture, reference, rms_difference, scene, traced};
+use qrt::drawing::Fit;
 use qrt_runtime::machines::Real;
 use std::fmt::Write as _;
 
@@ -45,20 +46,11 @@ impl Series {
         self.dark.iter().find(|p| p.0 == bits).map(|p| p.1)
     }
 
-    /// The slope of the least-squares line of log2(error) over log2(paths).
+    /// The slope of the error over the paths.
     fn slope(&self) -> f64 {
-        let points = self
-            .dark
-            .iter()
-            .map(|&(bits, error)| (f64::from(bits), error.log2()));
-        let n = self.dark.len() as f64;
-        let (x, y) = points
-            .clone()
-            .fold((0.0, 0.0), |s, p| (s.0 + p.0 / n, s.1 + p.1 / n));
-        let (xx, xy) = points.fold((0.0, 0.0), |s, p| {
-            (s.0 + (p.0 - x) * (p.0 - x), s.1 + (p.0 - x) * (p.1 - y))
-        });
-        xy / xx
+        let points = self.dark.iter();
+        let points = points.map(|&(bits, error)| (f64::from(bits), error.log2()));
+        Fit::of(points).expect("several numbers of paths").slope
     }
 }
 

@@ -42,7 +42,7 @@
 //! ```
 //!
 //! [`core`] holds what needs no machine: the scene, its checks, the sequences of paths and the
-//! tracer. [`runtime`] holds what runs: machines, counting, rendering, files.
+//! tracer. [`runtime`] holds what runs: machines, counting, rendering, files. [`drawing`] draws.
 
 /// The README's example is a test.
 #[cfg(doctest)]
@@ -52,6 +52,7 @@ struct Readme;
 /// Reversible circuits: registers, operations, programs, gates and their costs.
 pub use qrt_circuit as circuit;
 pub use qrt_core as core;
+pub use qrt_drawing as drawing;
 #[doc = include_str!("scene_macro.md")]
 pub use qrt_macros::qrt;
 #[doc(hidden)]

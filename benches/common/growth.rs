@@ -1,6 +1,17 @@
 //! How a cost grows: scenes of any number of quads, and the exponents of what is measured.
 
+use qrt::drawing::Fit;
 use std::fmt::Write;
+
+/// Numbers of chance in [-1, 1), the same from every run.
+pub(crate) fn chance(seed: u64) -> impl FnMut() -> f64 {
+    let mut state = seed;
+    move || {
+        let next = state.wrapping_mul(6_364_136_223_846_793_005);
+        state = next.wrapping_add(1_442_695_040_888_963_407);
+        (state >> 43) as f64 / f64::from(1 << 20) - 1.0
+    }
+}
 
 /// A scene of `quads` parallelograms, one of them a lamp and one the floor, seen along paths of
 /// three rays. The first few of a larger scene are those of a smaller one.
@@ -14,12 +25,7 @@ pub(crate) fn quads(quads: u32) -> String {
            lamp: { emitter: { radiance: [4, 4, 4] } }\n\
          geometry:\n",
     );
-    let mut state = 1_u64;
-    let mut draw = || {
-        let next = state.wrapping_mul(6_364_136_223_846_793_005);
-        state = next.wrapping_add(1_442_695_040_888_963_407);
-        (state >> 43) as f64 / f64::from(1 << 20) - 1.0
-    };
+    let mut draw = chance(1);
     for quad in 0..quads {
         let (corner, along, up, material) = match quad {
             0 => ([-1.0, 2.5, -1.0], [2.0, 0.0, 0.0], [0.0, 0.0, 2.0], "lamp"),
@@ -50,28 +56,7 @@ pub(crate) fn quads(quads: u32) -> String {
     text
 }
 
-/// What is fitted to points (x, y): `y = a x^exponent`.
-pub(crate) struct Fit {
-    /// The slope of log y over log x, by least squares.
-    pub(crate) exponent: f64,
-    /// Root mean square of what the fit leaves of log y: a share of y.
-    pub(crate) residual: f64,
-}
-
+/// The power of x that fits points (x, y) best; its residual is a share of y.
 pub(crate) fn fit(points: impl Iterator<Item = [f64; 2]>) -> Fit {
-    let logs: Vec<[f64; 2]> = points.map(|point| point.map(f64::ln)).collect();
-    let count = logs.len() as f64;
-    let mean = [0, 1].map(|i| logs.iter().map(|log| log[i]).sum::<f64>() / count);
-    let moment = |i: usize, j: usize| -> f64 {
-        let products = logs
-            .iter()
-            .map(|log| (log[i] - mean[i]) * (log[j] - mean[j]));
-        products.sum::<f64>() / count
-    };
-    let exponent = moment(0, 1) / moment(0, 0);
-    let left = moment(1, 1) - exponent * moment(0, 1);
-    Fit {
-        exponent,
-        residual: left.max(0.0).sqrt(),
-    }
+    Fit::of(points.map(|[x, y]| (x.ln(), y.ln()))).expect("points of several x")
 }

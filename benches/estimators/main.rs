@@ -18,7 +18,6 @@
 
 mod coverage;
 mod expected;
-mod fit;
 mod problems;
 mod runs;
 
@@ -101,9 +100,5 @@ fn main() -> ExitCode {
     if let Some(file) = asked.csv {
         std::fs::write(&file, csv).unwrap_or_else(|error| panic!("{file}: {error}"));
     }
-    if verdicts.all_kept() {
-        ExitCode::SUCCESS
-    } else {
-        ExitCode::FAILURE
-    }
+    ExitCode::from(u8::from(!verdicts.all_kept()))
 }

@@ -1,8 +1,8 @@
 //! Many runs of one estimator.
 
-use super::fit::{quantile_95, slope};
 use super::problems::Problems;
 use qrt::core::scene::{Counting, Estimator, Window};
+use qrt::drawing::Fit;
 use qrt::runtime::estimators::{Device, Noise, Problem, Settings, estimator};
 use qrt::runtime::random::Stream;
 use std::fmt;
@@ -117,8 +117,8 @@ impl fmt::Display for Point {
 /// The slopes of the RMSE and of the 95 % quantile over the queries that were spent.
 pub(crate) fn slopes(points: &[Point]) -> (f64, f64) {
     let of = |value: fn(&Point) -> f64| {
-        let points: Vec<_> = points.iter().map(|p| (p.queries, value(p))).collect();
-        slope(&points)
+        let logarithms = points.iter().map(|p| (p.queries.ln(), value(p).ln()));
+        Fit::of(logarithms).expect("several queries").slope
     };
     (of(|p| p.rmse), of(|p| p.q95))
 }
@@ -146,4 +146,10 @@ fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
     values.fold((f64::INFINITY, 0.0), |(low, high), value| {
         (low.min(value), high.max(value))
     })
+}
+
+/// What 95 % of the values do not exceed. Sorts them.
+pub(crate) fn quantile_95(values: &mut [f64]) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values[(values.len() * 19).div_ceil(20) - 1]
 }

@@ -28,7 +28,7 @@ lacks() {
 
 is_new() {
   [ -f "$out" ] && [ -z "$(
-    find "$here" "$root/qrt-core" "$root/qrt-runtime" "$root/Cargo.toml" \
+    find "$here" "$root/drawing" "$root/qrt-core" "$root/qrt-runtime" "$root/Cargo.toml" \
       "$root/scenes-yaml/cornell-box.yaml" -type d -name target -prune -o \
       -type f -newer "$out" -print -quit
   )" ]

@@ -1,12 +1,12 @@
 //! Machines, quantum counting and rendering.
 pub mod checkpoint;
 pub mod counting;
+pub mod draw;
 pub mod estimators;
 pub mod image;
 pub mod machines;
 pub mod peak_memory;
 pub mod plan;
-pub mod plot;
 pub mod random;
 pub mod render;
 pub mod replace_file;

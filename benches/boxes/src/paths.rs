@@ -94,7 +94,7 @@ impl Arith for Path<'_> {
     fn mul(&mut self, a: f64, b: f64) -> f64 {
         a * b
     }
-    fn div(&mut self, a: f64, b: f64) -> f64 {
+    fn div(&mut self, a: f64, b: f64, _most: f64) -> f64 {
         a / b
     }
     fn neg(&mut self, a: f64) -> f64 {

@@ -1,20 +1,5 @@
 //! Small things about HTML that several modules need.
 
-/// Text as it stands between tags, or within a quoted attribute.
-pub(crate) fn escape(text: &str) -> String {
-    let mut escaped = String::with_capacity(text.len() + text.len() / 8);
-    for c in text.chars() {
-        match c {
-            '&' => escaped.push_str("&amp;"),
-            '<' => escaped.push_str("&lt;"),
-            '>' => escaped.push_str("&gt;"),
-            '"' => escaped.push_str("&quot;"),
-            _ => escaped.push(c),
-        }
-    }
-    escaped
-}
-
 /// The same HTML on one line, with nothing in it that Markdown would read as its own.
 ///
 /// Between tags, each character that means something in Markdown becomes a character reference;

@@ -1,9 +1,9 @@
 //! Links into the repository's sources, and the pages that show them.
 
 use crate::equation::Place;
-use crate::html::escape;
 use crate::symbol::line_of;
 use anyhow::{Context as _, Result};
+use qrt_drawing::escaped;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 use std::path::{Component, Path, PathBuf};
@@ -121,19 +121,19 @@ fn page(path: &str, file: &File) -> String {
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
          <link rel=\"stylesheet\" href=\"{root}source/style.css\">\n<script>{THEME}</script>\n\
          </head>\n<body>\n<header><h1>{path}</h1>\n<p>The book refers to it in ",
-        path = escape(path)
+        path = escaped(path)
     );
     for (index, (chapter, name)) in file.chapters.iter().enumerate() {
         let comma = if index == 0 { "" } else { ", " };
         let _ = write!(
             page,
             "{comma}<a href=\"{root}{chapter}\">{}</a>",
-            escape(name)
+            escaped(name)
         );
     }
     page.push_str(".</p></header>\n<pre>");
     for (index, line) in file.text.lines().enumerate() {
-        let _ = writeln!(page, "<b id=L{}></b>{}", index + 1, escape(line));
+        let _ = writeln!(page, "<b id=L{}></b>{}", index + 1, escaped(line));
     }
     page.push_str("</pre>\n</body>\n</html>\n");
     page

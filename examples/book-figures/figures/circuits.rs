@@ -1,16 +1,16 @@
 //! Circuits: drawn, and what they cost.
 
-#[allow(dead_code, reason = "powers are fitted by plots")]
 #[path = "../../../benches/common/growth.rs"]
 mod scenes;
 
-use super::{Figure, cornell, drawing, scene};
+use super::{Figure, cornell, scene};
 use qrt::circuit::lower;
-use qrt::core::inspect::{Inspection, grouped, svg};
+use qrt::core::inspect::{Inspection, grouped};
 use qrt::core::oracle::{Options, Oracle};
 use qrt::core::scene::Estimator;
 use qrt::core::valid::ValidScene;
-use qrt::runtime::plot::{Axis, Drawn, Fit, Plot, Series};
+use qrt::drawing::{Axis, Drawn, Plot, Series};
+use qrt::runtime::draw;
 use qrt::runtime::render::{self, Model, Rendered};
 
 /// A lamp before a wall: a circuit small enough to be seen whole.
@@ -39,10 +39,7 @@ pub(super) fn frame() -> Figure {
          {}. As `qrt inspect SCENE --circuit FILE.svg` draws it.",
         figures(&inspection)
     );
-    Figure::svg(
-        drawing::described(&svg::frame(&inspection, "lit-wall"), &says),
-        says,
-    )
+    Figure::drawn(draw::frame(&inspection, "lit-wall"), says)
 }
 
 /// Which register has which qubits, and when.
@@ -55,10 +52,7 @@ pub(super) fn registers() -> Figure {
         figures(&inspection),
         grouped(inspection.layout.registers())
     );
-    Figure::svg(
-        drawing::described(&svg::registers(&inspection, "lit-wall"), &says),
-        says,
-    )
+    Figure::drawn(draw::registers(&inspection, "lit-wall"), says)
 }
 
 /// Toffolis of one call, first channel.
@@ -110,14 +104,11 @@ pub(super) fn growth() -> Figure {
          power laws fitted. {}.",
         parts.join("; ")
     );
-    Figure::plot(&plot, says)
+    Figure::drawn(plot.draw(), says)
 }
 
 fn said(name: &str, points: &[(f64, f64)]) -> String {
-    let logarithms = points
-        .iter()
-        .map(|(x, y)| (libm::log10(*x), libm::log10(*y)));
-    let slope = Fit::of(logarithms).map_or(0.0, |fit| fit.slope);
+    let slope = scenes::fit(points.iter().map(|&(x, y)| [x, y])).slope;
     let ends = [points.first(), points.last()].map(|p| p.copied().unwrap_or_default());
     let [from, to] = ends.map(|(x, y)| format!("{} at {x}", grouped(y as u64)));
     format!("{name}: {from} to {to}, slope {slope:.2}")
@@ -166,5 +157,5 @@ pub(super) fn width() -> Figure {
         y: Axis::log("RMSE to real over the mean"),
         series: vec![Series::of("fixed to real", points, Drawn::Fit)],
     };
-    Figure::plot(&plot, says)
+    Figure::drawn(plot.draw(), says)
 }

@@ -1,8 +1,8 @@
 //! What comparators make of a colour.
 
 use super::Figure;
-use super::drawing::{Anchor, Canvas, Panel, minus, number, polyline, ticks};
 use qrt::core::scene::{Comparator, ComparatorAt};
+use qrt::drawing::{Canvas, Panel, minus, number, polyline, ticks};
 use qrt::runtime::counting::Comparators;
 
 /// c: eight comparators.
@@ -34,7 +34,7 @@ pub(super) fn errors() -> Figure {
             x: [0.0, 8.0],
             y: [-0.75, 1.25],
         };
-        canvas.text("", [panel.edges[0], top - 8.0], Anchor::Start, name);
+        canvas.text("", [panel.edges[0], top - 8.0], name);
         let colours = ticks((0..=8).map(f64::from), 0);
         let levels: Vec<_> = [(-0.5, "-½"), (0.0, "0"), (0.5, "½"), (1.0, "1")]
             .map(|(value, label)| (value, minus(label)))
@@ -67,5 +67,5 @@ pub(super) fn errors() -> Figure {
          mean {}.",
         means[0], means[1]
     );
-    Figure::svg(canvas.finish(&says), says)
+    Figure::drawn(canvas, says)
 }

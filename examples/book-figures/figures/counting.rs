@@ -1,8 +1,8 @@
 //! What counting measures, and what is inferred from it.
 
 use super::Figure;
-use super::drawing::{Anchor, Canvas, Panel, number, ticks};
 use qrt::core::scene::Window;
+use qrt::drawing::{Canvas, Panel, number, ticks};
 use qrt::runtime::counting::{PhaseDistribution, posterior};
 use qrt::runtime::random::Stream;
 
@@ -43,15 +43,14 @@ pub(super) fn distribution() -> Figure {
     canvas.text(
         "",
         [truth + 34.0, panel.edges[1] + 20.0],
-        Anchor::Start,
         "θ = 1/3, T θ = 341⅓",
     );
     let near = known.nearest_outcome();
-    for (y, side, anchor) in [(near, -12.0, Anchor::End), (near + 1, 12.0, Anchor::Start)] {
+    for (y, side, class) in [(near, -12.0, "soft end"), (near + 1, 12.0, "soft")] {
         let probability = known.probability(y);
         let [x, top] = panel.at([y as f64, probability]);
         let label = format!("{probability:.3}");
-        canvas.text("soft", [x + side, top + 5.0], anchor, &label);
+        canvas.text(class, [x + side, top + 5.0], &label);
     }
     let within = |steps: u64| -> f64 {
         let near = near - steps..=near + 1 + steps;
@@ -67,7 +66,7 @@ pub(super) fn distribution() -> Figure {
         within(5),
         100.0 * (1.0 - within(5)),
     );
-    Figure::svg(canvas.finish(&says), says)
+    Figure::drawn(canvas, says)
 }
 
 /// Steps from T theta that the windows are shown over.
@@ -110,7 +109,7 @@ pub(super) fn windows() -> Figure {
         let places = points.iter().map(|point| panel.at(*point));
         canvas.dots(&format!("s{k}"), places);
         let at = panel.at(label);
-        canvas.text(&format!("solid s{k}"), at, Anchor::Start, name);
+        canvas.text(&format!("solid s{k}"), at, name);
         let inside = near.saturating_add_signed(-10)..=near + 10;
         beyond[k] = 1.0 - inside.map(|y| known.probability(y)).sum::<f64>();
     }
@@ -124,7 +123,7 @@ pub(super) fn windows() -> Figure {
         third(Window::Sine).probability(341),
         third(Window::Rect).probability(341),
     );
-    Figure::svg(canvas.finish(&says), says)
+    Figure::drawn(canvas, says)
 }
 
 /// T = 2^5 and N = 2^11 for posteriors, of S/N = 0.345.
@@ -163,12 +162,7 @@ pub(super) fn posteriors() -> Figure {
         [truth, panel.edges[1]],
         [truth, panel.edges[3]],
     );
-    canvas.text(
-        "",
-        [truth + 30.0, panel.edges[1] + 16.0],
-        Anchor::Start,
-        "truth: 0.345",
-    );
+    canvas.text("", [truth + 30.0, panel.edges[1] + 16.0], "truth: 0.345");
     let mut peaks = Vec::new();
     for (k, runs) in [1, 3, 7].into_iter().enumerate() {
         let density = posterior(&outcomes[..runs], IDS, SMALL, Window::Rect).expect("a posterior");
@@ -192,7 +186,7 @@ pub(super) fn posteriors() -> Figure {
         let y = panel.edges[1] + 60.0 + 20.0 * k as f64;
         canvas.line(&format!("line s{k}"), [360.0, y - 5.0], [388.0, y - 5.0]);
         let label = format!("B = {runs}: likeliest {}", number(share));
-        canvas.text("", [396.0, y], Anchor::Start, &label);
+        canvas.text("", [396.0, y], &label);
         peaks.push(format!(
             "B = {runs}: likeliest S/N {share:.4}, {:.1} % within 0.05 of it",
             100.0 * held
@@ -205,5 +199,5 @@ pub(super) fn posteriors() -> Figure {
         listed.join(", "),
         peaks.join("; ")
     );
-    Figure::svg(canvas.finish(&says), says)
+    Figure::drawn(canvas, says)
 }

@@ -1,9 +1,9 @@
 //! Grover's iterate on amplitudes, gate by gate.
 
 use super::Figure;
-use super::drawing::{Anchor, Canvas, Panel, number, polyline, ticks};
 use qrt::circuit::quantum::{Counting, GroverIterate, Part, PhaseOracle, QuantumGate};
 use qrt::core::scene::Window;
+use qrt::drawing::{Canvas, Panel, number, polyline, ticks};
 use qrt::runtime::machines::statevector::{Dense, StateVector, StateVectorError, fold};
 use std::f64::consts::PI;
 
@@ -53,9 +53,8 @@ pub(super) fn plane() -> Figure {
     canvas.arrow("axis", origin, [origin[0] + radius + 40.0, origin[1]]);
     canvas.arrow("axis", origin, [origin[0], origin[1] - radius - 34.0]);
     canvas.text(
-        "",
+        "mid",
         [origin[0] + radius - 6.0, origin[1] + 24.0],
-        Anchor::Middle,
         "bad ids",
     );
     canvas.upright(
@@ -74,16 +73,16 @@ pub(super) fn plane() -> Figure {
         let name = ["|s⟩", "G|s⟩", "G²|s⟩", "G³|s⟩"][k];
         let [x, y] = at(*angle, radius + 14.0);
         let label = format!("{name}   good with {:.1} %", 100.0 * p);
-        canvas.text("", [x, y + 4.0], Anchor::Start, &label);
+        canvas.text("", [x, y + 4.0], &label);
     }
     canvas.path("thin s1", &arc(0.0, angles[0], 120.0));
     let [x, y] = at(0.5 * angles[0], 128.0);
-    canvas.text("small", [x, y + 4.0], Anchor::Start, "πθ");
+    canvas.text("small", [x, y + 4.0], "πθ");
     for (k, pair) in angles.windows(2).enumerate() {
         canvas.path("thin s0", &arc(pair[0], pair[1], 100.0 - 12.0 * k as f64));
         if k == 0 {
             let [x, y] = at(f64::midpoint(pair[0], pair[1]), 106.0);
-            canvas.text("small", [x, y + 4.0], Anchor::Start, "2πθ");
+            canvas.text("small", [x, y + 4.0], "2πθ");
         }
     }
     let degrees: Vec<String> = angles
@@ -101,7 +100,7 @@ pub(super) fn plane() -> Figure {
         degrees.join(", "),
         good.join(", ")
     );
-    Figure::svg(canvas.finish(&says), says)
+    Figure::drawn(canvas, says)
 }
 
 /// The counting register's distribution; with the Z that makes O_0's sign right under a control, or
@@ -145,7 +144,7 @@ pub(super) fn sign() -> Figure {
             x: [-0.7, 16.7],
             y: [0.0, 1.0],
         };
-        canvas.text("", [panel.edges[0], top - 10.0], Anchor::Start, name);
+        canvas.text("", [panel.edges[0], top - 10.0], name);
         let outcomes: Vec<_> = (0..=16)
             .step_by(2)
             .map(|y| (y as f64, format!("{:.1}", read(y))))
@@ -178,5 +177,5 @@ pub(super) fn sign() -> Figure {
          S is 13. With the other sign it is y = {} ({:.3}), which says {:.1}; N - S is 51.",
         right.0, right.1, right.2, wrong.0, wrong.1, wrong.2
     );
-    Figure::svg(canvas.finish(&says), says)
+    Figure::drawn(canvas, says)
 }

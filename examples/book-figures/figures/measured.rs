@@ -1,7 +1,7 @@
 //! Figures of measured tables: `book/data`.
 
 use super::{Figure, root};
-use qrt::runtime::plot::{Axis, Drawn, Fit, Plot, Point, Series};
+use qrt::drawing::{Axis, Drawn, Fit, Plot, Point, Series};
 use qrt::runtime::trade::pareto;
 
 /// A table: its columns' names and its rows.
@@ -94,7 +94,7 @@ pub(super) fn truncation() -> Figure {
         y: Axis::log("RMSE over the mean"),
         series: series.collect(),
     };
-    Figure::plot(&plot, says)
+    Figure::drawn(plot.draw(), says)
 }
 
 /// Every estimator on a kind of amplitudes.
@@ -130,7 +130,7 @@ fn estimators(amplitudes: &str, error: &str, title: &str, axis: &str, what: &str
         y: Axis::log(axis),
         series: series.collect(),
     };
-    Figure::plot(&plot, says)
+    Figure::drawn(plot.draw(), says)
 }
 
 pub(super) fn estimators_error() -> Figure {
@@ -236,7 +236,7 @@ pub(super) fn trade() -> Figure {
             drawn("monte-carlo", of("monte-carlo"), Drawn::Joined),
         ],
     };
-    Figure::plot(&plot, says)
+    Figure::drawn(plot.draw(), says)
 }
 
 /// Where the error comes from.
@@ -275,5 +275,5 @@ pub(super) fn parts() -> Figure {
         y: Axis::log("RMSE over the mean"),
         series: series.into(),
     };
-    Figure::plot(&plot, says)
+    Figure::drawn(plot.draw(), says)
 }

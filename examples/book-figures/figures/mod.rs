@@ -4,7 +4,6 @@
 mod circuits;
 mod comparator;
 mod counting;
-mod drawing;
 mod grover;
 mod measured;
 pub(crate) mod pictures;
@@ -13,8 +12,8 @@ mod points;
 
 use qrt::core::front;
 use qrt::core::valid::ValidScene;
+use qrt::drawing::Canvas;
 use qrt::runtime::image::{Encoding, Image, Metadata, save};
-use qrt::runtime::plot::Plot;
 use std::path::{Path, PathBuf};
 
 /// A figure that is made.
@@ -32,13 +31,10 @@ pub(crate) enum Body {
 }
 
 impl Figure {
-    fn svg(svg: String, says: String) -> Self {
-        let body = Body::Svg(svg);
+    fn drawn(mut canvas: Canvas, says: String) -> Self {
+        canvas.describe(&says);
+        let body = Body::Svg(canvas.svg());
         Self { body, says }
-    }
-
-    fn plot(plot: &Plot, says: String) -> Self {
-        Self::svg(drawing::described(&plot.svg(), &says), says)
     }
 
     /// Writes it; `about` says in a picture's metadata where it is from.

@@ -8,8 +8,8 @@
 
 use super::{Figure, scene};
 use qrt::core::valid::ValidScene;
+use qrt::drawing::{Axis, Drawn, Plot, Series};
 use qrt::runtime::machines::Real;
-use qrt::runtime::plot::{Axis, Drawn, Plot, Series};
 use qrt::runtime::sample::tallies;
 use std::f64::consts::PI;
 
@@ -160,5 +160,5 @@ pub(super) fn dimensions() -> Figure {
             .map(|(name, errors)| Series::of(name, errors, Drawn::Joined))
             .collect(),
     };
-    Figure::plot(&plot, says)
+    Figure::drawn(plot.draw(), says)
 }

@@ -1,10 +1,10 @@
 //! Where paths' sample points lie, in the square and on the hemisphere.
 
 use super::Figure;
-use super::drawing::{Anchor, Canvas, polyline};
 use qrt::core::expr::Variables;
 use qrt::core::sampling::{PathPoints, cell_centre, maps};
 use qrt::core::scene::{DepthSampling, Map, Sampling, Sequence};
+use qrt::drawing::{Canvas, polyline};
 use qrt::runtime::random::Stream;
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
@@ -62,7 +62,7 @@ pub(super) fn hemispheres() -> Figure {
         (Map::CosineHemisphere, "cosine hemisphere", 480.0),
     ];
     let low = both.map(|(map, name, middle)| {
-        canvas.text("", [middle, 52.0], Anchor::Middle, name);
+        canvas.text("mid", [middle, 52.0], name);
         hemisphere(&mut canvas, &bands, map, [middle, top])
     });
     for (y, label) in [(top + 70.0, "from above"), (top + 215.0, "from the side")] {
@@ -75,26 +75,21 @@ pub(super) fn hemispheres() -> Figure {
          cosine map gives equal projected areas, J = pi / cos: {} do.",
         low[0], low[1]
     );
-    Figure::svg(canvas.finish(&says), says)
+    Figure::drawn(canvas, says)
 }
 
 /// The lattice as it is.
 fn square(canvas: &mut Canvas, bands: &Bands, top: f64) {
     let (left, side) = (44.0, 140.0);
-    canvas.text("", [left + 70.0, 52.0], Anchor::Middle, "the square");
+    canvas.text("mid", [left + 70.0, 52.0], "the square");
     canvas.rectangle("thin axis", [left, top, side, side]);
     for (class, points) in bands.each() {
         let places = points.iter();
         let places = places.map(|at| [left + side * at.v, top + side * (1.0 - at.u)]);
         canvas.dots(&class, places);
     }
-    canvas.text(
-        "soft",
-        [left + 70.0, top + side + 20.0],
-        Anchor::Middle,
-        "v",
-    );
-    canvas.text("soft", [left - 14.0, top + 74.0], Anchor::Middle, "u");
+    canvas.text("soft mid", [left + 70.0, top + side + 20.0], "v");
+    canvas.text("soft mid", [left - 14.0, top + 74.0], "u");
 }
 
 /// Where a map sends the lattice, from above and from the side; and how many directions lie lower
@@ -178,7 +173,7 @@ pub(super) fn projections() -> Figure {
     let mut different = Vec::new();
     for (column, (name, paths)) in sets.iter().enumerate() {
         let left = 46.0 + 178.0 * column as f64;
-        canvas.text("", [left + side / 2.0, 48.0], Anchor::Middle, name);
+        canvas.text("mid", [left + side / 2.0, 48.0], name);
         for (row, (axes, label)) in pairs.iter().enumerate() {
             let top = 60.0 + 176.0 * row as f64;
             canvas.rectangle("thin axis", [left, top, side, side]);
@@ -200,7 +195,7 @@ pub(super) fn projections() -> Figure {
          streaks between its last two coordinates.",
         different[0], different[1], different[2]
     );
-    Figure::svg(canvas.finish(&says), says)
+    Figure::drawn(canvas, says)
 }
 
 /// Draws two coordinates of paths into a square, maybe as large as they are many; how many points

@@ -4,12 +4,6 @@
 //! their own; so has what each box computes *and another box reads*. All other qubits, with the
 //! ancillas that operations borrow, are the wire `work`.
 
-mod drawing;
-mod text;
-
-pub use drawing::svg;
-pub use text::text;
-
 use super::{Inspection, Part, Stage};
 use crate::compile::{Role, StageName};
 use qrt_circuit::RegisterId;
@@ -34,6 +28,8 @@ pub struct Wire {
 pub struct FrameBox {
     /// What it is called: `Find Intersection 0`.
     pub name: String,
+    /// The stage of the oracle.
+    pub stage: StageName,
     /// The part of the call.
     pub part: Part,
     /// Is it the inverse of another?
@@ -120,6 +116,7 @@ impl Frame {
             let wire = |bundle: &Bundle| order.iter().position(|known| known == bundle);
             FrameBox {
                 name: title(stage),
+                stage: stage.name,
                 part: stage.part,
                 inverse: stage.inverse,
                 cost: stage.cost,

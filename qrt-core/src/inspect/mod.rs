@@ -1,4 +1,5 @@
-//! What a scene's oracle costs, and where: the figures and drawings of `qrt inspect`.
+//! What a scene's oracle costs, and where: the figures of `qrt inspect`, which `qrt_runtime::draw`
+//! draws.
 //!
 //! All of it is read off one whole call of the oracle, `O_f` = compute, compare and flip, uncompute
 //! ([`Oracle::whole`]): its instructions, their costs, the blocks that they are charged to and the
@@ -7,18 +8,16 @@
 mod blocks;
 mod frame;
 mod layout;
-mod number;
 mod passes;
 mod stages;
-pub mod svg;
 #[cfg(test)]
 mod tests;
 
 pub use blocks::BlockFigures;
-pub use frame::{Frame, FrameBox, Wire, text as frame_text};
+pub use frame::{Frame, FrameBox, Wire};
 pub use layout::{Layout, Lifetime};
-pub use number::grouped;
 pub use passes::{PassFigures, pass_figures};
+pub use qrt_circuit::grouped;
 pub use stages::{Part, Stage};
 
 use crate::compile::Role;

@@ -1,4 +1,4 @@
-//! Drawings and figures of a small scene's oracle.
+//! Figures of a small scene's oracle.
 
 use super::*;
 use crate::front::parse;
@@ -124,84 +124,4 @@ fn wires_are_computed_once_and_returned() {
         assert!(read("Compare").contains(&"comparator"));
         assert_eq!(read("Z"), ["flag"]);
     }
-}
-
-#[test]
-fn the_drawing_for_terminals_has_a_line_for_each_box_and_fits() {
-    for inspection in both() {
-        let frame = Frame::of(&inspection);
-        let text = frame_text(&frame);
-        assert!(
-            text.lines().all(|line| line.chars().count() <= 100),
-            "{text}"
-        );
-        let boxes: Vec<&str> = text.lines().skip(frame.wires.len() + 1).collect();
-        assert_eq!(boxes.len(), frame.boxes.len());
-        for (line, item) in boxes.iter().zip(&frame.boxes) {
-            let mark = if item.inverse { "\u{2020}" } else { "" };
-            assert!(line.starts_with(&format!("{}{mark} ", item.name)), "{line}");
-            assert!(line.ends_with(&grouped(item.cost.toffoli)), "{line}");
-            let signs = |sign| line.matches(sign).count();
-            assert_eq!(signs('\u{2588}'), item.writes.len(), "{line}");
-            assert_eq!(signs('\u{25cf}'), item.reads.len(), "{line}");
-        }
-    }
-}
-
-#[test]
-fn wires_of_a_depth_are_drawn_as_one_where_they_are_too_many() {
-    let depths = ["{ bits: [1, 1] }"; 8].join(", ");
-    let inspection = inspection(&[&format!("sampling.depths=[{depths}]")]);
-    let text = frame_text(&Frame::of(&inspection));
-    assert!(text.contains(" depth 7: "), "{text}");
-    assert!(
-        text.lines().all(|line| line.chars().count() <= 100),
-        "{text}"
-    );
-}
-
-#[test]
-fn each_register_is_in_the_map_where_its_layout_has_it() {
-    for inspection in both() {
-        let map = svg::registers(&inspection, "lit-floor");
-        for lifetime in &inspection.layout.lifetimes {
-            let register = &inspection.whole.registers[lifetime.register.index()];
-            let name = format!(
-                "<title>{}: {}, ",
-                register.name,
-                register.ty.name(register.width)
-            );
-            let name = name.replace('<', "&lt;").replace('>', "&gt;").replacen(
-                "&lt;title&gt;",
-                "<title>",
-                1,
-            );
-            assert!(map.contains(&name), "{name}");
-        }
-        let rectangles = map.matches("</title></rect>").count();
-        let bars = inspection.stages().len() + Part::ALL.len();
-        assert_eq!(rectangles, inspection.layout.lifetimes.len() + bars);
-    }
-}
-
-#[test]
-fn drawings_are_self_contained_and_know_the_dark() {
-    let inspection = inspection(&[]);
-    for drawing in [
-        svg::registers(&inspection, "a <&\"> b\u{7}"),
-        svg::frame(&inspection, "a <&\"> b\u{7}"),
-    ] {
-        assert!(drawing.contains("a &lt;&amp;&quot;&gt; b\u{fffd}"));
-        assert!(drawing.contains("prefers-color-scheme:dark"));
-        for foreign in ["<script", "href", "url(", "@import", "NaN", "inf"] {
-            assert!(!drawing.contains(foreign), "{foreign}");
-        }
-    }
-}
-
-#[test]
-fn a_call_without_a_search_has_a_drawing_too() {
-    let inspection = inspection(&["geometry=[]"]);
-    assert!(svg::registers(&inspection, "empty").contains(">comparator<"));
-    assert!(svg::frame(&inspection, "empty").contains(">Z<"));
 }

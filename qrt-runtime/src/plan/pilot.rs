@@ -172,7 +172,7 @@ impl<'a> Pilot<'a> {
         let points = (0..)
             .zip(last)
             .map(|(k, errors)| (f64::from(k) * std::f64::consts::LOG10_2, root(errors)));
-        let fit = crate::plot::Fit::of(points.filter(|p| p.1.is_finite()));
+        let fit = qrt_drawing::Fit::of(points.filter(|p| p.1.is_finite()));
         fit.map_or(0.0, |fit| (fit.slope + fit.slope_band).clamp(-1.0, 0.0))
     }
 

@@ -4,8 +4,8 @@ use super::fronts::fronts;
 use super::setting::Sweep;
 use super::table::Row;
 use super::{Band, Trade};
-use crate::plot::{Axis, Drawn, Plot, Point, Series};
 use qrt_core::scene::{Estimator, Sequence};
+use qrt_drawing::{Axis, Drawn, Plot, Point, Series};
 
 /// A plot, and what is said of it.
 pub(super) struct Figure {
@@ -90,7 +90,7 @@ fn relative() -> Axis {
 }
 
 /// Estimators of a sweep, in its order.
-fn estimators(trade: &Trade, sweep: Sweep) -> Vec<Estimator> {
+pub(super) fn estimators(trade: &Trade, sweep: Sweep) -> Vec<Estimator> {
     let mut found: Vec<Estimator> = Vec::new();
     for row in trade.of(sweep) {
         if !found.contains(&row.setting.estimator) {

@@ -4,7 +4,7 @@ use super::figures::{Figure, TOTAL, series};
 use super::setting::Sweep;
 use super::table::Row;
 use super::{Trade, pareto};
-use crate::plot::{Axis, Drawn, Plot, Series};
+use qrt_drawing::{Axis, Drawn, Plot, Series};
 
 /// Rows that a front may hold: of the scene's own length of paths, which is what was asked.
 pub(super) fn candidates(trade: &Trade) -> Vec<&Row> {

@@ -164,7 +164,7 @@ pub fn trade(
     };
     let figures = figures::all(&measured);
     for figure in &figures {
-        write(&format!("{}.svg", figure.name), &figure.plot.svg())?;
+        write(&format!("{}.svg", figure.name), &figure.plot.draw().svg())?;
     }
     write("index.html", &page::html(&measured, &figures))?;
     Ok(measured)

@@ -5,8 +5,8 @@ use super::fronts::{PRICES, candidates, front};
 use super::summary::differs;
 use super::table::{ERRORS, Row};
 use super::{Band, Sweep, Trade};
-use crate::plot::CSS;
 use qrt_core::inspect::grouped;
+use qrt_drawing::{coloured, escaped, style_sheet};
 use std::fmt::Write as _;
 
 /// What errors mean, as [`ERRORS`].
@@ -19,19 +19,18 @@ const MEANINGS: [&str; 6] = [
     "total: what the estimator says, against the limit of D rays",
 ];
 
-const STYLE: &str = "\
-:root{color-scheme:light dark;--ink:#1f2328;--soft:#59636e;--line:#d1d9e0;--page:#ffffff}
-@media (prefers-color-scheme:dark){:root{--ink:#e6edf3;--soft:#9da7b3;--line:#343b44;--page:#0d1117}}
-body{margin:0 auto;max-width:1180px;padding:1rem;background:var(--page);color:var(--ink);\
+const RULES: &str = "\
+:root{color-scheme:light dark}
+body{margin:0 auto;max-width:1180px;padding:1rem;background:$page;color:$ink;\
 font:16px/1.5 system-ui,-apple-system,'Segoe UI','DejaVu Sans',sans-serif}
 h1{font-size:1.5rem;margin:.5rem 0}h2{font-size:1.2rem;margin:2rem 0 .5rem}
-p,figcaption{max-width:46rem}figcaption,.soft{color:var(--soft)}figcaption{font-size:.9rem}
+p,figcaption{max-width:46rem}figcaption,.soft{color:$soft}figcaption{font-size:.9rem}
 .figures{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,520px),1fr));gap:1.5rem}
 figure{margin:0;min-width:0}.wide{overflow-x:auto}.wide svg{display:block;min-width:460px;width:100%}
 table{border-collapse:collapse;font-size:.875rem;font-variant-numeric:tabular-nums}
-th,td{padding:.25rem .6rem;text-align:right;border-bottom:1px solid var(--line);white-space:nowrap}
-th{font-weight:600;text-align:right;color:var(--soft)}.left,th.left{text-align:left}
-.range{color:var(--soft);font-size:.8em}details{margin:.5rem 0}summary{cursor:pointer;padding:.3rem 0}
+th,td{padding:.25rem .6rem;text-align:right;border-bottom:1px solid $grid;white-space:nowrap}
+th{font-weight:600;text-align:right;color:$soft}.left,th.left{text-align:left}
+.range{color:$soft;font-size:.8em}details{margin:.5rem 0}summary{cursor:pointer;padding:.3rem 0}
 code{font-size:.9em}";
 
 pub(super) fn html(trade: &Trade, figures: &[Figure]) -> String {
@@ -40,12 +39,14 @@ pub(super) fn html(trade: &Trade, figures: &[Figure]) -> String {
     let mut out = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-         <title>{name}: speed against accuracy</title>\n<style>\n{STYLE}\n{CSS}\n</style>\n</head>\n\
+         <title>{name}: speed against accuracy</title>\n<style>\n{}{}\n</style>\n</head>\n\
          <body>\n<h1>{name}: speed against accuracy</h1>\n\
          <p>{} settings, measured by qrt {} on {} of {} pixels, seed {}. Errors are root mean squares \
          over pixels and channels, relative to the mean radiance {:.4}, with 95&nbsp;% intervals of a \
          bootstrap over pixels; the limit is the mean of 2<sup>{}</sup> paths with other shifts. All \
          rows are in <a href=\"trade.csv\">trade.csv</a>.</p>\n",
+        coloured(RULES),
+        style_sheet(),
         trade.rows.len(),
         env!("CARGO_PKG_VERSION"),
         grouped(pixels),
@@ -63,7 +64,7 @@ pub(super) fn html(trade: &Trade, figures: &[Figure]) -> String {
             out,
             "<figure id=\"{}\"><div class=\"wide\">{}</div><figcaption>{}</figcaption></figure>",
             figure.name,
-            figure.plot.inline_svg(),
+            figure.plot.draw().inline_svg(),
             escaped(figure.says)
         );
     }
@@ -174,9 +175,4 @@ fn percent(value: f64) -> String {
     let percent = 100.0 * value;
     let digits = (2.0 - libm::floor(libm::log10(percent))).clamp(0.0, 6.0) as usize;
     format!("{percent:.digits$}&nbsp;%")
-}
-
-fn escaped(text: &str) -> String {
-    let plain = text.replace('&', "&amp;").replace('<', "&lt;");
-    plain.replace('>', "&gt;").replace('"', "&quot;")
 }

@@ -1,11 +1,11 @@
 //! The measured, in a few lines.
 
-use super::figures::{COUNTING, TOTAL};
+use super::figures::{COUNTING, TOTAL, estimators};
 use super::fronts::{PRICES, candidates, front};
 use super::setting::Setting;
 use super::table::ERRORS;
 use super::{Sweep, Trade};
-use crate::plot::Fit;
+use qrt_drawing::Fit;
 use std::fmt::Write as _;
 
 /// Lines of a front that are shown.
@@ -67,12 +67,6 @@ pub(super) fn text(trade: &Trade) -> String {
 
 /// By estimator: the slope of its error over its queries.
 fn slopes(trade: &Trade) -> Vec<String> {
-    let mut names = Vec::new();
-    for row in trade.of(Sweep::Counting) {
-        if !names.contains(&row.setting.estimator) {
-            names.push(row.setting.estimator);
-        }
-    }
     let slope = |name| {
         let rows = trade.of(Sweep::Counting);
         let points = rows.filter(|row| row.setting.estimator == name).map(|row| {
@@ -82,7 +76,8 @@ fn slopes(trade: &Trade) -> Vec<String> {
         let fit = Fit::of(points.filter(|(x, y)| x.is_finite() && y.is_finite()))?;
         Some(format!("{name} {:.2}", fit.slope))
     };
-    names.into_iter().filter_map(slope).collect()
+    let names = estimators(trade, Sweep::Counting).into_iter();
+    names.filter_map(slope).collect()
 }
 
 /// A setting by what matters of it.

@@ -8,9 +8,10 @@ use super::files::{can_be_written, keep_apart};
 use super::terminal;
 use clap::{Args, ValueEnum};
 use qrt_core::front::{self, Loaded};
-use qrt_core::inspect::{Frame, Inspection, PassFigures, frame_text, svg};
+use qrt_core::inspect::{Frame, Inspection, PassFigures};
 use qrt_core::oracle::{Options, Spent, check_budget};
 use qrt_core::valid::ValidScene;
+use qrt_runtime::draw;
 use qrt_runtime::plan::{Figures, Options as PlanOptions, plan};
 use qrt_runtime::replace_file::replace_file;
 use std::io::Write;
@@ -98,10 +99,10 @@ pub(crate) fn run(args: &InspectArgs) -> Result<(), Failure> {
 
     let name = &scene.scene().name;
     if let Some(file) = &args.registers {
-        write(file, &svg::registers(&inspection, name))?;
+        write(file, &draw::registers(&inspection, name).svg())?;
     }
     if let Some(file) = circuit {
-        write(file, &svg::frame(&inspection, name))?;
+        write(file, &draw::frame(&inspection, name).svg())?;
     }
     let shown = Shown {
         scene,
@@ -116,7 +117,7 @@ pub(crate) fn run(args: &InspectArgs) -> Result<(), Failure> {
     };
     if in_terminal {
         out.push('\n');
-        out.push_str(&frame_text(&Frame::of(&inspection)));
+        out.push_str(&draw::frame_text(&Frame::of(&inspection)));
     }
     terminal::print(&out)?;
     keep_budget(&loaded, &inspection)

@@ -4,8 +4,9 @@ use super::inlines::inlines;
 use super::traced::Traced;
 use super::{Chapter, Workshop, options};
 use crate::equation::{Equation, Place};
-use crate::html::{escape, within_markdown};
+use crate::html::within_markdown;
 use pulldown_cmark::Parser;
+use qrt_drawing::escaped;
 use std::fmt::Write as _;
 
 /// An equation as the index lists it.
@@ -66,9 +67,9 @@ impl Workshop {
                 html,
                 "{comma}<a href=\"{}{link}\" title=\"{}\"><code>{}</code></a>",
                 chapter.to_root(),
-                escape(&place.path),
+                escaped(&place.path),
                 // Where a narrow page may break it.
-                escape(&place.symbol).replace('_', "_<wbr>")
+                escaped(&place.symbol).replace('_', "_<wbr>")
             );
         }
         html
@@ -108,7 +109,7 @@ impl Workshop {
                 "<tr><td><a href=\"{root}{page}#eq-{number}\">({number})</a></td>\
                  <td>{what}<br><small><a href=\"{root}{page}\">{}</a></small></td>\
                  <td><small>code {code}<br>test {test}</small></td><td>{erratum}</td></tr>",
-                escape(name)
+                escaped(name)
             );
         }
         html.push_str("</tbody></table></div>");

@@ -12,9 +12,9 @@ pub(crate) use equations::Indexed;
 use crate::complaint::Complaint;
 use crate::equation::Equation;
 use crate::formula::Formulas;
-use crate::html::escape;
 use crate::source::Sources;
 use pulldown_cmark::Options;
+use qrt_drawing::escaped;
 
 /// What all chapters share while they are worked on.
 pub(crate) struct Workshop {
@@ -90,7 +90,7 @@ impl Workshop {
             Ok(html) => html,
             Err(error) => {
                 self.complain(chapter, line, format!("`{}`: {error}", tex.trim()));
-                format!("<code>{}</code>", escape(tex))
+                format!("<code>{}</code>", escaped(tex))
             }
         }
     }

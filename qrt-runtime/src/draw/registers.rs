@@ -1,9 +1,8 @@
 //! The register map: time to the right, qubits up.
 
-use super::super::layout::Lifetime;
-use super::super::{Inspection, Part, Stage, grouped};
-use super::{Canvas, SMALL, class, number, width_of};
-use crate::compile::Role;
+use qrt_core::compile::{Role, StageName};
+use qrt_core::inspect::{CHANNELS, Inspection, Lifetime, Part, Stage, grouped};
+use qrt_drawing::{Canvas, SMALL, number, text_width};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
@@ -21,12 +20,12 @@ const CELL: f64 = 2.0;
 /// Each register is a rectangle from the instruction that computes it to the one that uncomputes
 /// it, as high as it has qubits; time counts Toffolis. Where there are very many registers, those
 /// below two pixels are drawn together, in squares of the colour that most of each has.
-pub fn registers(inspection: &Inspection, scene: &str) -> String {
+pub fn registers(inspection: &Inspection, scene: &str) -> Canvas {
     let map = Map::new(inspection);
     let total = inspection.total();
     let title = format!(
         "{scene}: registers of one oracle call, channel {}",
-        super::super::CHANNELS[inspection.channel]
+        CHANNELS[inspection.channel]
     );
     let figures = format!(
         "{} qubits at the most, {} Toffoli, depth {}; {} registers in a layout of {} qubits",
@@ -36,7 +35,7 @@ pub fn registers(inspection: &Inspection, scene: &str) -> String {
         grouped(inspection.layout.registers()),
         grouped(u64::from(inspection.layout.height)),
     );
-    let mut canvas = Canvas::new(WIDTH, HEIGHT, &title, &figures);
+    let mut canvas = Canvas::large(&title, WIDTH, HEIGHT, &figures);
     legend(&mut canvas);
     map.axes(&mut canvas);
     let labels = map.lifetimes(&mut canvas);
@@ -45,18 +44,18 @@ pub fn registers(inspection: &Inspection, scene: &str) -> String {
     for (place, label) in labels {
         canvas.text("small", place, &label);
     }
-    canvas.finish()
+    canvas
 }
 
 fn legend(canvas: &mut Canvas) {
     let mut x = PLOT[0];
     for role in Role::ALL {
         let name = role.to_string();
-        canvas.rectangle(class(role), [x, 64.0, 12.0, 12.0], "");
+        canvas.rectangle(class(role), [x, 64.0, 12.0, 12.0]);
         canvas.text("", [x + 17.0, 74.0], &name);
-        x += 17.0 + width_of(&name) + 18.0;
+        x += 17.0 + text_width(&name) + 18.0;
     }
-    canvas.line("in-use", [x, 70.0, x + 20.0, 70.0]);
+    canvas.line("in-use", [x, 70.0], [x + 20.0, 70.0]);
     canvas.text(
         "",
         [x + 26.0, 74.0],
@@ -103,7 +102,7 @@ impl<'a> Map<'a> {
         let mut qubit = 0.0;
         while qubit <= self.height {
             let y = self.y(qubit);
-            canvas.line("rule", [PLOT[0], y, PLOT[2], y]);
+            canvas.line("grid", [PLOT[0], y], [PLOT[2], y]);
             canvas.text(
                 "small end",
                 [PLOT[0] - 6.0, y + 4.0],
@@ -117,7 +116,7 @@ impl<'a> Map<'a> {
         let mut time = 0.0;
         while time <= all {
             let x = PLOT[0] + (PLOT[2] - PLOT[0]) * time / all;
-            canvas.line("line", [x, PLOT[3], x, PLOT[3] + 4.0]);
+            canvas.line("wire", [x, PLOT[3]], [x, PLOT[3] + 4.0]);
             canvas.text("small mid", [x, PLOT[3] + 15.0], &grouped(time as u64));
             time += step;
         }
@@ -183,9 +182,9 @@ impl<'a> Map<'a> {
             // An edge would hide what is hardly higher.
             let edge = if place[3] >= 3.0 { " edge" } else { "" };
             let class = format!("{}{edge}", class(Role::of(register)));
-            canvas.rectangle(&class, place, &hint);
+            canvas.hinted(&class, place, &hint);
             let label = format!("{}: {ty}", register.name);
-            if place[3] >= 13.0 && place[2] >= width_of(&label) {
+            if place[3] >= 13.0 && place[2] >= text_width(&label) {
                 let [x, y, _, height] = place;
                 labels.push(([x + 4.0, y + height / 2.0 + 4.0], label));
             }
@@ -243,22 +242,22 @@ impl<'a> Map<'a> {
                 if stage.inverse { "inverse of " } else { "" },
                 grouped(stage.cost.toffoli)
             );
-            canvas.rectangle(class, [left, y, right - left, height], &hint);
+            canvas.hinted(class, [left, y, right - left, height], &hint);
             let label = [stage.to_string(), brief(stage)]
                 .into_iter()
-                .find(|label| width_of(label) * SMALL <= right - left - 4.0);
+                .find(|label| text_width(label) * SMALL <= right - left - 4.0);
             if let Some(label) = label {
                 canvas.text("small mid", [f64::midpoint(left, right), y + 13.0], &label);
             }
             if place > 0 && right - left > 8.0 {
-                canvas.line("rule", [left, PLOT[1], left, PLOT[3]]);
+                canvas.line("grid", [left, PLOT[1]], [left, PLOT[3]]);
             }
         }
         for part in Part::ALL {
             let instructions = self.inspection.instructions(part);
             let (left, right) = (self.x(instructions.start), self.x(instructions.end));
-            canvas.rectangle("stage", [left, y + 22.0, right - left, height], part.name());
-            if right - left >= width_of(part.name()) {
+            canvas.hinted("stage", [left, y + 22.0, right - left, height], part.name());
+            if right - left >= text_width(part.name()) {
                 canvas.text(
                     "small mid",
                     [f64::midpoint(left, right), y + 35.0],
@@ -271,8 +270,11 @@ impl<'a> Map<'a> {
 
 /// `find_intersection 1` as `find 1`.
 fn brief(stage: &Stage) -> String {
-    let name = stage.name.to_string();
-    let word = name.split('_').next().unwrap_or_default();
+    let word = match stage.name {
+        StageName::GenerateRay => "generate",
+        StageName::FindIntersection => "find",
+        other => other.kind(),
+    };
     stage
         .depth
         .map_or_else(|| word.to_owned(), |depth| format!("{word} {depth}"))
@@ -351,5 +353,17 @@ impl Cells {
                 canvas.path(class(role), &d);
             }
         }
+    }
+}
+
+/// The class of a role's colour.
+fn class(role: Role) -> &'static str {
+    match role {
+        Role::Id => "id",
+        Role::Comparator => "comparator",
+        Role::Work => "work",
+        Role::Scratch => "scratch",
+        Role::Colour => "colour",
+        Role::Flag => "flag",
     }
 }

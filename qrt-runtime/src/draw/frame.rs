@@ -1,9 +1,8 @@
-//! The frame as SVG: wires to the right, boxes on them.
+//! The frame as a drawing: wires to the right, boxes on them.
 
-use super::super::number::{grouped, short};
-use super::super::svg::{Canvas, SMALL, width_of};
-use super::super::{CHANNELS, Inspection};
-use super::{Frame, FrameBox};
+use qrt_core::compile::StageName;
+use qrt_core::inspect::{CHANNELS, Frame, FrameBox, Inspection, Part, grouped};
+use qrt_drawing::{Canvas, SMALL, text_width};
 
 /// Between wires.
 const ROW: f64 = 34.0;
@@ -21,7 +20,7 @@ const TOP: f64 = 112.0;
 ///
 /// A dot is a wire that a box reads, a square one that it computes or, on a darker box, returns
 /// to zero; wires that a box has nothing to do with are thin within it. Below stand Toffolis.
-pub fn svg(inspection: &Inspection, scene: &str) -> String {
+pub fn frame(inspection: &Inspection, scene: &str) -> Canvas {
     let frame = Frame::of(inspection);
     let total = inspection.total();
     let right = LEFT + COLUMN * frame.boxes.len() as f64 + 30.0;
@@ -38,9 +37,9 @@ pub fn svg(inspection: &Inspection, scene: &str) -> String {
         grouped(inspection.toffoli_depth),
     );
     let width = right
-        .max(width_of(&figures) + 40.0)
-        .max(40.0 + 1.6 * width_of(&title));
-    let mut canvas = Canvas::new(width, bottom + 58.0, &title, &figures);
+        .max(text_width(&figures) + 40.0)
+        .max(40.0 + 1.6 * text_width(&title));
+    let mut canvas = Canvas::large(&title, width, bottom + 58.0, &figures);
     legend(&mut canvas);
     for wire in 0..frame.wires.len() {
         draw_wire(&mut canvas, &frame, wire, right);
@@ -50,9 +49,9 @@ pub fn svg(inspection: &Inspection, scene: &str) -> String {
         let x = column(place);
         canvas.text("small mid", [x, bottom + 12.0], &short(item.cost.toffoli));
     }
-    canvas.text("small end faint", [LEFT - 12.0, bottom + 12.0], "Toffoli");
+    canvas.text("small end soft", [LEFT - 12.0, bottom + 12.0], "Toffoli");
     parts(&mut canvas, &frame, bottom + 26.0);
-    canvas.finish()
+    canvas
 }
 
 fn column(place: usize) -> f64 {
@@ -65,9 +64,9 @@ fn row(wire: usize) -> f64 {
 
 fn legend(canvas: &mut Canvas) {
     let y = 76.0;
-    canvas.dot("dot", [28.0, y], 3.5);
+    canvas.circle("dot", [28.0, y], 3.5);
     canvas.text("small", [38.0, y + 4.0], "read");
-    canvas.rectangle("dot", [76.0, y - 4.0, 8.0, 8.0], "");
+    canvas.rectangle("dot", [76.0, y - 4.0, 8.0, 8.0]);
     canvas.text(
         "small",
         [90.0, y + 4.0],
@@ -83,7 +82,7 @@ fn draw_wire(canvas: &mut Canvas, frame: &Frame, wire: usize, right: f64) {
     canvas.text("end", [LEFT - 64.0, y + 4.0], &item.name);
     canvas.text("small end", [LEFT - 16.0, y + 4.0], &grouped(item.qubits));
     let start = LEFT - 10.0;
-    canvas.line("thin", [start, y, right - 10.0, y]);
+    canvas.line("grid", [start, y], [right - 10.0, y]);
     let held = frame.held(wire);
     let from = if item.input {
         start
@@ -95,10 +94,10 @@ fn draw_wire(canvas: &mut Canvas, frame: &Frame, wire: usize, right: f64) {
     } else {
         column(held.end.saturating_sub(1))
     };
-    canvas.line("line", [from, y, to, y]);
+    canvas.line("wire", [from, y], [to, y]);
     // The stroke that marks a bundle.
     let slash = LEFT - 4.0;
-    canvas.line("line", [slash - 3.0, y + 5.0, slash + 3.0, y - 5.0]);
+    canvas.line("wire", [slash - 3.0, y + 5.0], [slash + 3.0, y - 5.0]);
 }
 
 fn draw_box(canvas: &mut Canvas, frame: &Frame, place: usize, item: &FrameBox) {
@@ -109,8 +108,8 @@ fn draw_box(canvas: &mut Canvas, frame: &Frame, place: usize, item: &FrameBox) {
     let last = (0..work).rfind(|&wire| touched(wire));
     if let (Some(first), Some(last)) = (first, last) {
         let (top, bottom) = (row(first) - RIM, row(last) + RIM);
-        let class = if item.name == "Z" {
-            "box mark"
+        let class = if item.stage == StageName::Flip {
+            "box flip"
         } else if item.inverse {
             "box undo"
         } else {
@@ -126,19 +125,20 @@ fn draw_box(canvas: &mut Canvas, frame: &Frame, place: usize, item: &FrameBox) {
             grouped(item.cost.x)
         );
         let left = x - BOX / 2.0;
-        canvas.rectangle(class, [left, top, BOX, bottom - top], &hint);
+        canvas.hinted(class, [left, top, BOX, bottom - top], &hint);
         for wire in first..=last {
             if !touched(wire) {
-                canvas.line("thin", [left + 1.0, row(wire), left + BOX - 1.0, row(wire)]);
+                let y = row(wire);
+                canvas.line("grid", [left + 1.0, y], [left + BOX - 1.0, y]);
             }
         }
         let middle = f64::midpoint(top, bottom);
-        if width_of(&name) < BOX - 4.0 {
+        if text_width(&name) < BOX - 4.0 {
             canvas.text("mid", [x, middle + 4.0], &name);
         } else {
             let height = bottom - top - 4.0;
             let brief = brief(&name);
-            let (size, label) = match width_of(&name) {
+            let (size, label) = match text_width(&name) {
                 width if width <= height => ("", &name),
                 width if width * SMALL <= height => ("small", &name),
                 _ => ("small", &brief),
@@ -147,7 +147,7 @@ fn draw_box(canvas: &mut Canvas, frame: &Frame, place: usize, item: &FrameBox) {
         }
     }
     for &wire in &item.reads {
-        canvas.dot("dot", [x - BOX / 2.0, row(wire)], 3.5);
+        canvas.circle("dot", [x - BOX / 2.0, row(wire)], 3.5);
     }
     for &wire in &item.writes {
         // Where the wire begins to hold something, or ends to.
@@ -156,7 +156,7 @@ fn draw_box(canvas: &mut Canvas, frame: &Frame, place: usize, item: &FrameBox) {
             (_, false) => x + BOX / 2.0,
             (_, true) => x - BOX / 2.0,
         };
-        canvas.rectangle("dot", [edge - 4.0, row(wire) - 4.0, 8.0, 8.0], "");
+        canvas.rectangle("dot", [edge - 4.0, row(wire) - 4.0, 8.0, 8.0]);
     }
 }
 
@@ -172,22 +172,61 @@ fn brief(name: &str) -> String {
 
 /// Bars with the names of the parts.
 fn parts(canvas: &mut Canvas, frame: &Frame, y: f64) {
-    for part in super::Part::ALL {
+    for part in Part::ALL {
         let first = frame.boxes.iter().position(|b| b.part == part);
         let last = frame.boxes.iter().rposition(|b| b.part == part);
         if let (Some(first), Some(last)) = (first, last) {
             let (left, right) = (column(first) - BOX / 2.0, column(last) + BOX / 2.0);
-            canvas.rectangle("stage", [left, y, right - left, 18.0], "");
+            canvas.rectangle("stage", [left, y, right - left, 18.0]);
             let cost: u64 = frame.boxes[first..=last]
                 .iter()
                 .map(|b| b.cost.toffoli)
                 .sum();
             let long = format!("{}: {} Toffoli", part.name(), grouped(cost));
             let texts = [long, part.name().to_owned()];
-            let fits = texts.iter().find(|text| width_of(text) <= right - left);
+            let fits = texts.iter().find(|text| text_width(text) <= right - left);
             if let Some(text) = fits {
                 canvas.text("small mid", [f64::midpoint(left, right), y + 13.0], text);
             }
+        }
+    }
+}
+
+/// `1234567` as `1.23 M`: three digits, where space is short.
+fn short(number: u64) -> String {
+    let units = [
+        (1_000_000_000_000, "T"),
+        (1_000_000_000, "G"),
+        (1_000_000, "M"),
+        (1000, "k"),
+    ];
+    let Some(&(size, unit)) = units.iter().find(|&&(size, _)| number >= size) else {
+        return number.to_string();
+    };
+    let value = number as f64 / size as f64;
+    let places = if value < 9.995 {
+        2
+    } else {
+        usize::from(value < 99.95)
+    };
+    format!("{value:.places$} {unit}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn short_numbers_have_three_digits() {
+        for (number, text) in [
+            (0, "0"),
+            (999, "999"),
+            (1000, "1.00 k"),
+            (12_345, "12.3 k"),
+            (999_949, "1000 k"),
+            (5_600_000_000, "5.60 G"),
+        ] {
+            assert_eq!(short(number), text);
         }
     }
 }

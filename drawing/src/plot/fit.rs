@@ -4,8 +4,8 @@
 /// count alike.
 ///
 /// ```
-/// use qrt_runtime::plot::Fit;
-/// let fit = Fit::of([(0.0, 1.0), (1.0, 0.0), (2.0, -1.0)].into_iter()).unwrap();
+/// use qrt_drawing::Fit;
+/// let fit = Fit::of([(0.0, 1.0), (1.0, 0.0), (2.0, -1.0)]).unwrap();
 /// assert_eq!((fit.slope, fit.slope_band), (-1.0, 0.0));
 /// assert_eq!(fit.at(5.0), -4.0);
 /// ```
@@ -15,6 +15,8 @@ pub struct Fit {
     pub slope: f64,
     /// Half the width of the slope's interval at 95 % (Student's t); infinite for two points.
     pub slope_band: f64,
+    /// Root mean square of what the line leaves of the points' log10 y.
+    pub residual: f64,
     /// The mean of the points' log10 x.
     mean: f64,
     /// The line there.
@@ -29,8 +31,8 @@ pub struct Fit {
 
 impl Fit {
     /// Fits points (log10 x, log10 y). None for fewer than two different x.
-    pub fn of(points: impl Iterator<Item = (f64, f64)>) -> Option<Self> {
-        let points: Vec<(f64, f64)> = points.collect();
+    pub fn of(points: impl IntoIterator<Item = (f64, f64)>) -> Option<Self> {
+        let points: Vec<(f64, f64)> = points.into_iter().collect();
         let count = points.len() as f64;
         let mean = |of: fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / count;
         let (x, y) = (mean(|p| p.0), mean(|p| p.1));
@@ -55,6 +57,7 @@ impl Fit {
         Some(Self {
             slope,
             slope_band: reach / spread.sqrt(),
+            residual: (left / count).sqrt(),
             mean: x,
             at_mean: y,
             count,
@@ -132,9 +135,9 @@ mod tests {
 
     #[test]
     fn a_line_needs_two_places() {
-        assert_eq!(Fit::of([].into_iter()), None);
-        assert_eq!(Fit::of([(1.0, 2.0), (1.0, 3.0)].into_iter()), None);
-        let two = Fit::of([(1.0, 2.0), (2.0, 3.0)].into_iter()).unwrap();
+        assert_eq!(Fit::of([]), None);
+        assert_eq!(Fit::of([(1.0, 2.0), (1.0, 3.0)]), None);
+        let two = Fit::of([(1.0, 2.0), (2.0, 3.0)]).unwrap();
         assert_eq!((two.slope, two.slope_band), (1.0, f64::INFINITY));
     }
 }

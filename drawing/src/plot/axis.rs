@@ -18,13 +18,6 @@ pub struct Axis {
     pub scale: Scale,
 }
 
-/// A tick: where it stands, and what it says; nothing on ticks between.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Tick {
-    pub(super) value: f64,
-    pub(super) label: String,
-}
-
 impl Axis {
     /// Of decades.
     pub fn log(label: &str) -> Self {
@@ -59,26 +52,26 @@ impl Axis {
         }
     }
 
-    /// The range shown of places between `low` and `high`, a little wider, and never empty.
-    pub(super) fn range(&self, low: f64, high: f64) -> (f64, f64) {
+    /// The range shown of some places, a little wider than theirs, and never empty.
+    pub(super) fn range(&self, places: impl Iterator<Item = f64>) -> [f64; 2] {
+        let ends = places.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], place| {
+            [low.min(place), high.max(place)]
+        });
+        let [low, high] = if ends[0] > ends[1] { [0.0; 2] } else { ends };
         let least = match self.scale {
             Scale::Log => 0.6,
             Scale::Bits => 2.0,
         };
         let middle = 0.5 * (low + high);
         let half = (0.5 * (high - low)).max(0.5 * least) * 1.06;
-        (middle - half, middle + half)
+        [middle - half, middle + half]
     }
 
-    /// Ticks within a range of places, at most about `most` with labels.
-    pub(super) fn ticks(&self, (low, high): (f64, f64), most: usize) -> Vec<Tick> {
+    /// Ticks within a range of places, at most about `most`: where each stands, and what it says.
+    pub(super) fn ticks(&self, [low, high]: [f64; 2], most: usize) -> Vec<(f64, String)> {
         match self.scale {
-            Scale::Bits => whole(low, high, most)
-                .into_iter()
-                .map(|value| Tick {
-                    value,
-                    label: format!("{value}"),
-                })
+            Scale::Bits => (whole(low, high, most).into_iter())
+                .map(|value| (value, value.to_string()))
                 .collect(),
             Scale::Log => decades(low, high, most),
         }
@@ -95,22 +88,18 @@ fn whole(low: f64, high: f64, most: usize) -> Vec<f64> {
     (0..=count).map(|k| (first + k as f64) * step).collect()
 }
 
-fn decades(low: f64, high: f64, most: usize) -> Vec<Tick> {
+fn decades(low: f64, high: f64, most: usize) -> Vec<(f64, String)> {
     let whole = whole(low, high, most);
-    let mut ticks: Vec<Tick> = Vec::new();
     if whole.len() > 2 {
-        for value in whole {
-            let label = written(1.0, value);
-            ticks.push(Tick { value, label });
-        }
-        return ticks;
+        let tick = |value| (value, written(1.0, value));
+        return whole.into_iter().map(tick).collect();
     }
+    let mut ticks = Vec::new();
     for decade in low.floor() as i64..=high.ceil() as i64 {
         for digit in [1.0, 2.0, 5.0] {
             let value = decade as f64 + libm::log10(digit);
             if (low..=high).contains(&value) {
-                let label = written(digit, decade as f64);
-                ticks.push(Tick { value, label });
+                ticks.push((value, written(digit, decade as f64)));
             }
         }
     }

@@ -1,7 +1,6 @@
 //! The frame in a terminal: wires run down, so that depths need lines, not columns.
 
-use super::super::number::grouped;
-use super::Frame;
+use qrt_core::inspect::{Frame, grouped};
 use std::fmt::Write as _;
 
 /// Columns that a drawing fills at most, where that can be.
@@ -10,9 +9,9 @@ const COLUMNS: usize = 100;
 const WIRE: [usize; 2] = [4, 3];
 
 /// The drawing of a frame. A dot reads a wire, a block computes it or, in an inverse, returns it to
-/// zero; at the end of a box's line stand its Toffolis. Where the wires of all depths are more than fit, those of a depth are drawn as
-/// one.
-pub fn text(frame: &Frame) -> String {
+/// zero; at the end of a box's line stand its Toffolis. Where the wires of all depths are more than
+/// fit, those of a depth are drawn as one.
+pub fn frame_text(frame: &Frame) -> String {
     let names = frame.boxes.iter().map(|b| b.name.chars().count() + 2);
     let label = names.max().unwrap_or(0);
     let costs = frame.boxes.iter().map(|b| grouped(b.cost.toffoli).len());

@@ -1,6 +1,7 @@
 //! What a plot must hold.
 
 use super::*;
+use crate::STYLES;
 
 fn plot(series: Vec<Series>) -> Plot {
     Plot {
@@ -19,6 +20,7 @@ fn a_slope_is_that_of_its_power_law() {
         Series::of("quantum", points(-1.0), Drawn::Fit),
         Series::of("classical", points(-0.5), Drawn::Fit),
     ])
+    .draw()
     .svg();
     assert!(svg.contains("slope \u{2212}1.00 \u{b1} 0.00"), "{svg}");
     assert!(svg.contains("slope \u{2212}0.50 \u{b1} 0.00"), "{svg}");
@@ -34,7 +36,7 @@ fn a_slope_over_bits_is_over_their_power_of_two() {
         Drawn::Fit,
     )]);
     plot.x = Axis::bits("comparator bits");
-    let svg = plot.svg();
+    let svg = plot.draw().svg();
     assert!(svg.contains("slope \u{2212}1.00"), "{svg}");
     for bits in 2..9 {
         assert!(svg.contains(&format!(">{bits}</text>")), "{bits}");
@@ -50,7 +52,9 @@ fn what_has_no_logarithm_is_left_out() {
         (10.0, f64::INFINITY),
         (-1.0, 2.0),
     ];
-    let svg = plot(vec![Series::of("odd", points, Drawn::Joined)]).svg();
+    let svg = plot(vec![Series::of("odd", points, Drawn::Joined)])
+        .draw()
+        .svg();
     assert!(svg.contains("nothing to show"));
     for word in ["NaN", "inf"] {
         assert!(!svg.contains(word), "{svg}");
@@ -58,7 +62,7 @@ fn what_has_no_logarithm_is_left_out() {
     // One point has a place, an error bar down to zero included.
     let mut series = Series::of("one", [(3.0, 0.1)], Drawn::Fit);
     series.points[0].low = 0.0;
-    let svg = plot(vec![series]).svg();
+    let svg = plot(vec![series]).draw().svg();
     assert!(!svg.contains("nothing to show") && !svg.contains("NaN") && !svg.contains("slope"));
 }
 
@@ -78,7 +82,7 @@ fn every_number_lies_on_the_drawing() {
             Series::of(&format!("series {n}"), shifted, Drawn::Fit)
         })
         .collect();
-    let svg = plot(series).svg();
+    let svg = plot(series).draw().svg();
     for part in svg.split(['"', ' ', 'M', 'L', 'H', 'V', 'z', '(', ')', '\n']) {
         if let Ok(number) = part.parse::<f64>() {
             assert!((-100.0..800.0).contains(&number), "{number}");
@@ -90,10 +94,8 @@ fn every_number_lies_on_the_drawing() {
 fn ticks_are_numbers_that_people_write() {
     let axis = Axis::log("x");
     let labels = |low, high| -> Vec<String> {
-        axis.ticks((low, high), 9)
-            .into_iter()
-            .map(|t| t.label)
-            .collect()
+        let ticks = axis.ticks([low, high], 9).into_iter();
+        ticks.map(|(_, label)| label).collect()
     };
     assert_eq!(labels(-2.1, 1.2), ["0.01", "0.1", "1", "10"]);
     assert_eq!(labels(-0.1, 1.1), ["1", "2", "5", "10"]);

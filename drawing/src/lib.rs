@@ -1,0 +1,29 @@
+//! One drawing kit for all that qrt draws: what `qrt inspect` and `qrt trade` write, and the book's
+//! figures.
+//!
+//! A [`Canvas`] collects a drawing's elements and becomes an SVG that is self-contained, has no
+//! scripts and follows its reader's colour scheme. A [`Panel`] is a part of it with linear axes; a
+//! [`Plot`] is a whole one with logarithmic axes. Their colours are those of one palette
+//! ([`coloured`]), in which each name means one thing.
+//!
+//! ```
+//! use qrt_drawing::Canvas;
+//! let mut canvas = Canvas::new("One wire", 200.0, 60.0);
+//! canvas.line("wire", [10.0, 40.0], [190.0, 40.0]);
+//! canvas.text("soft end", [190.0, 34.0], "ray_0 & colour");
+//! let svg = canvas.svg();
+//! assert!(svg.contains("<path class=\"wire\" d=\"M10 40L190 40\"/>"));
+//! assert!(svg.contains("ray_0 &amp; colour"));
+//! ```
+
+mod canvas;
+mod escape;
+mod palette;
+mod panel;
+mod plot;
+
+pub use canvas::{Canvas, SMALL, number, polyline, text_width};
+pub use escape::escaped;
+pub use palette::{STYLES, coloured, style_sheet};
+pub use panel::{Panel, minus, ticks};
+pub use plot::{Axis, Drawn, Fit, Plot, Point, Scale, Series};

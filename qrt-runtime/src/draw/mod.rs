@@ -1,0 +1,11 @@
+//! Drawings of an inspected oracle: the call in the paper's frame, and which register has which qubits.
+
+mod frame;
+mod registers;
+mod terminal;
+#[cfg(test)]
+mod tests;
+
+pub use frame::frame;
+pub use registers::registers;
+pub use terminal::frame_text;
