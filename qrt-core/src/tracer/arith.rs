@@ -22,6 +22,18 @@ pub struct Coordinate {
 }
 
 impl Coordinate {
+    /// The first of `depth`.
+    pub fn u(depth: usize) -> Self {
+        let axis = Axis::U;
+        Self { depth, axis }
+    }
+
+    /// The second of `depth`.
+    pub fn v(depth: usize) -> Self {
+        let axis = Axis::V;
+        Self { depth, axis }
+    }
+
     /// Its dimension in a sequence: `2 depth` for `u`, `2 depth + 1` for `v`.
     pub fn dimension(self) -> usize {
         2 * self.depth + usize::from(self.axis == Axis::V)

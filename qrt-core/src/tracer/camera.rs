@@ -1,9 +1,8 @@
 //! *Generate Ray*, for the primary ray.
 
-use super::geometry::Geometry;
-use super::intersect::{Ray, from_nowhere};
-use super::vector;
-use super::{Arith, Axis, Coordinate};
+use super::geometry::{Geometry, NO_PLANE};
+use super::ray::Ray;
+use super::{Arith, Coordinate, vector};
 use crate::scene::{Camera, Film};
 use glam::DVec3;
 
@@ -39,13 +38,10 @@ struct Basis {
 impl Basis {
     fn new(camera: &Camera) -> Self {
         let (eye, target, up, half, perspective) = match camera {
-            Camera::Perspective(c) => (
-                c.eye,
-                c.target,
-                c.up,
-                libm::tan(0.5 * c.vfov.to_radians()),
-                true,
-            ),
+            Camera::Perspective(c) => {
+                let half = libm::tan(0.5 * c.vfov.to_radians());
+                (c.eye, c.target, c.up, half, true)
+            }
             Camera::Orthographic(c) => (c.eye, c.target, c.up, 0.5 * c.height, false),
         };
         let forward = (target - eye).normalize();
@@ -67,17 +63,16 @@ impl Basis {
     }
 }
 
-/// Points from which primary rays start.
-pub(crate) fn reach(camera: &Camera, film: Film) -> Vec<DVec3> {
+/// Points from which primary rays start, or the corners of the area that they start from.
+pub(crate) fn ray_origins(camera: &Camera, film: Film) -> Vec<DVec3> {
     let basis = Basis::new(camera);
     if basis.perspective {
         vec![basis.eye]
     } else {
         basis
             .corners(film)
-            .iter()
-            .map(|&corner| basis.eye + corner)
-            .collect()
+            .map(|corner| basis.eye + corner)
+            .to_vec()
     }
 }
 
@@ -90,77 +85,50 @@ impl CameraStage {
         let row = (lower_left - upper_left) / f64::from(film.height);
         let eye = (basis.eye - geometry.centre) * geometry.scale;
         // No direction is shorter than its forward part, 1.
-        let starts = reach(camera, film).into_iter();
+        let starts = ray_origins(camera, film).into_iter();
         let starts = starts.map(|start| (start - geometry.centre) * geometry.scale);
         let far = starts.map(DVec3::length).fold(0.0, f64::max) + geometry.radius();
-        if basis.perspective {
-            Self {
-                perspective: true,
-                fixed: eye.to_array(),
-                corner: (basis.forward + upper_left).to_array(),
-                column: column.to_array(),
-                row: row.to_array(),
-                unit,
-                reach: far,
-            }
+        let (perspective, scale) = (basis.perspective, geometry.scale);
+        let (fixed, corner, per_pixel) = if perspective {
+            (eye, basis.forward + upper_left, 1.0)
         } else {
-            Self {
-                perspective: false,
-                fixed: basis.forward.to_array(),
-                corner: (eye + upper_left * geometry.scale).to_array(),
-                column: (column * geometry.scale).to_array(),
-                row: (row * geometry.scale).to_array(),
-                unit: false,
-                reach: far,
-            }
+            (basis.forward, eye + upper_left * scale, scale)
+        };
+        Self {
+            perspective,
+            fixed: fixed.to_array(),
+            corner: corner.to_array(),
+            column: (column * per_pixel).to_array(),
+            row: (row * per_pixel).to_array(),
+            unit: unit && perspective,
+            reach: far,
         }
     }
 
     /// The primary ray of a path: the paper's *Generate Ray* over `primaryRayId`.
     #[inline(always)]
     pub(crate) fn ray<A: Arith>(&self, cx: &mut A, bits: [u32; 2]) -> Ray<A> {
-        let u = cx.coordinate(Coordinate {
-            depth: 0,
-            axis: Axis::U,
-        });
-        let v = cx.coordinate(Coordinate {
-            depth: 0,
-            axis: Axis::V,
-        });
+        let u = cx.coordinate(Coordinate::u(0));
+        let v = cx.coordinate(Coordinate::v(0));
         let u = cx.centre(u, bits[0]);
         let v = cx.centre(v, bits[1]);
         let [column, row] = cx.pixel();
-        let x = cx.add(column, u);
-        let y = cx.add(row, v);
-        let corner = vector::constant(cx, self.corner);
-        let columns = vector::constant(cx, self.column);
-        let columns = vector::scale(cx, &columns, x);
-        let rows = vector::constant(cx, self.row);
-        let rows = vector::scale(cx, &rows, y);
-        let moving = vector::add(cx, &corner, &columns);
-        let moving = vector::add(cx, &moving, &rows);
+        let (x, y) = (math!(cx, column + u), math!(cx, row + v));
+        let columns = vector!(cx, constant(self.column) * x);
+        let rows = vector!(cx, constant(self.row) * y);
+        let moving = vector!(cx, constant(self.corner) + columns + rows);
         let fixed = vector::constant(cx, self.fixed);
-        let from = from_nowhere(cx);
-        if self.perspective {
-            let direction = if self.unit {
-                // The forward part alone has length 1.
-                vector::normalize(cx, &moving, 1.0)
-            } else {
-                moving
-            };
-            Ray {
-                origin: fixed,
-                direction,
-                from,
-                reach: self.reach,
-            }
-        } else {
-            Ray {
-                origin: moving,
-                direction: fixed,
-                from,
-                reach: self.reach,
-            }
+        let (origin, direction) = match (self.perspective, self.unit) {
+            // The forward part alone has length 1.
+            (true, true) => (fixed, vector::normalize(cx, &moving, 1.0)),
+            (true, false) => (fixed, moving),
+            (false, _) => (moving, fixed),
+        };
+        Ray {
+            origin,
+            direction,
+            from: cx.index(NO_PLANE),
+            reach: self.reach,
         }
     }
 }

@@ -1,7 +1,7 @@
 //! The frame itself: the paper's `Path Tracing` box.
 
-use super::intersect::{Nearest, Ray};
-use super::scatter::{Vertex, members};
+use super::bsdf::Vertex;
+use super::ray::{Nearest, Ray};
 use super::vector::{self, Vector};
 use super::{Arith, Named, Part, Stage};
 
@@ -53,30 +53,23 @@ pub fn trace<A: Arith, N: Nearest<A>, const C: usize>(
             tangent: [zero; 3],
             bitangent: [zero; 3],
             normal: [zero; 3],
-            slope: zero,
+            cos_theta: zero,
             front: alive,
             surface,
             alive,
         };
-        let emits = members(cx, &vertex, &stage.emitters);
+        let emits = stage.emitters.members(cx, &vertex);
         if emits.is_none() && scatter.is_none() {
             break;
         }
         vertex.normal = cx.rows(&stage.normals, hit.face);
         cx.enter(Part::Side(depth));
-        vertex.slope = vector::dot(cx, &ray.direction, &vertex.normal);
-        vertex.front = cx.less(vertex.slope, zero);
+        vertex.cos_theta = math!(cx, dot(ray.direction, vertex.normal));
+        vertex.front = math!(cx, vertex.cos_theta < 0.0);
         cx.leave();
         if let Some(emits) = emits {
             cx.enter(Part::Shade(depth));
-            let shows = cx.and(emits, vertex.front);
-            let shows = cx.and(shows, alive);
-            let radiance = cx.rows(&stage.radiance, surface);
-            let arriving = match throughput {
-                Some(throughput) => vector::mul(cx, &throughput, &radiance),
-                None => radiance,
-            };
-            let seen = vector::select(cx, shows, &arriving, &[zero; C]);
+            let seen = stage.emitters.shade(cx, &vertex, emits, throughput);
             colour = vector::add(cx, &colour, &seen);
             cx.leave();
         }
@@ -84,9 +77,7 @@ pub fn trace<A: Arith, N: Nearest<A>, const C: usize>(
             break;
         };
         if stage.black > 0 {
-            let ends = cx.below(surface, stage.black);
-            let goes_on = cx.not(ends);
-            alive = cx.and(alive, goes_on);
+            alive = math!(cx, alive && !cx.below(surface, stage.black));
         }
         if !cx.possible(alive) {
             break;
@@ -130,13 +121,9 @@ fn start_along<A: Arith>(
     axis: usize,
 ) -> A::Real {
     cx.enter(Part::Component(axis));
-    let way = cx.mul(ray.direction[axis], distance);
-    let point = cx.add(ray.origin[axis], way);
-    let rest = cx.sub(centre[axis], point);
-    let share = cx.inward();
-    let share = cx.real(share);
-    let step = cx.mul(rest, share);
-    let start = cx.add(point, step);
+    let point = math!(cx, ray.origin[axis] + ray.direction[axis] * distance);
+    let fraction = cx.inward();
+    let start = math!(cx, point + (centre[axis] - point) * real(fraction));
     cx.leave();
     start
 }

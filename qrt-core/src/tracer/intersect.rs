@@ -4,87 +4,10 @@
 //! that it leaves and cannot meet that plane again: two distinct points of a line on a plane put
 //! the whole line there. So no epsilon is needed to leave a surface.
 
-use super::geometry::{Face, Geometry, NO_FACE, NO_PLANE, Slab};
-use super::vector::Vector;
-use super::{Arith, Part, vector};
-
-/// A ray.
-pub struct Ray<A: Arith> {
-    /// Where it starts.
-    pub origin: Vector<A>,
-    /// Where it goes; of unit length wherever a material asks for angles.
-    pub direction: Vector<A>,
-    /// The plane it leaves; [`NO_PLANE`] from the camera.
-    pub from: A::Index,
-    /// A bound on the distance of whatever it meets, in lengths of its direction.
-    pub reach: f64,
-}
-
-impl<A: Arith> Clone for Ray<A> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-impl<A: Arith> Copy for Ray<A> {}
-
-/// The nearest intersection.
-pub struct Hit<A: Arith> {
-    /// Is there one?
-    pub found: A::Bool,
-    /// Distance, in lengths of the ray's direction.
-    pub distance: A::Real,
-    /// The face; the first where there is none.
-    pub face: A::Index,
-}
-
-impl<A: Arith> Clone for Hit<A> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-impl<A: Arith> Copy for Hit<A> {}
-
-impl<A: Arith> Hit<A> {
-    /// The hit on `face`, or none where that is [`NO_FACE`] or the path is not `wanted`.
-    #[inline(always)]
-    pub fn new(cx: &mut A, distance: A::Real, face: A::Index, wanted: A::Bool) -> Self {
-        let none = cx.is(face, NO_FACE);
-        let found = cx.not(none);
-        let zero = cx.index(0);
-        let face = cx.select_index(none, zero, face);
-        Self {
-            found: cx.and(found, wanted),
-            distance,
-            face,
-        }
-    }
-}
-
-/// What finds the nearest intersection.
-pub trait Nearest<A: Arith> {
-    /// The nearest intersection of `ray`, wanted only where `wanted`.
-    fn nearest(&self, cx: &mut A, ray: &Ray<A>, wanted: A::Bool) -> Hit<A>;
-
-    /// The nearest intersection of `ray` where that is on an emitter: all that matters of a
-    /// path's last ray.
-    fn emitter(&self, cx: &mut A, ray: &Ray<A>, wanted: A::Bool) -> Hit<A>;
-}
-
-/// `low <= value <= high`
-#[inline(always)]
-pub fn between<A: Arith>(cx: &mut A, low: A::Real, value: A::Real, high: A::Real) -> A::Bool {
-    let above = cx.less_equal(low, value);
-    let under = cx.less_equal(value, high);
-    cx.and(above, under)
-}
-
-/// `a x + b y`
-#[inline(always)]
-pub fn weighted<A: Arith>(cx: &mut A, form: [A::Real; 2], at: [A::Real; 2]) -> A::Real {
-    let ax = cx.mul(at[0], form[0]);
-    let by = cx.mul(at[1], form[1]);
-    cx.add(ax, by)
-}
+use super::crossing::{Crossing, Turned, cross, weighted};
+use super::geometry::{Face, Geometry, NO_FACE, Slab};
+use super::ray::{Hit, Nearest, Ray};
+use super::{Arith, Part};
 
 #[inline(always)]
 fn constants<A: Arith>(cx: &mut A, [a, b]: [f64; 2]) -> [A::Real; 2] {
@@ -100,32 +23,22 @@ impl Slab {
     }
 }
 
-/// The point of `ray` at `distance`.
-#[inline(always)]
-pub(crate) fn point_at<A: Arith>(cx: &mut A, ray: &Ray<A>, distance: A::Real) -> Vector<A> {
-    let way = vector::scale(cx, &ray.direction, distance);
-    vector::add(cx, &ray.origin, &way)
-}
-
 /// Does `point` pass every slab?
 #[inline(always)]
 fn within<A: Arith>(cx: &mut A, slabs: &[Slab], point: [A::Real; 2]) -> A::Bool {
     // The usual cases without a loop: truth values then stay in mask registers.
     match slabs {
         [a, b] => {
-            let (a, b) = (a.holds(cx, point), b.holds(cx, point));
-            cx.and(a, b)
+            math!(cx, a.holds(cx, point) && b.holds(cx, point))
         }
         [a, b, c] => {
             let (a, b, c) = (a.holds(cx, point), b.holds(cx, point), c.holds(cx, point));
-            let ab = cx.and(a, b);
-            cx.and(ab, c)
+            math!(cx, a && b && c)
         }
         [a, b, c, d] => {
             let (a, b) = (a.holds(cx, point), b.holds(cx, point));
             let (c, d) = (c.holds(cx, point), d.holds(cx, point));
-            let (ab, cd) = (cx.and(a, b), cx.and(c, d));
-            cx.and(ab, cd)
+            math!(cx, (a && b) && (c && d))
         }
         _ => {
             let mut inside = cx.truth(true);
@@ -162,87 +75,6 @@ pub(crate) fn meets<A: Arith, E: Edges<A> + ?Sized>(
     cx.and(crossing.ahead, inside)
 }
 
-/// A ray as the planes of one main axis see it: its parts along that axis and across.
-pub struct Turned<A: Arith> {
-    /// Along the axis.
-    pub origin: A::Real,
-    /// Along the axis.
-    pub direction: A::Real,
-    /// Along the next axis and the one after it.
-    pub origin_across: [A::Real; 2],
-    /// Along the next axis and the one after it.
-    pub direction_across: [A::Real; 2],
-    /// As [`Ray::reach`].
-    pub reach: f64,
-}
-
-impl<A: Arith> Turned<A> {
-    #[inline(always)]
-    fn new<const AXIS: usize>(ray: &Ray<A>) -> Self {
-        let across = |v: &Vector<A>| [v[(AXIS + 1) % 3], v[(AXIS + 2) % 3]];
-        Self {
-            origin: ray.origin[AXIS],
-            direction: ray.direction[AXIS],
-            origin_across: across(&ray.origin),
-            direction_across: across(&ray.direction),
-            reach: ray.reach,
-        }
-    }
-
-    /// As the planes of `axis` see `ray`, whichever that is.
-    #[inline(always)]
-    pub(crate) fn looked_up(cx: &mut A, ray: &Ray<A>, axis: A::Index) -> Self {
-        let [x, y] = [cx.is(axis, 0), cx.is(axis, 1)];
-        let mut turn = |v: &Vector<A>, first: usize| {
-            let last = cx.select(y, v[(first + 1) % 3], v[(first + 2) % 3]);
-            cx.select(x, v[first], last)
-        };
-        Self {
-            origin: turn(&ray.origin, 0),
-            direction: turn(&ray.direction, 0),
-            origin_across: [turn(&ray.origin, 1), turn(&ray.origin, 2)],
-            direction_across: [turn(&ray.direction, 1), turn(&ray.direction, 2)],
-            reach: ray.reach,
-        }
-    }
-}
-
-/// Where a ray crosses a plane.
-pub struct Crossing<A: Arith> {
-    /// Does it, ahead of its origin?
-    pub ahead: A::Bool,
-    /// At which distance.
-    pub distance: A::Real,
-    /// Where, along the two axes after the plane's main one.
-    pub point: [A::Real; 2],
-}
-
-/// Where `ray` crosses the plane of this form (see [`super::Plane`]) and offset.
-#[inline(always)]
-pub fn cross<A: Arith>(
-    cx: &mut A,
-    form: [A::Real; 2],
-    offset: A::Real,
-    ray: &Turned<A>,
-) -> Crossing<A> {
-    let slope = weighted(cx, form, ray.direction_across);
-    let slope = cx.add(ray.direction, slope);
-    let height = weighted(cx, form, ray.origin_across);
-    let height = cx.add(ray.origin, height);
-    let rise = cx.sub(offset, height);
-    let (ahead, distance) = cx.ahead(rise, slope, ray.reach);
-    let [x, y] = vector::scale(cx, &ray.direction_across, distance);
-    let point = [
-        cx.add(ray.origin_across[0], x),
-        cx.add(ray.origin_across[1], y),
-    ];
-    Crossing {
-        ahead,
-        distance,
-        point,
-    }
-}
-
 impl Geometry {
     /// Where `ray` crosses plane `number`, unless it leaves it.
     #[inline(always)]
@@ -258,9 +90,8 @@ impl Geometry {
         let offset = cx.real(plane.offset);
         let crossing = cross(cx, form, offset, ray);
         let left = cx.is(from, number as u32);
-        let other = cx.not(left);
         Crossing {
-            ahead: cx.and(crossing.ahead, other),
+            ahead: math!(cx, crossing.ahead && !left),
             ..crossing
         }
     }
@@ -338,12 +169,11 @@ impl Geometry {
             for face in self.faces_of(number).iter().filter(|face| !face.emits) {
                 let meets = meets(cx, &crossing, &*face.slabs);
                 let nearer = if face.hides_emitter {
-                    cx.less_equal(crossing.distance, emitter)
+                    math!(cx, crossing.distance <= emitter)
                 } else {
-                    cx.less(crossing.distance, emitter)
+                    math!(cx, crossing.distance < emitter)
                 };
-                let hides = cx.and(meets, nearer);
-                hidden = cx.or(hidden, hides);
+                hidden = math!(cx, hidden || meets && nearer);
             }
             cx.leave();
         }
@@ -370,8 +200,7 @@ impl<A: Arith> Running<A> {
     #[inline(always)]
     fn meet(&mut self, cx: &mut A, face: &Face, crossing: &Crossing<A>) {
         let meets = meets(cx, crossing, &*face.slabs);
-        let nearer = cx.less(crossing.distance, self.distance);
-        let hit = cx.and(meets, nearer);
+        let hit = math!(cx, meets && crossing.distance < self.distance);
         let label = cx.index(face.label);
         self.distance = cx.select(hit, crossing.distance, self.distance);
         self.face = cx.select_index(hit, label, self.face);
@@ -413,14 +242,7 @@ impl<A: Arith> Nearest<A> for Geometry {
         hidden = self.hidden_along::<A, 0>(cx, ray, hit.distance, hidden);
         hidden = self.hidden_along::<A, 1>(cx, ray, hit.distance, hidden);
         hidden = self.hidden_along::<A, 2>(cx, ray, hit.distance, hidden);
-        let shown = cx.not(hidden);
-        hit.found = cx.and(hit.found, shown);
+        hit.found = math!(cx, hit.found && !hidden);
         hit
     }
-}
-
-/// A ray that leaves no plane.
-#[inline(always)]
-pub(crate) fn from_nowhere<A: Arith>(cx: &mut A) -> A::Index {
-    cx.index(NO_PLANE)
 }

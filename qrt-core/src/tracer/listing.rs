@@ -5,9 +5,11 @@
 //! that asks about one face whose number is a register's. The intersection is the same: where a ray
 //! crosses a plane ([`super::cross`]), and whether that lies within the edges.
 
+use super::crossing::{Crossing, Turned, cross};
 use super::geometry::{NO_FACE, Slab};
-use super::intersect::{Crossing, Edges, Hit, Nearest, Ray, Turned, cross, meets};
-use super::{Arith, Stage, vector};
+use super::intersect::{Edges, meets};
+use super::ray::{Hit, Nearest, Ray};
+use super::{Arith, Stage};
 use std::cell::Cell;
 
 /// Faces in the order in which the running nearest asks about them: of those equally far, the first
@@ -118,9 +120,8 @@ impl Listing {
 
     #[inline(always)]
     fn cross<A: Arith>(&self, cx: &mut A, ray: &Ray<A>, face: A::Index) -> Crossing<A> {
-        let viewpoint = vector::constant(cx, self.viewpoint);
         let seen = Ray {
-            origin: vector::sub(cx, &ray.origin, &viewpoint),
+            origin: vector!(cx, ray.origin - constant(self.viewpoint)),
             ..*ray
         };
         let axis = cx.entry(&self.axes, face);
@@ -146,8 +147,7 @@ impl<A: Arith> Edges<A> for Looked<'_, A> {
             let main = cx.select(swap, second, first);
             let other = cx.select(swap, first, second);
             let [slope] = cx.rows(&slot.slope, self.face);
-            let along = cx.mul(other, slope);
-            let value = cx.add(main, along);
+            let value = math!(cx, main + other * slope);
             if slot.low.iter().any(|[low]| low.is_finite()) {
                 let above = cx.at_least(value, &slot.low, self.face);
                 inside = cx.and(inside, above);

@@ -18,29 +18,35 @@
 //! `f` the BSDF and `J = |phi_u x phi_v|` the Jacobian of the map `phi` from the unit square to
 //! directions.
 
+#[macro_use]
+mod math;
+
 mod arith;
 mod bound;
+mod bsdf;
 mod camera;
+mod compiled;
+mod crossing;
 mod frame;
 mod geometry;
 mod intersect;
 mod listing;
-mod microfacet;
 mod paper;
-mod phong;
+mod polygon;
+mod ray;
 mod sampled;
-mod scatter;
-mod stage;
 #[cfg(test)]
-mod tests;
+mod scalar;
+mod stage;
 pub(crate) mod vector;
 
 pub use arith::{Arith, Axis, Coordinate, Named, Part};
 pub use camera::CameraStage;
+pub use crossing::{Crossing, Turned, between, cross, weighted};
 pub use frame::trace;
 pub use geometry::{Face, Frame, Geometry, INWARD, NO_FACE, NO_PLANE, Plane, Slab, TOLERANCE};
-pub use intersect::{Crossing, Hit, Nearest, Ray, Turned, between, cross, weighted};
 pub use listing::{FirstGiven, Listing};
 pub use paper::Records;
+pub use ray::{Hit, Nearest, Ray};
 pub use sampled::Sampled;
 pub use stage::Stage;

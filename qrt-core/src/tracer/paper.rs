@@ -2,7 +2,7 @@
 //! primitive, and after each one a full record of the nearest so far.
 
 use super::geometry::NO_FACE;
-use super::intersect::{Hit, Nearest, Ray, point_at};
+use super::ray::{Hit, Nearest, Ray, point_at};
 use super::{Arith, Part, Stage};
 
 /// Records of every primitive, beside the geometry that [`Nearest`] is otherwise asked of. For
@@ -37,8 +37,7 @@ impl<A: Arith, const C: usize> Nearest<A> for Records<'_, C> {
             {
                 *field = cx.real(value);
             }
-            let nearer = cx.less(distance, nearest[0]);
-            let hit = cx.and(meets, nearer);
+            let hit = math!(cx, meets && distance < nearest[0]);
             for (kept, new) in nearest.iter_mut().zip(record) {
                 *kept = cx.select(hit, new, *kept);
                 cx.record(new);

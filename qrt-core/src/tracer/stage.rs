@@ -1,11 +1,10 @@
 //! A scene made ready for the tracer.
 
+use super::bsdf::{Emitters, ScatterStage, emits, rank};
 use super::camera::{self, CameraStage};
 use super::geometry::Geometry;
-use super::scatter::{Kind, ScatterStage, rank};
-use super::{bound, geometry};
-use crate::expr::{Expr, Variable};
-use crate::valid::{Scatter, Surface, ValidScene};
+use super::{Arith, bound, geometry};
+use crate::valid::{Surface, ValidScene};
 
 /// A scene made ready for the tracer, for `C` colour channels that share their paths.
 #[derive(Clone, Debug)]
@@ -20,10 +19,7 @@ pub struct Stage<const C: usize> {
     pub(crate) normals: Vec<[f64; 3]>,
     /// By face: tangent, bitangent and centre.
     pub(crate) frames: Vec<[f64; 9]>,
-    /// By surface: what its front emits.
-    pub(crate) radiance: Vec<[f64; C]>,
-    /// Surfaces that emit.
-    pub(crate) emitters: Kind,
+    pub(crate) emitters: Emitters<C>,
     /// Surfaces below this number scatter nothing.
     pub(crate) black: u32,
     /// What scatters towards each ray but the first.
@@ -53,15 +49,12 @@ impl<const C: usize> Stage<C> {
         for (new, &old) in order.iter().enumerate() {
             place[old] = new as u32;
         }
-        let emits = |surface: &&Surface| emits(surface);
-        let first = surfaces.iter().position(emits).unwrap_or(0) as u32;
-        let emitters = first..first + surfaces.iter().copied().filter(emits).count() as u32;
         let black = surfaces.iter().filter(|s| rank(&s.scatter) == 0).count() as u32;
-        let reach = camera::reach(&written.camera, written.film);
+        let starts = camera::ray_origins(&written.camera, written.film);
         let mut geometry = Geometry::new(
             scene.polygons(),
-            |polygon| emits(&&scene.surfaces()[polygon.surface as usize]),
-            &reach,
+            |polygon| emits(&scene.surfaces()[polygon.surface as usize]),
+            &starts,
         );
         let scatters: Vec<_> = depths
             .iter()
@@ -71,31 +64,20 @@ impl<const C: usize> Stage<C> {
                 ScatterStage::new(&surfaces, channels, depth, sampling.bits, sampling.map)
             })
             .collect();
-        let unit = depths.len() > 1 && surfaces.iter().any(|s| needs_angles(&s.scatter));
-        let radiance: Vec<[f64; C]> = surfaces
-            .iter()
-            .map(|surface| channels.map(|c| surface.radiance[c]))
-            .collect();
-        let bound = bound::colour(&surfaces, &radiance, &scatters);
+        let unit = scatters.iter().any(|scatter| scatter.asks_for_angles);
+        let emitters = Emitters::new(&surfaces, channels);
+        let bound = bound::colour(emitters.radiance(), &scatters);
         let camera = CameraStage::new(&written.camera, written.film, &geometry, unit);
         if camera.perspective {
             geometry.pass_through(camera.fixed);
         }
-        let frames = geometry.frames.iter();
+        let (polygons, frames) = (scene.polygons().iter(), geometry.frames.iter());
         Self {
             camera,
             film_bits: depths.first().map_or([0, 0], |primary| primary.bits),
-            surface_of: scene
-                .polygons()
-                .iter()
-                .map(|p| place[p.surface as usize])
-                .collect(),
-            normals: frames
-                .clone()
-                .map(|frame| frame.normal.to_array())
-                .collect(),
+            surface_of: polygons.map(|p| place[p.surface as usize]).collect(),
+            normals: frames.clone().map(|f| f.normal.to_array()).collect(),
             frames: frames.map(frame_row).collect(),
-            radiance,
             emitters,
             black,
             scatters,
@@ -107,13 +89,7 @@ impl<const C: usize> Stage<C> {
 
     /// The same stage with radiances in units of the bound, so that no colour exceeds 1.
     pub fn relative(mut self) -> Self {
-        for radiance in &mut self.radiance {
-            for (value, bound) in radiance.iter_mut().zip(self.bound) {
-                if bound > 0.0 {
-                    *value /= bound;
-                }
-            }
-        }
+        self.emitters.in_units(self.bound);
         self
     }
 
@@ -126,6 +102,25 @@ impl<const C: usize> Stage<C> {
     /// paper `2^b`.
     pub fn bound(&self) -> [f64; C] {
         self.bound
+    }
+
+    /// How densely the rays of `depth` that leave `face` (by its label) are sampled, per steradian
+    /// around `incoming`: what other ways to sample light are weighed against. Directions are of
+    /// unit length, in the frame whose z axis is the normal on the side of `outgoing`.
+    ///
+    /// None where no formula of the direction tells: for the primary rays, for surfaces that
+    /// reflect nothing or to single directions, and for an author's own map.
+    pub fn density<A: Arith>(
+        &self,
+        cx: &mut A,
+        depth: usize,
+        face: u32,
+        outgoing: &[A::Real; 3],
+        incoming: &[A::Real; 3],
+    ) -> Option<A::Real> {
+        let scatter = self.scatters.get(depth.checked_sub(1)?)?;
+        let surface = self.surface_of[face as usize];
+        scatter.density(cx, surface, outgoing, incoming)
     }
 
     /// The polygons.
@@ -148,34 +143,8 @@ fn used(scene: &ValidScene) -> Vec<bool> {
     used
 }
 
-fn emits(surface: &Surface) -> bool {
-    surface.radiance.iter().any(|&channel| channel > 0.0)
-}
-
-/// By kind, and so that emitters (which are black or Lambertian) are neighbours.
+/// By lobe, and so that emitters (which are black or Lambertian) are neighbours.
 fn sort_key(surface: &Surface) -> (u32, bool) {
-    let kind = rank(&surface.scatter);
-    (
-        kind,
-        if kind == 0 {
-            emits(surface)
-        } else {
-            !emits(surface)
-        },
-    )
-}
-
-/// Does the material ask for the cosine of the arriving ray?
-fn needs_angles(scatter: &Scatter) -> bool {
-    match scatter {
-        // A mirror keeps a direction's length for whoever asks next, and asks for nothing itself.
-        Scatter::Black | Scatter::Lambertian { .. } | Scatter::Mirror { .. } => false,
-        Scatter::Dielectric { .. } | Scatter::Ggx { .. } | Scatter::Phong { .. } => true,
-        Scatter::Custom(bsdf) => bsdf.value.iter().any(asks_for_angles),
-    }
-}
-
-fn asks_for_angles(value: &Expr) -> bool {
-    let variables = value.variables(value.root());
-    variables.contains(Variable::CosO) || variables.contains(Variable::CosA)
+    let (rank, emits) = (rank(&surface.scatter), emits(surface));
+    (rank, emits == (rank == 0))
 }

@@ -1,9 +1,33 @@
-//! Three-vectors over [`Arith`].
+//! Three-vectors over [`Arith`], written with [`vector!`](super::math).
 
 use super::Arith;
 
 /// Components x, y, z.
 pub(crate) type Vector<A> = [<A as Arith>::Real; 3];
+
+/// The first `N` components, at most three, by an expression of their number `k`.
+///
+/// Neither closures nor loops: a closure is a function without the lanes' instruction set until
+/// it is inlined, and the many short loops of a whole tracer cost minutes of compiling.
+macro_rules! components {
+    ($first:expr, $k:ident => $component:expr) => {{
+        const { assert!(N <= 3) };
+        let mut result = $first;
+        if N > 0 {
+            let $k = 0;
+            result[$k] = $component;
+        }
+        if N > 1 {
+            let $k = 1;
+            result[$k] = $component;
+        }
+        if N > 2 {
+            let $k = 2;
+            result[$k] = $component;
+        }
+        result
+    }};
+}
 
 #[inline(always)]
 pub(crate) fn constant<A: Arith>(cx: &mut A, v: [f64; 3]) -> Vector<A> {
@@ -12,11 +36,8 @@ pub(crate) fn constant<A: Arith>(cx: &mut A, v: [f64; 3]) -> Vector<A> {
 
 #[inline(always)]
 pub(crate) fn dot<A: Arith>(cx: &mut A, a: &Vector<A>, b: &Vector<A>) -> A::Real {
-    let x = cx.mul(a[0], b[0]);
-    let y = cx.mul(a[1], b[1]);
-    let z = cx.mul(a[2], b[2]);
-    let xy = cx.add(x, y);
-    cx.add(xy, z)
+    let [x, y, z] = mul(cx, a, b);
+    math!(cx, x + y + z)
 }
 
 /// `s` times each component.
@@ -36,20 +57,7 @@ pub(crate) fn mul<A: Arith, const N: usize>(
     a: &[A::Real; N],
     b: &[A::Real; N],
 ) -> [A::Real; N] {
-    // Neither closures nor loops: a closure is a function without the lanes' instruction set until
-    // it is inlined, and the many short loops of a whole tracer cost minutes of compiling.
-    const { assert!(N <= 3) };
-    let mut product = *a;
-    if N > 0 {
-        product[0] = cx.mul(a[0], b[0]);
-    }
-    if N > 1 {
-        product[1] = cx.mul(a[1], b[1]);
-    }
-    if N > 2 {
-        product[2] = cx.mul(a[2], b[2]);
-    }
-    product
+    components!(*a, k => cx.mul(a[k], b[k]))
 }
 
 /// Component by component.
@@ -59,28 +67,23 @@ pub(crate) fn add<A: Arith, const N: usize>(
     a: &[A::Real; N],
     b: &[A::Real; N],
 ) -> [A::Real; N] {
-    const { assert!(N <= 3) };
-    let mut sum = *a;
-    if N > 0 {
-        sum[0] = cx.add(a[0], b[0]);
-    }
-    if N > 1 {
-        sum[1] = cx.add(a[1], b[1]);
-    }
-    if N > 2 {
-        sum[2] = cx.add(a[2], b[2]);
-    }
-    sum
+    components!(*a, k => cx.add(a[k], b[k]))
 }
 
+/// Component by component.
 #[inline(always)]
-pub(crate) fn sub<A: Arith>(cx: &mut A, a: &Vector<A>, b: &Vector<A>) -> Vector<A> {
-    [cx.sub(a[0], b[0]), cx.sub(a[1], b[1]), cx.sub(a[2], b[2])]
+pub(crate) fn sub<A: Arith, const N: usize>(
+    cx: &mut A,
+    a: &[A::Real; N],
+    b: &[A::Real; N],
+) -> [A::Real; N] {
+    components!(*a, k => cx.sub(a[k], b[k]))
 }
 
+/// Component by component.
 #[inline(always)]
-pub(crate) fn neg<A: Arith>(cx: &mut A, a: &Vector<A>) -> Vector<A> {
-    [cx.neg(a[0]), cx.neg(a[1]), cx.neg(a[2])]
+pub(crate) fn neg<A: Arith, const N: usize>(cx: &mut A, a: &[A::Real; N]) -> [A::Real; N] {
+    components!(*a, k => cx.neg(a[k]))
 }
 
 /// Component by component.
@@ -91,39 +94,29 @@ pub(crate) fn select<A: Arith, const N: usize>(
     a: &[A::Real; N],
     b: &[A::Real; N],
 ) -> [A::Real; N] {
-    const { assert!(N <= 3) };
-    let mut chosen = *a;
-    if N > 0 {
-        chosen[0] = cx.select(c, a[0], b[0]);
-    }
-    if N > 1 {
-        chosen[1] = cx.select(c, a[1], b[1]);
-    }
-    if N > 2 {
-        chosen[2] = cx.select(c, a[2], b[2]);
-    }
-    chosen
+    components!(*a, k => cx.select(c, a[k], b[k]))
+}
+
+/// A vector of unit length, up to rounding.
+#[inline(always)]
+pub(crate) fn unit<A: Arith>(cx: &mut A, a: &Vector<A>) -> Vector<A> {
+    [
+        cx.known(a[0], -1.0, 1.0),
+        cx.known(a[1], -1.0, 1.0),
+        cx.known(a[2], -1.0, 1.0),
+    ]
 }
 
 /// `a` over its length, which is at least `1 / longest`.
 #[inline(always)]
 pub(crate) fn normalize<A: Arith>(cx: &mut A, a: &Vector<A>, longest: f64) -> Vector<A> {
-    let length = cx.length(*a);
-    let one = cx.real(1.0);
-    let inverse = cx.div(one, length, longest);
-    let [x, y, z] = scale(cx, a, inverse);
-    [
-        cx.known(x, -1.0, 1.0),
-        cx.known(y, -1.0, 1.0),
-        cx.known(z, -1.0, 1.0),
-    ]
+    let scaled = vector!(cx, *a * div(1.0, length(*a), longest));
+    unit(cx, &scaled)
 }
 
 /// `2 (a.b) b - a`: `a` mirrored at the axis `b`, a unit vector.
 #[inline(always)]
 pub(crate) fn mirror<A: Arith>(cx: &mut A, a: &Vector<A>, b: &Vector<A>) -> Vector<A> {
     let cos = dot(cx, a, b);
-    let twice = cx.add(cos, cos);
-    let along = scale(cx, b, twice);
-    sub(cx, &along, a)
+    vector!(cx, *b * (cos + cos) - *a)
 }

@@ -19,7 +19,7 @@ use crate::scene::decode::Place;
 use crate::scene::meshes::Meshes;
 use crate::scene::shape::Part;
 use crate::scene::text::Fingerprint;
-use crate::scene::{Bsdf, Material, Rgb, Scene};
+use crate::scene::{Bsdf, Dielectric, Ggx, Lambertian, Material, Mirror, Phong, Rgb, Scene};
 use glam::DVec3;
 use std::path::PathBuf;
 
@@ -49,24 +49,11 @@ pub struct Surface {
 pub enum Scatter {
     /// Nothing leaves: the path ends here.
     Black,
-    Lambertian {
-        albedo: Rgb,
-    },
-    Mirror {
-        reflectance: Rgb,
-    },
-    Dielectric {
-        ior: f64,
-    },
-    Ggx {
-        alpha: f64,
-        reflectance: Rgb,
-    },
-    Phong {
-        diffuse: Rgb,
-        specular: Rgb,
-        exponent: f64,
-    },
+    Lambertian(Lambertian),
+    Mirror(Mirror),
+    Dielectric(Dielectric),
+    Ggx(Ggx),
+    Phong(Phong),
     Custom(Box<CustomBsdf>),
 }
 
@@ -120,7 +107,7 @@ impl ValidScene {
         let mut print = self.scene.fingerprint();
         for surface in self.materials.iter().skip(self.scene.materials.len()) {
             let albedo = match surface.scatter {
-                Scatter::Lambertian { albedo } => albedo,
+                Scatter::Lambertian(Lambertian { albedo }) => albedo,
                 _ => [0.0; 3],
             };
             for value in surface.radiance.into_iter().chain(albedo) {
@@ -200,28 +187,12 @@ fn surfaces(scene: &Scene, problems: &mut Vec<Problem>) -> Vec<Surface> {
         let (radiance, scatter) = match material {
             Material::Lambertian(part) => ([0.0; 3], matte(part.albedo)),
             Material::Emitter(part) => (part.radiance, matte(part.albedo)),
-            Material::Mirror(part) => (
-                [0.0; 3],
-                Scatter::Mirror {
-                    reflectance: part.reflectance,
-                },
-            ),
-            Material::Dielectric(part) => ([0.0; 3], Scatter::Dielectric { ior: part.ior }),
-            Material::Ggx(part) => {
-                let (alpha, reflectance) = (part.alpha, part.reflectance);
-                ([0.0; 3], Scatter::Ggx { alpha, reflectance })
-            }
+            Material::Mirror(part) => ([0.0; 3], Scatter::Mirror(*part)),
+            Material::Dielectric(part) => ([0.0; 3], Scatter::Dielectric(*part)),
+            Material::Ggx(part) => ([0.0; 3], Scatter::Ggx(*part)),
             Material::Phong(part) => {
                 problems.extend(phong_energy(part, &path));
-                let (diffuse, specular) = (part.diffuse, part.specular);
-                (
-                    [0.0; 3],
-                    Scatter::Phong {
-                        diffuse,
-                        specular,
-                        exponent: part.exponent,
-                    },
-                )
+                ([0.0; 3], Scatter::Phong(*part))
             }
             Material::Bsdf(part) => ([0.0; 3], custom(part, &path.key("bsdf"), problems)),
         };
@@ -239,13 +210,13 @@ pub(crate) fn matte(albedo: Rgb) -> Scatter {
     if albedo == [0.0; 3] {
         Scatter::Black
     } else {
-        Scatter::Lambertian { albedo }
+        Scatter::Lambertian(Lambertian { albedo })
     }
 }
 
 /// At normal incidence the lobe `(n + 2) / (2 pi) cos^n` has the albedo 1, at any other less; so
 /// kd + ks is the most that is reflected.
-fn phong_energy(phong: &crate::scene::Phong, path: &Path) -> Option<Problem> {
+fn phong_energy(phong: &Phong, path: &Path) -> Option<Problem> {
     let sums = phong
         .diffuse
         .iter()

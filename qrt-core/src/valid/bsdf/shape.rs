@@ -4,6 +4,7 @@ use super::text::{place, short};
 use crate::expr::{Expr, Variable, Variables};
 use crate::report::{Path, Problem};
 use crate::sampling::maps;
+use glam::DVec3;
 
 /// How far from length 1 a direction may be.
 const OFF_SPHERE: f64 = 1e-9;
@@ -45,8 +46,9 @@ impl Slopes {
         Self(map.each_ref().map(|c| Variable::SQUARE.map(|v| c.diff(v))))
     }
 
-    fn at(&self, at: &Variables, room: &mut Vec<f64>) -> [[f64; 3]; 2] {
-        [0, 1].map(|axis| self.0.each_ref().map(|slope| slope[axis].eval_in(at, room)))
+    fn at(&self, at: &Variables, room: &mut Vec<f64>) -> [DVec3; 2] {
+        let mut along = |axis: usize| self.0.each_ref().map(|slope| slope[axis].eval_in(at, room));
+        [along(0).into(), along(1).into()]
     }
 }
 
@@ -64,7 +66,7 @@ pub(super) fn map(map: &[Expr; 3]) -> Option<Problem> {
             let finite = "it must be finite for every u and v between 0 and 1";
             return Some(Problem::new("QRT0412", root.item(i), message).help(finite));
         }
-        let off = norm(direction) - 1.0;
+        let off = DVec3::from(direction).length() - 1.0;
         if off.abs() > OFF_SPHERE {
             let length = if off.abs() < 1e-4 {
                 format!("1 + {off:e}")
@@ -87,8 +89,8 @@ pub(super) fn map(map: &[Expr; 3]) -> Option<Problem> {
                 return Some(Problem::new("QRT0412", root.item(i), message).help(smooth));
             }
         }
-        let area = norm(cross(along_u, along_v));
-        flat.push((area <= PARALLEL * norm(along_u) * norm(along_v), at));
+        let area = along_u.cross(along_v).length();
+        flat.push((area <= PARALLEL * along_u.length() * along_v.length(), at));
     }
     // A line of flat points is harmless, an area is not: four cells that meet are one.
     let side = flat.len().isqrt();
@@ -141,13 +143,12 @@ fn twice(map: &[Expr; 3], slopes: &Slopes) -> Option<Variables> {
             let height = (f64::midpoint(z, 1.0) * HEIGHTS as f64) as usize;
             let turn = (turn * TURNS as f64) as usize;
             let slot = height.min(HEIGHTS - 1) * TURNS + turn.min(TURNS - 1);
-            let [along_u, along_v] = slopes
-                .at(&at, &mut room)
-                .map(|slope| slope.map(|s| s / f64::from(CELLS)));
-            let fine = norm(along_u) < FINE && norm(along_v) < FINE;
+            let slopes = slopes.at(&at, &mut room);
+            let [along_u, along_v] = slopes.map(|slope| slope / f64::from(CELLS));
+            let fine = along_u.length() < FINE && along_v.length() < FINE;
             let (area, count, place) = &mut covered[slot];
             *area += if fine {
-                norm(cross(along_u, along_v))
+                along_u.cross(along_v).length()
             } else {
                 f64::NEG_INFINITY
             };
@@ -159,24 +160,12 @@ fn twice(map: &[Expr; 3], slopes: &Slopes) -> Option<Variables> {
     covered.iter().find(often).map(|(_, _, place)| *place)
 }
 
-fn norm(a: [f64; 3]) -> f64 {
-    (a[0] * a[0] + a[1] * a[1] + a[2] * a[2]).sqrt()
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
-}
-
 /// A stated Jacobian is that of the map.
 pub(super) fn jacobian(map: &[Expr; 3], stated: &Expr) -> Option<Problem> {
     let slopes = Slopes::of(map);
     let right = |at: &Variables| {
         let [along_u, along_v] = slopes.at(at, &mut Vec::new());
-        norm(cross(along_u, along_v))
+        along_u.cross(along_v).length()
     };
     let off = |given: f64, right: f64| {
         let error = (given - right).abs();

@@ -4,119 +4,15 @@
 //! differences of the direction that the tracer samples. Tables of an independent renderer and
 //! quadrature over the hemisphere judge the rest.
 
-use super::phong::PhongStage;
-use super::scatter::Vertex;
+mod density;
+mod references;
+
 use super::*;
-use crate::expr::Function;
 use crate::front::parse;
+use crate::scene::Phong;
+use crate::tracer::Stage;
+use crate::tracer::scalar::Scalar;
 use std::f64::consts::{PI, TAU};
-
-/// Plain numbers: the arithmetic of one path.
-struct Scalar {
-    /// Sample indices of depth 1.
-    cell: [u32; 2],
-}
-
-impl Arith for Scalar {
-    type Real = f64;
-    type Bool = bool;
-    type Index = u32;
-
-    fn real(&mut self, value: f64) -> f64 {
-        value
-    }
-    fn add(&mut self, a: f64, b: f64) -> f64 {
-        a + b
-    }
-    fn sub(&mut self, a: f64, b: f64) -> f64 {
-        a - b
-    }
-    fn mul(&mut self, a: f64, b: f64) -> f64 {
-        a * b
-    }
-    fn div(&mut self, a: f64, b: f64, _most: f64) -> f64 {
-        a / b
-    }
-    fn neg(&mut self, a: f64) -> f64 {
-        -a
-    }
-    fn abs(&mut self, a: f64) -> f64 {
-        a.abs()
-    }
-    fn sqrt(&mut self, a: f64) -> f64 {
-        a.sqrt()
-    }
-    fn min(&mut self, a: f64, b: f64) -> f64 {
-        a.min(b)
-    }
-    fn max(&mut self, a: f64, b: f64) -> f64 {
-        a.max(b)
-    }
-    fn function(&mut self, function: Function, a: f64) -> f64 {
-        function.value(a)
-    }
-    fn pow(&mut self, a: f64, b: f64) -> f64 {
-        libm::pow(a, b)
-    }
-    fn atan2(&mut self, y: f64, x: f64) -> f64 {
-        libm::atan2(y, x)
-    }
-    fn truth(&mut self, value: bool) -> bool {
-        value
-    }
-    fn less(&mut self, a: f64, b: f64) -> bool {
-        a < b
-    }
-    fn less_equal(&mut self, a: f64, b: f64) -> bool {
-        a <= b
-    }
-    fn and(&mut self, a: bool, b: bool) -> bool {
-        a && b
-    }
-    fn or(&mut self, a: bool, b: bool) -> bool {
-        a || b
-    }
-    fn not(&mut self, a: bool) -> bool {
-        !a
-    }
-    fn possible(&mut self, a: bool) -> bool {
-        a
-    }
-    fn select(&mut self, c: bool, a: f64, b: f64) -> f64 {
-        if c { a } else { b }
-    }
-    fn index(&mut self, value: u32) -> u32 {
-        value
-    }
-    fn select_index(&mut self, c: bool, a: u32, b: u32) -> u32 {
-        if c { a } else { b }
-    }
-    fn is(&mut self, a: u32, value: u32) -> bool {
-        a == value
-    }
-    fn below(&mut self, a: u32, value: u32) -> bool {
-        a < value
-    }
-    fn rows<const K: usize>(&mut self, table: &[[f64; K]], row: u32) -> [f64; K] {
-        table[row as usize]
-    }
-    fn entry(&mut self, table: &[u32], row: u32) -> u32 {
-        table[row as usize]
-    }
-    fn coordinate(&mut self, coordinate: Coordinate) -> u32 {
-        assert_eq!(coordinate.depth, 1);
-        self.cell[usize::from(coordinate.axis == Axis::V)]
-    }
-    fn centre(&mut self, index: u32, bits: u32) -> f64 {
-        crate::sampling::cell_centre(index, bits)
-    }
-    fn sampled(&mut self, function: &Sampled, index: u32) -> f64 {
-        function.at(index)
-    }
-    fn pixel(&mut self) -> [f64; 2] {
-        [0.0; 2]
-    }
-}
 
 /// A surface of `material` on the plane z = 0, sampled with `bits` a coordinate through `map`.
 struct Specimen {
@@ -154,12 +50,12 @@ sampling: {{ depths: [{{ bits: [0, 0] }}, {{ bits: [{bits}, {bits}], map: {map} 
             tangent: [1.0, 0.0, 0.0],
             bitangent: [0.0, 1.0, 0.0],
             normal: [0.0, 0.0, 1.0],
-            slope: arriving[2],
+            cos_theta: arriving[2],
             front: arriving[2] < 0.0,
             surface: 0,
             alive: true,
         };
-        let scattered = self.stage.scatters[0].scatter(&mut Scalar { cell }, &vertex);
+        let scattered = self.stage.scatters[0].scatter(&mut Scalar::at(cell), &vertex);
         (scattered.direction, scattered.weight)
     }
 
@@ -184,6 +80,16 @@ sampling: {{ depths: [{{ bits: [0, 0] }}, {{ bits: [{bits}, {bits}], map: {map} 
         dot(cross, cross).sqrt()
     }
 
+    fn square(&self) -> Square {
+        self.stage.scatters[0].square.clone()
+    }
+
+    /// The density of the directions that it samples.
+    fn density(&self, incoming: Direction, outgoing: Direction) -> Option<f64> {
+        self.stage
+            .density(&mut Scalar::default(), 1, 0, &outgoing, &incoming)
+    }
+
     fn cell(&self, u: f64, v: f64) -> [u32; 2] {
         [u, v].map(|x| (x * (1_u64 << self.bits) as f64) as u32)
     }
@@ -205,11 +111,11 @@ const VIEWERS: [(f64, f64); 4] = [(0.5, 200.0), (30.0, 20.0), (60.0, 130.0), (82
 /// Textbook forms, red only; `i` and `o` above the surface.
 type Textbook = fn(i: Direction, o: Direction) -> f64;
 
-fn lambertian(_: Direction, _: Direction) -> f64 {
+fn matte(_: Direction, _: Direction) -> f64 {
     0.7 / PI
 }
 
-fn ggx(i: Direction, o: Direction) -> f64 {
+fn microfacets(i: Direction, o: Direction) -> f64 {
     let alpha = 0.3_f64;
     let sum = [0, 1, 2].map(|k: usize| i[k] + o[k]);
     let cos_h = sum[2] / dot(sum, sum).sqrt();
@@ -224,7 +130,7 @@ fn cos_a(i: Direction, o: Direction) -> f64 {
     i[2] * o[2] - i[0] * o[0] - i[1] * o[1]
 }
 
-fn phong(i: Direction, o: Direction) -> f64 {
+fn glossy(i: Direction, o: Direction) -> f64 {
     0.3 / PI + 0.5 * 22.0 / TAU * cos_a(i, o).max(0.0).powi(20)
 }
 
@@ -251,15 +157,15 @@ fn every_weight_is_the_value_times_cosine_times_jacobian() {
     let cases: [(&str, Textbook, &[&str]); 5] = [
         (
             LAMBERTIAN,
-            lambertian,
+            matte,
             &["auto", "cosine-hemisphere", "uniform-hemisphere"],
         ),
         (
             GGX,
-            ggx,
+            microfacets,
             &["auto", "cosine-hemisphere", "uniform-hemisphere"],
         ),
-        (PHONG, phong, &["cosine-hemisphere", "uniform-hemisphere"]),
+        (PHONG, glossy, &["cosine-hemisphere", "uniform-hemisphere"]),
         (
             LOBE,
             lobe,
@@ -317,7 +223,7 @@ fn phong_divides_the_square_between_its_base_and_its_lobe() {
                     continue;
                 }
                 let base = 0.3 / PI;
-                let f = if u < share { base } else { phong(i, o) - base };
+                let f = if u < share { base } else { glossy(i, o) - base };
                 let expected = f * i[2] * specimen.jacobian(o, cell);
                 assert!(
                     (weight[0] - expected).abs() < 1e-6 * expected.max(1e-3),
@@ -349,9 +255,9 @@ fn reflected(textbook: Textbook, o: Direction) -> f64 {
 fn every_map_reaches_all_that_the_value_reflects() {
     const BITS: u32 = 9;
     let cases: [(&str, Textbook); 5] = [
-        (LAMBERTIAN, lambertian),
-        (GGX, ggx),
-        (PHONG, phong),
+        (LAMBERTIAN, matte),
+        (GGX, microfacets),
+        (PHONG, glossy),
         (LOBE, lobe),
         (MOON, moon),
     ];
@@ -371,77 +277,6 @@ fn every_map_reaches_all_that_the_value_reflects() {
                 );
             }
         }
-    }
-}
-
-/// Rows of a table of the independent renderer, without its head.
-fn table(name: &str) -> Vec<Vec<String>> {
-    let root = env!("CARGO_MANIFEST_DIR");
-    let path = format!("{root}/../tests/references/{name}");
-    let text = std::fs::read_to_string(path).unwrap();
-    let rows = text.lines().skip(1);
-    rows.map(|row| row.split(',').map(str::to_owned).collect())
-        .collect()
-}
-
-#[test]
-fn values_are_those_of_an_independent_renderer() {
-    let bsdf = PhongStage::new([0.3, 0.2, 0.1], [0.5; 3], 20.0, [0, 1, 2], 8);
-    let cx = &mut Scalar { cell: [0, 0] };
-    let rows = table("bsdf.csv");
-    assert_eq!(rows.len(), 90);
-    for row in rows {
-        let [theta_i, theta_o, phi, red, green, blue]: [f64; 6] =
-            std::array::from_fn(|k| row[k + 1].parse().unwrap());
-        let (viewer, light) = (at(theta_i, 0.0), at(theta_o, phi));
-        let value = match row[0].as_str() {
-            "ggx" => [microfacet::value(cx, 0.2, &viewer, &light, 0.2); 3],
-            _ => bsdf.value(cx, cos_a(light, viewer)),
-        };
-        for (ours, theirs) in value.iter().zip([red, green, blue]) {
-            // Theirs are 32-bit floats.
-            let ours = ours * light[2];
-            assert!(
-                (ours - theirs).abs() < 2e-6 * theirs.max(0.1),
-                "{row:?}: {ours}"
-            );
-        }
-    }
-}
-
-#[test]
-fn glass_reflects_as_fresnel_says_and_refracts_as_snell_says() {
-    const BITS: u32 = 12;
-    let specimen = Specimen::new("{ dielectric: { ior: 1.5 } }", "auto", BITS);
-    let cells = 1_u32 << BITS;
-    for row in table("fresnel.csv") {
-        let [cos, reflectance]: [f64; 2] = std::array::from_fn(|k| row[k].parse().unwrap());
-        // From outside (the front) where cos > 0, from inside where cos < 0.
-        let sin = (1.0 - cos * cos).sqrt();
-        let o = [sin * 0.6, sin * 0.8, cos];
-        let eta: f64 = if cos > 0.0 { 1.0 / 1.5 } else { 1.5 };
-        let mut reflected = 0;
-        for u in 0..cells {
-            let (i, weight) = specimen.scatter(o, [u, 0]);
-            assert!((dot(i, i) - 1.0).abs() < 1e-12);
-            // Both ways stay in the plane of incidence, on the other side of the normal.
-            let across = (0.8 * i[0] - 0.6 * i[1]).abs();
-            let along = -(0.6 * i[0] + 0.8 * i[1]);
-            assert!(across < 1e-12);
-            if i[2] * cos > 0.0 {
-                reflected += 1;
-                assert!((along - sin).abs() < 1e-12 && (i[2] - cos).abs() < 1e-12);
-                assert_eq!(weight, [1.0; 3]);
-            } else {
-                assert!((along - eta * sin).abs() < 1e-12);
-                assert!(weight.iter().all(|w| (w - eta * eta).abs() < 1e-12));
-            }
-        }
-        let share = f64::from(reflected) / f64::from(cells);
-        assert!(
-            (share - reflectance).abs() < 1.0 / f64::from(cells) + 1e-6,
-            "{cos}: {share} {reflectance}"
-        );
     }
 }
 

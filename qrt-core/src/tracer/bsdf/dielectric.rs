@@ -1,0 +1,78 @@
+//! Smooth glass: two delta lobes.
+//!
+//! `u` below the Fresnel reflectance reflects, with weight 1; else the ray is refracted and its
+//! radiance scaled by the squared ratio of the indices.
+
+use super::vertex::Scattered;
+use super::{Sample, by_surface};
+use crate::tracer::{Arith, vector};
+use crate::valid::{Scatter, Surface};
+
+/// All dielectric surfaces.
+#[derive(Clone, Debug)]
+pub(super) struct DielectricLobe {
+    /// By surface: `1 / ior` and `ior`, the index on the side opposite to the normal.
+    refraction: Vec<[f64; 2]>,
+}
+
+impl DielectricLobe {
+    pub(super) fn new(surfaces: &[&Surface]) -> Self {
+        let refraction = by_surface(surfaces, [1.0, 1.0], |scatter| match scatter {
+            Scatter::Dielectric(glass) => Some([1.0 / glass.ior, glass.ior]),
+            _ => None,
+        });
+        Self { refraction }
+    }
+
+    #[inline(always)]
+    pub(super) fn scatter<A: Arith, const C: usize>(
+        &self,
+        cx: &mut A,
+        sample: &Sample<'_, A, C>,
+    ) -> Scattered<A, C> {
+        let at = sample.at;
+        let [entering, leaving] = cx.rows(&self.refraction, at.surface);
+        // n_o / n_t, from the viewer's side to the other.
+        let eta = cx.select(at.front, entering, leaving);
+        let cos_o = cx.abs(at.cos_theta);
+        let sin_squared_o = math!(cx, 1.0 - cos_o * cos_o);
+        let eta_squared = math!(cx, eta * eta);
+        let cos_squared_t = math!(cx, 1.0 - eta_squared * sin_squared_o);
+        let total = math!(cx, cos_squared_t <= 0.0);
+        let cos_t = math!(cx, sqrt(max(cos_squared_t, 0.0)));
+        let reflectance = fresnel(cx, eta, cos_o, cos_t);
+        let u = sample.square.u(cx);
+        let reflects = math!(cx, total || u < reflectance);
+        // Mirrored: d - 2 (d.n) n. Refracted: eta d + (eta cos_o - cos_t) n on the viewer's side.
+        let mirrored = math!(cx, -(at.cos_theta + at.cos_theta));
+        let refracted = math!(cx, eta * cos_o - cos_t);
+        let refracted = math!(cx, select(at.front, refracted, -refracted));
+        let along = math!(cx, select(reflects, 1.0, eta));
+        let across = math!(cx, select(reflects, mirrored, refracted));
+        let direction = vector!(cx, at.arriving * along + at.normal * across);
+        let direction = vector::unit(cx, &direction);
+        let weight = math!(cx, select(reflects, 1.0, eta_squared));
+        Scattered {
+            direction,
+            weight: [weight; C],
+        }
+    }
+
+    /// The greatest weight of `surface`, going the way that makes radiance denser.
+    pub(super) fn weight_bound(&self, surface: u32) -> f64 {
+        let [_, ior] = self.refraction[surface as usize];
+        (ior * ior).max(1.0 / (ior * ior))
+    }
+}
+
+/// Unpolarised Fresnel reflectance from the indices' ratio and both cosines.
+#[inline(always)]
+fn fresnel<A: Arith>(cx: &mut A, eta: A::Real, cos_o: A::Real, cos_t: A::Real) -> A::Real {
+    let (near, far) = (math!(cx, eta * cos_o), math!(cx, eta * cos_t));
+    let perpendicular = math!(cx, div(near - cos_t, near + cos_t, 1.0));
+    let parallel = math!(cx, div(far - cos_o, far + cos_o, 1.0));
+    math!(
+        cx,
+        scale(perpendicular * perpendicular + parallel * parallel, 0.5)
+    )
+}

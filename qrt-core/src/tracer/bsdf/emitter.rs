@@ -1,0 +1,76 @@
+//! Emission: radiance from the front. What an emitter reflects is a Lambertian's, or nothing.
+
+use super::vertex::{Vertex, members};
+use crate::tracer::Arith;
+use crate::tracer::vector;
+use crate::valid::Surface;
+use std::ops::Range;
+
+/// The surfaces that emit, which are neighbours.
+#[derive(Clone, Debug)]
+pub(crate) struct Emitters<const C: usize> {
+    surfaces: Range<u32>,
+    /// By surface: what its front emits, 0 or more.
+    radiance: Vec<[f64; C]>,
+}
+
+/// Does `surface` emit in any channel?
+pub(crate) fn emits(surface: &Surface) -> bool {
+    surface.radiance.iter().any(|&channel| channel > 0.0)
+}
+
+impl<const C: usize> Emitters<C> {
+    pub(crate) fn new(surfaces: &[&Surface], channels: [usize; C]) -> Self {
+        let emitting = surfaces.iter().filter(|surface| emits(surface));
+        let first = surfaces.iter().position(|surface| emits(surface));
+        let first = first.unwrap_or(0) as u32;
+        Self {
+            surfaces: first..first + emitting.count() as u32,
+            radiance: surfaces
+                .iter()
+                .map(|surface| channels.map(|c| surface.radiance[c]))
+                .collect(),
+        }
+    }
+
+    /// By surface: what its front emits.
+    pub(crate) fn radiance(&self) -> &[[f64; C]] {
+        &self.radiance
+    }
+
+    /// Counts radiance in these units.
+    pub(crate) fn in_units(&mut self, units: [f64; C]) {
+        for radiance in &mut self.radiance {
+            for (value, unit) in radiance.iter_mut().zip(units) {
+                if unit > 0.0 {
+                    *value /= unit;
+                }
+            }
+        }
+    }
+
+    /// The paths on an emitter, if there may be any.
+    #[inline(always)]
+    pub(crate) fn members<A: Arith>(&self, cx: &mut A, at: &Vertex<A>) -> Option<A::Bool> {
+        members(cx, at, &self.surfaces)
+    }
+
+    /// What reaches the camera of what the `members` emit; 0 for other paths.
+    #[inline(always)]
+    pub(crate) fn shade<A: Arith>(
+        &self,
+        cx: &mut A,
+        at: &Vertex<A>,
+        members: A::Bool,
+        throughput: Option<[A::Real; C]>,
+    ) -> [A::Real; C] {
+        let shows = math!(cx, members && at.front && at.alive);
+        let radiance = cx.rows(&self.radiance, at.surface);
+        let arriving = match throughput {
+            Some(throughput) => vector::mul(cx, &throughput, &radiance),
+            None => radiance,
+        };
+        let none = [cx.real(0.0); C];
+        vector::select(cx, shows, &arriving, &none)
+    }
+}

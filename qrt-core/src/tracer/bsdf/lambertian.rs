@@ -1,0 +1,23 @@
+//! Matte, on both sides: `f = albedo / pi`.
+//!
+//! Directions come from the depth's map, and the density is the map's. Under the cosine map
+//! `cos_i J = pi`, and the weight is the albedo, at most 1; under another it is at most as many
+//! times larger as the map's factor.
+
+use super::Sample;
+use super::vertex::{Scattered, to_scene};
+use crate::tracer::{Arith, vector};
+
+#[inline(always)]
+pub(super) fn scatter<A: Arith, const C: usize>(
+    cx: &mut A,
+    sample: &Sample<'_, A, C>,
+) -> Scattered<A, C> {
+    let direction = to_scene(cx, sample.at, &sample.mapped.direction);
+    let weight = if sample.square.map.is_projected() {
+        sample.tint
+    } else {
+        vector::scale(cx, &sample.tint, sample.mapped.factor)
+    };
+    Scattered { direction, weight }
+}

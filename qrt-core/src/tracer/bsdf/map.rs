@@ -1,0 +1,89 @@
+//! The map of a depth: where its sample square goes on surfaces that bring no map of their own, or
+//! whose own it replaces.
+
+use crate::expr::Expr;
+use crate::sampling::maps;
+use crate::scene::Map;
+use crate::tracer::Arith;
+use crate::tracer::compiled::Compiled;
+use crate::tracer::vector::Vector;
+use std::f64::consts::{FRAC_1_PI, PI};
+
+/// A depth's map, the cosine map under `auto`.
+#[derive(Clone, Debug)]
+pub(super) struct DepthMap {
+    map: Map,
+    /// `phi` and `J |phi_z| / pi`.
+    compiled: Compiled,
+    /// `phi`.
+    pub(super) directions: [Expr; 3],
+    /// `J |phi_z|`.
+    pub(super) projected_jacobian: Expr,
+}
+
+/// A sample of the map.
+#[derive(Clone, Copy)]
+pub(super) struct Mapped<R> {
+    /// In the local frame.
+    pub(super) direction: [R; 3],
+    /// `J |phi_z| / pi`: the weight of a white Lambertian.
+    pub(super) factor: R,
+}
+
+impl DepthMap {
+    pub(super) fn new(map: Map, bits: [u32; 2]) -> Self {
+        let directions = maps::builtin(map);
+        let projected_jacobian = maps::projected_jacobian(&directions);
+        let factor = match Expr::number(PI) {
+            Some(pi) => (&projected_jacobian / &pi).simplify(),
+            None => projected_jacobian.clone(),
+        };
+        let [x, y, z] = &directions;
+        Self {
+            map,
+            compiled: Compiled::new(&[x, y, z, &factor], bits, None),
+            directions,
+            projected_jacobian,
+        }
+    }
+
+    /// Does it replace the maps that materials have of their own?
+    pub(super) fn replaces(&self) -> bool {
+        match self.map {
+            Map::Auto => false,
+            Map::CosineHemisphere | Map::UniformHemisphere => true,
+        }
+    }
+
+    /// The greatest [`Mapped::factor`].
+    pub(super) fn factor_bound(&self) -> f64 {
+        match self.map {
+            Map::Auto | Map::CosineHemisphere => 1.0,
+            Map::UniformHemisphere => 2.0,
+        }
+    }
+
+    /// Is [`Mapped::factor`] always 1?
+    pub(super) fn is_projected(&self) -> bool {
+        self.compiled.constant(3) == Some(1.0)
+    }
+
+    #[inline(always)]
+    pub(super) fn sample<A: Arith>(&self, cx: &mut A, depth: usize) -> Mapped<A::Real> {
+        let [x, y, z, factor] = self.compiled.evaluate(cx, depth, None);
+        let direction = [x, y, z];
+        Mapped { direction, factor }
+    }
+
+    /// `1 / J` at `incoming`, and 0 below the surface.
+    #[inline(always)]
+    pub(super) fn density<A: Arith>(&self, cx: &mut A, incoming: &Vector<A>) -> A::Real {
+        let cos_i = incoming[2];
+        match self.map {
+            Map::Auto | Map::CosineHemisphere => math!(cx, scale(max(cos_i, 0.0), FRAC_1_PI)),
+            Map::UniformHemisphere => {
+                math!(cx, select(0.0 < cos_i, real(0.5 * FRAC_1_PI), 0.0))
+            }
+        }
+    }
+}

@@ -1,0 +1,357 @@
+//! Scattering: from a hit to the next ray of the path and its weight `W = f(i, o) |n.i| J`.
+//!
+//! A material's lobe is a file here: its parameters' range, how it samples directions, their
+//! weights and their density, and the greatest weight, from which the colour scale is proven.
+//! Directions are in the local frame, whose z axis is the normal on the viewer's side. All
+//! directions of a depth are computed for the lobes that the scene has, and for no others; each
+//! path then selects its own.
+
+mod custom;
+mod dielectric;
+mod emitter;
+mod ggx;
+mod lambertian;
+mod map;
+mod mirror;
+mod phong;
+#[cfg(test)]
+mod tests;
+mod vertex;
+
+pub(crate) use emitter::{Emitters, emits};
+pub(crate) use vertex::{Vertex, members};
+
+use super::vector::{self, Vector};
+use super::{Arith, Coordinate, Part, Sampled};
+use crate::scene::{Map, Rgb};
+use crate::valid::{Scatter, Surface};
+use custom::CustomLobe;
+use dielectric::DielectricLobe;
+use ggx::GgxLobe;
+use map::{DepthMap, Mapped};
+use phong::PhongLobe;
+use std::f64::consts::TAU;
+use std::ops::Range;
+use vertex::{Scattered, local_outgoing};
+
+/// The lobe of one surface, for one depth.
+enum Lobe<'a, const C: usize> {
+    Lambertian,
+    Mirror,
+    Dielectric(&'a DielectricLobe),
+    Ggx(&'a GgxLobe),
+    Phong(&'a PhongLobe<C>),
+    Custom(&'a CustomLobe<C>),
+}
+
+impl<const C: usize> Lobe<'_, C> {
+    /// Does it take directions from the depth's map ([`Sample::mapped`])?
+    fn uses_map(&self) -> bool {
+        match self {
+            Self::Lambertian => true,
+            Self::Mirror | Self::Dielectric(_) => false,
+            Self::Ggx(lobe) => !lobe.has_map,
+            Self::Phong(lobe) => !lobe.has_map,
+            Self::Custom(lobe) => lobe.direction.is_none(),
+        }
+    }
+
+    /// Does it ask for the cosine of the arriving ray, which then must have unit length?
+    fn asks_for_angles(&self) -> bool {
+        match self {
+            // A mirror keeps a direction's length for whoever asks next.
+            Self::Lambertian | Self::Mirror => false,
+            Self::Dielectric(_) | Self::Ggx(_) | Self::Phong(_) => true,
+            Self::Custom(lobe) => lobe.asks_for_angles,
+        }
+    }
+}
+
+/// Lobes in the order in which surfaces are sorted; black ones first.
+pub(crate) fn rank(scatter: &Scatter) -> u32 {
+    match scatter {
+        Scatter::Black => 0,
+        Scatter::Lambertian(_) => 1,
+        Scatter::Mirror(_) => 2,
+        Scatter::Dielectric(_) => 3,
+        Scatter::Ggx(_) => 4,
+        Scatter::Phong(_) => 5,
+        Scatter::Custom(_) => 6,
+    }
+}
+
+/// The factor of a weight that is looked up by surface.
+fn tint(scatter: &Scatter) -> Rgb {
+    match scatter {
+        Scatter::Lambertian(lobe) => lobe.albedo,
+        Scatter::Mirror(lobe) => lobe.reflectance,
+        Scatter::Ggx(lobe) => lobe.reflectance,
+        Scatter::Black | Scatter::Dielectric(_) | Scatter::Phong(_) | Scatter::Custom(_) => {
+            [0.0; 3]
+        }
+    }
+}
+
+/// One depth's square of samples, which all its lobes share.
+#[derive(Clone, Debug)]
+struct Square {
+    depth: usize,
+    bits: [u32; 2],
+    map: DepthMap,
+    /// Cosine and sine of `2 pi v`.
+    azimuth: [Sampled; 2],
+}
+
+impl Square {
+    /// The cell centre of `u`.
+    #[inline(always)]
+    fn u<A: Arith>(&self, cx: &mut A) -> A::Real {
+        let u = cx.coordinate(Coordinate::u(self.depth));
+        cx.centre(u, self.bits[0])
+    }
+
+    /// Cosine and sine of the azimuth `2 pi v`.
+    #[inline(always)]
+    fn azimuth<A: Arith>(&self, cx: &mut A) -> [A::Real; 2] {
+        let v = cx.coordinate(Coordinate::v(self.depth));
+        let [cos, sin] = &self.azimuth;
+        [cx.sampled(cos, v), cx.sampled(sin, v)]
+    }
+}
+
+/// What a path's lobe is given.
+struct Sample<'a, A: Arith, const C: usize> {
+    at: &'a Vertex<A>,
+    square: &'a Square,
+    /// By the depth's map; zeros unless a lobe uses it.
+    mapped: Mapped<A::Real>,
+    /// The viewer's direction in the local frame; zeros unless a lobe asks for it.
+    outgoing: Vector<A>,
+    /// The surface's [`tint`].
+    tint: [A::Real; C],
+}
+
+/// What scatters towards one depth's ray, made ready.
+#[derive(Clone, Debug)]
+pub(crate) struct ScatterStage<const C: usize> {
+    square: Square,
+    /// By surface.
+    tint: Vec<[f64; C]>,
+    /// Surfaces that differ in tables alone share their lobe.
+    lambertian: Range<u32>,
+    mirror: Range<u32>,
+    dielectric: (Range<u32>, DielectricLobe),
+    ggx: (Range<u32>, GgxLobe),
+    phong: Vec<(u32, PhongLobe<C>)>,
+    custom: Vec<(u32, CustomLobe<C>)>,
+    /// Does any lobe use the depth's map?
+    uses_map: bool,
+    /// Does any lobe ask for angles to the arriving ray?
+    pub(crate) asks_for_angles: bool,
+}
+
+impl<const C: usize> ScatterStage<C> {
+    /// `surfaces` are sorted by [`rank`]; the new ray is that of `depth`.
+    pub(crate) fn new(
+        surfaces: &[&Surface],
+        channels: [usize; C],
+        depth: usize,
+        bits: [u32; 2],
+        map: Map,
+    ) -> Self {
+        let square = Square {
+            depth,
+            bits,
+            map: DepthMap::new(map, bits),
+            azimuth: [
+                Sampled::of_centre(bits[1], |v| libm::cos(TAU * v)),
+                Sampled::of_centre(bits[1], |v| libm::sin(TAU * v)),
+            ],
+        };
+        let pick = |rgb: Rgb| channels.map(|channel| rgb[channel]);
+        let run = |kind: u32| {
+            let is = |surface: &&Surface| rank(&surface.scatter) == kind;
+            let start = surfaces.iter().position(is).unwrap_or(0);
+            let count = surfaces.iter().copied().filter(is).count();
+            start as u32..(start + count) as u32
+        };
+        let (mut phong, mut custom) = (Vec::new(), Vec::new());
+        for (number, surface) in (0..).zip(surfaces) {
+            match &surface.scatter {
+                Scatter::Black
+                | Scatter::Lambertian(_)
+                | Scatter::Mirror(_)
+                | Scatter::Dielectric(_)
+                | Scatter::Ggx(_) => {}
+                Scatter::Phong(part) => phong.push((number, PhongLobe::new(part, pick, &square))),
+                Scatter::Custom(bsdf) => {
+                    custom.push((number, CustomLobe::new(bsdf, channels, &square)));
+                }
+            }
+        }
+        let mut stage = Self {
+            tint: surfaces.iter().map(|s| pick(tint(&s.scatter))).collect(),
+            lambertian: run(1),
+            mirror: run(2),
+            dielectric: (run(3), DielectricLobe::new(surfaces)),
+            ggx: (run(4), GgxLobe::new(surfaces, &square)),
+            phong,
+            custom,
+            uses_map: false,
+            asks_for_angles: false,
+            square,
+        };
+        let lobes = || (0..surfaces.len() as u32).filter_map(|number| stage.lobe(number));
+        let uses_map = lobes().any(|lobe| lobe.uses_map());
+        let asks_for_angles = lobes().any(|lobe| lobe.asks_for_angles());
+        (stage.uses_map, stage.asks_for_angles) = (uses_map, asks_for_angles);
+        stage
+    }
+
+    /// The greatest weight of surface `number` towards this depth; 0 where nothing scatters.
+    pub(crate) fn weight_bound(&self, number: u32) -> [f64; C] {
+        let factor = self.square.map.factor_bound();
+        let tint = self.tint[number as usize];
+        match self.lobe(number) {
+            None => [0.0; C],
+            Some(Lobe::Lambertian) => tint.map(|albedo| albedo * factor),
+            Some(Lobe::Mirror) => tint,
+            Some(Lobe::Dielectric(lobe)) => [lobe.weight_bound(number); C],
+            Some(Lobe::Ggx(lobe)) => tint.map(|tint| lobe.weight_bound(number, tint, factor)),
+            Some(Lobe::Phong(lobe)) => lobe.weight_bound(factor),
+            Some(Lobe::Custom(lobe)) => lobe.weight_bound,
+        }
+    }
+
+    /// How densely directions around `incoming` are sampled on surface `number`, per steradian:
+    /// over a part of the square that the map takes to directions one to one, `1 / J`, and the sum
+    /// over such parts. None for delta lobes, for maps that no formula inverts, and where nothing
+    /// scatters: light that is sampled otherwise cannot be weighed against those.
+    pub(crate) fn density<A: Arith>(
+        &self,
+        cx: &mut A,
+        number: u32,
+        outgoing: &Vector<A>,
+        incoming: &Vector<A>,
+    ) -> Option<A::Real> {
+        let lobe = self.lobe(number)?;
+        if lobe.uses_map() {
+            return Some(self.square.map.density(cx, incoming));
+        }
+        match lobe {
+            Lobe::Lambertian | Lobe::Mirror | Lobe::Dielectric(_) | Lobe::Custom(_) => None,
+            Lobe::Ggx(lobe) => Some(lobe.density(cx, number, outgoing, incoming)),
+            Lobe::Phong(lobe) => {
+                let [base, lobe] = lobe.densities(cx, outgoing, incoming);
+                Some(cx.add(base, lobe))
+            }
+        }
+    }
+
+    /// The lobe of surface `number`; none if it is black.
+    fn lobe(&self, number: u32) -> Option<Lobe<'_, C>> {
+        let phong = self.phong.iter().find(|(surface, _)| *surface == number);
+        let custom = self.custom.iter().find(|(surface, _)| *surface == number);
+        if self.lambertian.contains(&number) {
+            Some(Lobe::Lambertian)
+        } else if self.mirror.contains(&number) {
+            Some(Lobe::Mirror)
+        } else if self.dielectric.0.contains(&number) {
+            Some(Lobe::Dielectric(&self.dielectric.1))
+        } else if self.ggx.0.contains(&number) {
+            Some(Lobe::Ggx(&self.ggx.1))
+        } else if let Some((_, lobe)) = phong {
+            Some(Lobe::Phong(lobe))
+        } else {
+            custom.map(|(_, lobe)| Lobe::Custom(lobe))
+        }
+    }
+
+    /// The next direction and weight of every path that scatters; anything for the others.
+    #[inline(always)]
+    pub(crate) fn scatter<A: Arith>(&self, cx: &mut A, at: &Vertex<A>) -> Scattered<A, C> {
+        let square = &self.square;
+        let zero = cx.real(0.0);
+        let mut sample = Sample {
+            at,
+            square,
+            mapped: Mapped {
+                direction: [zero; 3],
+                factor: zero,
+            },
+            outgoing: [zero; 3],
+            tint: cx.rows(&self.tint, at.surface),
+        };
+        if self.uses_map {
+            // Asked for here, so that they belong to the ray and not to this part of it alone.
+            let _ = cx.coordinate(Coordinate::u(square.depth));
+            let _ = cx.coordinate(Coordinate::v(square.depth));
+            cx.enter(Part::Sample);
+            sample.mapped = square.map.sample(cx, square.depth);
+            cx.leave();
+        }
+        let mut chosen = None;
+        if let Some(mask) = members(cx, at, &self.lambertian) {
+            let new = lambertian::scatter(cx, &sample);
+            choose(cx, &mut chosen, mask, new);
+        }
+        if let Some(mask) = members(cx, at, &self.mirror) {
+            let new = mirror::scatter(cx, &sample);
+            choose(cx, &mut chosen, mask, new);
+        }
+        if let Some(mask) = members(cx, at, &self.dielectric.0) {
+            let new = self.dielectric.1.scatter(cx, &sample);
+            choose(cx, &mut chosen, mask, new);
+        }
+        if !self.ggx.0.is_empty() || !self.phong.is_empty() || !self.custom.is_empty() {
+            sample.outgoing = local_outgoing(cx, at);
+        }
+        if let Some(mask) = members(cx, at, &self.ggx.0) {
+            let new = self.ggx.1.scatter(cx, &sample);
+            choose(cx, &mut chosen, mask, new);
+        }
+        for (surface, lobe) in &self.phong {
+            if let Some(mask) = members(cx, at, &(*surface..surface + 1)) {
+                let new = lobe.scatter(cx, &sample);
+                choose(cx, &mut chosen, mask, new);
+            }
+        }
+        for (surface, lobe) in &self.custom {
+            if let Some(mask) = members(cx, at, &(*surface..surface + 1)) {
+                let new = lobe.scatter(cx, &sample);
+                choose(cx, &mut chosen, mask, new);
+            }
+        }
+        chosen.unwrap_or(Scattered {
+            direction: at.arriving,
+            weight: [zero; C],
+        })
+    }
+}
+
+/// Takes `new` where `mask` holds. The first candidate needs no choice.
+#[inline(always)]
+fn choose<A: Arith, const C: usize>(
+    cx: &mut A,
+    chosen: &mut Option<Scattered<A, C>>,
+    mask: A::Bool,
+    new: Scattered<A, C>,
+) {
+    *chosen = Some(match chosen.take() {
+        None => new,
+        Some(old) => Scattered {
+            direction: vector::select(cx, mask, &new.direction, &old.direction),
+            weight: vector::select(cx, mask, &new.weight, &old.weight),
+        },
+    });
+}
+
+/// A table by surface: `value`, or `other` where that has none.
+fn by_surface<T: Copy>(
+    surfaces: &[&Surface],
+    other: T,
+    value: impl Fn(&Scatter) -> Option<T>,
+) -> Vec<T> {
+    let row = |surface: &&Surface| value(&surface.scatter).unwrap_or(other);
+    surfaces.iter().map(row).collect()
+}

@@ -1,0 +1,86 @@
+//! Where a path scatters, its local frame, and the choice among surfaces.
+
+use crate::tracer::vector::{self, Vector};
+use crate::tracer::{Arith, Part};
+use std::ops::Range;
+
+/// Where a path stands when it scatters.
+pub(crate) struct Vertex<A: Arith> {
+    /// The direction in which the path arrived.
+    pub(crate) arriving: Vector<A>,
+    pub(crate) tangent: Vector<A>,
+    pub(crate) bitangent: Vector<A>,
+    pub(crate) normal: Vector<A>,
+    /// `arriving.normal`
+    pub(crate) cos_theta: A::Real,
+    /// Does the viewer see the front?
+    pub(crate) front: A::Bool,
+    pub(crate) surface: A::Index,
+    /// The paths still wanted.
+    pub(crate) alive: A::Bool,
+}
+
+/// A sampled direction, in the scene's frame, and its weight per channel.
+pub(crate) struct Scattered<A: Arith, const C: usize> {
+    pub(crate) direction: Vector<A>,
+    pub(crate) weight: [A::Real; C],
+}
+
+/// The paths on a surface of this run, if there may be any.
+#[inline(always)]
+pub(crate) fn members<A: Arith>(
+    cx: &mut A,
+    at: &Vertex<A>,
+    surfaces: &Range<u32>,
+) -> Option<A::Bool> {
+    if surfaces.is_empty() {
+        return None;
+    }
+    let mut mask = cx.below(at.surface, surfaces.end);
+    if surfaces.start > 0 {
+        mask = math!(cx, mask && !cx.below(at.surface, surfaces.start));
+    }
+    let wanted = cx.and(mask, at.alive);
+    cx.possible(wanted).then_some(mask)
+}
+
+/// The viewer's direction in the local frame.
+#[inline(always)]
+pub(super) fn local_outgoing<A: Arith>(cx: &mut A, at: &Vertex<A>) -> Vector<A> {
+    let x = math!(cx, dot(at.arriving, at.tangent));
+    let y = math!(cx, dot(at.arriving, at.bitangent));
+    let z = cx.abs(at.cos_theta);
+    [cx.neg(x), cx.neg(y), z]
+}
+
+/// `incoming.mirror(outgoing)`, in the local frame.
+#[inline(always)]
+pub(super) fn cos_to_mirror<A: Arith>(
+    cx: &mut A,
+    incoming: &Vector<A>,
+    outgoing: &Vector<A>,
+) -> A::Real {
+    let [x, y, z] = vector::mul(cx, incoming, outgoing);
+    math!(cx, z - (x + y))
+}
+
+/// From the local frame to the scene's: `x T + y B + z N` on the viewer's side.
+#[inline(always)]
+pub(super) fn to_scene<A: Arith>(cx: &mut A, at: &Vertex<A>, local: &Vector<A>) -> Vector<A> {
+    let height = math!(cx, select(at.front, local[2], -local[2]));
+    let local = [local[0], local[1], height];
+    [
+        component(cx, at, &local, 0),
+        component(cx, at, &local, 1),
+        component(cx, at, &local, 2),
+    ]
+}
+
+#[inline(always)]
+fn component<A: Arith>(cx: &mut A, at: &Vertex<A>, local: &Vector<A>, axis: usize) -> A::Real {
+    cx.enter(Part::Component(axis));
+    let frame = [at.tangent[axis], at.bitangent[axis], at.normal[axis]];
+    let sum = math!(cx, known(dot(frame, *local), -1.0, 1.0));
+    cx.leave();
+    sum
+}

@@ -1,0 +1,99 @@
+//! Where a ray crosses a plane.
+
+use super::Arith;
+use super::ray::Ray;
+use super::vector::Vector;
+
+/// `low <= value <= high`
+#[inline(always)]
+pub fn between<A: Arith>(cx: &mut A, low: A::Real, value: A::Real, high: A::Real) -> A::Bool {
+    math!(cx, low <= value && value <= high)
+}
+
+/// `a x + b y`
+#[inline(always)]
+pub fn weighted<A: Arith>(cx: &mut A, form: [A::Real; 2], at: [A::Real; 2]) -> A::Real {
+    math!(cx, at[0] * form[0] + at[1] * form[1])
+}
+
+/// A ray as the planes of one main axis see it: its parts along that axis and across.
+pub struct Turned<A: Arith> {
+    /// Along the axis.
+    pub origin: A::Real,
+    /// Along the axis.
+    pub direction: A::Real,
+    /// Along the next axis and the one after it.
+    pub origin_across: [A::Real; 2],
+    /// Along the next axis and the one after it.
+    pub direction_across: [A::Real; 2],
+    /// As [`Ray::reach`].
+    pub reach: f64,
+}
+
+impl<A: Arith> Turned<A> {
+    #[inline(always)]
+    pub(super) fn new<const AXIS: usize>(ray: &Ray<A>) -> Self {
+        let across = |v: &Vector<A>| [v[(AXIS + 1) % 3], v[(AXIS + 2) % 3]];
+        Self {
+            origin: ray.origin[AXIS],
+            direction: ray.direction[AXIS],
+            origin_across: across(&ray.origin),
+            direction_across: across(&ray.direction),
+            reach: ray.reach,
+        }
+    }
+
+    /// As the planes of `axis` see `ray`, whichever that is.
+    #[inline(always)]
+    pub(crate) fn looked_up(cx: &mut A, ray: &Ray<A>, axis: A::Index) -> Self {
+        let [x, y] = [cx.is(axis, 0), cx.is(axis, 1)];
+        let mut turn = |v: &Vector<A>, first: usize| {
+            math!(
+                cx,
+                select(
+                    x,
+                    v[first],
+                    select(y, v[(first + 1) % 3], v[(first + 2) % 3])
+                )
+            )
+        };
+        Self {
+            origin: turn(&ray.origin, 0),
+            direction: turn(&ray.direction, 0),
+            origin_across: [turn(&ray.origin, 1), turn(&ray.origin, 2)],
+            direction_across: [turn(&ray.direction, 1), turn(&ray.direction, 2)],
+            reach: ray.reach,
+        }
+    }
+}
+
+/// Where a ray crosses a plane.
+pub struct Crossing<A: Arith> {
+    /// Does it, ahead of its origin?
+    pub ahead: A::Bool,
+    /// At which distance.
+    pub distance: A::Real,
+    /// Where, along the two axes after the plane's main one.
+    pub point: [A::Real; 2],
+}
+
+/// Where `ray` crosses the plane of this form (see [`super::Plane`]) and offset.
+#[inline(always)]
+pub fn cross<A: Arith>(
+    cx: &mut A,
+    form: [A::Real; 2],
+    offset: A::Real,
+    ray: &Turned<A>,
+) -> Crossing<A> {
+    let slope = weighted(cx, form, ray.direction_across);
+    let slope = math!(cx, ray.direction + slope);
+    let height = weighted(cx, form, ray.origin_across);
+    let rise = math!(cx, offset - (ray.origin + height));
+    let (ahead, distance) = cx.ahead(rise, slope, ray.reach);
+    let point = vector!(cx, ray.origin_across + ray.direction_across * distance);
+    Crossing {
+        ahead,
+        distance,
+        point,
+    }
+}

@@ -1,0 +1,117 @@
+//! One polygon made ready: its plane, its shading frame and its edges as half-plane tests.
+
+use super::geometry::{Frame, Plane, Slab};
+use crate::valid::Polygon;
+use glam::{DVec2, DVec3};
+
+pub(super) fn plane_of(corners: &[DVec3], frame: &Frame) -> Plane {
+    let axis = largest(frame.normal);
+    let scaled = frame.normal / frame.normal[axis];
+    let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
+    // What a rotation by a multiple of 90 degrees leaves behind is not a slope.
+    let form = [scaled[next], scaled[last]].map(|c| if c.abs() < f64::EPSILON { 0.0 } else { c });
+    let heights = corners
+        .iter()
+        .map(|c| c[axis] + form[0] * c[next] + form[1] * c[last]);
+    Plane {
+        axis,
+        form,
+        offset: heights.sum::<f64>() / corners.len() as f64,
+        faces: 0..0,
+    }
+}
+
+pub(super) fn stage_units(polygons: &[Polygon]) -> (DVec3, f64) {
+    let mut low = DVec3::INFINITY;
+    let mut high = DVec3::NEG_INFINITY;
+    for vertex in polygons.iter().flat_map(|polygon| &polygon.vertices) {
+        low = low.min(*vertex);
+        high = high.max(*vertex);
+    }
+    let centre = low * 0.5 + high * 0.5;
+    let extent = (high * 0.5 - low * 0.5).max_element();
+    if polygons.is_empty() || extent <= 0.0 {
+        return (DVec3::ZERO, 1.0);
+    }
+    // extent = m 2^e with m in [1/2, 1): 2^-e takes it to [1/2, 1).
+    let (_, exponent) = libm::frexp(extent);
+    (centre, libm::ldexp(1.0, -exponent))
+}
+
+pub(super) fn frame(corners: &[DVec3]) -> Frame {
+    let (a, b, c) = (corners[0], corners[1], corners[2]);
+    // For a quad the diagonals give the same direction and no corner is preferred.
+    let normal = match corners.get(3) {
+        Some(&d) => (c - a).cross(d - b),
+        None => (b - a).cross(c - a),
+    };
+    let unit = normal.normalize();
+    let axis = largest(unit);
+    let normal = unit
+        .map(|c| if c.abs() < f64::EPSILON { 0.0 } else { c })
+        .normalize();
+    // A tangent along a coordinate axis where the plane allows it: fewer products.
+    let away = match axis {
+        0 => DVec3::Y,
+        1 => DVec3::Z,
+        _ => DVec3::X,
+    };
+    let tangent = (away - normal * normal.dot(away)).normalize();
+    let centre = corners.iter().sum::<DVec3>() / corners.len() as f64;
+    Frame {
+        tangent,
+        bitangent: normal.cross(tangent),
+        normal,
+        centre,
+    }
+}
+
+fn largest(v: DVec3) -> usize {
+    let v = v.abs();
+    if v.x >= v.y && v.x >= v.z {
+        0
+    } else if v.y >= v.z {
+        1
+    } else {
+        2
+    }
+}
+
+/// The edges as slabs. Edges are tested in the plane's projection along its main axis.
+pub(super) fn slabs(corners: &[DVec3], axis: usize, centre: DVec3, tolerance: f64) -> Vec<Slab> {
+    let flat = |p: DVec3| DVec2::new(p[(axis + 1) % 3], p[(axis + 2) % 3]);
+    let mut slabs: Vec<Slab> = Vec::with_capacity(3);
+    for (i, &start) in corners.iter().enumerate() {
+        let (start, end) = (flat(start), flat(corners[(i + 1) % corners.len()]));
+        let across = (end - start).perp();
+        let main = if across.x.abs() >= across.y.abs() {
+            across.x
+        } else {
+            across.y
+        };
+        let form = across / main;
+        let edge = 0.5 * (form.dot(start) + form.dot(end));
+        let spread = 0.5 * (form.dot(start) - form.dot(end)).abs();
+        let reach = 2.0 * tolerance + spread;
+        let (low, high) = if form.dot(flat(centre)) >= edge {
+            (edge - reach, f64::INFINITY)
+        } else {
+            (f64::NEG_INFINITY, edge + reach)
+        };
+        let parallel = |slab: &&mut Slab| {
+            (DVec2::from_array(slab.form) - form).abs().max_element() <= tolerance
+        };
+        match slabs.iter_mut().find(parallel) {
+            Some(slab) => {
+                slab.low = slab.low.max(low);
+                slab.high = slab.high.min(high);
+            }
+            None => slabs.push(Slab {
+                form: form.to_array(),
+                low,
+                high,
+            }),
+        }
+    }
+    slabs
+}

@@ -1,0 +1,64 @@
+//! Rays, and what is asked of them: the nearest intersection.
+
+use super::Arith;
+use super::geometry::NO_FACE;
+use super::vector::Vector;
+
+/// A ray.
+pub struct Ray<A: Arith> {
+    /// Where it starts.
+    pub origin: Vector<A>,
+    /// Where it goes; of unit length wherever a material asks for angles.
+    pub direction: Vector<A>,
+    /// The plane it leaves; [`super::NO_PLANE`] from the camera.
+    pub from: A::Index,
+    /// A bound on the distance of whatever it meets, in lengths of its direction.
+    pub reach: f64,
+}
+
+impl<A: Arith> Clone for Ray<A> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+impl<A: Arith> Copy for Ray<A> {}
+
+/// The nearest intersection.
+pub struct Hit<A: Arith> {
+    /// Is there one?
+    pub found: A::Bool,
+    /// Distance, in lengths of the ray's direction.
+    pub distance: A::Real,
+    /// The face; the first where there is none.
+    pub face: A::Index,
+}
+
+impl<A: Arith> Hit<A> {
+    /// The hit on `face`, or none where that is [`NO_FACE`] or the path is not `wanted`.
+    #[inline(always)]
+    pub fn new(cx: &mut A, distance: A::Real, face: A::Index, wanted: A::Bool) -> Self {
+        let none = cx.is(face, NO_FACE);
+        let first = cx.index(0);
+        Self {
+            face: cx.select_index(none, first, face),
+            found: math!(cx, !none && wanted),
+            distance,
+        }
+    }
+}
+
+/// What finds the nearest intersection.
+pub trait Nearest<A: Arith> {
+    /// The nearest intersection of `ray`, wanted only where `wanted`.
+    fn nearest(&self, cx: &mut A, ray: &Ray<A>, wanted: A::Bool) -> Hit<A>;
+
+    /// The nearest intersection of `ray` where that is on an emitter: all that matters of a
+    /// path's last ray.
+    fn emitter(&self, cx: &mut A, ray: &Ray<A>, wanted: A::Bool) -> Hit<A>;
+}
+
+/// The point of `ray` at `distance`.
+#[inline(always)]
+pub(crate) fn point_at<A: Arith>(cx: &mut A, ray: &Ray<A>, distance: A::Real) -> Vector<A> {
+    vector!(cx, ray.origin + ray.direction * distance)
+}
