@@ -9,6 +9,7 @@ mod complaint;
 #[allow(dead_code)]
 #[path = "../book/tool/src/equation.rs"]
 mod equation;
+#[allow(dead_code)]
 #[path = "../book/tool/src/symbol.rs"]
 mod symbol;
 

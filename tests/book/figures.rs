@@ -1,13 +1,13 @@
 //! The book's figures are what the library draws today.
 
 // The example prints what figures show, and panics where one cannot be made.
-#![allow(dead_code, clippy::unwrap_used, clippy::expect_used)]
+#![allow(dead_code)]
 
 #[path = "../../examples/book-figures/figures/mod.rs"]
-mod figures;
+mod generators;
 
-use figures::pictures::{by_gates, gates_crop};
-use figures::{ALL, Body, Figure, folder};
+use generators::pictures::{by_gates, gates_crop};
+use generators::{ALL, Body, Figure, folder};
 use qrt::runtime::render::Model;
 use std::collections::BTreeSet;
 use std::path::Path;

@@ -1,11 +1,11 @@
-//! The book's pages as its tests read them: fences, prose, links and anchors.
+//! The book's pages as its tests read them: fences, prose and links.
 
 mod fences;
 mod links;
 mod prose;
 
 pub(crate) use fences::Fence;
-pub(crate) use links::{Link, anchors};
+pub(crate) use links::Link;
 
 use std::fs;
 use std::path::PathBuf;

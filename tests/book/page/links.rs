@@ -1,4 +1,4 @@
-//! Links, pictures and anchors.
+//! Links and pictures.
 
 /// A link or a picture.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -67,52 +67,4 @@ fn opening(before: &str) -> usize {
         }
     }
     before.len()
-}
-
-/// The anchors of a page: those of its headings, its equations and its own.
-pub(crate) fn anchors(page: &super::Page) -> Vec<String> {
-    let mut anchors = Vec::new();
-    for fence in page.fences() {
-        if let Some(number) = fence.info.strip_prefix("equation ") {
-            anchors.push(format!("eq-{}", number.trim()));
-        }
-    }
-    let prose = page.prose();
-    let own = prose.match_indices(" id=\"").filter_map(|(at, mark)| {
-        let rest = &prose[at + mark.len()..];
-        Some(rest[..rest.find('"')?].to_owned())
-    });
-    anchors.extend(own);
-    for (line, blanked) in page.text.lines().zip(prose.lines()) {
-        if !blanked.starts_with('#') {
-            continue;
-        }
-        let heading = line.trim_start_matches('#').trim();
-        let slug = slug(heading);
-        let same = |anchor: &&String| **anchor == slug || numbered(anchor, &slug);
-        match anchors.iter().filter(same).count() {
-            0 => anchors.push(slug),
-            n => anchors.push(format!("{slug}-{n}")),
-        }
-    }
-    anchors
-}
-
-fn numbered(anchor: &str, slug: &str) -> bool {
-    let end = anchor
-        .strip_prefix(slug)
-        .and_then(|rest| rest.strip_prefix('-'));
-    end.is_some_and(|end| !end.is_empty() && end.bytes().all(|byte| byte.is_ascii_digit()))
-}
-
-/// The anchor that a heading gets.
-pub(super) fn slug(heading: &str) -> String {
-    let letters = heading.chars().filter_map(|c| {
-        if c.is_alphanumeric() || c == '_' || c == '-' {
-            Some(c.to_ascii_lowercase())
-        } else {
-            c.is_whitespace().then_some('-')
-        }
-    });
-    letters.collect()
 }

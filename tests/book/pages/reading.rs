@@ -1,6 +1,6 @@
 //! Pages are read as readers see them.
 
-use crate::book::page::{Page, anchors};
+use crate::book::page::Page;
 
 fn page(text: &str) -> Page {
     Page::new("page.md", text)
@@ -75,31 +75,4 @@ of two](figures/d.svg)
     assert_eq!(links[1].text, "a picture\nof two");
     assert_eq!(links[2].text, "three");
     assert_eq!(links[4].text, "(4)");
-}
-
-#[test]
-fn headings_and_equations_are_places() {
-    let text = "\
-# One thing, `and` Another_one
-<a id=\"own\"></a>
-## What-is: 3 x 4?
-## What-is: 3 x 4?
-```equation 12
-x
-```
-";
-    let found = anchors(&page(text));
-    for place in [
-        "eq-12",
-        "own",
-        "one-thing-and-another_one",
-        "what-is-3-x-4",
-        "what-is-3-x-4-1",
-    ] {
-        assert!(
-            found.iter().any(|anchor| anchor == place),
-            "{place}: {found:?}"
-        );
-    }
-    assert_eq!(found.len(), 5);
 }

@@ -1,68 +1,21 @@
-//! Files of this repository that pages refer to.
+//! Tests that pages refer to.
 
-use crate::symbol::{Kind, defines, line_of, lines};
+use crate::equation::Place;
+use crate::symbol::{Kind, defines, lines};
 use std::fs;
 
-/// A reference such as `qrt-core/src/oracle.rs#Oracle`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Reference<'a> {
-    /// The file, from the root of the repository.
-    pub(crate) path: &'a str,
-    /// What it defines.
-    pub(crate) symbol: Option<&'a str>,
-}
-
-impl<'a> Reference<'a> {
-    /// The parts of a reference.
-    pub(crate) fn of(text: &'a str) -> Self {
-        match text.split_once('#') {
-            Some((path, symbol)) => Self {
-                path,
-                symbol: Some(symbol),
-            },
-            None => Self {
-                path: text,
-                symbol: None,
-            },
-        }
-    }
-
-    fn text(self) -> Result<String, String> {
-        let outside = self.path.starts_with('/') || self.path.split('/').any(|part| part == "..");
-        if outside {
-            return Err(format!("`{}` is not a path from the root", self.path));
-        }
-        fs::read_to_string(self.path).map_err(|_| format!("there is no file `{}`", self.path))
-    }
-
-    /// Whether the file is there and defines the symbol.
-    ///
-    /// # Errors
-    /// What is missing.
-    pub(crate) fn check(self) -> Result<(), String> {
-        let text = self.text()?;
-        match self.symbol {
-            Some(symbol) if line_of(&text, symbol).is_none() => {
-                Err(format!("`{}` defines no `{symbol}`", self.path))
-            }
-            _ => Ok(()),
-        }
-    }
-
-    /// Whether the symbol is a test: a function beneath `#[test]`, or one with an example that runs
-    /// or within one.
-    ///
-    /// # Errors
-    /// That it is not.
-    pub(crate) fn check_test(self) -> Result<(), String> {
-        self.check()?;
-        let text = self.text()?;
-        let symbol = self.symbol.ok_or("a test needs a symbol")?;
-        if is_test(&text, symbol) {
-            Ok(())
-        } else {
-            Err(format!("`{symbol}` of `{}` is not a test", self.path))
-        }
+/// Whether a place is a test: a function beneath `#[test]`, or one with an example that runs or
+/// within one.
+///
+/// # Errors
+/// That it is not.
+pub(crate) fn check_test(place: &Place) -> Result<(), String> {
+    let Place { path, symbol } = place;
+    let text = fs::read_to_string(path).map_err(|_| format!("there is no file `{path}`"))?;
+    if is_test(&text, symbol) {
+        Ok(())
+    } else {
+        Err(format!("`{symbol}` of `{path}` is not a test"))
     }
 }
 
@@ -159,28 +112,14 @@ fn panics() {}
     }
 
     #[test]
-    fn references_are_checked_against_the_repository() {
+    fn a_place_is_a_test_or_told() {
+        let check = |path: &str, symbol: &str| {
+            let (path, symbol) = (path.to_owned(), symbol.to_owned());
+            check_test(&Place { path, symbol }).is_ok()
+        };
         let this = "tests/book/pages/source.rs";
-        assert_eq!(
-            Reference::of("tests/book/pages/source.rs#Reference").check(),
-            Ok(())
-        );
-        assert_eq!(Reference::of(this).check(), Ok(()));
-        assert!(Reference::of("tests/book/pages/none.rs").check().is_err());
-        assert!(Reference::of("tests/../Cargo.toml").check().is_err());
-        let missing = format!("{this}#Missing");
-        assert!(
-            Reference::of(&missing)
-                .check()
-                .unwrap_err()
-                .contains("no `Missing`")
-        );
-        let test = format!("{this}#a_test_is_told_from_a_function");
-        assert_eq!(Reference::of(&test).check_test(), Ok(()));
-        assert!(
-            Reference::of(&format!("{this}#is_test"))
-                .check_test()
-                .is_err()
-        );
+        assert!(check(this, "a_place_is_a_test_or_told"));
+        assert!(!check(this, "check_test"));
+        assert!(!check("tests/book/pages/none.rs", "check_test"));
     }
 }
