@@ -45,7 +45,7 @@ fn said(file: &Path, source: &str) -> BTreeMap<PathBuf, String> {
         .arg("--extern")
         .arg(format!("qrt={}", library(libraries).display()))
         // `qrt!` looks for files beside the manifest.
-        .env("CARGO_MANIFEST_DIR", FOLDER)
+        .env("CARGO_MANIFEST_DIR", fs::canonicalize(FOLDER).unwrap())
         .stdin(Stdio::piped())
         .stderr(Stdio::piped())
         .spawn()
@@ -70,8 +70,8 @@ fn library(folder: &Path) -> PathBuf {
     let entries = fs::read_dir(folder).unwrap();
     let paths = entries.map(|entry| entry.unwrap().path());
     let built = paths.filter(|path| {
-        let name = path.file_name().unwrap().to_str().unwrap();
-        name.starts_with("libqrt-") && name.ends_with(".rlib")
+        let name = path.file_stem().unwrap().to_str().unwrap();
+        name.starts_with("libqrt-") && path.extension().is_some_and(|end| end == "rlib")
     });
     built
         .max_by_key(|path| path.metadata().unwrap().modified().unwrap())
@@ -96,7 +96,7 @@ fn normalised(rendered: &str) -> String {
         let mut line = line.trim_end().to_owned();
         let bare = line.trim_start();
         if let Some(place) = bare.strip_prefix("--> ") {
-            outside = !place.starts_with(FOLDER);
+            outside = place.contains(".rs:") && !place.starts_with(FOLDER);
             if outside {
                 let file = place.split(':').next().unwrap();
                 line.truncate(line.find(place).unwrap() + file.len());
