@@ -4,6 +4,7 @@
 mod common;
 
 mod pictures {
+    mod cube;
     mod independent;
 
     mod asked_accuracy;

@@ -292,16 +292,12 @@ fn an_asked_accuracy_chooses_the_circuit() {
 #[cfg(unix)]
 #[test]
 fn an_interruption_leaves_no_file() {
-    use std::io::Read;
+    use crate::common::command::signalled;
     let folder = folder();
     // 30 GB, if it were not stopped.
     let long =
         "export wall.yaml --part counting --set counting.phase_bits=15 --max-gates 2000000000";
-    let mut child = folder
-        .command(&words(long))
-        .stderr(std::process::Stdio::piped())
-        .spawn()
-        .unwrap();
+    let mut child = folder.started(&words(long));
     let partial = || {
         folder
             .names()
@@ -312,18 +308,8 @@ fn an_interruption_leaves_no_file() {
         assert!(child.try_wait().unwrap().is_none(), "it ended by itself");
         std::thread::sleep(std::time::Duration::from_millis(10));
     }
-    let kill = std::process::Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
-        .status();
-    assert!(kill.unwrap().success());
-    assert_eq!(child.wait().unwrap().code(), Some(1));
-    let mut errors = String::new();
-    child
-        .stderr
-        .take()
-        .unwrap()
-        .read_to_string(&mut errors)
-        .unwrap();
+    let (code, _, errors) = signalled(child, "-INT");
+    assert_eq!(code, Some(1));
     assert!(errors.contains("error: interrupted"), "{errors}");
     assert_eq!(folder.names(), ["wall.yaml"]);
 }

@@ -164,7 +164,7 @@ fn wrong_requests_exit_with_2() {
 #[cfg(unix)]
 #[test]
 fn an_interruption_ends_it_and_memory_is_bounded_whatever_the_paths() {
-    use std::io::Read;
+    use crate::common::command::signalled;
     use std::time::Duration;
 
     let folder = folder();
@@ -174,12 +174,7 @@ fn an_interruption_ends_it_and_memory_is_bounded_whatever_the_paths() {
         "--set",
         "comparator.bits=12",
     ];
-    let mut child = folder
-        .command(&[&["verify", "corner.yaml"], &long[..]].concat())
-        .stderr(std::process::Stdio::piped())
-        .stdout(std::process::Stdio::piped())
-        .spawn()
-        .unwrap();
+    let mut child = folder.started(&[&["verify", "corner.yaml"], &long[..]].concat());
     let id = child.id();
     // So long that it is at the paths.
     std::thread::sleep(Duration::from_millis(2500));
@@ -191,26 +186,9 @@ fn an_interruption_ends_it_and_memory_is_bounded_whatever_the_paths() {
         // The paths of one pixel alone would take 800 MB.
         assert!(kibibytes < 300 << 10, "{kibibytes} kB");
     }
-    let kill = std::process::Command::new("kill")
-        .args(["-INT", &id.to_string()])
-        .status();
-    assert!(kill.unwrap().success());
-    assert_eq!(child.wait().unwrap().code(), Some(1));
-    let mut errors = String::new();
-    child
-        .stderr
-        .take()
-        .unwrap()
-        .read_to_string(&mut errors)
-        .unwrap();
+    let (code, said, errors) = signalled(child, "-INT");
+    assert_eq!(code, Some(1));
     assert!(errors.contains("interrupted after "), "{errors}");
-    let mut said = String::new();
-    child
-        .stdout
-        .take()
-        .unwrap()
-        .read_to_string(&mut said)
-        .unwrap();
     assert_eq!(said, "", "no verdict on what was not checked");
 }
 

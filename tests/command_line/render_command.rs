@@ -6,7 +6,6 @@ use exr::prelude as openexr;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::fs;
-use std::io::Read;
 use std::path::Path;
 
 const BOX: &str = include_str!("../scenes/box.yaml");
@@ -473,6 +472,8 @@ const BEGUN: u64 = 2048;
 #[cfg(unix)]
 #[test]
 fn interrupted_by_a_signal_and_resumed_gives_the_same_file() {
+    use crate::common::command::signalled;
+
     let folder = folder();
     let slow = [
         "--set",
@@ -485,28 +486,14 @@ fn interrupted_by_a_signal_and_resumed_gives_the_same_file() {
     let expected = folder.read("p.png");
     for (signal, code) in [("-INT", Some(1)), ("-KILL", None)] {
         fs::remove_file(folder.path("p.png")).unwrap();
-        let mut child = folder
-            .command(&slow)
-            .stderr(std::process::Stdio::piped())
-            .spawn()
-            .unwrap();
+        let mut child = folder.started(&slow);
         let partial = folder.path("p.png.qrt-partial");
         while fs::metadata(&partial).map_or(0, |found| found.len()) < BEGUN {
             assert!(child.try_wait().unwrap().is_none(), "finished too soon");
             std::thread::sleep(std::time::Duration::from_millis(1));
         }
-        let kill = std::process::Command::new("kill")
-            .args([signal, &child.id().to_string()])
-            .status();
-        assert!(kill.unwrap().success());
-        assert_eq!(child.wait().unwrap().code(), code);
-        let mut errors = String::new();
-        child
-            .stderr
-            .take()
-            .unwrap()
-            .read_to_string(&mut errors)
-            .unwrap();
+        let (found, _, errors) = signalled(child, signal);
+        assert_eq!(found, code);
         if code.is_some() {
             assert!(errors.contains("interrupted after "), "{errors}");
             assert!(errors.contains("`p.png.qrt-partial`"), "{errors}");

@@ -2,7 +2,7 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::process::{Child, Command, Output, Stdio};
 use std::sync::atomic::{AtomicU32, Ordering};
 
 /// A fresh folder, removed when dropped; commands run in it.
@@ -71,6 +71,25 @@ impl Folder {
         assert!(!errors.contains('\u{1b}'), "colours outside a terminal");
         errors
     }
+
+    /// Starts the command; what it says is kept.
+    pub(crate) fn started(&self, arguments: &[&str]) -> Child {
+        let mut command = self.command(arguments);
+        command.stdout(Stdio::piped()).stderr(Stdio::piped());
+        command.spawn().unwrap()
+    }
+}
+
+/// Sends a signal, and waits for the end: its code, standard output and standard error.
+#[cfg(unix)]
+pub(crate) fn signalled(child: Child, signal: &str) -> (Option<i32>, String, String) {
+    let id = child.id().to_string();
+    let kill = Command::new("kill").args([signal, &id]).status();
+    assert!(kill.unwrap().success());
+    let output = child.wait_with_output().unwrap();
+    let [said, errors] =
+        [output.stdout, output.stderr].map(|text| String::from_utf8(text).unwrap());
+    (output.status.code(), said, errors)
 }
 
 impl Drop for Folder {

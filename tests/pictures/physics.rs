@@ -4,6 +4,7 @@
 //! a camera in it looks, and however the room is built, a path of D rays brings
 //! `Le (1 - rho^D) / (1 - rho)`; a leak, a lost hit or a rounding error shows.
 
+use super::cube::{WALLS, corner};
 use crate::common::scene::{from_file, written};
 use qrt_runtime::machines::Real;
 
@@ -12,21 +13,6 @@ const ALBEDO: [f64; 3] = [0.25, 0.5, 0.8];
 const DEPTH: i32 = 5;
 
 type Point = [f64; 3];
-
-/// The corner of the cube [-1, 1]^3 with bit k of `code` as its k-th coordinate.
-fn corner(code: usize) -> Point {
-    std::array::from_fn(|k| if code >> k & 1 == 1 { 1.0 } else { -1.0 })
-}
-
-/// Its six walls, fronts inwards.
-const WALLS: [[usize; 4]; 6] = [
-    [0, 2, 6, 4],
-    [1, 5, 7, 3],
-    [0, 4, 5, 1],
-    [2, 3, 7, 6],
-    [0, 1, 3, 2],
-    [4, 6, 7, 5],
-];
 
 fn quads() -> Vec<Vec<Point>> {
     WALLS.map(|wall| wall.map(corner).to_vec()).to_vec()
@@ -232,26 +218,6 @@ fn a_camera_may_stand_on_a_wall_and_look_along_it() {
             1e-7,
         );
     }
-}
-
-#[test]
-fn where_surfaces_of_one_plane_overlap_the_first_listed_is_seen() {
-    let scene = |first: &str, second: &str| {
-        traced(&format!(
-            "name: overlap
-camera: {{ perspective: {{ eye: [0, 0, 3], target: [0, 0, 0], vfov: 20 }} }}
-film: {{ width: 4, height: 4 }}
-materials:
-  red: {{ emitter: {{ radiance: [1, 0, 0] }} }}
-  green: {{ emitter: {{ radiance: [0, 1, 0] }} }}
-geometry:
-  - quad: {{ vertices: [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], material: {first} }}
-  - triangle: {{ vertices: [[-3, -2, 0], [3, -2, 0], [0, 4, 0]], material: {second} }}
-sampling: {{ path_bits: 4, depths: [{{ bits: [4, 4] }}] }}"
-        ))
-    };
-    assert_eq!(scene("red", "green"), vec![[1.0, 0.0, 0.0]; 16]);
-    assert_eq!(scene("green", "red"), vec![[0.0, 1.0, 0.0]; 16]);
 }
 
 #[test]

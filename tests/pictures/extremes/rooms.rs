@@ -5,6 +5,7 @@
 //! rounding error shows.
 
 use super::Extreme;
+use crate::pictures::cube::{WALLS, corner};
 use qrt::core::diagnostics::Report;
 use qrt::core::front::parse;
 use qrt::core::scene::Estimator;
@@ -16,20 +17,6 @@ type Point = [f64; 3];
 const RADIANCE: [f64; 3] = [1.0, 0.5, 0.25];
 const ALBEDO: [f64; 3] = [0.25, 0.5, 0.8];
 const DEPTH: i32 = 2;
-
-/// Quads of the cube [-1, 1]^3, fronts inwards, by corner: bit k is the k-th coordinate.
-const WALLS: [[usize; 4]; 6] = [
-    [0, 2, 6, 4],
-    [1, 5, 7, 3],
-    [0, 4, 5, 1],
-    [2, 3, 7, 6],
-    [0, 1, 3, 2],
-    [4, 6, 7, 5],
-];
-
-fn corner(code: usize) -> Point {
-    std::array::from_fn(|k| if code >> k & 1 == 1 { 1.0 } else { -1.0 })
-}
 
 /// Pixels of a scene under a model, counted exactly.
 fn picture(text: &str, model: Model) -> Result<Vec<[f64; 3]>, Report> {
