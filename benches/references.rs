@@ -6,7 +6,7 @@
 // A bench that cannot run has nothing to report.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
-#[path = "../tests/independent/mod.rs"]
+#[path = "../tests/pictures/independent.rs"]
 mod independent;
 
 use independent::{asking, mean, reference, rms_difference, scene, traced};

@@ -5,7 +5,7 @@
 //! ```
 //!
 //! writes all of them to `book/src/figures`, or those whose names hold one of the NAMEs, and prints
-//! what each shows. Nothing in them depends on the machine: `cargo test --test book_figures` makes
+//! what each shows. Nothing in them depends on the machine: `cargo test --test book figures` makes
 //! them again and compares. Tables that take too long to measure each time are in `book/data`; its
 //! README says by which commands they are made.
 

@@ -1,0 +1,6 @@
+//! The sources are built as ARCHITECTURE.md says.
+#![allow(clippy::unwrap_used, clippy::expect_used)]
+
+mod architecture {
+    mod rooms_import_downwards;
+}

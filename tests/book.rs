@@ -1,0 +1,23 @@
+//! What the book says is so.
+#![allow(clippy::unwrap_used, clippy::expect_used)]
+
+mod common;
+// What the book's tool reads, its tests read in the same way.
+#[allow(dead_code)]
+#[path = "../book/tool/src/complaint.rs"]
+mod complaint;
+#[allow(dead_code)]
+#[path = "../book/tool/src/equation.rs"]
+mod equation;
+#[allow(dead_code)]
+#[path = "../book/tool/src/symbol.rs"]
+mod symbol;
+
+mod book {
+    mod page;
+
+    mod figures;
+    mod listings;
+    mod pages;
+    mod reference;
+}

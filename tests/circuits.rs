@@ -1,0 +1,20 @@
+//! A scene's circuit: right, checked, no larger than the scene requires, and exported as it is.
+#![allow(clippy::unwrap_used, clippy::expect_used)]
+
+mod common;
+
+mod circuits {
+    mod openqasm;
+    mod paths;
+    mod rays;
+
+    mod every_width;
+    mod export_command;
+    mod models_agree;
+    mod nearest_hits;
+    mod only_what_the_scene_requires;
+    mod the_checker_is_checked;
+    mod the_counting_circuit;
+    mod the_shortcut_is_exact;
+    mod verify_command;
+}

@@ -1,0 +1,136 @@
+//! The circuit computes what the integers compute: in every example scene, on every path of every
+//! pixel, bit for bit, with every borrowed qubit returned to zero (the gates machine refuses any
+//! other circuit). Neither what is uncomputed when, nor how the nearest face is found, changes a
+//! path.
+
+use super::paths::{Paths, film, oracle, paths};
+use crate::common::scene::from_file;
+use qrt::circuit::Gate;
+use qrt::runtime::machines::OracleMachine;
+
+/// A film of 8 x 8 pixels with 2^4 paths each.
+const FILM: [&str; 3] = ["film.width=8", "film.height=8", "sampling.path_bits=4"];
+
+/// Numbers short enough for a circuit that is soon built.
+const SHORT: [&str; 2] = ["precision.fraction=8", "comparator.bits=6"];
+
+/// With numbers and comparators as wide as they are written.
+fn agrees_at_full_width(file: &str, sets: &[&str]) {
+    let oracle = oracle(&from_file(file, &[&FILM[..], sets].concat()));
+    let pixels = film(&oracle);
+    let fixed = paths(&OracleMachine::fixed(oracle.clone(), 5, true), &pixels).unwrap();
+    let gates = OracleMachine::gates(oracle, 5, true);
+    let gates = gates.unwrap_or_else(|defect| panic!("{file}: {defect}"));
+    let traced = paths(&gates, &pixels);
+    let traced = traced.unwrap_or_else(|defect| panic!("{file}: {defect}"));
+    assert!(traced == fixed, "{file}: the models differ");
+}
+
+fn agrees(file: &str, sets: &[&str]) {
+    let mut known: Option<Paths> = None;
+    for uncompute in ["keep", "scoped"] {
+        for nearest in ["running", "paper"] {
+            let circuit = format!("circuit={{ uncompute: {uncompute}, nearest: {nearest} }}");
+            let scene = from_file(file, &[&FILM[..], &SHORT, sets, &[&circuit]].concat());
+            let oracle = oracle(&scene);
+            let pixels = film(&oracle);
+            let fixed = OracleMachine::fixed(oracle.clone(), 7, true);
+            let fixed = paths(&fixed, &pixels).unwrap();
+            let gates = OracleMachine::gates(oracle, 7, true);
+            let gates = gates.unwrap_or_else(|defect| panic!("{file}, {circuit}: {defect}"));
+            let traced = paths(&gates, &pixels);
+            let traced = traced.unwrap_or_else(|defect| panic!("{file}, {circuit}: {defect}"));
+            assert!(traced == fixed, "{file}, {circuit}: the models differ");
+            let compute = &gates.parts().unwrap().compute.gates;
+            assert!(compute.iter().any(|gate| matches!(gate, Gate::Ccx(..))));
+            let known = known.get_or_insert_with(|| fixed.clone());
+            assert!(*known == fixed, "{file}: {circuit} changes a path");
+        }
+    }
+    // Black pictures agree easily.
+    let paths = known.unwrap();
+    assert_eq!(paths.good[0].len(), 64 << 4);
+    let lit = paths.colours[0].iter().filter(|colour| **colour > 0);
+    let lit = lit.count();
+    assert!(lit > 10, "{file}: of {} paths, {lit} are lit", 64 << 4);
+}
+
+#[test]
+fn of_the_cornell_box() {
+    agrees("scenes-yaml/cornell-box.yaml", &[]);
+}
+
+#[test]
+fn of_the_cornell_box_with_a_mirror() {
+    agrees("scenes-yaml/cornell-mirror.yaml", &[]);
+}
+
+#[test]
+fn of_the_cornell_box_with_glass() {
+    agrees("scenes-yaml/cornell-glass.yaml", &[]);
+}
+
+#[test]
+fn of_the_cornell_box_with_copper_and_plastic() {
+    agrees("scenes-yaml/cornell-ggx.yaml", &[]);
+}
+
+#[test]
+fn of_the_floor_under_a_light() {
+    agrees("scenes-yaml/floor-and-light.yaml", &[]);
+}
+
+#[test]
+fn of_the_furnace() {
+    agrees("scenes-yaml/furnace.yaml", &[]);
+}
+
+/// With a mesh of four faces in place of 1,536.
+const MESH: [&str; 1] = ["geometry[2].mesh.obj=../tests/good_scenes/tetrahedron.obj"];
+
+/// With stools of four faces in place of 42.
+const STOOLS: [&str; 2] = [
+    "geometry[3].mesh.obj=../tests/good_scenes/tetrahedron.obj",
+    "geometry[4].mesh.obj=../tests/good_scenes/tetrahedron.obj",
+];
+
+#[test]
+fn of_the_mesh() {
+    agrees("scenes-yaml/knot.yaml", &MESH);
+}
+
+#[test]
+fn of_a_bsdf_of_ones_own() {
+    agrees("scenes-yaml/velvet.yaml", &STOOLS);
+}
+
+#[test]
+fn of_the_cornell_box_at_full_width() {
+    agrees_at_full_width("scenes-yaml/cornell-box.yaml", &[]);
+}
+
+#[test]
+#[ignore = "a minute: wider numbers in the circuits that are compared above"]
+fn of_every_other_scene_at_full_width() {
+    for (file, sets) in [
+        ("scenes-yaml/cornell-mirror.yaml", &[][..]),
+        ("scenes-yaml/cornell-glass.yaml", &[]),
+        ("scenes-yaml/cornell-ggx.yaml", &[]),
+        ("scenes-yaml/floor-and-light.yaml", &[]),
+        ("scenes-yaml/furnace.yaml", &[]),
+        ("scenes-yaml/knot.yaml", &MESH),
+        ("scenes-yaml/velvet.yaml", &STOOLS),
+        ("tests/scenes/box.yaml", &[LATTICE]),
+    ] {
+        agrees_at_full_width(file, sets);
+    }
+}
+
+/// Whose ids are the coordinates themselves, side by side.
+const LATTICE: &str = "sampling={ sequence: product-lattice, path_bits: 4, \
+                       depths: [{ bits: [1, 1] }, { bits: [1, 1] }] }";
+
+#[test]
+fn of_the_product_lattice() {
+    agrees("tests/scenes/box.yaml", &[LATTICE]);
+}

@@ -1,0 +1,187 @@
+//! A circuit holds what its scene requires, and nothing else.
+
+use crate::common::scene::written;
+use qrt::circuit::{Circuit, Op, Program, lower};
+use qrt::core::compile::Passes;
+use qrt::core::oracle::{Options, Oracle};
+
+const ROOM: &str = "
+name: room
+camera: { perspective: { eye: [0.5, 0.5, 3], target: [0.5, 0.5, 0], vfov: 40 } }
+film: { width: 8, height: 8 }
+materials:
+  white: { lambertian: { albedo: [0.7, 0.6, 0.5] } }
+  lamp: { emitter: { radiance: [4, 5, 6] } }
+geometry:
+  - quad: { vertices: [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], material: white }
+  - quad: { vertices: [[0, 0, 0], [0, 0, 1], [1, 0, 1], [1, 0, 0]], material: white }
+  - quad: { vertices: [[0.4, 0.9, 0.4], [0.6, 0.9, 0.4], [0.6, 0.9, 0.6], [0.4, 0.9, 0.6]], material: lamp }
+sampling:
+  path_bits: 8
+  depths: [{ bits: [4, 4] }, { bits: [6, 5] }, { bits: [5, 6] }]
+";
+
+fn program(text: &str) -> Program {
+    let oracle = Oracle::new(&written(text, &[]), 0, Options::default()).unwrap();
+    oracle.whole(0)
+}
+
+fn circuit(text: &str) -> Circuit {
+    lower::circuit(&program(text))
+}
+
+fn changed(from: &str, to: &str) -> String {
+    assert!(ROOM.contains(from), "{from}");
+    ROOM.replace(from, to)
+}
+
+fn same_gates(other: &str) {
+    let (room, other) = (circuit(ROOM), circuit(other));
+    assert_eq!(room.gates, other.gates);
+    assert_eq!(room.qubits, other.qubits);
+}
+
+#[test]
+fn an_unused_material_costs_nothing() {
+    let glass = "materials:\n  glass: { dielectric: { ior: 1.5 } }\n  satin: { ggx: { alpha: 0.2, reflectance: [1, 1, 1] } }\n";
+    same_gates(&changed("materials:\n", glass));
+}
+
+#[test]
+fn keys_that_say_what_holds_anyway_cost_nothing() {
+    let keys = "
+precision: { fraction: 16 }
+comparator: { bits: 10, at: midpoints }
+counting: { phase_bits: 30, repetitions: 7 }
+circuit: { uncompute: keep, nearest: running }
+";
+    same_gates(&format!("{}{keys}", changed("name: room", "name: other")));
+}
+
+#[test]
+fn a_second_copy_of_a_primitive_costs_nothing() {
+    let copy = "  - quad: { vertices: [[0, 0, 0], [0, 0, 1], [1, 0, 1], [1, 0, 0]], material: white }\nsampling:";
+    same_gates(&changed("sampling:", copy));
+}
+
+/// Two primitives of one plane share its distance: the second costs its edges.
+#[test]
+fn a_second_primitive_on_a_plane_costs_no_division() {
+    let beside = "  - quad: { vertices: [[2, 0, 0], [3, 0, 0], [3, 1, 0], [2, 1, 0]], material: white }\nsampling:";
+    let divisions = |text: &str| count(&program(text), |op| matches!(op, Op::Divide { .. }));
+    assert_eq!(divisions(ROOM), divisions(&changed("sampling:", beside)));
+    let apart = "  - quad: { vertices: [[2, 0, 0.1], [3, 0, 0.1], [3, 1, 0.1], [2, 1, 0.1]], material: white }\nsampling:";
+    assert!(divisions(ROOM) < divisions(&changed("sampling:", apart)));
+}
+
+fn count(program: &Program, kind: impl Fn(&Op) -> bool) -> usize {
+    program.ops.iter().filter(|op| kind(op)).count()
+}
+
+/// Constant products are for the film's rays (which are affine in the sample) and for slopes.
+#[test]
+fn axis_aligned_walls_cost_no_constant_products() {
+    let scales = |program: &Program| {
+        let steps = program.instructions.iter().filter(|step| !step.inverse);
+        let within = steps.filter(|step| {
+            let mut block = Some(step.block);
+            while let Some(at) = block {
+                let at = &program.blocks[at.index()];
+                if at.name == "find_intersection" {
+                    return true;
+                }
+                block = at.parent;
+            }
+            false
+        });
+        within
+            .filter(|step| matches!(program.ops[step.op as usize], Op::Scale { .. }))
+            .count()
+    };
+    assert_eq!(scales(&program(ROOM)), 0);
+    let tilted = "  - quad: { vertices: [[2, 0, 0], [3, 0, 0.3], [3, 1, 0.3], [2, 1, 0]], material: white }\nsampling:";
+    assert!(scales(&program(&changed("sampling:", tilted))) > 0);
+}
+
+/// Nothing but mirrors scatters here, so no ray but the camera's is sampled.
+#[test]
+fn a_mirror_depth_costs_no_sample_qubits() {
+    let mirror = changed(
+        "lambertian: { albedo: [0.7, 0.6, 0.5] }",
+        "mirror: { reflectance: [0.7, 0.6, 0.5] }",
+    );
+    let samples = |text: &str| count(&program(text), |op| matches!(op, Op::Parity { .. }));
+    assert_eq!(samples(ROOM), 6);
+    assert_eq!(samples(&mirror), 2);
+}
+
+#[test]
+fn no_glass_no_roots_and_no_refraction() {
+    let roots = |text: &str| count(&program(text), |op| matches!(op, Op::SquareRoot { .. }));
+    assert_eq!(roots(ROOM), 0);
+    let glass = changed(
+        "lambertian: { albedo: [0.7, 0.6, 0.5] }",
+        "dielectric: { ior: 1.5 }",
+    );
+    assert!(roots(&glass) > 0);
+}
+
+/// Albedos along a path multiply within a table over the surfaces that it met.
+#[test]
+fn weights_that_depend_on_materials_alone_are_tables() {
+    let products = |passes: Passes| {
+        let options = Options {
+            passes,
+            ..Options::default()
+        };
+        let program = Oracle::new(&written(ROOM, &[]), 0, options)
+            .unwrap()
+            .program;
+        count(&program, |op| matches!(op, Op::Multiply { .. }))
+    };
+    let without = Passes {
+        tabulate: false,
+        ..Passes::ALL
+    };
+    assert!(products(Passes::ALL) < products(without));
+}
+
+/// Every pass removes gates from a scene that has something for it to do, and none adds any.
+#[test]
+fn every_pass_pays() {
+    let toffoli = |passes: Passes| {
+        let options = Options {
+            passes,
+            ..Options::default()
+        };
+        let whole = Oracle::new(&written(ROOM, &[]), 0, options)
+            .unwrap()
+            .whole(0);
+        let costs = lower::tally(&whole);
+        costs.iter().map(|cost| cost.toffoli).sum::<u64>()
+    };
+    let mut passes = Passes::NONE;
+    let mut last = toffoli(passes);
+    let steps: [fn(&mut Passes); 4] = [
+        |p| p.share = true,
+        |p| p.tabulate = true,
+        |p| p.needed = true,
+        |p| p.merge = true,
+    ];
+    for step in steps {
+        step(&mut passes);
+        let now = toffoli(passes);
+        assert!(now < last, "{passes:?}: {now}, was {last}");
+        last = now;
+    }
+}
+
+/// The paper's records cost more, and change no picture: see `models_agree`.
+#[test]
+fn a_running_nearest_is_cheaper_than_the_papers_records() {
+    let qubits = |text: &str| circuit(text).qubits;
+    let paper = format!("{ROOM}circuit: {{ nearest: paper }}\n");
+    let scoped = format!("{ROOM}circuit: {{ uncompute: scoped }}\n");
+    assert!(qubits(ROOM) < qubits(&paper));
+    assert!(qubits(&scoped) * 10 < qubits(ROOM));
+}

@@ -1,0 +1,93 @@
+//! Scenes and their paths, as the machines and the definition of operations compute them.
+
+pub(crate) mod simulator;
+
+use qrt::circuit::{Operand, Word};
+use qrt::core::oracle::{Options, Oracle};
+use qrt::core::valid::ValidScene;
+use qrt::runtime::machines::{Defect, OracleMachine};
+use std::sync::Arc;
+
+/// A floor, a coloured wall and a lamp; 4 x 3 pixels of 2^5 paths of two rays. Small enough to be
+/// tried whole.
+pub(crate) const CORNER: &str = "\
+name: corner
+camera: { perspective: { eye: [0.3, 1.2, -3], target: [0, 0.8, 0], up: [0, 1, 0], vfov: 50 } }
+film: { width: 4, height: 3 }
+materials:
+  floor: { lambertian: { albedo: [0.8, 0.6, 0.3] } }
+  wall: { lambertian: { albedo: [0.2, 0.5, 0.7] } }
+  lamp: { emitter: { radiance: [3, 2, 1], albedo: [0.2, 0.2, 0.2] } }
+geometry:
+  - quad: { vertices: [[-2, 0, -2], [-2, 0, 2], [2, 0, 2], [2, 0, -2]], material: floor }
+  - quad: { vertices: [[-2, 0, 1], [-2, 2, 1], [2, 2, 1], [2, 0, 1]], material: wall }
+  - quad: { vertices: [[-1, 2, -1], [1, 2, -1], [1, 2, 1], [-1, 2, 1]], material: lamp }
+sampling:
+  path_bits: 5
+  depths: [{ bits: [4, 4] }, { bits: [4, 4] }]
+precision: { fraction: 8 }
+comparator: { bits: 4 }
+";
+
+pub(crate) fn oracle(scene: &ValidScene) -> Arc<Oracle> {
+    Arc::new(Oracle::rgb(scene, Options::default()).unwrap())
+}
+
+/// All pixels of the oracle's film, row by row.
+pub(crate) fn film(oracle: &Oracle) -> Vec<[u32; 2]> {
+    let [width, height] = oracle.film;
+    (0..height)
+        .flat_map(|y| (0..width).map(move |x| [x, y]))
+        .collect()
+}
+
+/// By channel, of every path: its colour and its count; pixel by pixel, and by id.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Paths {
+    pub(crate) colours: [Vec<i64>; 3],
+    pub(crate) good: [Vec<i64>; 3],
+}
+
+/// All paths of these pixels, as a machine computes them.
+pub(crate) fn paths(machine: &OracleMachine, pixels: &[[u32; 2]]) -> Result<Paths, Defect> {
+    let mut paths = Paths::default();
+    let mut expected = (0, 0);
+    machine.trace(pixels, 0..machine.paths(), |finished| {
+        assert_eq!((finished.pixel, finished.first_id), expected);
+        let end = finished.first_id + finished.good[0].len() as u64;
+        expected = if end == machine.paths() {
+            (finished.pixel + 1, 0)
+        } else {
+            (finished.pixel, end)
+        };
+        for c in 0..3 {
+            paths.colours[c].extend_from_slice(finished.colours[c]);
+            paths.good[c].extend_from_slice(finished.good[c]);
+        }
+    })?;
+    assert_eq!(expected, (pixels.len(), 0));
+    Ok(paths)
+}
+
+/// The program's inputs for a path: its id, and no comparator.
+pub(crate) fn inputs(oracle: &Oracle, id: u64) -> Vec<u64> {
+    let inputs = oracle.program.inputs.iter();
+    inputs
+        .map(|input| if *input == oracle.id { id } else { 0 })
+        .collect()
+}
+
+/// The number that an operand is, with these registers.
+pub(crate) fn number(operand: Operand, registers: &[u64]) -> i64 {
+    match operand {
+        Operand::Constant(value) => value,
+        Operand::Word(word) => word.read(registers[word.register.index()]),
+    }
+}
+
+pub(crate) fn word(operand: Operand) -> Option<Word> {
+    match operand {
+        Operand::Word(word) => Some(word),
+        Operand::Constant(_) => None,
+    }
+}

@@ -1,0 +1,189 @@
+//! The paper's whole figure for a scene: Hadamards, controlled powers of the Grover iterate with
+//! every gate and ancilla of the scene's oracle, and the inverse Fourier transform give the
+//! distribution that counting draws from, which knows S alone.
+
+use super::paths::{oracle, paths};
+use crate::common::scene::written;
+use qrt::circuit::quantum::{Conjunction, Counting, Part, QuantumGate};
+use qrt::core::oracle::{Options, Oracle};
+use qrt::core::scene::Window;
+use qrt::core::valid::ValidScene;
+use qrt::runtime::counting::PhaseDistribution;
+use qrt::runtime::machines::OracleMachine;
+use qrt::runtime::machines::statevector::{
+    Checks, Sparse, StateVector, count, counting_of, fold, reduced, subspace,
+};
+
+/// A coloured wall, and a lamp behind the camera that lights it: 2 x 2 pixels of 2^4 paths of two
+/// rays.
+const WALL: &str = "\
+name: wall
+camera: { perspective: { eye: [0.2, 0.1, 2], target: [0, 0, 0], up: [0, 1, 0], vfov: 60 } }
+film: { width: 2, height: 2 }
+materials:
+  wall: { lambertian: { albedo: [0.9, 0.6, 0.3] } }
+  lamp: { emitter: { radiance: [2, 3, 4] } }
+geometry:
+  - quad: { vertices: [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], material: wall }
+  - quad: { vertices: [[-3, -3, 3], [-3, 2, 3], [3, 2, 3], [3, -3, 3]], material: lamp }
+sampling:
+  path_bits: 4
+  depths: [{ bits: [3, 3] }, { bits: [3, 3] }]
+precision: { fraction: 6 }
+comparator: { bits: 2 }
+";
+
+const SEED: u64 = 5;
+const PIXELS: [[u32; 2]; 3] = [[0, 0], [1, 0], [1, 1]];
+
+fn closed(good: u64, total: u64, phase_bits: u32, window: Window) -> Vec<f64> {
+    let exact = PhaseDistribution::new(good, total, phase_bits, window).unwrap();
+    (0..=exact.largest_outcome())
+        .map(|y| exact.probability(y))
+        .collect()
+}
+
+fn off(a: &[f64], b: &[f64]) -> f64 {
+    assert_eq!(a.len(), b.len());
+    let differences = a.iter().zip(b).map(|(a, b)| (a - b).abs());
+    differences.fold(0.0, f64::max)
+}
+
+/// By pixel and channel: which ids (path below, comparator above) the fixed machine calls good.
+fn tables(scene: &ValidScene) -> Vec<[Vec<bool>; 3]> {
+    let oracle = oracle(scene);
+    let machine = OracleMachine::fixed(oracle.clone(), SEED, true);
+    let traced = paths(&machine, &PIXELS).unwrap();
+    let one = machine.paths() as usize;
+    let comparators = 0..1_i64 << oracle.comparator_bits();
+    let table = |pixel: usize, channel: usize| {
+        let counts = &traced.good[channel][pixel * one..][..one];
+        let of = |y| counts.iter().map(move |count| y < *count);
+        comparators.clone().flat_map(of).collect()
+    };
+    (0..PIXELS.len())
+        .map(|pixel| [0, 1, 2].map(|channel| table(pixel, channel)))
+        .collect()
+}
+
+fn is_the_distribution(sets: &[&str], phase_bits: u32) {
+    let scene = written(WALL, sets);
+    let together = oracle(&scene);
+    let apart = [0, 1, 2].map(|c| Oracle::new(&scene, c, Options::default()).unwrap());
+    let mut different = std::collections::HashSet::new();
+    for (pixel, tables) in PIXELS.iter().zip(tables(&scene)) {
+        for (channel, table) in tables.iter().enumerate() {
+            let total = table.len() as u64;
+            let good = table.iter().filter(|good| **good).count() as u64;
+            different.insert(good);
+            for window in [Window::Rect, Window::Sine] {
+                // A channel's own oracle, and its part of that of all.
+                let (oracle, number) = match window {
+                    Window::Rect => (&apart[channel], 0),
+                    Window::Sine => (&*together, channel),
+                };
+                let counted = counting_of(oracle, number, SEED, *pixel, phase_bits, window);
+                let counted = counted.unwrap();
+                let exact = closed(good, total, phase_bits, window);
+                let others = [
+                    exact.clone(),
+                    reduced(table, phase_bits, window).unwrap(),
+                    subspace(good, total, phase_bits, window).unwrap(),
+                ];
+                for other in others {
+                    let off = off(&counted.distribution, &other);
+                    assert!(off < 1e-12, "{pixel:?} {channel} {window:?}: {off:e}");
+                }
+                let report = counted.report;
+                assert_eq!(report.queries, (1 << phase_bits) - 1);
+                // Once before and once after each query, and at the end.
+                assert_eq!(report.checks, report.queries + 2);
+                assert!(report.qubits > 200 + report.superposed, "{report:?}");
+                assert!(report.most_states.unwrap() <= 1 << report.superposed);
+                assert!((report.norm - 1.0).abs() < 1e-12 && report.dropped < 1e-25);
+            }
+        }
+    }
+    assert!(
+        different.len() > 3,
+        "all pixels look the same: {different:?}"
+    );
+}
+
+#[test]
+fn gives_the_distribution_that_is_drawn_from() {
+    is_the_distribution(&[], 5);
+}
+
+#[test]
+fn gives_it_too_where_work_is_uncomputed_early() {
+    is_the_distribution(&["circuit.uncompute=scoped", "comparator.at=edges"], 3);
+}
+
+/// O_0 turns the signs of all but `|0...0>`. With that of `|0...0>` alone the ids that are *not*
+/// good are counted.
+#[test]
+fn counts_the_others_where_the_reflection_has_the_other_sign() {
+    let scene = written(WALL, &[]);
+    let oracle = Oracle::new(&scene, 0, Options::default()).unwrap();
+    let table = &tables(&scene)[0][0];
+    let (total, phase_bits) = (table.len() as u64, 4);
+    let good = table.iter().filter(|good| **good).count() as u64;
+    assert!(good != total - good);
+    let oracle = oracle.phase(0, SEED, PIXELS[0]).unwrap();
+    let counting = Counting::new(&oracle, phase_bits, Window::Rect).unwrap();
+    let mut machine = Sparse::new(counting.qubits());
+    counting
+        .part(Part::Counting, &mut |gate| match gate {
+            // What makes the sign right, and no other gate of the circuit, is such a Z.
+            QuantumGate::Phase { on: [qubit], .. } if counting.counter().contains(qubit) => Ok(()),
+            gate => machine.gate(gate),
+        })
+        .unwrap();
+    let found = fold(&machine.distribution(counting.counter()).unwrap());
+    assert!(off(&found, &closed(good, total, phase_bits, Window::Rect)) > 0.05);
+    let others = closed(total - good, total, phase_bits, Window::Rect);
+    assert!(off(&found, &others) < 1e-12);
+}
+
+/// The logarithm of the size, not the size, is what a counter adds to an oracle.
+#[test]
+fn has_a_qubit_more_for_twice_the_size() {
+    let oracle = Oracle::new(&written(WALL, &[]), 0, Options::default()).unwrap();
+    let oracle = oracle.phase(0, SEED, PIXELS[0]).unwrap();
+    let iterate = Counting::new(&oracle, 1, Window::Rect).unwrap().qubits() - 1;
+    for phase_bits in 1..=30 {
+        for (window, bond) in [(Window::Rect, 0), (Window::Sine, 1)] {
+            let counting = Counting::new(&oracle, phase_bits, window).unwrap();
+            assert_eq!(counting.qubits(), iterate + phase_bits + bond);
+            assert_eq!(counting.queries(), (1 << phase_bits) - 1);
+        }
+    }
+    // Grover's reflection borrows the oracle's own ancillas.
+    assert_eq!(iterate, oracle.qubits());
+}
+
+/// Of gates with no more than two controls, through the oracle's own ancillas.
+#[test]
+fn may_be_written_without_many_controls() {
+    let scene = written(WALL, &[]);
+    let oracle = Oracle::new(&scene, 2, Options::default()).unwrap();
+    let table = &tables(&scene)[1][2];
+    let good = table.iter().filter(|good| **good).count() as u64;
+    let oracle = oracle.phase(0, SEED, PIXELS[1]).unwrap();
+    let whole = Counting::new(&oracle, 4, Window::Sine).unwrap();
+    let toffolis = Counting::with(&oracle, 4, Window::Sine, Conjunction::Toffolis).unwrap();
+    assert_eq!(whole.qubits(), toffolis.qubits());
+    let mut machine = Sparse::new(toffolis.qubits());
+    let counted = count(&mut machine, &toffolis, Checks::EveryQuery).unwrap();
+    let exact = closed(good, table.len() as u64, 4, Window::Sine);
+    assert!(off(&counted.distribution, &exact) < 1e-12);
+    assert_eq!(counted.report.gates, toffolis.gates(Part::Counting));
+}
+
+#[test]
+fn has_no_fourth_channel() {
+    let oracle = Oracle::new(&written(WALL, &[]), 0, Options::default()).unwrap();
+    let refused = counting_of(&oracle, 1, SEED, [0, 0], 3, Window::Rect).unwrap_err();
+    assert_eq!(refused.to_string(), "the oracle has no channel 1");
+}

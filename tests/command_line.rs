@@ -1,0 +1,14 @@
+//! The commands as scripts see them.
+#![allow(clippy::unwrap_used, clippy::expect_used)]
+
+mod common;
+
+mod command_line {
+    mod count_command;
+    mod inspect_command;
+    mod pictures_by_circuits;
+    mod render_command;
+    mod search_command;
+    mod small_commands;
+    mod trade_command;
+}

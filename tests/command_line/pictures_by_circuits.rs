@@ -1,0 +1,84 @@
+//! `qrt render --model fixed|gates` as scripts see it.
+
+use crate::common::command::Folder;
+use serde_json::Value;
+
+const BOX: &str = include_str!("../scenes/box.yaml");
+
+/// Small enough for every gate of every path in a second or two.
+const SMALL: [&str; 6] = [
+    "--set",
+    "sampling.path_bits=6",
+    "--crop",
+    "3,3,4,4",
+    "--set",
+    "comparator.bits=8",
+];
+
+fn render(folder: &Folder, model: &str, more: &[&str]) -> String {
+    let name = format!("{model}.csv");
+    let arguments = [
+        &["render", "box.yaml", "--model", model, "--counts", &name][..],
+        &["--stats", "stats.json"],
+        &SMALL,
+        more,
+    ];
+    folder.works(&arguments.concat());
+    String::from_utf8(folder.read(&name)).unwrap()
+}
+
+fn columns(csv: &str) -> Vec<(f64, Option<u64>, u64, f64)> {
+    csv.lines()
+        .skip(1)
+        .map(|line| {
+            let fields: Vec<&str> = line.split(',').collect();
+            (
+                fields[3].parse().unwrap(),
+                (!fields[4].is_empty()).then(|| fields[4].parse().unwrap()),
+                fields[5].parse().unwrap(),
+                fields[6].parse().unwrap(),
+            )
+        })
+        .collect()
+}
+
+#[test]
+fn both_machines_make_one_picture_near_the_real_one() {
+    let folder = Folder::with("box.yaml", BOX);
+    let exact = ["--estimator", "exact"];
+    let fixed = render(&folder, "fixed", &exact);
+    assert_eq!(fixed, render(&folder, "gates", &exact));
+    let stats: Value = serde_json::from_slice(&folder.read("stats.json")).unwrap();
+    assert_eq!(stats["model"], "gates");
+    let real = columns(&render(&folder, "real", &exact));
+    let fixed = columns(&fixed);
+    assert_eq!(fixed.len(), 16 * 3);
+    for ((value, good, total, scale), (close, none, _, _)) in fixed.into_iter().zip(real) {
+        let good = good.unwrap();
+        assert_eq!(value, scale * (good as f64 / total as f64));
+        // Half a step of the comparator, and a path or two that meet something else.
+        assert!((value - close).abs() <= scale * (0.5 / 256.0 + 1.0 / 64.0));
+        assert_eq!((none, total), (None, 64 << 8));
+    }
+}
+
+#[test]
+fn counting_draws_from_what_the_circuit_counted() {
+    let folder = Folder::with("box.yaml", BOX);
+    let sine = ["--estimator", "sine"];
+    let counted = columns(&render(&folder, "fixed", &sine));
+    let exact = columns(&render(&folder, "fixed", &["--estimator", "exact"]));
+    let differ = counted.iter().zip(&exact).filter(|(a, b)| a.0 != b.0);
+    assert!(differ.count() > 10);
+    for (counted, exact) in counted.iter().zip(&exact) {
+        assert_eq!(counted.1, exact.1);
+    }
+}
+
+#[test]
+fn threads_tiles_and_interruptions_change_no_byte() {
+    let folder = Folder::with("box.yaml", BOX);
+    let all = render(&folder, "gates", &["--threads", "1"]);
+    assert_eq!(all, render(&folder, "gates", &["--threads", "3"]));
+    assert_eq!(all, render(&folder, "gates", &["--resume"]));
+}

@@ -1,0 +1,131 @@
+//! `qrt new`, `schema`, `completions`, and what holds for every command.
+
+use crate::common::command::Folder;
+use std::fs;
+use std::process::Stdio;
+
+const COMMANDS: [&str; 9] = [
+    "render",
+    "inspect",
+    "count",
+    "verify",
+    "trade",
+    "export",
+    "new",
+    "schema",
+    "completions",
+];
+
+#[test]
+fn a_new_scene_renders_and_says_its_name() {
+    let folder = Folder::new();
+    let said = folder.works(&["new", "box"]);
+    assert!(said.contains("qrt render box.yaml"), "{said}");
+    folder.works(&["render", "box.yaml"]);
+    assert_eq!(folder.names(), ["box.png", "box.yaml"]);
+    // Whatever it is called.
+    for (name, file) in [
+        ("other.yaml", "other.yaml"),
+        ("v1.2", "v1.2.yaml"),
+        ("a \"b\": 'c' # ü", "a \"b\": 'c' # ü.yaml"),
+        ("true", "true.yaml"),
+        ("42", "42.yaml"),
+    ] {
+        folder.works(&["new", name]);
+        let scene = qrt::prelude::load(&folder.path(file), &[]).unwrap().valid;
+        assert_eq!(scene.scene().name, file.strip_suffix(".yaml").unwrap());
+    }
+}
+
+#[test]
+fn a_new_scene_replaces_nothing_unless_told() {
+    let folder = Folder::with("box.yaml", "mine");
+    assert!(folder.fails(2, &["new", "box"]).contains("--force"));
+    assert_eq!(folder.read("box.yaml"), b"mine");
+    folder.works(&["new", "box", "--force"]);
+    assert_ne!(folder.read("box.yaml"), b"mine");
+    let error = folder.fails(1, &["new", "none/box"]);
+    assert!(
+        error.contains("`none/box.yaml`: there is no folder `none`"),
+        "{error}"
+    );
+    assert!(folder.fails(2, &["new", ".."]).contains("names no file"));
+    assert_eq!(folder.names(), ["box.yaml"]);
+}
+
+#[test]
+fn the_schema_is_the_scene_formats() {
+    let text = Folder::new().works(&["schema"]);
+    assert_eq!(text, qrt::core::schema::text());
+    let schema: serde_json::Value = serde_json::from_str(&text).unwrap();
+    assert!(schema["properties"]["camera"].is_object());
+}
+
+#[test]
+fn completions_name_every_command() {
+    let folder = Folder::new();
+    for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
+        let script = folder.works(&["completions", shell]);
+        for command in COMMANDS {
+            assert!(script.contains(command), "{shell}: {command}");
+        }
+    }
+    assert!(folder.fails(2, &["completions", "cmd"]).contains("bash"));
+}
+
+#[test]
+fn help_and_version_are_there() {
+    let folder = Folder::new();
+    let version = folder.works(&["--version"]);
+    assert_eq!(version, format!("qrt {}\n", env!("CARGO_PKG_VERSION")));
+    assert!(folder.fails(2, &[]).contains("Usage: qrt <COMMAND>"));
+    for command in COMMANDS {
+        let help = folder.works(&[command, "--help"]);
+        assert!(help.contains("Examples:"), "{command}");
+        assert!(
+            help.lines().all(|line| line.chars().count() <= 100),
+            "{help}"
+        );
+    }
+}
+
+#[test]
+fn readers_that_go_away_are_no_failure() {
+    let folder = Folder::new();
+    folder.works(&["new", "box"]);
+    let render = ["render", "box.yaml", "--crop", "0,0,2,2"];
+    for arguments in [
+        &render[..],
+        &["schema"],
+        &["completions", "bash"],
+        &["count", "--good", "3", "--total", "9", "--phase-bits", "12"],
+        &["render", "--help"],
+        &["export", "box.yaml", "-o", "-"],
+    ] {
+        let mut command = folder.command(arguments);
+        let mut child = command
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        drop(child.stdout.take());
+        let output = child.wait_with_output().unwrap();
+        let errors = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(0), "{arguments:?}: {errors}");
+        assert!(errors.is_empty(), "{arguments:?}: {errors}");
+    }
+    // On standard error neither.
+    for arguments in [
+        &["render", "none.yaml"][..],
+        &["render", "box.yaml", "--crop", "99,0,1,1"],
+    ] {
+        let mut child = folder
+            .command(arguments)
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        drop(child.stderr.take());
+        assert_eq!(child.wait().unwrap().code(), Some(2), "{arguments:?}");
+    }
+    assert!(fs::metadata(folder.path("box.png")).is_ok());
+}

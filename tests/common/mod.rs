@@ -1,0 +1,5 @@
+//! What the tests of several groups begin with; each uses some of it.
+#![allow(dead_code)]
+
+pub(crate) mod command;
+pub(crate) mod scene;

@@ -1,0 +1,22 @@
+//! Scenes of texts and of files.
+
+use qrt::core::front::{load, parse};
+use qrt::core::valid::ValidScene;
+use std::path::Path;
+
+fn owned(sets: &[&str]) -> Vec<String> {
+    sets.iter().map(|&set| set.to_owned()).collect()
+}
+
+/// A scene of this text.
+pub(crate) fn written(text: &str, sets: &[&str]) -> ValidScene {
+    let parsed = parse(text, "test.yaml", &owned(sets), "".as_ref());
+    parsed.unwrap_or_else(|report| panic!("{report}")).valid
+}
+
+/// A scene of this repository's file.
+pub(crate) fn from_file(file: &str, sets: &[&str]) -> ValidScene {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(file);
+    let loaded = load(&path, &owned(sets));
+    loaded.unwrap_or_else(|report| panic!("{report}")).valid
+}

@@ -1,0 +1,10 @@
+//! `qrt!` and `#[reversible]`: what they make is the scene, the circuit and the function that was
+//! written.
+#![allow(clippy::unwrap_used, clippy::expect_used)]
+
+mod macros {
+    mod bsdf_terms;
+    mod compiled_scenes;
+    mod macro_scene;
+    mod reversible;
+}

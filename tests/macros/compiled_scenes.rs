@@ -1,0 +1,267 @@
+//! What `qrt!` compiles is the circuit of the scene: the same program, computed and undone, the same
+//! numbers on every machine, and the same picture.
+
+use qrt::core::inspect::Inspection;
+use qrt::core::oracle::{Options as Compile, Oracle};
+use qrt::prelude::*;
+use qrt::runtime::machines::{Finished, InstructionSet, OracleMachine};
+use std::sync::Arc;
+
+qrt! {
+    scene Box from "scenes-yaml/cornell-box.yaml"
+    scene Mirror from "scenes-yaml/cornell-mirror.yaml"
+    scene Copper from "scenes-yaml/cornell-ggx.yaml"
+    scene Floor from "scenes-yaml/floor-and-light.yaml"
+    scene Furnace from "scenes-yaml/furnace.yaml"
+    scene Scoped from "tests/scenes/scoped.yaml"
+    scene Lattice from "tests/scenes/lattice.yaml"
+
+    /// What `Floor` reads from its file.
+    scene Twin {
+        name: "floor-and-light",
+        camera: perspective { eye: (0.3, 1.5, -0.2), target: (0.3, 0, -0.2), up: (0, 0, 1), vfov: 60 },
+        film: 64 x 64,
+        material floor: lambertian { albedo: rgb(0.8, 0.5, 0.2) },
+        material lamp: emitter { radiance: rgb(10, 8, 6) },
+        quad floor: floor { (-4, 0, -4), (-4, 0, 4), (4, 0, 4), (4, 0, -4) },
+        quad lamp: lamp { (-0.5, 2, -0.5), (0.5, 2, -0.5), (0.5, 2, 0.5), (-0.5, 2, 0.5) },
+        sampling { path_bits: 14 },
+        depth primary { bits: (10, 10) },
+        depth secondary { bits: (10, 10) },
+        comparator { bits: 12 },
+        counting { phase_bits: 12 },
+    }
+}
+
+qrt! {
+    /// Named as what generated code speaks of.
+    #[cfg(all())]
+    pub(crate) scene Field<Fixed<2, 30>> {
+        camera: perspective { eye: (0, 1, 5), target: (0, 1, 0), vfov: 40 },
+        film: 4 x 4,
+        material white: lambertian { albedo: rgb(0.7, 0.6, 0.5) },
+        material glass: dielectric { ior: 1.5 },
+        material lamp: emitter { radiance: rgb(3, 2, 0) },
+        quad floor: white { (-2, 0, 2), (2, 0, 2), (2, 0, -2), (-2, 0, -2) },
+        triangle pane: glass { (-1, 0, 1), (1, 0, 1), (0, 1.5, 1) },
+        quad light: lamp { (-1, 2, -1), (1, 2, -1), (1, 2, 1), (-1, 2, 1) },
+        sampling { path_bits: 40 },
+        depth primary { bits: (20, 18) },
+        depth secondary { bits: (9, 3) },
+        depth third { bits: (9, 3) },
+        comparator { bits: 20 },
+    }
+    #[cfg(any())]
+    scene Gone {
+        camera: orthographic { eye: (0, 0, 2), target: (0, 0, 0), height: 1 },
+        film: 1 x 1,
+    }
+    /// Nothing to see, and one path.
+    scene Dark {
+        camera: orthographic { eye: (0, 0, 2), target: (0, 0, 0), height: 1 },
+        film: 1 x 1,
+        sampling { path_bits: 0 },
+        depth primary { bits: (0, 0) },
+    }
+    /// The same on all paths.
+    #[allow(non_camel_case_types)]
+    scene r#type {
+        camera: orthographic { eye: (0, 0, 2), target: (0, 0, 0), height: 1 },
+        film: 2 x 2,
+        material lamp: emitter { radiance: rgb(1, 0, 0.5) },
+        quad sky: lamp { (-9, -9, 0), (9, -9, 0), (9, 9, 0), (-9, 9, 0) },
+        sampling { path_bits: 3 },
+        depth primary { bits: (2, 2) },
+    }
+}
+
+/// All that the code says to a recorder, from the first operation to the last inverse.
+fn whole<C: CompiledOracle>() -> Program {
+    let mut recorder = C::OUTLINE.recorder();
+    let id = C::OUTLINE.inputs(&mut recorder);
+    C::within(&mut recorder, &id, |_, _| {});
+    C::OUTLINE.ordered(recorder.finish())
+}
+
+fn is_the_scene<C: CompiledOracle>() {
+    let oracle = Oracle::rgb(C::scene(), Compile::default()).unwrap();
+    assert!(C::program() == oracle.program, "another program");
+    let compiled = C::oracle().unwrap();
+    assert_eq!(compiled.channels, oracle.channels);
+    assert_eq!(compiled.places, oracle.places);
+    assert_eq!(
+        (compiled.id, compiled.comparator, compiled.flag),
+        (oracle.id, oracle.comparator, oracle.flag)
+    );
+    assert_eq!(
+        (compiled.fraction, compiled.film, compiled.sharing),
+        (oracle.fraction, oracle.film, oracle.sharing)
+    );
+    let mut both = oracle.program.instructions.clone();
+    both.extend(oracle.program.inverse().instructions);
+    assert!(whole::<C>().instructions == both, "not undone in reverse");
+}
+
+/// At most so many paths of a pixel are compared, the last ones.
+const MOST: u64 = 1 << 14;
+
+/// By path of a pixel: by channel the count and the colour.
+fn paths(machine: &OracleMachine, pixel: [u32; 2]) -> Vec<[[i64; 3]; 2]> {
+    let mut paths = Vec::new();
+    let finished = |run: Finished<'_>| {
+        for place in 0..run.good[0].len() {
+            let of = |values: [&[i64]; 3]| values.map(|values| values[place]);
+            paths.push([of(run.good), of(run.colours)]);
+        }
+    };
+    let all = machine.paths();
+    let ids = all.saturating_sub(MOST)..all;
+    machine.trace(&[pixel], ids, finished).unwrap();
+    paths
+}
+
+/// All paths of a pixel, as native code by each instruction set, against the fixed machine; and some
+/// of them one basis state at a time.
+fn computes_what_the_fixed_machine_does<C: NativeOracle>(pixel: [u32; 2]) {
+    let oracle: Arc<Oracle> = C::oracle().unwrap().into();
+    let fixed = paths(&OracleMachine::fixed(oracle.clone(), 3, true), pixel);
+    for set in InstructionSet::available() {
+        let native = OracleMachine::native_on::<C>(set, oracle.clone(), 3, true);
+        assert!(
+            paths(&native, pixel) == fixed,
+            "{set:?} computes something else"
+        );
+    }
+    let most = 1 << oracle.comparator_bits();
+    let first = (1_u64 << oracle.points.path_bits()).saturating_sub(MOST);
+    for (path, expected) in (first..).zip(&fixed).step_by(fixed.len().div_ceil(24)) {
+        let (mut state, id) = State::path::<C>(3, pixel, path).unwrap();
+        C::within(&mut state, &id, |state, computed| {
+            let counts = computed.counts().map(|count| state.operand(count));
+            let counts = counts.map(|count| count.clamp(0, most));
+            let colours = computed.colours().map(|colour| state.operand(colour));
+            assert_eq!([counts, colours], *expected, "path {path}");
+        });
+        state.clean().unwrap();
+    }
+}
+
+macro_rules! scenes {
+    ($($test:ident: $scene:ident at $pixel:expr;)*) => {
+        $(#[test]
+        fn $test() {
+            is_the_scene::<$scene>();
+            computes_what_the_fixed_machine_does::<$scene>($pixel);
+            let inspection = Inspection::new($scene::scene(), None, Compile::default()).unwrap();
+            assert_eq!($scene::QUBITS, u64::from(inspection.qubits));
+            assert_eq!($scene::TOFFOLI, inspection.total().toffoli);
+        })*
+    };
+}
+
+scenes! {
+    of_the_cornell_box: Box at [20, 40];
+    of_the_cornell_box_with_a_mirror: Mirror at [44, 40];
+    of_the_cornell_box_with_copper: Copper at [20, 44];
+    of_the_floor_under_a_light: Floor at [5, 5];
+    of_the_furnace: Furnace at [7, 7];
+    of_a_circuit_that_uncomputes_early: Scoped at [3, 4];
+    of_the_product_lattice: Lattice at [3, 4];
+    of_wide_numbers_and_long_ids: Field at [2, 1];
+    of_nothing: Dark at [0, 0];
+    of_a_lamp_alone: r#type at [1, 1];
+}
+
+#[test]
+fn constants_are_those_of_the_oracle() {
+    let oracle = Box::oracle().unwrap();
+    assert_eq!(Box::PATH_BITS, 14);
+    assert_eq!(Box::COMPARATOR_BITS, oracle.comparator_bits());
+    assert_eq!(Box::FRACTION_BITS, oracle.fraction);
+    assert_eq!(
+        Box::SCALE,
+        [0, 1, 2].map(|channel| oracle.channels[channel].scale)
+    );
+    assert_eq!(Box::DEPTH, 3);
+    assert_eq!(Box::FILM, [64, 64]);
+    assert_eq!(Box::OPERATIONS, oracle.program.ops.len());
+}
+
+/// Fields of the layout read what the real tracer knows of a path.
+#[test]
+fn the_layout_reads_rays_of_unit_length_inside_the_box() {
+    let ray = Box::LAYOUT.ray1;
+    let mut hits = 0;
+    for path in 0..64 {
+        let pixel = [30, 20];
+        let (mut state, id) = State::path::<Box>(1, pixel, path).unwrap();
+        Box::within(&mut state, &id, |state, computed| {
+            let found = computed.word(&Box::LAYOUT.ray0.found);
+            let found = Box::LAYOUT
+                .ray0
+                .found
+                .value(state.bits(found.register), pixel);
+            assert!(found == 0.0 || found == 1.0);
+            let of = |word: Word<&_>| state.bits(word.register);
+            let x = ray
+                .direction
+                .x
+                .value(of(computed.word(&ray.direction.x)), pixel);
+            let y = ray
+                .direction
+                .y
+                .value(of(computed.word(&ray.direction.y)), pixel);
+            let z = ray
+                .direction
+                .z
+                .value(of(computed.word(&ray.direction.z)), pixel);
+            if found == 1.0 {
+                hits += 1;
+                let length = (x * x + y * y + z * z).sqrt();
+                assert!((length - 1.0).abs() < 1e-3, "{length} on path {path}");
+            }
+        });
+        state.clean().unwrap();
+    }
+    assert!(hits > 50, "{hits} hits");
+}
+
+/// The macro's tokens and the file's text are one scene, one program and one picture.
+#[test]
+fn a_scene_and_its_twin_are_one() {
+    assert_eq!(Twin::scene().scene(), Floor::scene().scene());
+    assert!(Twin::program() == Floor::program());
+    let options = Options {
+        model: Model::Fixed,
+        crop: Some([16, 30, 32, 2]),
+        ..Options::default()
+    };
+    let [twin, floor] = [
+        render_compiled::<Twin>(&options).unwrap(),
+        render_compiled::<Floor>(&options).unwrap(),
+    ];
+    assert_eq!(twin.image.pixels, floor.image.pixels);
+    assert_eq!(twin.good, floor.good);
+}
+
+#[test]
+fn pictures_are_those_of_the_scene() {
+    for model in [Model::Real, Model::Fixed, Model::Gates] {
+        let options = Options {
+            model,
+            crop: Some([30, 30, 3, 2]),
+            ..Options::default()
+        };
+        let compiled = render_compiled::<Floor>(&options).unwrap();
+        let built = render(Floor::scene(), &options).unwrap();
+        assert_eq!(compiled.image.pixels, built.image.pixels);
+        assert_eq!(compiled.good, built.good);
+    }
+}
+
+/// In a function, and private.
+#[test]
+fn a_scene_may_stand_in_a_function() {
+    qrt! { scene Inner from "tests/scenes/lattice.yaml" }
+    assert!(Inner::program() == Lattice::program());
+}

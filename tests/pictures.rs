@@ -1,0 +1,20 @@
+//! Pictures: those of physics and of other renderers, however they are computed.
+#![allow(clippy::unwrap_used, clippy::expect_used)]
+
+mod common;
+
+mod pictures {
+    mod cube;
+    mod independent;
+
+    mod asked_accuracy;
+    mod boxes_change_nothing;
+    mod counted_pictures;
+    mod extremes;
+    mod knot_mesh_is_a_closed_tube;
+    mod one_run_colour;
+    mod physics;
+    mod references;
+    mod same_picture;
+    mod searched_pictures;
+}

@@ -1,0 +1,140 @@
+//! An asked accuracy is kept, as cheaply as can be, or refused.
+
+use crate::common::scene::written;
+use qrt::core::scene::Estimator;
+use qrt::core::scene::meshes::Meshes;
+use qrt::core::valid::{ValidScene, validate};
+use qrt::runtime::machines::Real;
+use qrt::runtime::plan::{Options, Plan, plan};
+use qrt::runtime::render::{self, Model, render};
+use qrt::runtime::sample::{prefix_means, radiance, spread};
+use std::num::NonZeroUsize;
+
+/// A lamp over a floor, seen obliquely; two rays.
+fn lit(accuracy: &str, more: &str) -> ValidScene {
+    let text = format!(
+        "
+name: lit
+camera: {{ perspective: {{ eye: [0, 1, 2], target: [0, 0.4, 0], vfov: 60 }} }}
+film: {{ width: 16, height: 12 }}
+materials:
+  floor: {{ lambertian: {{ albedo: [0.8, 0.5, 0.2] }} }}
+  lamp: {{ emitter: {{ radiance: [3, 2, 0] }} }}
+geometry:
+  - quad: {{ vertices: [[-2, 0, 2], [2, 0, 2], [2, 0, -2], [-2, 0, -2]], material: floor }}
+  - quad: {{ vertices: [[-1, 1.5, -1], [1, 1.5, -1], [1, 1.5, 1], [-1, 1.5, 1]], material: lamp }}
+sampling: {{ {more} depths: [{{ bits: [8, 8] }}, {{ bits: [8, 8] }}] }}
+accuracy: {accuracy}
+"
+    );
+    written(&text, &[])
+}
+
+fn planned(scene: &ValidScene) -> Plan {
+    plan(scene, &Options::default()).unwrap().unwrap()
+}
+
+/// The promise itself, against far more paths of another seed, on the circuit's numbers.
+#[test]
+fn the_asked_share_of_channels_is_within_the_asked_error() {
+    for (error, confidence) in [(0.2, 0.8), (0.05, 0.95)] {
+        let scene = lit(
+            &format!("{{ error: {error}, confidence: {confidence} }}"),
+            "",
+        );
+        let plan = planned(&scene);
+        let mut knobs = plan.scene.knobs();
+        knobs.sampling.path_bits = 17;
+        let limit = scene.with_knobs(knobs).unwrap();
+        let pixels = spread([16, 12], u64::MAX);
+        let truth = prefix_means(&Real::new(&limit, 9).unwrap(), &pixels, &[17], None).unwrap();
+        let mean = radiance(&truth[0]);
+        assert!((plan.figures.mean / mean - 1.0).abs() < 0.01);
+        for seed in [0, 1, 2] {
+            let options = render::Options {
+                seed,
+                model: Model::Fixed,
+                plan: Some(&plan),
+                ..Default::default()
+            };
+            let picture = render(&scene, &options).unwrap();
+            let values = picture.image.pixels.iter().flatten();
+            let within = values
+                .zip(truth[0].iter().flatten())
+                .filter(|(value, truth)| (*value - *truth).abs() <= error * mean)
+                .count();
+            let share = within as f64 / (3 * pixels.len()) as f64;
+            assert!(share >= confidence, "{error} {confidence} {seed}: {share}");
+            assert_eq!(picture.plan, Some(plan.figures));
+        }
+    }
+}
+
+#[test]
+fn a_scene_without_an_accuracy_needs_no_plan() {
+    let mut knobs = lit("{ error: 0.2, confidence: 0.9 }", "").knobs();
+    knobs.sampling.path_bits = 5;
+    let scene = lit("{ error: 0.2, confidence: 0.9 }", "")
+        .with_knobs(knobs)
+        .unwrap();
+    assert!(plan(&scene, &Options::default()).unwrap().is_none());
+}
+
+#[test]
+fn half_the_error_costs_more_and_threads_change_nothing() {
+    let coarse_scene = lit("{ error: 0.2, confidence: 0.9 }", "");
+    let coarse = planned(&coarse_scene);
+    let fine_scene = lit("{ error: 0.05, confidence: 0.9 }", "");
+    let fine = planned(&fine_scene);
+    let (a, b) = (coarse.figures, fine.figures);
+    assert!(
+        b.queries > 2.0 * a.queries && b.path_bits >= a.path_bits,
+        "{a} {b}"
+    );
+    assert!(b.parts.total <= 0.05 && b.within >= 0.9);
+    assert!(b.comparator_bits > a.comparator_bits);
+    let one = Options {
+        threads: NonZeroUsize::new(1),
+        ..Options::default()
+    };
+    assert_eq!(plan(&coarse_scene, &one).unwrap().unwrap().figures, a);
+    // Monte Carlo needs the square of the queries.
+    let classical = Options {
+        estimator: Some(Estimator::MonteCarlo),
+        ..Options::default()
+    };
+    let classical = plan(&fine_scene, &classical).unwrap().unwrap().figures;
+    assert!(classical.queries > 4.0 * b.queries, "{classical}");
+    let exact = Options {
+        estimator: Some(Estimator::Exact),
+        ..Options::default()
+    };
+    let exact = plan(&fine_scene, &exact).unwrap().unwrap().figures;
+    assert_eq!((exact.queries, exact.parts.counting), (0.0, 0.0));
+}
+
+#[test]
+fn what_cannot_be_kept_is_refused_with_the_reason() {
+    let refused = |scene: &ValidScene, words: &str| {
+        let error = plan(scene, &Options::default()).unwrap_err();
+        assert!(
+            error.is_refusal() && error.to_string().contains(words),
+            "{error}"
+        );
+    };
+    refused(
+        &lit("{ error: 0.1, confidence: 0.9999999 }", ""),
+        "cannot show",
+    );
+    let lattice = lit(
+        "{ error: 0.001, confidence: 0.95 }",
+        "sequence: product-lattice,",
+    );
+    let mut coarse = lattice.scene().clone();
+    for depth in &mut coarse.sampling.depths {
+        depth.bits = [2, 1];
+    }
+    coarse.sampling.path_bits = 6;
+    let coarse = validate(coarse, &Meshes::default()).unwrap();
+    refused(&coarse, "sequence: digital-net");
+}

@@ -1,0 +1,190 @@
+//! The hierarchy of boxes finds exactly what a loop over all faces finds: the same bytes.
+
+use crate::common::scene::{from_file, written};
+use qrt::core::tracer::NO_PLANE;
+use qrt::core::valid::ValidScene;
+use qrt::runtime::machines::{Real, Simd, SingleRay};
+use std::fmt::Write as _;
+
+const KNOT: &str = "scenes-yaml/knot.yaml";
+
+/// Every path's colour, bit for bit.
+fn colours(real: &Real) -> Vec<u64> {
+    let pixels: Vec<[u32; 2]> = (0..36).map(|i| [i % 6, i / 6]).collect();
+    let mut bits = Vec::new();
+    real.trace(&pixels, |block| {
+        bits.extend(
+            block
+                .colours
+                .iter()
+                .flat_map(|c| c.iter().map(|c| c.to_bits())),
+        );
+    });
+    bits
+}
+
+fn assert_same(scene: &ValidScene) {
+    let machine = || Real::new(scene, 3).unwrap();
+    let looped = colours(&machine().with_boxes(false));
+    assert!(
+        looped.iter().any(|&bits| bits != 0),
+        "nothing is lit: the test would see nothing"
+    );
+    assert_eq!(looped, colours(&machine().with_boxes(true)));
+    let scalar = machine().with_simd(Simd::Scalar);
+    assert_eq!(
+        looped,
+        colours(&scalar.clone().with_boxes(true)),
+        "one lane, boxes"
+    );
+    assert_eq!(
+        looped,
+        colours(&scalar.with_boxes(false)),
+        "one lane, all faces"
+    );
+}
+
+const HEAD: &str = "
+name: faces
+camera: { perspective: { eye: [0.3, 1.1, -2.4], target: [0, 0.4, 0], vfov: 45 } }
+film: { width: 6, height: 6 }
+sampling: { path_bits: 8, depths: [{ bits: [6, 6] }, { bits: [6, 6] }, { bits: [6, 6] }, { bits: [6, 6] }] }
+materials:
+  grey: { lambertian: { albedo: [0.6, 0.5, 0.4] } }
+  glass: { dielectric: { ior: 1.4 } }
+  satin: { ggx: { alpha: 0.3, reflectance: [0.9, 0.8, 0.7] } }
+  lamp: { emitter: { radiance: [3, 2, 1], albedo: [0.5, 0.5, 0.5] } }
+geometry:
+  - quad: { vertices: [[-2, 0, -2], [-2, 0, 2], [2, 0, 2], [2, 0, -2]], material: grey }
+  - quad: { vertices: [[-1, 2, -1], [1, 2, -1], [1, 2, 1], [-1, 2, 1]], material: lamp }
+";
+
+#[test]
+fn over_a_mesh() {
+    let sets = ["film.width=6", "film.height=6", "sampling.path_bits=9"];
+    assert_same(&from_file(KNOT, &sets));
+}
+
+/// From so far away that rays arrive with an error far above a near ray's.
+#[test]
+fn over_a_mesh_seen_from_afar() {
+    let sets = [
+        "film.width=6",
+        "film.height=6",
+        "sampling.path_bits=9",
+        "camera.perspective.eye=[4.0e6, 1.7e7, -2.0e7]",
+        "camera.perspective.vfov=5.0e-6",
+    ];
+    assert_same(&from_file(KNOT, &sets));
+}
+
+/// Camera rays walk together where they go the same way: bundles of all widths, from one point or
+/// from many, along an axis or across, a few of them short of a value's lanes.
+#[test]
+fn over_bundles_of_rays() {
+    let scene = from_file(KNOT, &[]);
+    let machine = || Real::new(&scene, 3).unwrap();
+    let scalar = machine().with_simd(Simd::Scalar);
+    let (looped, boxed) = (machine().with_boxes(false), machine().with_boxes(true));
+    let mut state = 7_u64;
+    let mut random = move || {
+        state = state
+            .wrapping_mul(6364136223846793005)
+            .wrapping_add(1442695040888963407);
+        (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    };
+    let mut met = 0;
+    for bundle in 0..240 {
+        let spread = [0.0, 1e-3, 0.1][bundle % 3];
+        let width = [1e-4, 1e-2, 0.3, 1.0][bundle % 4];
+        let eye = [0; 3].map(|_| 1.5 * random());
+        let ahead = eye.map(|e| 0.4 * random() - e);
+        let rays: Vec<SingleRay> = (0..16 - bundle % 5)
+            .map(|_| {
+                let mut direction = ahead.map(|d| d + width * random());
+                if bundle % 7 == 0 {
+                    direction[bundle % 3] = 0.0_f64.copysign(random());
+                }
+                SingleRay {
+                    origin: eye.map(|e| e + spread * random()),
+                    direction,
+                    from: NO_PLANE,
+                }
+            })
+            .collect();
+        let expected = looped.nearest(&rays);
+        assert_eq!(expected, boxed.nearest(&rays), "bundle {bundle}");
+        if bundle % 16 == 0 {
+            assert_eq!(expected, scalar.nearest(&rays), "bundle {bundle}, one lane");
+        }
+        met += expected.iter().flatten().count();
+    }
+    assert!(
+        met > 1000,
+        "{met} rays met anything: the test would see nothing"
+    );
+}
+
+/// Cubes of every material, some of them in the same place: ties, shared edges, coplanar overlaps
+/// of lamps and walls.
+#[test]
+fn over_cubes_that_touch_and_coincide() {
+    let mut text = HEAD.to_owned();
+    let corner = |x: f64, y: f64, z: f64| format!("[{x}, {y}, {z}]");
+    for (number, material) in ["grey", "glass", "satin", "lamp"]
+        .iter()
+        .cycle()
+        .take(24)
+        .enumerate()
+    {
+        let (column, row) = ((number % 5) as f64, (number / 5) as f64);
+        let (x, y, z, s) = (
+            -1.0 + 0.4 * column,
+            0.4 * (number % 3) as f64,
+            -1.0 + 0.4 * row,
+            0.4,
+        );
+        let p = |i: u32| {
+            let on = |bit: u32| f64::from(i >> bit & 1) * s;
+            corner(x + on(0), y + on(1), z + on(2))
+        };
+        for [a, b, c, d] in [
+            [0, 4, 6, 2],
+            [1, 3, 7, 5],
+            [0, 1, 5, 4],
+            [2, 6, 7, 3],
+            [0, 2, 3, 1],
+            [4, 5, 7, 6],
+        ] {
+            let (a, b, c, d) = (p(a), p(b), p(c), p(d));
+            writeln!(
+                text,
+                "  - quad: {{ vertices: [{a}, {b}, {c}, {d}], material: {material} }}"
+            )
+            .unwrap();
+        }
+    }
+    assert_same(&written(&text, &[]));
+}
+
+/// More emitting faces than a last ray asks one by one.
+#[test]
+fn over_many_lamps() {
+    let mut text = HEAD.to_owned();
+    for number in 0..40 {
+        let (x, z) = (
+            -1.0 + 0.25 * f64::from(number % 8),
+            -0.6 + 0.3 * f64::from(number / 8),
+        );
+        let y = 0.2 + 0.05 * f64::from(number % 3);
+        let material = if number % 2 == 0 { "lamp" } else { "grey" };
+        writeln!(
+            text,
+            "  - triangle: {{ vertices: [[{x}, {y}, {z}], [{}, {y}, {z}], [{x}, {y}, {}]], material: {material} }}",
+            x + 0.3,
+            z + 0.3
+        )
+        .unwrap();
+    }
+    assert_same(&written(&text, &[]));
+}

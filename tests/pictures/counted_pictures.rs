@@ -1,0 +1,172 @@
+//! What counting makes of a picture, against closed forms.
+
+use crate::common::scene::written;
+use qrt::prelude::*;
+use std::f64::consts::PI;
+
+const FURNACE: &str = include_str!("../scenes/furnace.yaml");
+/// e (1 + a + a^2).
+const COLOUR: [f64; 3] = [1.75, 0.65625, 0.0];
+
+fn with(estimator: Estimator, seed: u64) -> Options<'static> {
+    Options {
+        seed,
+        estimator: Some(estimator),
+        ..Options::default()
+    }
+}
+
+#[test]
+fn exact_is_the_mean_of_the_paths_and_asks_no_oracle() {
+    let rendered = render(&written(FURNACE, &[]), &with(Estimator::Exact, 0)).unwrap();
+    for pixel in &rendered.image.pixels {
+        for (value, colour) in pixel.iter().zip(COLOUR) {
+            assert!((value - colour).abs() < 1e-12, "{pixel:?}");
+        }
+    }
+    assert_eq!(rendered.total_queries(), 0);
+    assert_eq!((rendered.paths, rendered.ids), (256 << 4, 1 << 20));
+    assert!(rendered.counts().all(|count| count.good.is_none()));
+}
+
+/// `|a~ - a| <= 2 pi sqrt(a (1 - a))/T + pi^2/T^2` with probability at least 8/pi^2 (Brassard,
+/// Hoyer, Mosca & Tapp, theorem 12); half a comparator's step, and half an id, come on top.
+#[test]
+fn counted_pixels_keep_the_bound_in_the_promised_share() {
+    let phases = 256.0;
+    let scene = written(FURNACE, &[]);
+    for estimator in [Estimator::Paper, Estimator::Sine] {
+        let rendered = render(&scene, &with(estimator, 1)).unwrap();
+        for channel in 0..2 {
+            let scale = rendered.bound[channel];
+            let a = COLOUR[channel] / scale;
+            assert!((0.05..0.95).contains(&a), "nothing to count: {a}");
+            let bound = 2.0 * PI * (a * (1.0 - a)).sqrt() / phases + (PI / phases).powi(2);
+            let bound = scale * (bound + 0.5 / 65536.0 + 0.5 / rendered.ids as f64);
+            let within = rendered.image.pixels.iter();
+            let within = within.filter(|p| (p[channel] - COLOUR[channel]).abs() <= bound);
+            let share = within.count() as f64 / 256.0;
+            // Three standard errors below.
+            let promise = 8.0 / (PI * PI);
+            let least = promise - 3.0 * (promise * (1.0 - promise) / 256.0).sqrt();
+            assert!(share >= least, "{estimator}, channel {channel}: {share}");
+        }
+        assert_eq!(rendered.queries, vec![3 * 255; 256]);
+    }
+}
+
+#[test]
+fn no_good_id_is_counted_as_none() {
+    // The rectangular window reads theta = 0 without error.
+    let rendered = render(&written(FURNACE, &[]), &with(Estimator::Paper, 5)).unwrap();
+    assert!(rendered.bound[2] > 1.0);
+    assert!(rendered.image.pixels.iter().all(|pixel| pixel[2] == 0.0));
+}
+
+#[test]
+fn seeds_change_the_noise_and_not_the_mean() {
+    let scene = written(FURNACE, &[]);
+    for estimator in [Estimator::Sine, Estimator::MonteCarlo] {
+        for channel in 0..2 {
+            let mut values = Vec::new();
+            for seed in 0..8 {
+                let rendered = render(&scene, &with(estimator, seed)).unwrap();
+                values.extend(rendered.image.pixels.iter().map(|pixel| pixel[channel]));
+            }
+            let count = values.len() as f64;
+            let mean = values.iter().sum::<f64>() / count;
+            let variance = values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / (count - 1.0);
+            assert!(variance > 0.0);
+            // Counting with a window of T phases has a bias of the order of 1/T^2.
+            let scale = render(&scene, &with(Estimator::Exact, 0)).unwrap().bound[channel];
+            let slack =
+                5.0 * (variance / count).sqrt() + scale * (1.0 / 65536.0 + (PI / 256.0).powi(2));
+            assert!(
+                (mean - COLOUR[channel]).abs() < slack,
+                "{estimator}: {mean}"
+            );
+        }
+    }
+}
+
+#[test]
+fn every_estimator_works() {
+    for &estimator in Estimator::ALL {
+        let name = format!("counting.estimator={estimator}");
+        let scene = written(FURNACE, &[&name, "film={ width: 2, height: 2 }"]);
+        let rendered = render(&scene, &Options::default()).unwrap();
+        assert_eq!(rendered.estimator, estimator);
+        for pixel in &rendered.image.pixels {
+            for (value, bound) in pixel.iter().zip(rendered.bound) {
+                assert!((0.0..=bound).contains(value));
+            }
+        }
+    }
+}
+
+const NOTHING: &str = "
+name: nothing
+camera: { orthographic: { eye: [0, 0, 1], target: [0, 0, 0], height: 1 } }
+film: { width: 3, height: 2 }
+materials: {}
+geometry: []
+";
+
+#[test]
+fn nothing_is_black_and_takes_no_queries() {
+    for estimator in [Estimator::Exact, Estimator::Sine, Estimator::MonteCarlo] {
+        let rendered = render(&written(NOTHING, &[]), &with(estimator, 0)).unwrap();
+        assert_eq!(rendered.image.pixels, [[0.0; 3]; 6]);
+        assert_eq!(rendered.total_queries(), 0);
+        assert_eq!(rendered.bound, [0.0; 3]);
+    }
+}
+
+/// What is proven black has no error that anything could be relative to, and needs none.
+#[test]
+fn nothing_is_black_to_any_accuracy() {
+    let scene = written(NOTHING, &["accuracy={ error: 0.01, confidence: 0.9 }"]);
+    let rendered = render(&scene, &Options::default()).unwrap();
+    assert_eq!(rendered.image.pixels, [[0.0; 3]; 6]);
+    assert_eq!(rendered.total_queries(), 0);
+    let plan = rendered.plan.unwrap();
+    assert_eq!((plan.within, plan.mean, plan.queries), (1.0, 0.0, 0.0));
+}
+
+#[test]
+fn a_single_pixel_of_a_single_path_is_that_path() {
+    let sets = ["film={ width: 1, height: 1 }", "sampling.path_bits=0"];
+    let scene = written(FURNACE, &sets);
+    let rendered = render(&scene, &with(Estimator::Exact, 0)).unwrap();
+    assert_eq!((rendered.paths, rendered.ids), (1, 1 << 16));
+    for (value, colour) in rendered.image.pixels[0].iter().zip(COLOUR) {
+        assert!((value - colour).abs() < 1e-14);
+    }
+    let counted = render(&scene, &with(Estimator::Paper, 0)).unwrap();
+    assert_eq!(counted.queries, [3 * 255]);
+}
+
+#[test]
+fn what_cannot_be_rendered_is_refused_before_it_costs_anything() {
+    let refused = |sets: &[&str], options: &Options<'_>, words: &str| {
+        let error = render(&written(NOTHING, sets), options).unwrap_err();
+        assert!(error.is_refusal(), "{error}");
+        assert!(error.to_string().contains(words), "{error}");
+    };
+    let default = Options::default();
+    let film = "film={ width: 65536, height: 65536 }";
+    refused(&[film, "sampling.path_bits=52"], &default, "2^64");
+    for crop in [
+        [0, 0, 0, 1],
+        [0, 0, 1, 0],
+        [3, 0, 1, 1],
+        [0, 1, 1, 2],
+        [1, 0, u32::MAX, 1],
+    ] {
+        let options = Options {
+            crop: Some(crop),
+            ..Options::default()
+        };
+        refused(&[], &options, "crop");
+    }
+}

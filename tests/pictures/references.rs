@@ -1,0 +1,249 @@
+//! The real model's pictures are those of an independent renderer.
+//!
+//! What may differ is known: a randomly shifted digital net is unbiased, and two seeds say how far a
+//! picture is from its limit. With A and B of two seeds, the error of their mean has the mean square
+//! `|A - B|^2 / 4`; the reference has its own standard error. A right picture's distance from the
+//! reference is about the root of the sum of both, a wrong one's is not.
+
+use super::independent::{self, Picture, Reference, SIDE, mean, rms_difference, traced};
+use qrt_core::valid::ValidScene;
+
+/// How far the distance may exceed its expectation. It is a root mean square over 256 pixels with
+/// heavy tails, of which a tenth or so varies by chance; half as much again is out of its reach.
+const CHANCE: f64 = 1.5;
+
+/// Of the mean: what 10 bits a direction's coordinate, instead of all, may add.
+const CELLS: f64 = 2e-3;
+
+/// Errors of the mean in standard deviations: 32 means are looked at, one in 370 exceeds 3.
+const SIGMAS: f64 = 4.0;
+
+/// Two pictures of one scene, and what they say.
+struct Measured {
+    picture: Picture,
+    /// Root mean square error of the picture, from the two seeds' difference.
+    error: f64,
+}
+
+fn measure(scene: &ValidScene) -> Measured {
+    let (a, b) = (traced(scene, 1), traced(scene, 2));
+    let pairs = a.iter().zip(&b);
+    Measured {
+        picture: pairs
+            .map(|(a, b)| std::array::from_fn(|c| 0.5 * (a[c] + b[c])))
+            .collect(),
+        error: 0.5 * rms_difference(&a, &b),
+    }
+}
+
+/// Is this the reference's picture, as far as the errors of both can tell?
+fn compare(ours: &Measured, theirs: &Reference) -> Result<(), String> {
+    let level = mean(&theirs.picture);
+    let noise = rms_difference(
+        &theirs.standard_error,
+        &vec![[0.0; 3]; theirs.standard_error.len()],
+    );
+    let expected = ours.error.hypot(noise);
+    let rmse = rms_difference(&ours.picture, &theirs.picture);
+    let bound = CHANCE * expected + CELLS * level;
+    let shift = mean(&ours.picture) - level;
+    // Pixels are independent of each other; a pixel's channels are not.
+    let mean_bound = SIGMAS * expected / f64::from(SIDE) + CELLS * level;
+    let figures = format!(
+        "RMSE {:.5} of {:.5}, mean {:+.5} of {:.5} (all over the mean {level:.5})",
+        rmse / level,
+        bound / level,
+        shift / level,
+        mean_bound / level
+    );
+    if rmse <= bound && shift.abs() <= mean_bound {
+        Ok(())
+    } else {
+        Err(figures)
+    }
+}
+
+/// The scene at every depth, with `2^path_bits` paths under each of two seeds; `promise` is the
+/// RMSE over the mean that 2^18 paths keep.
+fn agrees(name: &str, path_bits: u32, promise: f64) {
+    for depth in 1..=4 {
+        let scene = independent::scene(name, &independent::asking(depth, path_bits));
+        let reference = independent::reference(name, depth);
+        let level = mean(&reference.picture);
+        let ours = measure(&scene);
+        if level == 0.0 {
+            assert!(
+                ours.picture.iter().all(|p| *p == [0.0; 3]),
+                "{name} D={depth}"
+            );
+            continue;
+        }
+        if let Err(figures) = compare(&ours, &reference) {
+            panic!("{name} D={depth}: {figures}");
+        }
+        // A net is never worse than random paths, whose error grows by sqrt(2) for a bit less.
+        let fewer = f64::from(18 - (path_bits + 1));
+        let most = promise * (0.5 * fewer).exp2() * level;
+        assert!(
+            ours.error <= most,
+            "{name} D={depth}: own error {} exceeds {}",
+            ours.error / level,
+            most / level
+        );
+    }
+}
+
+#[test]
+fn the_cornell_box_agrees() {
+    agrees("cornell", 14, 0.015);
+}
+
+#[test]
+fn the_cornell_box_of_the_classic_colours_agrees() {
+    agrees("cornell_mg", 14, 0.015);
+}
+
+#[test]
+fn the_mirror_wall_agrees() {
+    agrees("cornell_mirrorwall", 14, 0.03);
+}
+
+#[test]
+fn the_glass_block_agrees() {
+    agrees("cornell_glass", 14, 0.03);
+}
+
+#[test]
+fn the_ggx_block_agrees() {
+    agrees("cornell_ggx", 14, 0.03);
+}
+
+#[test]
+fn the_floor_and_light_agree() {
+    agrees("floorlight", 14, 0.015);
+}
+
+#[test]
+fn the_furnace_agrees() {
+    agrees("furnace", 4, 0.015);
+}
+
+#[test]
+fn the_mesh_agrees() {
+    agrees("torusknot8k", 13, 0.015);
+}
+
+#[test]
+fn the_furnace_is_exact_at_every_depth() {
+    let (radiance, albedo) = ([1.0, 0.5, 0.25], [0.25, 0.5, 0.8]);
+    for depth in 1..=16 {
+        let scene = independent::scene("furnace", &independent::asking(depth, 5));
+        let exact: [f64; 3] = std::array::from_fn(|c| {
+            radiance[c] * (1.0 - f64::powi(albedo[c], depth as i32)) / (1.0 - albedo[c])
+        });
+        for pixel in traced(&scene, 3) {
+            for c in 0..3 {
+                let error = (pixel[c] / exact[c] - 1.0).abs();
+                assert!(error < 1e-9, "D={depth}: {pixel:?}, not {exact:?}");
+            }
+        }
+    }
+}
+
+/// Radiance of the floor by the closed form, for a floor of `scale` times the scene's albedo.
+fn floor(scale: f64) -> Reference {
+    let full = [0.8 * 10.0, 0.5 * 8.0, 0.2 * 6.0];
+    let form_factors = independent::array("floorlight_exact_F_16.npy");
+    let pixel = |f: &f64| full.map(|c| scale * c * f);
+    Reference {
+        picture: form_factors.iter().map(pixel).collect(),
+        standard_error: vec![[0.0; 3]; form_factors.len()],
+    }
+}
+
+#[test]
+fn the_floor_is_its_closed_form_at_every_depth_and_by_every_map() {
+    let exact = floor(1.0);
+    for map in ["auto", "cosine-hemisphere", "uniform-hemisphere"] {
+        for depth in 2..=4 {
+            let mut sets = independent::asking(depth, 14);
+            sets.push(format!("sampling.depths[1].map={map}"));
+            let ours = measure(&independent::scene("floorlight", &sets));
+            assert_eq!(compare(&ours, &exact), Ok(()), "{map} D={depth}");
+        }
+    }
+}
+
+const COSINE: &str = "['sqrt(u)*cos(2*pi*v)', 'sqrt(u)*sin(2*pi*v)', 'sqrt(1-u)']";
+const UNIFORM: &str = "['sqrt(1-u^2)*cos(2*pi*v)', 'sqrt(1-u^2)*sin(2*pi*v)', 'u']";
+
+/// The floor with a BSDF of one's own, whose values hold half of the scene's albedo.
+fn floor_of(map: &str, value: &str) -> Measured {
+    let values = [0.4, 0.25, 0.1].map(|half| format!("\"{half}*({value})\""));
+    let mut sets = independent::asking(2, 14);
+    sets.push(format!(
+        "materials.floor={{ bsdf: {{ map: {map}, value: [{}] }} }}",
+        values.join(", ")
+    ));
+    measure(&independent::scene("floorlight", &sets))
+}
+
+#[test]
+fn a_wrong_cosine_or_jacobian_would_be_noticed() {
+    let exact = floor(0.5);
+    for map in [COSINE, UNIFORM] {
+        // Right: albedo / pi, however it is written.
+        assert_eq!(compare(&floor_of(map, "1/pi"), &exact), Ok(()));
+        assert_eq!(compare(&floor_of(map, "cos_i/(pi*cos_i)"), &exact), Ok(()));
+        // A Jacobian that is off by one part in fifty.
+        assert!(compare(&floor_of(map, "1.02/pi"), &exact).is_err());
+        // One cosine too many.
+        assert!(compare(&floor_of(map, "cos_i/pi"), &exact).is_err());
+    }
+    // The weight without its cosine is that of f / cos_i.
+    assert!(compare(&floor_of(UNIFORM, "1/(pi*cos_i)"), &exact).is_err());
+    // A division by the Jacobian, instead of the product, is f / J^2: J is pi / cos_i, or 2 pi.
+    assert!(compare(&floor_of(COSINE, "cos_i^2/pi^3"), &exact).is_err());
+    assert!(compare(&floor_of(UNIFORM, "1/(4*pi^3)"), &exact).is_err());
+}
+
+#[test]
+fn a_flipped_picture_or_swapped_channels_would_be_noticed() {
+    let side = SIDE as usize;
+    let scene = independent::scene("cornell", &independent::asking(3, 13));
+    let reference = independent::reference("cornell", 3);
+    let right = measure(&scene);
+    assert_eq!(compare(&right, &reference), Ok(()));
+    let changed = |pixel: &dyn Fn(usize, usize) -> [f64; 3]| Measured {
+        picture: (0..side * side)
+            .map(|i| pixel(i % side, i / side))
+            .collect(),
+        error: right.error,
+    };
+    let at = |x: usize, y: usize| right.picture[y * side + x];
+    let last = side - 1;
+    let wrong = [
+        ("left for right", changed(&|x, y| at(last - x, y))),
+        ("upside down", changed(&|x, y| at(x, last - y))),
+        ("rows for columns", changed(&|x, y| at(y, x))),
+        ("one column off", changed(&|x, y| at((x + 1).min(last), y))),
+        ("one row off", changed(&|x, y| at(x, (y + 1).min(last)))),
+        (
+            "blue for red",
+            changed(&|x, y| {
+                let [r, g, b] = at(x, y);
+                [b, g, r]
+            }),
+        ),
+        (
+            "3 % too bright",
+            changed(&|x, y| at(x, y).map(|c| 1.03 * c)),
+        ),
+    ];
+    for (what, picture) in wrong {
+        assert!(compare(&picture, &reference).is_err(), "{what} passes");
+    }
+    // One ray more or less is another picture.
+    assert!(compare(&right, &independent::reference("cornell", 2)).is_err());
+    assert!(compare(&right, &independent::reference("cornell", 4)).is_err());
+}

@@ -1,0 +1,290 @@
+//! A picture depends on the scene, the seed and the estimator, and on nothing else.
+
+use crate::common::scene::written;
+use qrt::prelude::*;
+use qrt::runtime::machines::{Real, Simd};
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+
+const BOX: &str = include_str!("../scenes/box.yaml");
+const ESTIMATORS: [Estimator; 2] = [Estimator::Exact, Estimator::Sine];
+
+fn scene(sets: &[&str]) -> ValidScene {
+    written(BOX, sets)
+}
+
+/// Every bit of a picture, and its queries.
+fn bits(rendered: &Rendered) -> (Vec<[u64; 3]>, Vec<u64>) {
+    let pixels = rendered.image.pixels.iter();
+    let pixels = pixels.map(|pixel| pixel.map(f64::to_bits)).collect();
+    (pixels, rendered.queries.clone())
+}
+
+fn with(estimator: Estimator) -> Options<'static> {
+    Options {
+        seed: 3,
+        estimator: Some(estimator),
+        ..Options::default()
+    }
+}
+
+fn threads(count: usize) -> Option<NonZeroUsize> {
+    NonZeroUsize::new(count)
+}
+
+/// A path that no other test uses; what is there is removed.
+struct Partial(PathBuf);
+
+impl Partial {
+    fn new(name: &str) -> Self {
+        let name = format!("qrt-same-{}-{name}.qrt-partial", std::process::id());
+        Self(std::env::temp_dir().join(name))
+    }
+}
+
+impl Drop for Partial {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_file(&self.0);
+    }
+}
+
+#[test]
+fn for_any_number_of_threads_and_any_tiles() {
+    let scene = scene(&[]);
+    for estimator in ESTIMATORS {
+        let expected = bits(&render(&scene, &with(estimator)).unwrap());
+        for (count, tile) in [
+            (1, None),
+            (2, Some([1, 1])),
+            (3, Some([5, 3])),
+            (8, Some([64, 64])),
+            (2, Some([13, 1])),
+        ] {
+            let options = Options {
+                threads: threads(count),
+                tile,
+                ..with(estimator)
+            };
+            let rendered = render(&scene, &options).unwrap();
+            assert_eq!(rendered.threads, count);
+            assert_eq!(bits(&rendered), expected, "{count} threads, tiles {tile:?}");
+        }
+    }
+}
+
+#[test]
+fn for_any_lanes() {
+    // With more paths than a block has, and with fewer.
+    for path_bits in ["sampling.path_bits=10", "sampling.path_bits=2"] {
+        let scene = scene(&[path_bits]);
+        for estimator in ESTIMATORS {
+            let scalar = Options {
+                simd: Simd::Scalar,
+                ..with(estimator)
+            };
+            let scalar = render(&scene, &scalar).unwrap();
+            let widest = render(&scene, &with(estimator)).unwrap();
+            assert_eq!(bits(&scalar), bits(&widest));
+        }
+    }
+}
+
+#[test]
+fn a_pixel_of_many_paths_is_shared_by_threads_and_is_still_their_mean() {
+    let scene = scene(&["sampling.path_bits=19", "film={ width: 2, height: 1 }"]);
+    for estimator in ESTIMATORS {
+        let one = Options {
+            threads: threads(1),
+            ..with(estimator)
+        };
+        let three = Options {
+            threads: threads(3),
+            ..with(estimator)
+        };
+        let one = render(&scene, &one).unwrap();
+        assert_eq!(bits(&one), bits(&render(&scene, &three).unwrap()));
+        if estimator == Estimator::Exact {
+            // In another order of additions.
+            let mut sums = [[0.0; 3]; 2];
+            Real::new(&scene, 3)
+                .unwrap()
+                .trace(&[[0, 0], [1, 0]], |block| {
+                    for (sum, colours) in sums[block.pixel].iter_mut().zip(block.colours) {
+                        for colour in colours {
+                            *sum += colour;
+                        }
+                    }
+                });
+            for (pixel, sum) in one.image.pixels.iter().zip(sums) {
+                for channel in 0..3 {
+                    let mean = sum[channel] / f64::from(1 << 19);
+                    assert!((pixel[channel] - mean).abs() < 1e-9 * mean);
+                    assert!(mean > 0.0);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_crop_is_a_part_of_the_whole() {
+    let scene = scene(&[]);
+    for estimator in ESTIMATORS {
+        let whole = render(&scene, &with(estimator)).unwrap();
+        for crop in [[0, 0, 13, 11], [3, 2, 7, 5], [12, 10, 1, 1]] {
+            let [x, y, width, height] = crop;
+            let options = Options {
+                crop: Some(crop),
+                ..with(estimator)
+            };
+            let part = render(&scene, &options).unwrap();
+            assert_eq!((part.image.width, part.image.height), (width, height));
+            let mut counts = part.counts();
+            for row in 0..height {
+                for column in 0..width {
+                    let there = whole.image.pixels[((y + row) * 13 + x + column) as usize];
+                    let here = part.image.pixels[(row * width + column) as usize];
+                    assert_eq!(here, there);
+                    for (channel, value) in here.into_iter().enumerate() {
+                        let count = counts.next().unwrap();
+                        assert_eq!((count.x, count.y), (x + column, y + row));
+                        assert_eq!((count.channel, count.value), (channel, value));
+                    }
+                }
+            }
+            assert!(counts.next().is_none());
+        }
+    }
+}
+
+/// Renders until `paths` more paths are traced, and tells how many pixels were finished then.
+fn interrupt(scene: &ValidScene, options: &Options<'_>, paths: u64) -> u64 {
+    let cancel = AtomicBool::new(false);
+    let traced = AtomicU64::new(0);
+    let progress = |progress: Progress| {
+        if let Progress::Traced(more) = progress
+            && traced.fetch_add(more, Ordering::SeqCst) + more >= paths
+        {
+            cancel.store(true, Ordering::SeqCst);
+        }
+    };
+    let options = Options {
+        cancel: Some(&cancel),
+        progress: Some(&progress),
+        ..options.clone()
+    };
+    match render(scene, &options).unwrap_err() {
+        RenderError::Interrupted { finished, .. } => finished,
+        other => panic!("{other}"),
+    }
+}
+
+#[test]
+fn interrupted_and_resumed_or_not() {
+    for (name, sets, paths) in [
+        ("few", &["sampling.path_bits=10"][..], 30 << 10),
+        (
+            "many",
+            &["sampling.path_bits=19", "film={ width: 3, height: 2 }"][..],
+            5 << 18,
+        ),
+    ] {
+        let scene = scene(sets);
+        for estimator in ESTIMATORS {
+            let expected = bits(&render(&scene, &with(estimator)).unwrap());
+            let partial = Partial::new(&format!("{name}-{estimator}"));
+            let options = Options {
+                checkpoint: Some(partial.0.clone()),
+                resume: true,
+                tile: Some([2, 1]),
+                threads: threads(1),
+                ..with(estimator)
+            };
+            let first = interrupt(&scene, &options, paths);
+            assert!(first > 0);
+            // Goes on where it was, and can be interrupted again.
+            let two = Options {
+                threads: threads(2),
+                ..options.clone()
+            };
+            let second = interrupt(&scene, &two, paths / 4);
+            assert!(second >= first, "{first} pixels, then {second}");
+            let last = render(&scene, &Options { tile: None, ..two }).unwrap();
+            assert_eq!(
+                last.resumed_paths,
+                second * (last.paths / last.queries.len() as u64)
+            );
+            assert_eq!(bits(&last), expected);
+        }
+    }
+}
+
+#[test]
+fn what_is_finished_is_not_traced_again() {
+    let scene = scene(&[]);
+    let partial = Partial::new("finished");
+    let options = Options {
+        checkpoint: Some(partial.0.clone()),
+        resume: true,
+        ..with(Estimator::Sine)
+    };
+    let first = render(&scene, &options).unwrap();
+    assert_eq!(first.resumed_paths, 0);
+    let again = |progress: Progress| assert!(matches!(progress, Progress::Started { .. }));
+    let again = Options {
+        progress: Some(&again),
+        ..options.clone()
+    };
+    let second = render(&scene, &again).unwrap();
+    assert_eq!(second.resumed_paths, second.paths);
+    assert_eq!(bits(&first), bits(&second));
+    // Unless it isn't to be resumed.
+    let anew = Options {
+        resume: false,
+        ..options
+    };
+    assert_eq!(render(&scene, &anew).unwrap().resumed_paths, 0);
+}
+
+#[test]
+fn another_render_does_not_go_on_from_it() {
+    let scene = scene(&[]);
+    let partial = Partial::new("other");
+    let options = Options {
+        checkpoint: Some(partial.0.clone()),
+        resume: true,
+        ..with(Estimator::Exact)
+    };
+    render(&scene, &options).unwrap();
+    let seed = Options {
+        seed: 4,
+        ..options.clone()
+    };
+    let estimator = Options {
+        estimator: Some(Estimator::Paper),
+        ..options.clone()
+    };
+    let crop = Options {
+        crop: Some([0, 0, 2, 2]),
+        ..options
+    };
+    for (other, named) in [(seed, "seed"), (estimator, "estimator"), (crop, "crop")] {
+        let error = render(&scene, &other).unwrap_err();
+        assert!(error.is_refusal());
+        assert!(error.to_string().contains(named), "{error}");
+    }
+}
+
+#[test]
+fn another_seed_is_another_picture() {
+    let scene = scene(&[]);
+    for estimator in ESTIMATORS {
+        let one = render(&scene, &with(estimator)).unwrap();
+        let options = Options {
+            seed: 4,
+            ..with(estimator)
+        };
+        assert_ne!(bits(&one).0, bits(&render(&scene, &options).unwrap()).0);
+    }
+}

@@ -1,0 +1,22 @@
+//! Scenes as text: what is accepted and what it means, what is refused and in which words.
+#![allow(clippy::unwrap_used, clippy::expect_used)]
+
+mod common;
+
+mod scenes {
+    use proptest::prelude::ProptestConfig;
+
+    mod bad_scenes;
+    mod example_scenes;
+    mod good_scenes;
+    mod mutated_scenes_never_panic;
+    mod schema_agrees_with_types;
+    mod yaml_agrees_with_serde_yaml;
+
+    /// So many cases, or as many as `PROPTEST_CASES` says.
+    fn cases(usual: u32) -> ProptestConfig {
+        let asked = std::env::var("PROPTEST_CASES");
+        let asked = asked.ok().and_then(|text| text.parse().ok());
+        ProptestConfig::with_cases(asked.unwrap_or(usual))
+    }
+}
