@@ -82,7 +82,7 @@ pub struct BlockDeclaration {
     pub name: &'static str,
     /// The depth it belongs to.
     pub depth: Option<u32>,
-    /// Is its work uncomputed at its end, under `uncompute: scoped`?
+    /// Whether its work is uncomputed at its end, under `uncompute: scoped`.
     pub scope: bool,
 }
 

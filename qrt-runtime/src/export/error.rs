@@ -1,12 +1,13 @@
 //! What an export refuses.
 
-use std::{fmt, io};
+use std::io;
 
 /// Why a circuit is not written.
-#[derive(Debug)]
+#[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ExportError {
     /// The id has fewer bits than its path is said to have.
+    #[error("a path of {path_bits} bits in an id of {id}")]
     PathBits {
         /// What the path is said to have.
         path_bits: u32,
@@ -14,41 +15,15 @@ pub enum ExportError {
         id: u32,
     },
     /// A sign or phase on so many qubits has no gate in the libraries.
+    #[error(
+        "a phase on {0} qubits has no gate in OpenQASM's libraries; `Conjunction::Toffolis` writes \
+         O_0's sign without it"
+    )]
     TooManyQubits(usize),
     /// It was asked to end.
+    #[error("interrupted")]
     Interrupted,
     /// It cannot be written.
-    Io(io::Error),
-}
-
-impl fmt::Display for ExportError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::PathBits { path_bits, id } => {
-                write!(f, "a path of {path_bits} bits in an id of {id}")
-            }
-            Self::TooManyQubits(qubits) => write!(
-                f,
-                "a phase on {qubits} qubits has no gate in OpenQASM's libraries; \
-                 `Conjunction::Toffolis` writes O_0's sign without it"
-            ),
-            Self::Interrupted => f.write_str("interrupted"),
-            Self::Io(error) => error.fmt(f),
-        }
-    }
-}
-
-impl std::error::Error for ExportError {
-    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
-        match self {
-            Self::Io(error) => Some(error),
-            _ => None,
-        }
-    }
-}
-
-impl From<io::Error> for ExportError {
-    fn from(error: io::Error) -> Self {
-        Self::Io(error)
-    }
+    #[error(transparent)]
+    Io(#[from] io::Error),
 }

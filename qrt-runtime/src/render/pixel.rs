@@ -1,12 +1,12 @@
 //! From the paths of a pixel to its colour.
 
 use super::one_run::{OneRun, Segments};
-use super::sum::Sum;
-use super::{Colour, RenderError};
+use super::{Colour, Options, RenderError};
 use crate::counting::Comparators;
 use crate::estimators::{AmplitudeEstimator, Device, Noise, Problem, Settings, estimator};
-use crate::machines::{Block, Defect, OracleMachine, Real};
+use crate::machines::{Defect, OracleMachine, PathBlock, Real};
 use crate::random::Stream;
+use crate::sample::Sum;
 use qrt_core::scene::{Estimator, Scene};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -74,9 +74,7 @@ impl Pixels {
         source: Source,
         scene: &Scene,
         estimate: Estimator,
-        noise: Noise,
-        colour: Colour,
-        seed: u64,
+        options: &Options<'_>,
     ) -> Result<Self, RenderError> {
         let (bound, paths) = match &source {
             Source::Real(real) => (real.stage().bound(), real.paths()),
@@ -93,10 +91,10 @@ impl Pixels {
                 return Err(RenderError::Bound { channel, bound });
             }
         }
-        if estimate == Estimator::Exact && noise != Noise::NONE {
+        if estimate == Estimator::Exact && options.noise != Noise::NONE {
             return Err(RenderError::NothingNoisy);
         }
-        let one_run = match colour {
+        let one_run = match options.colour {
             Colour::ThreeRuns => None,
             Colour::OneRun if estimate == Estimator::Exact => {
                 return Err(RenderError::NothingMeasured);
@@ -106,11 +104,10 @@ impl Pixels {
         let counter = if estimate == Estimator::Exact {
             None
         } else {
-            let [r, g, b] = bound.map(|scale| Comparators::new(scale, scene.comparator));
             Some(Counter {
-                comparators: [r?, g?, b?],
+                comparators: Comparators::rgb(bound, scene.comparator)?,
                 estimator: estimator(estimate, &Settings::of(&scene.counting)?)?,
-                noise,
+                noise: options.noise,
                 one_run,
             })
         };
@@ -118,7 +115,7 @@ impl Pixels {
             source,
             comparator_bits: scene.comparator.bits,
             bound,
-            seed,
+            seed: options.seed,
             paths,
             counter,
         })
@@ -224,7 +221,7 @@ impl Pixels {
         Ok(Some(totals))
     }
 
-    fn take(&self, totals: &mut Totals, block: &Block<'_>) {
+    fn take(&self, totals: &mut Totals, block: &PathBlock<'_>) {
         for (channel, colours) in block.colours.into_iter().enumerate() {
             let limit = self.bound[channel] * (1.0 + ROUNDING);
             let inside = |colour: f64| colour >= 0.0 && colour <= limit;
@@ -356,15 +353,7 @@ sampling: { path_bits: 5 }
     fn wall(estimator: Estimator) -> Pixels {
         let scene = parse(WALL, "wall.yaml", &[], "".as_ref()).unwrap().valid;
         let real = Source::Real(Box::new(Real::new(&scene, 0).unwrap()));
-        Pixels::new(
-            real,
-            scene.scene(),
-            estimator,
-            Noise::NONE,
-            Colour::ThreeRuns,
-            0,
-        )
-        .unwrap()
+        Pixels::new(real, scene.scene(), estimator, &Options::default()).unwrap()
     }
 
     #[test]
@@ -402,7 +391,7 @@ sampling: { path_bits: 5 }
         for colour in [f64::NAN, -1e-300, f64::INFINITY] {
             let mut totals = Totals::default();
             let colours = [1.0, colour, 1.0];
-            let block = Block {
+            let block = PathBlock {
                 pixel: 0,
                 colours: [&colours; 3],
             };
