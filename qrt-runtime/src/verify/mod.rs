@@ -70,7 +70,7 @@ pub struct Mismatch {
 }
 
 /// What was found.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Report {
     /// Pixels, as columns and rows.
     pub pixels: Vec<[u32; 2]>,
@@ -156,13 +156,7 @@ pub fn verify_parts(
         qubits: parts.compute.qubits,
         gates: parts.gates(),
         fraction: oracle.fraction,
-        mismatched: 0,
-        mismatches: Vec::new(),
-        defect: None,
-        mean: [0.0; 3],
-        width_error: [0.0; 3],
-        greatest: [0.0; 3],
-        parted: 0.0,
+        ..Report::default()
     };
     let real = Real::new(scene, options.seed)?;
     let fixed = OracleMachine::fixed(oracle.clone(), options.seed, true);
