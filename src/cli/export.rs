@@ -325,7 +325,7 @@ impl Exported<'_> {
         };
         format!(
             "{file}: {} of channel {}, pixel {x},{y}; {}; {}\n",
-            self.args.part_name(part),
+            part_name(self.args.part),
             CHANNELS[self.channel],
             tally.text(),
             size(tally.bytes)

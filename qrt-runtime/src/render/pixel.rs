@@ -3,7 +3,9 @@
 use super::one_run::{OneRun, Segments};
 use super::{Colour, Options, RenderError};
 use crate::counting::Comparators;
-use crate::estimators::{AmplitudeEstimator, Device, Noise, Problem, Settings, estimator};
+use crate::estimators::{
+    AmplitudeEstimator, Device, Estimate, EstimatorError, Noise, Problem, Settings, estimator,
+};
 use crate::machines::{Defect, OracleMachine, PathBlock, Real};
 use crate::random::Stream;
 use crate::sample::Sum;
@@ -254,6 +256,7 @@ impl Pixels {
     /// The colour of a pixel, and the queries that it took: without an estimator the mean of its
     /// paths, without queries.
     pub(super) fn finish(&self, pixel: [u32; 2], totals: &Totals) -> Result<Pixel, RenderError> {
+        self.check(pixel, totals)?;
         let mut finished = Pixel {
             colour: [0.0; 3],
             queries: totals.queries,
@@ -262,56 +265,70 @@ impl Pixels {
                 Source::Oracle(_) => totals.good,
             },
         };
-        let ids = self.paths << self.comparator_bits;
-        for channel in 0..3 {
-            let (paths, colour) = totals.stray[channel];
-            let bound = self.bound[channel];
-            if paths > 0 {
-                return Err(RenderError::OutOfBounds {
-                    pixel,
-                    channel,
-                    paths,
-                    colour,
-                    bound,
-                });
-            }
-            if self.one_run().is_some() {
-                continue;
-            }
-            finished.colour[channel] = match &self.counter {
-                None if matches!(self.source, Source::Oracle(_)) => {
-                    bound * (totals.good[channel] as f64 / ids as f64)
-                }
-                None => totals.colour[channel].value() / self.paths as f64,
-                // Nothing to count: black is proven.
-                Some(_) if bound == 0.0 => 0.0,
-                Some(counter) => {
-                    let comparators = counter.comparators[channel];
-                    let problem = Problem {
-                        good: totals.good[channel],
-                        total: self.paths * comparators.count(),
-                    };
-                    let [x, y] = pixel;
-                    let mut stream = Stream::new(self.seed, x, y, channel as u8);
-                    let mut device = Device::new(problem, counter.noise, &mut stream)?;
-                    let estimate = counter.estimator.estimate(&mut device)?;
-                    // At most 3 * 2^40 * 10^6, below 2^62.
-                    finished.queries += estimate.queries;
-                    comparators.pixel_of_amplitude(estimate.amplitude)
-                }
-            };
-        }
-        if let Some(counter) = &self.counter
-            && let Some(one_run) = &counter.one_run
-        {
-            let Counter {
-                estimator, noise, ..
-            } = counter;
+        let Some(counter) = &self.counter else {
+            finished.colour = self.means(totals);
+            return Ok(finished);
+        };
+        if let Some(one_run) = &counter.one_run {
+            let estimator = &*counter.estimator;
             (finished.colour, finished.queries) =
-                one_run.finish(self, &**estimator, *noise, pixel, &totals.segments)?;
+                one_run.finish(self, estimator, counter.noise, pixel, &totals.segments)?;
             finished.good = [0; 3];
+            return Ok(finished);
+        }
+        for channel in 0..3 {
+            // Where nothing is to be counted, black is proven.
+            if self.bound[channel] > 0.0 {
+                let estimate = self.estimate(counter, pixel, channel, totals.good[channel])?;
+                // At most 3 * 2^40 * 10^6, below 2^62.
+                finished.queries += estimate.queries;
+                finished.colour[channel] =
+                    counter.comparators[channel].pixel_of_amplitude(estimate.amplitude);
+            }
         }
         Ok(finished)
+    }
+
+    /// That all colours of a pixel's paths were within their bounds.
+    fn check(&self, pixel: [u32; 2], totals: &Totals) -> Result<(), RenderError> {
+        let stray = totals.stray.iter().enumerate();
+        let mut stray = stray.filter(|(_, (paths, _))| *paths > 0);
+        match stray.next() {
+            None => Ok(()),
+            Some((channel, &(paths, colour))) => Err(RenderError::OutOfBounds {
+                pixel,
+                channel,
+                paths,
+                colour,
+                bound: self.bound[channel],
+            }),
+        }
+    }
+
+    /// The mean of a pixel's paths: of their colours, or of the thresholds that these exceed.
+    fn means(&self, totals: &Totals) -> [f64; 3] {
+        let ids = self.paths << self.comparator_bits;
+        std::array::from_fn(|channel| match self.source {
+            Source::Real(_) => totals.colour[channel].value() / self.paths as f64,
+            Source::Oracle(_) => self.bound[channel] * (totals.good[channel] as f64 / ids as f64),
+        })
+    }
+
+    /// What the estimator says of a pixel's channel.
+    fn estimate(
+        &self,
+        counter: &Counter,
+        [x, y]: [u32; 2],
+        channel: usize,
+        good: u64,
+    ) -> Result<Estimate, EstimatorError> {
+        let problem = Problem {
+            good,
+            total: self.paths * counter.comparators[channel].count(),
+        };
+        let mut stream = Stream::new(self.seed, x, y, channel as u8);
+        let mut device = Device::new(problem, counter.noise, &mut stream)?;
+        counter.estimator.estimate(&mut device)
     }
 }
 
