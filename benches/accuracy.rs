@@ -20,6 +20,7 @@ use qrt_runtime::plan::{self, Plan};
 use qrt_runtime::random::Stream;
 use qrt_runtime::render::{Model, Options, render};
 use qrt_runtime::sample::{Means, prefix_means, radiance, spread};
+use qrt_runtime::workers::Workers;
 use std::path::Path;
 use std::process::ExitCode;
 use std::time::Instant;
@@ -164,11 +165,11 @@ fn main() -> ExitCode {
         let wide = any.with_knobs(knobs).unwrap();
         let pixels = spread([SIDE; 2], u64::MAX);
         let truth = Real::new(&wide, TRUTH.1).unwrap();
-        let truth = prefix_means(&truth, &pixels, &[TRUTH.0], None)
+        let truth = prefix_means(&truth, &pixels, &[TRUTH.0], &Workers::default())
             .unwrap()
             .remove(0);
         let real = Real::new(&wide, SEED).unwrap();
-        let means = prefix_means(&real, &pixels, &PATHS, None).unwrap();
+        let means = prefix_means(&real, &pixels, &PATHS, &Workers::default()).unwrap();
         let bound = real.stage().bound();
         let mean = radiance(&truth);
         for error in ERRORS {

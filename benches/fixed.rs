@@ -26,7 +26,7 @@ mod scenes;
 use promises::Promises;
 use qrt::core::oracle::{Options, Oracle};
 use qrt::core::valid::ValidScene;
-use qrt::runtime::machines::{Gates, OracleMachine, Parts, Span};
+use qrt::runtime::machines::{Gates, OracleCircuits, OracleMachine, Span};
 use scenes::CIRCUITS;
 use std::path::Path;
 use std::process::ExitCode;
@@ -77,7 +77,7 @@ fn compared(name: &str, scene: &ValidScene, cores: usize) -> f64 {
     let oracle = Oracle::rgb(scene, Options::default()).unwrap_or_else(|error| panic!("{error}"));
     let oracle = Arc::new(oracle);
     let fixed = OracleMachine::fixed(oracle.clone(), 1, false);
-    let parts = Parts::new(&oracle);
+    let parts = OracleCircuits::new(&oracle);
     let machine = Gates::new(&[&parts.compute, &parts.uncompute]).expect("gates of its own qubits");
     let ops = oracle.program.ops.len();
     let (mut one, mut all, mut gates) = (0.0_f64, 0.0_f64, 0.0_f64);
@@ -118,7 +118,7 @@ fn fixed_speed(machine: &OracleMachine, threads: usize) -> f64 {
 }
 
 /// Paths a second of one thread.
-fn gates_speed(oracle: &Oracle, parts: &Parts, machine: &Gates) -> f64 {
+fn gates_speed(oracle: &Oracle, parts: &OracleCircuits, machine: &Gates) -> f64 {
     let outputs = &parts.compute.outputs;
     let (_, id) = outputs
         .iter()

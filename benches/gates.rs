@@ -32,7 +32,7 @@ use qrt::circuit::{
     Word, lower,
 };
 use qrt::core::oracle::{Options, Oracle};
-use qrt::runtime::machines::{Fixed, Gates, InstructionSet, Parts, Span};
+use qrt::runtime::machines::{Fixed, Gates, InstructionSet, OracleCircuits, Span};
 use std::path::Path;
 use std::process::ExitCode;
 use std::time::Instant;
@@ -197,7 +197,7 @@ fn cornell_box(uncompute: &str) -> [Circuit; 2] {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let scene = mesh::load(root, "scenes-yaml/cornell-box.yaml", &sets);
     let oracle = Oracle::rgb(&scene, Options::default());
-    let parts = Parts::new(&oracle.unwrap_or_else(|error| panic!("{error}")));
+    let parts = OracleCircuits::new(&oracle.unwrap_or_else(|error| panic!("{error}")));
     [parts.compute, parts.uncompute]
 }
 

@@ -74,6 +74,7 @@ pub mod prelude {
     pub use qrt_runtime::image::{Encoding, Image, ImageError, Metadata, save, write_counts};
     pub use qrt_runtime::machines::{NativeOracle, State, run};
     pub use qrt_runtime::render::{
-        Model, Options, Progress, RenderError, Rendered, render, render_compiled,
+        CompiledError, Model, Options, RenderError, Rendered, render, render_compiled,
     };
+    pub use qrt_runtime::workers::{Progress, Workers};
 }

@@ -23,7 +23,7 @@ use std::path::{Path, PathBuf};
 pub struct Header {
     /// A hash of the scene and of every file it refers to.
     pub scene_hash: String,
-    /// The seed.
+    /// What keys its shifts and draws.
     pub seed: u64,
     /// Names and values of everything else that decides a pixel: model, estimator, version.
     pub options: BTreeMap<String, String>,
@@ -42,9 +42,9 @@ pub struct Tile {
     pub x: u32,
     /// Topmost row, counted on the film.
     pub y: u32,
-    /// Columns.
+    /// Columns, at least 1.
     pub width: u32,
-    /// Rows.
+    /// Rows, at least 1.
     pub height: u32,
     /// Linear RGB, row by row.
     pub pixels: Vec<[f64; 3]>,
@@ -52,6 +52,21 @@ pub struct Tile {
     pub queries: Vec<u64>,
     /// Good ids of each pixel's channels; 0 where none are counted.
     pub good: Vec<[u64; 3]>,
+}
+
+impl Tile {
+    /// A tile without pixels yet: its x, y, width and height on the film.
+    pub(crate) fn of([x, y, width, height]: [u32; 4]) -> Self {
+        Self {
+            x,
+            y,
+            width,
+            height,
+            pixels: Vec::new(),
+            queries: Vec::new(),
+            good: Vec::new(),
+        }
+    }
 }
 
 /// An open checkpoint, locked against other processes.

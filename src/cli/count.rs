@@ -3,8 +3,9 @@
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 
+use super::args::choice;
 use super::failure::Failure;
-use clap::{Args, ValueEnum};
+use clap::Args;
 use qrt_core::scene::Window;
 use qrt_runtime::counting::{CountingError, MAX_REPETITIONS, PhaseDistribution, posterior};
 use qrt_runtime::estimators::{
@@ -12,6 +13,14 @@ use qrt_runtime::estimators::{
 };
 use qrt_runtime::random::Stream;
 use serde_json::{Value, json};
+
+const WINDOWS: [(Window, &str); 2] = [
+    (Window::Rect, "All phases alike: the paper's"),
+    (
+        Window::Sine,
+        "w_j = sqrt(2/(T+1)) sin(pi (j+1)/(T+1)): far smaller tails",
+    ),
+];
 
 /// Above this many phase bits the peak stands for all outcomes, unless some are asked for.
 const MAX_LISTED_BITS: u32 = 16;
@@ -43,8 +52,8 @@ pub(crate) struct CountArgs {
     #[arg(long, value_name = "BITS", value_parser = clap::value_parser!(u32).range(1..=40))]
     phase_bits: u32,
     /// The window on the counting register
-    #[arg(long, value_enum, default_value_t = WindowName::Rect)]
-    window: WindowName,
+    #[arg(long, value_parser = choice(WINDOWS, Window::name), default_value = "rect")]
+    window: Window,
     /// Only these outcomes; otherwise all of them, or above 16 phase bits those about the peak
     #[arg(long, value_name = "Y,Y,...", value_delimiter = ',')]
     outcomes: Vec<u64>,
@@ -61,32 +70,6 @@ pub(crate) struct CountArgs {
     /// JSON instead of tables
     #[arg(long)]
     json: bool,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum WindowName {
-    /// All phases alike: the paper's
-    Rect,
-    /// w_j = sqrt(2/(T+1)) sin(pi (j+1)/(T+1)): far smaller tails
-    Sine,
-}
-
-impl From<WindowName> for Window {
-    fn from(name: WindowName) -> Self {
-        match name {
-            WindowName::Rect => Self::Rect,
-            WindowName::Sine => Self::Sine,
-        }
-    }
-}
-
-impl WindowName {
-    fn key(self) -> &'static str {
-        match self {
-            Self::Rect => "rect",
-            Self::Sine => "sine",
-        }
-    }
 }
 
 /// Which outcomes are listed.
@@ -142,8 +125,8 @@ pub(crate) fn run(args: &CountArgs) -> Result<(), Failure> {
 
 impl<'a> Answer<'a> {
     fn new(args: &'a CountArgs) -> Result<Self, EstimatorError> {
-        let window = args.window.into();
-        let distribution = PhaseDistribution::new(args.good, args.total, args.phase_bits, window)?;
+        let distribution =
+            PhaseDistribution::new(args.good, args.total, args.phase_bits, args.window)?;
         let largest = distribution.largest_outcome();
         if let Some(&outcome) = args.outcomes.iter().find(|&&y| y > largest) {
             return Err(CountingError::OutcomeOutOfRange { outcome, largest }.into());
@@ -203,7 +186,7 @@ impl<'a> Answer<'a> {
             "good": self.args.good,
             "total": self.args.total,
             "phase_bits": self.args.phase_bits,
-            "window": self.args.window.key(),
+            "window": self.args.window.name(),
             "theta": self.distribution.theta(),
             "shown": shown,
             "outcomes": outcomes,
@@ -250,8 +233,8 @@ impl<'a> Answer<'a> {
             ..
         } = *self.args;
         let window = match self.args.window {
-            WindowName::Rect => "rectangular",
-            WindowName::Sine => "sine",
+            Window::Rect => "rectangular",
+            Window::Sine => "sine",
         };
         writeln!(
             out,
@@ -297,7 +280,7 @@ impl<'a> Answer<'a> {
 
 impl Drawn {
     fn new(args: &CountArgs, shots: u32) -> Result<Self, EstimatorError> {
-        let window = args.window.into();
+        let window = args.window;
         let run = WindowedCounting {
             phase_bits: args.phase_bits,
             repetitions: shots,

@@ -1,23 +1,41 @@
 //! `qrt export`: a pixel's circuit for other programs.
 
+use super::args::{SceneArgs, choice, numbers};
 use super::failure::Failure;
 use super::files::{can_be_written, keep_apart, named_after};
-use super::inspect::{Channel, keep_budget};
-use super::progress::Gates;
+use super::inspect::{CHANNEL_CHOICES, channel_name, keep_budget};
+use super::progress::Bar;
 use super::{interrupt, plan, terminal};
-use clap::{Args, ValueEnum};
+use clap::Args;
 use qrt_circuit::export::{Export, ExportError, Format, Tally};
 use qrt_circuit::quantum::{Conjunction, Counting, Part};
-use qrt_core::front;
 use qrt_core::inspect::{CHANNELS, Inspection, grouped};
 use qrt_core::oracle::Options;
 use qrt_core::scene::Window;
 use qrt_core::valid::ValidScene;
 use qrt_runtime::plan::{Figures, Options as PlanOptions};
 use qrt_runtime::replace_file::replace_file;
+use qrt_runtime::workers::{Progress, Workers};
 use serde_json::{Map, Value, json};
 use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
+
+const FORMATS: [(Format, &str); 2] = [
+    (
+        Format::OpenQasm3,
+        "OpenQASM 3.0, of its standard gates alone",
+    ),
+    (
+        Format::OpenQasm2,
+        "OpenQASM 2.0, for programs that do not read version 3",
+    ),
+];
+
+const PARTS: [(Part, &str); 3] = [
+    (Part::Oracle, "O_f, once"),
+    (Part::Grover, "One iterate G = H O_0 H O_f"),
+    (Part::Counting, "The whole circuit of quantum counting"),
+];
 
 /// Bytes of a gate's line, of a circuit of some 10,000 to 100,000 qubits.
 const BYTES_A_GATE: u64 = 28;
@@ -42,24 +60,21 @@ Examples:
   qrt export box.yaml --part counting --set counting.phase_bits=3
   qrt export box.yaml --format openqasm2 -o - | gzip > box.qasm.gz")]
 pub(crate) struct ExportArgs {
-    /// The scene, a YAML file
-    #[arg(value_name = "SCENE")]
-    scene: PathBuf,
     /// The file; `-` is standard output [default: SCENE's name with .qasm, in the current folder]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// The language
-    #[arg(long, value_enum, default_value_t = FormatName::Openqasm3)]
-    format: FormatName,
+    #[arg(long, value_parser = choice(FORMATS, Format::name), default_value = "openqasm3")]
+    format: Format,
     /// Which part of the circuit
-    #[arg(long, value_enum, default_value_t = PartName::Oracle)]
-    part: PartName,
+    #[arg(long, value_parser = choice(PARTS, part_name), default_value = "oracle")]
+    part: Part,
     /// The pixel: column and row, from 0 at the top left [default: the one in the middle]
     #[arg(long, value_name = "X,Y", value_parser = pixel, allow_hyphen_values = true)]
     pixel: Option<[u32; 2]>,
     /// The channel [default: the one whose oracle has the most Toffolis]
-    #[arg(long, value_enum, value_name = "CHANNEL")]
-    channel: Option<Channel>,
+    #[arg(long, value_parser = choice(CHANNEL_CHOICES, channel_name), value_name = "CHANNEL")]
+    channel: Option<usize>,
     /// Another seed gives other paths
     #[arg(long, value_name = "S", default_value_t = 0)]
     seed: u64,
@@ -69,68 +84,37 @@ pub(crate) struct ExportArgs {
     /// JSON instead of a summary
     #[arg(long)]
     json: bool,
-    /// Override a key of the scene; may be repeated
-    #[arg(long = "set", value_name = "KEY=VALUE")]
-    sets: Vec<String>,
+    #[command(flatten)]
+    scene: SceneArgs,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum FormatName {
-    /// OpenQASM 3.0, of its standard gates alone
-    Openqasm3,
-    /// OpenQASM 2.0, for programs that do not read version 3
-    Openqasm2,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum PartName {
-    /// O_f, once
-    Oracle,
-    /// One iterate G = H O_0 H O_f
-    Grover,
-    /// The whole circuit of quantum counting
-    Counting,
-}
-
-impl PartName {
-    fn part(self) -> Part {
-        match self {
-            Self::Oracle => Part::Oracle,
-            Self::Grover => Part::Grover,
-            Self::Counting => Part::Counting,
-        }
+fn part_name(part: Part) -> &'static str {
+    match part {
+        Part::Oracle => "oracle",
+        Part::Grover => "grover",
+        Part::Counting => "counting",
     }
+}
 
-    fn name(self) -> &'static str {
-        match self {
-            Self::Oracle => "oracle",
-            Self::Grover => "grover",
-            Self::Counting => "counting",
-        }
-    }
-
-    /// What it does, for whoever reads the file.
-    fn comments(self) -> &'static [&'static str] {
-        match self {
-            Self::Oracle => &[
-                "Flips the sign of each good id: of a path whose colour exceeds the comparator's threshold.",
-            ],
-            Self::Grover => &[
-                "G = H O_0 H O_f: rotates the plane of good and other ids by theta turns, where",
-                "sin(pi theta)^2 = S/N for S good ids of N. Its global phase is included.",
-            ],
-            Self::Counting => &[
-                "Reads y into outcome: y/2^t or 1 - y/2^t is about theta, in turns, where",
-                "sin(pi theta)^2 = S/N for S good ids of N.",
-            ],
-        }
+/// What a part does, for whoever reads the file.
+fn about(part: Part) -> &'static [&'static str] {
+    match part {
+        Part::Oracle => &[
+            "Flips the sign of each good id: of a path whose colour exceeds the comparator's threshold.",
+        ],
+        Part::Grover => &[
+            "G = H O_0 H O_f: rotates the plane of good and other ids by theta turns, where",
+            "sin(pi theta)^2 = S/N for S good ids of N. Its global phase is included.",
+        ],
+        Part::Counting => &[
+            "Reads y into outcome: y/2^t or 1 - y/2^t is about theta, in turns, where",
+            "sin(pi theta)^2 = S/N for S good ids of N.",
+        ],
     }
 }
 
 fn pixel(text: &str) -> Result<[u32; 2], String> {
-    let numbers: Result<Vec<u32>, _> = text.split(',').map(|n| n.trim().parse()).collect();
-    let pixel = numbers.ok().and_then(|numbers| numbers.try_into().ok());
-    pixel.ok_or_else(|| "two whole numbers, such as 10,20".to_owned())
+    numbers(text, "two whole numbers, such as 10,20")
 }
 
 /// What is written.
@@ -142,7 +126,6 @@ struct Exported<'a> {
     export: &'a Export<'a>,
     counting: &'a Counting<'a>,
     plan: Option<&'a Figures>,
-    format: Format,
     window: Window,
     file: &'a Path,
 }
@@ -151,55 +134,52 @@ pub(crate) fn run(args: &ExportArgs) -> Result<(), Failure> {
     let file = args
         .output
         .clone()
-        .unwrap_or_else(|| named_after(&args.scene, "qasm"));
+        .unwrap_or_else(|| named_after(&args.scene.scene, "qasm"));
     let to_stdout = file == Path::new("-");
     if to_stdout && args.json {
         let message = "`-o -` writes where `--json` does; name a file for the circuit";
         return Err(Failure::Usage(message.to_owned()));
     }
     if !to_stdout {
-        keep_apart([&*args.scene, &*file].into_iter())?;
+        keep_apart([&*args.scene.scene, &*file].into_iter())?;
         can_be_written(&file)?;
     }
-    let loaded = front::load(&args.scene, &args.sets)?;
+    let loaded = args.scene.load()?;
     let cancel = interrupt::cancel_on_interrupt()?;
     let planning = PlanOptions {
-        cancel: Some(&cancel),
+        workers: Workers {
+            cancel: Some(&cancel),
+            ..Workers::default()
+        },
         ..PlanOptions::default()
     };
     let planned = plan::of(&loaded.valid, &planning, args.json)?;
     let scene = planned.as_ref().map_or(&loaded.valid, |plan| &plan.scene);
     let written = scene.scene();
-    let [width, height] = [written.film.width, written.film.height];
-    let pixel = args.pixel.unwrap_or([width / 2, height / 2]);
-    if pixel[0] >= width || pixel[1] >= height {
-        return Err(Failure::Usage(format!(
-            "there is no pixel {},{} on a film of {width} x {height}: x is in 0..={}, y in 0..={}",
-            pixel[0],
-            pixel[1],
-            width - 1,
-            height - 1
-        )));
-    }
-    let channel = args.channel.map(|channel| channel as usize);
-    let inspection = Inspection::new(scene, channel, Options::default())
+    let pixel = on_film(args.pixel, [written.film.width, written.film.height])?;
+    let inspection = Inspection::new(scene, args.channel, Options::default())
         .map_err(|error| loaded.report(vec![error.problem()]))?;
     keep_budget(&loaded, &inspection)?;
     let failed = |error: &dyn std::error::Error| Failure::Job(error.to_string());
     let oracle = inspection.oracle.phase(0, args.seed, pixel);
     let oracle = oracle.map_err(|error| failed(&error))?;
+    let asked = written.counting;
     let (phase_bits, window) = (
-        written.counting.phase_bits,
-        written.counting.register_window(),
+        asked.phase_bits,
+        asked.estimator.register_window(asked.window),
     );
     let counting = Counting::with(&oracle, phase_bits, window, Conjunction::Toffolis);
     let counting = counting.map_err(|error| failed(&error))?;
     let path_bits = inspection.oracle.points.path_bits();
-    let export = Export::new(&counting, args.part.part(), Some(path_bits));
+    let export = Export::new(&counting, args.part, Some(path_bits));
     let export = export.map_err(|error| failed(&error))?;
     allow(args, &counting, window, export.gates())?;
-    let bar = Gates::new(!args.json && !to_stdout, export.gates());
-    let show = |gates| bar.show(gates);
+    let bar = Bar::gates(!args.json && !to_stdout);
+    bar.show(Progress::Started {
+        total: export.gates(),
+        resumed: 0,
+    });
+    let show = |gates| bar.show(Progress::Finished(gates));
     let export = export.with_cancel(&cancel).with_progress(&show);
     let exported = Exported {
         args,
@@ -209,10 +189,6 @@ pub(crate) fn run(args: &ExportArgs) -> Result<(), Failure> {
         export: &export,
         counting: &counting,
         plan: planned.as_ref().map(|plan| &plan.figures),
-        format: match args.format {
-            FormatName::Openqasm3 => Format::OpenQasm3,
-            FormatName::Openqasm2 => Format::OpenQasm2,
-        },
         window,
         file: &file,
     };
@@ -235,6 +211,19 @@ pub(crate) fn run(args: &ExportArgs) -> Result<(), Failure> {
     }
 }
 
+/// The pixel that is asked for, or the one in the middle.
+fn on_film(asked: Option<[u32; 2]>, [width, height]: [u32; 2]) -> Result<[u32; 2], Failure> {
+    let [x, y] = asked.unwrap_or([width / 2, height / 2]);
+    if x < width && y < height {
+        return Ok([x, y]);
+    }
+    Err(Failure::Usage(format!(
+        "there is no pixel {x},{y} on a film of {width} x {height}: x is in 0..={}, y in 0..={}",
+        width - 1,
+        height - 1
+    )))
+}
+
 /// Refuses what nobody would wait for, unless it is asked for.
 fn allow(
     args: &ExportArgs,
@@ -245,7 +234,7 @@ fn allow(
     if gates <= args.max_gates {
         return Ok(());
     }
-    let shorter = if args.part == PartName::Counting {
+    let shorter = if args.part == Part::Counting {
         match longest(counting, window, args.max_gates) {
             None => format!(
                 "; one iterate alone has {}",
@@ -286,7 +275,7 @@ fn size(bytes: u64) -> String {
 
 impl Exported<'_> {
     fn write(&self, out: &mut impl Write) -> Result<Tally, ExportError> {
-        self.export.write(self.format, &self.comments(), out)
+        self.export.write(self.args.format, &self.comments(), out)
     }
 
     fn to_file(&self) -> Result<Option<Tally>, Failure> {
@@ -319,11 +308,11 @@ impl Exported<'_> {
             "qrt {}: {}, {} of channel {}, pixel {x},{y}, seed {}",
             env!("CARGO_PKG_VERSION"),
             self.scene.scene().name,
-            part.name(),
+            part_name(part),
             CHANNELS[self.channel],
             self.args.seed
         )];
-        lines.extend(part.comments().iter().map(|line| (*line).to_owned()));
+        lines.extend(about(part).iter().map(|line| (*line).to_owned()));
         lines.push("Bit 0 of each register is its least significant.".to_owned());
         lines
     }
@@ -336,7 +325,7 @@ impl Exported<'_> {
         };
         format!(
             "{file}: {} of channel {}, pixel {x},{y}; {}; {}\n",
-            self.args.part.name(),
+            part_name(self.args.part),
             CHANNELS[self.channel],
             tally.text(),
             size(tally.bytes)
@@ -352,15 +341,15 @@ impl Exported<'_> {
         let gates: Map<String, Value> = gates
             .map(|(name, gates)| ((*name).to_owned(), json!(gates)))
             .collect();
-        let counting = self.args.part == PartName::Counting;
+        let counting = self.args.part == Part::Counting;
         json!({
             "version": 1,
             "qrt": env!("CARGO_PKG_VERSION"),
             "scene": self.scene.scene().name,
             "scene_hash": self.scene.fingerprint().to_string(),
             "file": self.file.display().to_string(),
-            "format": self.format.name(),
-            "part": self.args.part.name(),
+            "format": self.args.format.name(),
+            "part": part_name(self.args.part),
             "channel": CHANNELS[self.channel],
             "pixel": self.pixel,
             "seed": self.args.seed,

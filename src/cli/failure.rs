@@ -4,7 +4,10 @@ use qrt_core::diagnostics::Report;
 use qrt_runtime::counting::CountingError;
 use qrt_runtime::estimators::EstimatorError;
 use qrt_runtime::image::ImageError;
+use qrt_runtime::plan::PlanError;
 use qrt_runtime::render::RenderError;
+use qrt_runtime::trade::TradeError;
+use qrt_runtime::verify::VerifyError;
 use std::path::Path;
 use std::process::ExitCode;
 use std::{fmt, io};
@@ -50,36 +53,34 @@ impl From<Report> for Failure {
     }
 }
 
-impl From<CountingError> for Failure {
-    fn from(error: CountingError) -> Self {
-        Self::Usage(error.to_string())
-    }
+/// Errors by whether they are refusals: then the command line is at fault, and else the job failed.
+macro_rules! failures {
+    ($($Error:ty: $is_refusal:expr,)+) => {
+        $(impl From<$Error> for Failure {
+            fn from(error: $Error) -> Self {
+                let is_refusal: fn(&$Error) -> bool = $is_refusal;
+                if is_refusal(&error) {
+                    Self::Usage(error.to_string())
+                } else {
+                    Self::Job(error.to_string())
+                }
+            }
+        })+
+    };
 }
 
-impl From<EstimatorError> for Failure {
-    fn from(error: EstimatorError) -> Self {
-        Self::Usage(error.to_string())
-    }
-}
-
-impl From<RenderError> for Failure {
-    fn from(error: RenderError) -> Self {
-        if error.is_refusal() {
-            Self::Usage(error.to_string())
-        } else {
-            Self::Job(error.to_string())
-        }
-    }
-}
-
-impl From<ImageError> for Failure {
-    fn from(error: ImageError) -> Self {
-        match error {
-            ImageError::Extension { .. }
+failures! {
+    CountingError: |_| true,
+    EstimatorError: |_| true,
+    PlanError: PlanError::is_refusal,
+    RenderError: RenderError::is_refusal,
+    TradeError: TradeError::is_refusal,
+    VerifyError: VerifyError::is_refusal,
+    ImageError: |error| matches!(
+        error,
+        ImageError::Extension { .. }
             | ImageError::Exposure { .. }
             | ImageError::ExposureOfExr
-            | ImageError::Value { .. } => Self::Usage(error.to_string()),
-            _ => Self::Job(error.to_string()),
-        }
-    }
+            | ImageError::Value { .. }
+    ),
 }

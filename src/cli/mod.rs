@@ -3,6 +3,7 @@
 //! Exit codes: 0, 1 when the job failed or was interrupted, 2 when the command line or the scene
 //! is at fault.
 
+mod args;
 mod completions;
 mod count;
 mod export;

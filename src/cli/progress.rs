@@ -1,23 +1,55 @@
 //! The progress bar.
 
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
-use qrt_runtime::render::Progress;
-use qrt_runtime::trade;
+use qrt_runtime::workers::Progress;
 use std::fmt::Write;
 use std::time::Duration;
 
-/// A bar on standard error if that is a terminal and `wanted`; else one that isn't seen.
+/// A bar on standard error if that is a terminal; else one that isn't seen.
 pub(crate) struct Bar(ProgressBar);
 
 impl Bar {
-    pub(crate) fn new(wanted: bool) -> Self {
-        Self(bar(wanted, "{human_pos} of {human_len} paths"))
+    /// A bar of paths, if it is `wanted`.
+    pub(crate) fn paths(wanted: bool) -> Self {
+        Self::new(wanted, "{human_pos} of {human_len} paths")
+    }
+
+    /// A bar of the rows of a table.
+    pub(crate) fn settings(wanted: bool) -> Self {
+        Self::new(wanted, "{pos} of {len} settings")
+    }
+
+    /// A bar of the gates of a circuit.
+    pub(crate) fn gates(wanted: bool) -> Self {
+        Self::new(wanted, "{human_pos} of {human_len} gates")
+    }
+
+    fn new(wanted: bool, what: &str) -> Self {
+        // Hidden by itself where there is no terminal.
+        let target = if wanted {
+            ProgressDrawTarget::stderr()
+        } else {
+            ProgressDrawTarget::hidden()
+        };
+        let bar = ProgressBar::with_draw_target(Some(0), target);
+        let style = format!("{{bar:40}} {{percent:>3}} %  {what}, {{left}} to go");
+        // A template that doesn't parse leaves the library's own.
+        if let Ok(style) = ProgressStyle::with_template(&style) {
+            bar.set_style(style.with_key("left", left).progress_chars("=> "));
+        }
+        Self(bar)
     }
 
     pub(crate) fn show(&self, progress: Progress) {
         match progress {
-            Progress::Started { paths, resumed } => start(&self.0, paths, resumed),
-            Progress::Traced(paths) => self.0.inc(paths),
+            Progress::Started { total, resumed } => {
+                self.0.set_length(total);
+                self.0.set_position(resumed);
+                // What was done before says nothing about the time that the rest takes.
+                self.0.reset_eta();
+                self.0.enable_steady_tick(Duration::from_millis(250));
+            }
+            Progress::Finished(more) => self.0.inc(more),
         }
     }
 
@@ -25,74 +57,6 @@ impl Bar {
     pub(crate) fn clear(&self) {
         self.0.finish_and_clear();
     }
-}
-
-/// A bar of the rows of a table.
-pub(crate) struct Rows(ProgressBar);
-
-impl Rows {
-    pub(crate) fn new(wanted: bool) -> Self {
-        Self(bar(wanted, "{pos} of {len} settings"))
-    }
-
-    pub(crate) fn show(&self, progress: trade::Progress) {
-        match progress {
-            trade::Progress::Started { rows, resumed } => start(&self.0, rows, resumed),
-            trade::Progress::Row => self.0.inc(1),
-        }
-    }
-
-    /// Removes the bar.
-    pub(crate) fn clear(&self) {
-        self.0.finish_and_clear();
-    }
-}
-
-/// A bar of the gates of a circuit.
-pub(crate) struct Gates(ProgressBar);
-
-impl Gates {
-    /// Of a circuit of so many.
-    pub(crate) fn new(wanted: bool, gates: u64) -> Self {
-        let bar = bar(wanted, "{human_pos} of {human_len} gates");
-        start(&bar, gates, 0);
-        Self(bar)
-    }
-
-    pub(crate) fn show(&self, written: u64) {
-        self.0.inc(written);
-    }
-
-    /// Removes the bar.
-    pub(crate) fn clear(&self) {
-        self.0.finish_and_clear();
-    }
-}
-
-/// A bar that counts `what`.
-fn bar(wanted: bool, what: &str) -> ProgressBar {
-    // Hidden by itself where there is no terminal.
-    let target = if wanted {
-        ProgressDrawTarget::stderr()
-    } else {
-        ProgressDrawTarget::hidden()
-    };
-    let bar = ProgressBar::with_draw_target(Some(0), target);
-    let style = format!("{{bar:40}} {{percent:>3}} %  {what}, {{left}} to go");
-    // A template that doesn't parse leaves the library's own.
-    if let Ok(style) = ProgressStyle::with_template(&style) {
-        bar.set_style(style.with_key("left", left).progress_chars("=> "));
-    }
-    bar
-}
-
-/// Shows a bar of so many, of which some were done before.
-fn start(bar: &ProgressBar, length: u64, resumed: u64) {
-    bar.set_length(length);
-    bar.set_position(resumed);
-    // What was done before says nothing about the time that the rest takes.
-    bar.reset_eta();
-    bar.enable_steady_tick(Duration::from_millis(250));
 }
 
 /// The time left, once something is finished to judge by.

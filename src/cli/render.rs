@@ -1,25 +1,66 @@
 //! `qrt render`: a scene becomes a picture.
 
+use super::args::{SceneArgs, ThreadsArgs, choice, numbers};
 use super::failure::Failure;
 use super::files::{can_be_written, is_device, keep_apart, named_after};
 use super::inspect::check_circuit;
 use super::progress::Bar;
 use super::{interrupt, plan, stats, terminal};
+use clap::Args;
 use clap::builder::PossibleValuesParser;
-use clap::{Args, ValueEnum};
-use qrt_core::front;
+use qrt_core::front::Loaded;
 use qrt_core::inspect::grouped;
 use qrt_core::scene::Estimator;
+use qrt_core::valid::ValidScene;
 use qrt_runtime::estimators::{Noise, NoiseError};
 use qrt_runtime::image::{self, Encoding, Metadata};
-use qrt_runtime::render::{self, Options, Progress, RenderError, Rendered, render};
+use qrt_runtime::render::{
+    Colour, DEFAULT_FAILURE, Model, Options, RenderError, Rendered, Visibility, render,
+};
 use qrt_runtime::search::Guess;
+use qrt_runtime::workers::Workers;
 use std::fs;
-use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
-/// More threads than any machine profits from.
-pub(crate) const MAX_THREADS: u64 = 4096;
+const MODELS: [(Model, &str); 3] = [
+    (Model::Real, "In 64-bit floating point"),
+    (
+        Model::Fixed,
+        "The oracle's program, operation by operation, on integers",
+    ),
+    (
+        Model::Gates,
+        "The oracle's circuit, every gate of compute, flip and uncompute",
+    ),
+];
+
+const COLOURS: [(Colour, &str); 2] = [
+    (Colour::ThreeRuns, "Each channel is counted"),
+    (
+        Colour::OneRun,
+        "The luminance is counted, and the paths that are measured give the colour",
+    ),
+];
+
+const VISIBILITIES: [(Visibility, &str); 3] = [
+    (Visibility::Classical, "By the tracer, like all other hits"),
+    (
+        Visibility::Exhaustive,
+        "By asking the oracle of nearest hits about every face, path by path",
+    ),
+    (
+        Visibility::GROVER,
+        "By quantum search with that oracle, path by path; needs --model fixed or gates",
+    ),
+];
+
+const GUESSES: [(Guess, &str); 2] = [
+    (Guess::Random, "Whatever its first round measures"),
+    (
+        Guess::Coherent,
+        "What the path before it met, or the pixel beside it",
+    ),
+];
 
 /// Render a scene to a PNG or EXR picture
 ///
@@ -42,48 +83,44 @@ Examples:
   qrt render box.yaml --crop 10,20,4,4 --stats box.json
   qrt render box.yaml --model fixed --visibility grover first hits by quantum search")]
 pub(crate) struct RenderArgs {
-    /// The scene, a YAML file
-    #[arg(value_name = "SCENE")]
-    scene: PathBuf,
     /// The picture: .png (8-bit sRGB) or .exr (linear 32-bit float) [default: SCENE's name with
     /// .png, in the current folder]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// What traces the paths
-    #[arg(long, value_enum, default_value_t = Model::Real)]
+    #[arg(long, value_parser = choice(MODELS, Model::name), default_value = "real")]
     model: Model,
     /// How the good ids are counted; exact takes them all, without noise [default: the scene's]
     #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(Estimator::NAMES))]
     estimator: Option<String>,
     /// How pixels get their colours
-    #[arg(long, value_enum, default_value_t = Colour::ThreeRuns)]
+    #[arg(long, value_parser = choice(COLOURS, Colour::name), default_value = "three-runs")]
     colour: Colour,
     /// Noise of the device that counts: the probability that a query destroys the state, and that a
     /// measured bit is wrong; either may be left out
     #[arg(long, value_name = "depolarising=P,readout=P", value_parser = noise)]
     noise: Option<Noise>,
     /// How a path's first hit is found
-    #[arg(long, value_enum, default_value_t = Visibility::Classical)]
+    #[arg(
+        long,
+        value_parser = choice(VISIBILITIES, Visibility::name),
+        default_value = "classical"
+    )]
     visibility: Visibility,
     /// The probability with which a ray's search may miss the nearest face [default: 0.001]
     #[arg(long, value_name = "P")]
     search_failure: Option<f64>,
     /// What a ray's search begins with [default: coherent]
-    #[arg(long, value_enum)]
-    first_guess: Option<FirstGuess>,
+    #[arg(long, value_parser = choice(GUESSES, Guess::name))]
+    first_guess: Option<Guess>,
     /// Another seed gives other noise
     #[arg(long, value_name = "S", default_value_t = 0)]
     seed: u64,
     /// Render only these pixels: x and y from the top left corner, width and height
     #[arg(long, value_name = "X,Y,W,H", value_parser = crop)]
     crop: Option<[u32; 4]>,
-    /// Threads [default: one for each core]
-    #[arg(
-        long,
-        value_name = "N",
-        value_parser = clap::value_parser!(u64).range(1..=MAX_THREADS)
-    )]
-    threads: Option<u64>,
+    #[command(flatten)]
+    threads: ThreadsArgs,
     /// Stops of exposure: the picture times 2^STOPS; for .png only
     #[arg(long, value_name = "STOPS", allow_negative_numbers = true)]
     exposure: Option<f64>,
@@ -93,9 +130,8 @@ pub(crate) struct RenderArgs {
     /// Write every channel of every pixel as CSV: x,y,channel,value,good,total,scale
     #[arg(long, value_name = "FILE.csv")]
     counts: Option<PathBuf>,
-    /// Override a key of the scene; may be repeated
-    #[arg(long = "set", value_name = "KEY=VALUE")]
-    sets: Vec<String>,
+    #[command(flatten)]
+    scene: SceneArgs,
     /// Go on from what an interrupted render has left, if it has
     #[arg(long)]
     resume: bool,
@@ -104,40 +140,9 @@ pub(crate) struct RenderArgs {
     quiet: bool,
 }
 
-/// What traces the paths.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Model {
-    /// In 64-bit floating point
-    Real,
-    /// The oracle's program, operation by operation, on integers
-    Fixed,
-    /// The oracle's circuit, every gate of compute, flip and uncompute
-    Gates,
-}
-
-/// How a path's first hit is found.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Visibility {
-    /// By the tracer, like all other hits
-    Classical,
-    /// By asking the oracle of nearest hits about every face, path by path
-    Exhaustive,
-    /// By quantum search with that oracle, path by path; needs --model fixed or gates
-    Grover,
-}
-
-/// What a ray's search begins with.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum FirstGuess {
-    /// Whatever its first round measures
-    Random,
-    /// What the path before it met, or the pixel beside it
-    Coherent,
-}
-
 impl RenderArgs {
-    fn visibility(&self) -> Result<render::Visibility, Failure> {
-        let grover = self.visibility == Visibility::Grover;
+    fn visibility(&self) -> Result<Visibility, Failure> {
+        let grover = self.visibility == Visibility::GROVER;
         for (flag, given) in [
             ("--search-failure", self.search_failure.is_some()),
             ("--first-guess", self.first_guess.is_some()),
@@ -148,44 +153,12 @@ impl RenderArgs {
             }
         }
         Ok(match self.visibility {
-            Visibility::Classical => render::Visibility::Classical,
-            Visibility::Exhaustive => render::Visibility::Exhaustive,
-            Visibility::Grover => render::Visibility::Grover {
-                failure: self.search_failure.unwrap_or(render::DEFAULT_FAILURE),
-                guess: match self.first_guess {
-                    Some(FirstGuess::Random) => Guess::Random,
-                    Some(FirstGuess::Coherent) | None => Guess::Coherent,
-                },
+            Visibility::Grover { .. } => Visibility::Grover {
+                failure: self.search_failure.unwrap_or(DEFAULT_FAILURE),
+                guess: self.first_guess.unwrap_or_default(),
             },
+            other => other,
         })
-    }
-}
-
-impl From<Model> for render::Model {
-    fn from(model: Model) -> Self {
-        match model {
-            Model::Real => Self::Real,
-            Model::Fixed => Self::Fixed,
-            Model::Gates => Self::Gates,
-        }
-    }
-}
-
-/// How pixels get their colours.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Colour {
-    /// Each channel is counted
-    ThreeRuns,
-    /// The luminance is counted, and the paths that are measured give the colour
-    OneRun,
-}
-
-impl From<Colour> for render::Colour {
-    fn from(colour: Colour) -> Self {
-        match colour {
-            Colour::ThreeRuns => Self::ThreeRuns,
-            Colour::OneRun => Self::OneRun,
-        }
     }
 }
 
@@ -194,11 +167,7 @@ fn noise(text: &str) -> Result<Noise, String> {
 }
 
 fn crop(text: &str) -> Result<[u32; 4], String> {
-    let numbers: Result<Vec<u32>, _> = text.split(',').map(|n| n.trim().parse()).collect();
-    numbers
-        .ok()
-        .and_then(|numbers| <[u32; 4]>::try_from(numbers).ok())
-        .ok_or_else(|| "four whole numbers, such as 10,20,4,4".to_owned())
+    numbers(text, "four whole numbers, such as 10,20,4,4")
 }
 
 pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
@@ -206,7 +175,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     let output = args
         .output
         .clone()
-        .unwrap_or_else(|| named_after(&args.scene, "png"));
+        .unwrap_or_else(|| named_after(&args.scene.scene, "png"));
     let encoding = Encoding::of(&output, args.exposure)?;
     let files = [
         Some(&*output),
@@ -214,11 +183,11 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
         args.counts.as_deref(),
     ];
     let files = files.into_iter().flatten();
-    keep_apart(std::iter::once(&*args.scene).chain(files.clone()))?;
+    keep_apart(std::iter::once(&*args.scene.scene).chain(files.clone()))?;
     for file in files {
         can_be_written(file)?;
     }
-    let loaded = front::load(&args.scene, &args.sets)?;
+    let loaded = args.scene.load()?;
     let scene = &loaded.valid;
     // Known before the work, not after it.
     Metadata::new().set("scene", scene.scene().name.as_str())?;
@@ -233,21 +202,23 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
         ));
     }
     let cancel = interrupt::cancel_on_interrupt()?;
-    let bar = Bar::new(!args.quiet);
-    let show = |progress: Progress| bar.show(progress);
+    let bar = Bar::paths(!args.quiet);
+    let show = |progress| bar.show(progress);
     let mut options = Options {
         seed: args.seed,
         crop: args.crop,
-        model: args.model.into(),
+        model: args.model,
         estimator: args.estimator.as_deref().and_then(Estimator::from_name),
-        colour: args.colour.into(),
+        colour: args.colour,
         noise: args.noise.unwrap_or_default(),
         visibility,
-        threads: args.threads.and_then(|n| NonZeroUsize::new(n as usize)),
+        workers: Workers {
+            threads: args.threads.count(),
+            cancel: Some(&cancel),
+            progress: Some(&show),
+        },
         checkpoint: checkpoint.clone(),
         resume: args.resume,
-        cancel: Some(&cancel),
-        progress: Some(&show),
         ..Options::default()
     };
     let planned = plan::of(scene, &options.planning(), args.quiet)?;
@@ -257,28 +228,8 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     }
     let rendered = render(scene, &options);
     bar.clear();
-    let rendered = rendered.map_err(|error| match &error {
-        RenderError::Oracle(error) => loaded.report(vec![error.problem()]).into(),
-        RenderError::Interrupted {
-            checkpoint: Some(_),
-            ..
-        } => Failure::Job(format!(
-            "{error}; the same command with `--resume` goes on from there"
-        )),
-        _ => error.into(),
-    })?;
-
-    let mut metadata = rendered.metadata(scene)?;
-    if let Encoding::Png { exposure } = encoding {
-        metadata.set("exposure", exposure.to_string())?;
-    }
-    let clipped = image::save(&output, &rendered.image, &metadata, encoding)?;
-    if let Some(path) = &args.counts {
-        image::write_counts(path, rendered.counts())?;
-    }
-    if let Some(path) = &args.stats {
-        stats::write(path, scene, &rendered, clipped)?;
-    }
+    let rendered = rendered.map_err(|error| failure(error, &loaded))?;
+    let clipped = write(args, &output, encoding, scene, &rendered)?;
     // Only now is everything safe.
     if let Some(path) = &checkpoint {
         fs::remove_file(path).map_err(|error| Failure::file(path, &error))?;
@@ -287,6 +238,42 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
         return Ok(());
     }
     terminal::print(&summary(&output, &rendered, clipped))
+}
+
+/// Why there is no picture: at its place in the scene, or with what the user can do.
+fn failure(error: RenderError, loaded: &Loaded) -> Failure {
+    match error {
+        RenderError::Oracle(error) => loaded.report(vec![error.problem()]).into(),
+        RenderError::Interrupted {
+            checkpoint: Some(_),
+            ..
+        } => Failure::Job(format!(
+            "{error}; the same command with `--resume` goes on from there"
+        )),
+        error => error.into(),
+    }
+}
+
+/// Writes the picture and what is asked beside it; how many pixels were clipped.
+fn write(
+    args: &RenderArgs,
+    output: &Path,
+    encoding: Encoding,
+    scene: &ValidScene,
+    rendered: &Rendered,
+) -> Result<u64, Failure> {
+    let mut metadata = rendered.metadata(scene)?;
+    if let Encoding::Png { exposure } = encoding {
+        metadata.set("exposure", exposure.to_string())?;
+    }
+    let clipped = image::save(output, &rendered.image, &metadata, encoding)?;
+    if let Some(path) = &args.counts {
+        image::write_counts(path, rendered.counts())?;
+    }
+    if let Some(path) = &args.stats {
+        stats::write(path, scene, rendered, clipped)?;
+    }
+    Ok(clipped)
 }
 
 /// Beside the picture; none for a pipe or a device, beside which there is no place.

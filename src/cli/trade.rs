@@ -1,14 +1,14 @@
 //! `qrt trade`: what accuracy costs.
 
+use super::args::{SceneArgs, ThreadsArgs};
 use super::failure::Failure;
-use super::progress::Rows;
-use super::render::MAX_THREADS;
+use super::progress::Bar;
 use super::{interrupt, plan, terminal};
 use clap::Args;
-use qrt_core::front;
-use qrt_runtime::render::RenderError;
+use qrt_runtime::plan::Options as PlanOptions;
+use qrt_runtime::sample::SampleError;
 use qrt_runtime::trade::{Options, TradeError, trade};
-use std::num::NonZeroUsize;
+use qrt_runtime::workers::Workers;
 use std::path::PathBuf;
 
 /// Measure what a scene's accuracy costs, knob by knob
@@ -29,9 +29,6 @@ Examples:
   qrt trade box.yaml -o box-trade --quick         the outlines, in less than one
   qrt trade box.yaml -o wide --set precision.fraction=20")]
 pub(crate) struct TradeArgs {
-    /// The scene, a YAML file
-    #[arg(value_name = "SCENE")]
-    scene: PathBuf,
     /// The folder to write to; it is made if it is not there
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
@@ -44,16 +41,10 @@ pub(crate) struct TradeArgs {
     /// Another seed gives other paths and other noise
     #[arg(long, value_name = "S", default_value_t = 0)]
     seed: u64,
-    /// Threads [default: one for each core]
-    #[arg(
-        long,
-        value_name = "N",
-        value_parser = clap::value_parser!(u64).range(1..=MAX_THREADS)
-    )]
-    threads: Option<u64>,
-    /// Override a key of the scene; may be repeated
-    #[arg(long = "set", value_name = "KEY=VALUE")]
-    sets: Vec<String>,
+    #[command(flatten)]
+    threads: ThreadsArgs,
+    #[command(flatten)]
+    scene: SceneArgs,
     /// Neither progress nor summary
     #[arg(short, long)]
     quiet: bool,
@@ -64,38 +55,36 @@ pub(crate) fn run(args: &TradeArgs) -> Result<(), Failure> {
         let message = format!("`{}` is no folder", args.output.display());
         return Err(Failure::Usage(message));
     }
-    let loaded = front::load(&args.scene, &args.sets)?;
+    let loaded = args.scene.load()?;
     let cancel = interrupt::cancel_on_interrupt()?;
-    let threads = args.threads.and_then(|n| NonZeroUsize::new(n as usize));
-    let planning = qrt_runtime::plan::Options {
-        threads,
+    let bar = Bar::settings(!args.quiet);
+    let show = |progress| bar.show(progress);
+    let workers = Workers {
+        threads: args.threads.count(),
         cancel: Some(&cancel),
-        ..Default::default()
+        progress: Some(&show),
+    };
+    let planning = PlanOptions {
+        workers,
+        ..PlanOptions::default()
     };
     let planned = plan::of(&loaded.valid, &planning, args.quiet)?;
     let scene = planned.as_ref().map_or(&loaded.valid, |plan| &plan.scene);
-    let bar = Rows::new(!args.quiet);
-    let show = |progress| bar.show(progress);
     let options = Options {
         pixels: args.pixels,
         seed: args.seed,
         quick: args.quick,
-        threads,
-        cancel: Some(&cancel),
-        progress: Some(&show),
+        workers,
     };
     let measured = trade(scene, &args.output, &options);
     bar.clear();
     let measured = measured.map_err(|error| match &error {
-        TradeError::Render(RenderError::Oracle(error)) => {
-            loaded.report(vec![error.problem()]).into()
-        }
-        TradeError::Render(RenderError::Interrupted { .. }) => Failure::Job(format!(
+        TradeError::Oracle(error) => loaded.report(vec![error.problem()]).into(),
+        TradeError::Sample(SampleError::Interrupted { .. }) => Failure::Job(format!(
             "interrupted; the same command goes on from what `{}` has",
             args.output.join("trade.csv").display()
         )),
-        _ if error.is_refusal() => Failure::Usage(error.to_string()),
-        _ => Failure::Job(error.to_string()),
+        _ => error.into(),
     })?;
     if args.quiet {
         return Ok(());

@@ -1,20 +1,18 @@
 //! `qrt verify`: the three models of a scene against each other.
 
+use super::args::{SceneArgs, ThreadsArgs};
 use super::failure::Failure;
 use super::inspect::check_circuit;
 use super::progress::Bar;
-use super::render::MAX_THREADS;
 use super::{interrupt, plan, terminal};
 use clap::Args;
-use qrt_core::front;
 use qrt_core::valid::ValidScene;
 use qrt_runtime::machines::Defect;
-use qrt_runtime::render::Progress;
+use qrt_runtime::plan::Options as PlanOptions;
 use qrt_runtime::verify::{Mismatch, Options, Report, verify};
+use qrt_runtime::workers::Workers;
 use serde_json::{Value, json};
 use std::fmt::Write;
-use std::num::NonZeroUsize;
-use std::path::PathBuf;
 use std::time::Instant;
 
 const CHANNELS: [&str; 3] = ["red", "green", "blue"];
@@ -37,9 +35,6 @@ Examples:
   qrt verify box.yaml --pixels 1000000                  all pixels
   qrt verify box.yaml --set precision.fraction=20 --json")]
 pub(crate) struct VerifyArgs {
-    /// The scene, a YAML file
-    #[arg(value_name = "SCENE")]
-    scene: PathBuf,
     /// Pixels to check, spread over the film; all of them if it has fewer
     #[arg(
         long,
@@ -51,19 +46,13 @@ pub(crate) struct VerifyArgs {
     /// Another seed gives other paths
     #[arg(long, value_name = "S", default_value_t = 0)]
     seed: u64,
-    /// Threads [default: one for each core]
-    #[arg(
-        long,
-        value_name = "N",
-        value_parser = clap::value_parser!(u64).range(1..=MAX_THREADS)
-    )]
-    threads: Option<u64>,
+    #[command(flatten)]
+    threads: ThreadsArgs,
     /// JSON instead of text
     #[arg(long)]
     json: bool,
-    /// Override a key of the scene; may be repeated
-    #[arg(long = "set", value_name = "KEY=VALUE")]
-    sets: Vec<String>,
+    #[command(flatten)]
+    scene: SceneArgs,
 }
 
 /// Answers on standard output.
@@ -71,24 +60,26 @@ pub(crate) struct VerifyArgs {
 /// # Errors
 /// A wrong scene, an interruption, and whatever does not hold.
 pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
-    let loaded = front::load(&args.scene, &args.sets)?;
+    let loaded = args.scene.load()?;
     let cancel = interrupt::cancel_on_interrupt()?;
-    let planning = qrt_runtime::plan::Options {
-        threads: args.threads.and_then(|n| NonZeroUsize::new(n as usize)),
+    let bar = Bar::paths(!args.json);
+    let show = |progress| bar.show(progress);
+    let workers = Workers {
+        threads: args.threads.count(),
         cancel: Some(&cancel),
-        ..Default::default()
+        progress: Some(&show),
+    };
+    let planning = PlanOptions {
+        workers,
+        ..PlanOptions::default()
     };
     let planned = plan::of(&loaded.valid, &planning, args.json)?;
     let scene = planned.map_or_else(|| loaded.valid.clone(), |plan| plan.scene);
     check_circuit(&loaded, &scene)?;
-    let bar = Bar::new(!args.json);
-    let show = |progress: Progress| bar.show(progress);
     let options = Options {
         pixels: args.pixels,
         seed: args.seed,
-        threads: args.threads.and_then(|n| NonZeroUsize::new(n as usize)),
-        cancel: Some(&cancel),
-        progress: Some(&show),
+        workers,
     };
     let start = Instant::now();
     let verified = verify(&scene, &options);
@@ -148,7 +139,7 @@ fn text(args: &VerifyArgs, scene: &ValidScene, report: &Report, seconds: f64) ->
     let pixels = report.pixels.len();
     let mut out = format!(
         "{}: {pixels} of {} pixels, {} paths, on {} qubits and {} gates, in {seconds:.2} s\n\n",
-        args.scene.display(),
+        args.scene.scene.display(),
         u64::from(film.width) * u64::from(film.height),
         report.paths,
         report.qubits,

@@ -11,7 +11,7 @@ use crate::common::scene::written;
 use qrt::circuit::{Circuit, Gate, Op, Qubit, lower};
 use qrt::core::oracle::Oracle;
 use qrt::core::valid::ValidScene;
-use qrt::runtime::machines::{Defect, OracleMachine, Parts, contents};
+use qrt::runtime::machines::{Defect, OracleCircuits, OracleMachine, contents};
 use qrt::runtime::random::Stream;
 use qrt::runtime::verify::{Options, Report, verify, verify_parts};
 use std::sync::Arc;
@@ -21,7 +21,7 @@ const SEED: u64 = 3;
 struct Checked {
     scene: ValidScene,
     oracle: Arc<Oracle>,
-    parts: Parts,
+    parts: OracleCircuits,
     pixels: Vec<[u32; 2]>,
     /// What the untouched circuit computes: by channel, of every path, colour and count.
     right: [Vec<[i64; 2]>; 3],
@@ -42,7 +42,7 @@ impl Checked {
         let scene = written(CORNER, sets);
         let oracle = oracle(&scene);
         let mut checked = Self {
-            parts: Parts::new(&oracle),
+            parts: OracleCircuits::new(&oracle),
             pixels: film(&oracle),
             scene,
             oracle,
@@ -73,7 +73,7 @@ impl Checked {
         })
     }
 
-    fn simulated(&self, parts: &Parts) -> Simulated {
+    fn simulated(&self, parts: &OracleCircuits) -> Simulated {
         let mut states = self.states();
         let before = states.qubits.clone();
         states.run(&parts.compute.gates);
@@ -90,7 +90,7 @@ impl Checked {
     }
 
     /// What verification says, all pixels asked for.
-    fn verified(&self, parts: Parts) -> Report {
+    fn verified(&self, parts: OracleCircuits) -> Report {
         let options = Options {
             pixels: u64::MAX,
             seed: SEED,
@@ -100,7 +100,7 @@ impl Checked {
     }
 
     /// Verification says what simulation says; that is returned.
-    fn agree(&self, parts: Parts) -> Simulated {
+    fn agree(&self, parts: OracleCircuits) -> Simulated {
         let simulated = self.simulated(&parts);
         let report = self.verified(parts);
         match simulated {
@@ -121,7 +121,7 @@ impl Checked {
     }
 
     /// Compute so changed, and undone as exactly as before.
-    fn mirrored(&self, compute: Vec<Gate>) -> Parts {
+    fn mirrored(&self, compute: Vec<Gate>) -> OracleCircuits {
         let mut parts = self.parts.clone();
         // Each gate is its own inverse.
         parts.uncompute.gates = compute.iter().rev().copied().collect();
@@ -311,7 +311,7 @@ fn a_wrong_table_entry_is_caught_if_it_changes_a_path() {
                 }
             }
         }
-        let report = checked.verified(Parts::new(&wrong));
+        let report = checked.verified(OracleCircuits::new(&wrong));
         assert_eq!((report.mismatched, &report.defect), (differ, &None));
         assert_eq!(report.holds(), differ == 0);
         if differ == 0 {

@@ -5,6 +5,7 @@ use qrt::core::inspect::Inspection;
 use qrt::core::oracle::{Options as Compile, Oracle};
 use qrt::prelude::*;
 use qrt::runtime::machines::{Finished, InstructionSet, OracleMachine};
+use qrt::runtime::render::{Colour, Visibility};
 use std::sync::Arc;
 
 qrt! {
@@ -246,7 +247,7 @@ fn a_scene_and_its_twin_are_one() {
 
 #[test]
 fn pictures_are_those_of_the_scene() {
-    for model in [Model::Real, Model::Fixed, Model::Gates] {
+    for model in [Model::Fixed, Model::Gates] {
         let options = Options {
             model,
             crop: Some([30, 30, 3, 2]),
@@ -257,6 +258,67 @@ fn pictures_are_those_of_the_scene() {
         assert_eq!(compiled.image.pixels, built.image.pixels);
         assert_eq!(compiled.good, built.good);
     }
+}
+
+/// What the compiled circuit does not do is refused, and nothing else done in its place.
+#[test]
+fn what_a_compiled_circuit_does_not_do_is_refused() {
+    qrt! {
+        scene Accurate {
+            camera: orthographic { eye: (0, 0, 2), target: (0, 0, 0), height: 1 },
+            film: 2 x 2,
+            material lamp: emitter { radiance: rgb(0.5, 0.5, 0.5) },
+            quad: lamp { (-9, -9, 0), (9, -9, 0), (9, 9, 0), (-9, 9, 0) },
+            accuracy { error: 0.1, confidence: 0.9 },
+        }
+    }
+    let fixed = Options {
+        model: Model::Fixed,
+        ..Options::default()
+    };
+    let one_run = Options {
+        colour: Colour::OneRun,
+        ..fixed.clone()
+    };
+    let searched = Options {
+        visibility: Visibility::Exhaustive,
+        ..fixed.clone()
+    };
+    let refused = |rendered: Result<Rendered, RenderError>| match rendered.unwrap_err() {
+        RenderError::Compiled(error) => error,
+        other => panic!("{other}"),
+    };
+    let real = refused(render_compiled::<Floor>(&Options::default()));
+    assert_eq!(
+        real.to_string(),
+        "a compiled circuit is run by the models `fixed` and `gates`; `real` runs none: choose one \
+         of the two, or use `render`"
+    );
+    assert_eq!(real, CompiledError::Model);
+    assert_eq!(
+        refused(render_compiled::<Floor>(&one_run)),
+        CompiledError::OneRun
+    );
+    assert_eq!(
+        refused(render_compiled::<Floor>(&searched)),
+        CompiledError::Visibility
+    );
+    assert_eq!(
+        refused(render_compiled::<Accurate>(&fixed)),
+        CompiledError::Accuracy
+    );
+    // An estimator takes the place of the scene's, as in `render`.
+    let sine = Options {
+        estimator: Some(Estimator::Sine),
+        crop: Some([30, 30, 2, 1]),
+        ..fixed
+    };
+    let [compiled, built] = [
+        render_compiled::<Floor>(&sine).unwrap(),
+        render(Floor::scene(), &sine).unwrap(),
+    ];
+    assert_eq!(compiled.estimator, Estimator::Sine);
+    assert_eq!(compiled.image.pixels, built.image.pixels);
 }
 
 /// In a function, and private.

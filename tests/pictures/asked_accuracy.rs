@@ -8,6 +8,7 @@ use qrt::runtime::machines::Real;
 use qrt::runtime::plan::{Options, Plan, plan};
 use qrt::runtime::render::{self, Model, render};
 use qrt::runtime::sample::{prefix_means, radiance, spread};
+use qrt::runtime::workers::Workers;
 use std::num::NonZeroUsize;
 
 /// A lamp over a floor, seen obliquely; two rays.
@@ -47,7 +48,13 @@ fn the_asked_share_of_channels_is_within_the_asked_error() {
         knobs.sampling.path_bits = 17;
         let limit = scene.with_knobs(knobs).unwrap();
         let pixels = spread([16, 12], u64::MAX);
-        let truth = prefix_means(&Real::new(&limit, 9).unwrap(), &pixels, &[17], None).unwrap();
+        let truth = prefix_means(
+            &Real::new(&limit, 9).unwrap(),
+            &pixels,
+            &[17],
+            &Workers::default(),
+        )
+        .unwrap();
         let mean = radiance(&truth[0]);
         assert!((plan.figures.mean / mean - 1.0).abs() < 0.01);
         for seed in [0, 1, 2] {
@@ -94,7 +101,10 @@ fn half_the_error_costs_more_and_threads_change_nothing() {
     assert!(b.parts.total <= 0.05 && b.within >= 0.9);
     assert!(b.comparator_bits > a.comparator_bits);
     let one = Options {
-        threads: NonZeroUsize::new(1),
+        workers: Workers {
+            threads: NonZeroUsize::new(1),
+            ..Workers::default()
+        },
         ..Options::default()
     };
     assert_eq!(plan(&coarse_scene, &one).unwrap().unwrap().figures, a);

@@ -29,8 +29,11 @@ fn with(estimator: Estimator) -> Options<'static> {
     }
 }
 
-fn threads(count: usize) -> Option<NonZeroUsize> {
-    NonZeroUsize::new(count)
+fn threads(count: usize) -> Workers<'static> {
+    Workers {
+        threads: NonZeroUsize::new(count),
+        ..Workers::default()
+    }
 }
 
 /// A path that no other test uses; what is there is removed.
@@ -62,7 +65,7 @@ fn for_any_number_of_threads_and_any_tiles() {
             (2, Some([13, 1])),
         ] {
             let options = Options {
-                threads: threads(count),
+                workers: threads(count),
                 tile,
                 ..with(estimator)
             };
@@ -95,11 +98,11 @@ fn a_pixel_of_many_paths_is_shared_by_threads_and_is_still_their_mean() {
     let scene = scene(&["sampling.path_bits=19", "film={ width: 2, height: 1 }"]);
     for estimator in ESTIMATORS {
         let one = Options {
-            threads: threads(1),
+            workers: threads(1),
             ..with(estimator)
         };
         let three = Options {
-            threads: threads(3),
+            workers: threads(3),
             ..with(estimator)
         };
         let one = render(&scene, &one).unwrap();
@@ -163,15 +166,18 @@ fn interrupt(scene: &ValidScene, options: &Options<'_>, paths: u64) -> u64 {
     let cancel = AtomicBool::new(false);
     let traced = AtomicU64::new(0);
     let progress = |progress: Progress| {
-        if let Progress::Traced(more) = progress
+        if let Progress::Finished(more) = progress
             && traced.fetch_add(more, Ordering::SeqCst) + more >= paths
         {
             cancel.store(true, Ordering::SeqCst);
         }
     };
     let options = Options {
-        cancel: Some(&cancel),
-        progress: Some(&progress),
+        workers: Workers {
+            cancel: Some(&cancel),
+            progress: Some(&progress),
+            ..options.workers
+        },
         ..options.clone()
     };
     match render(scene, &options).unwrap_err() {
@@ -198,14 +204,14 @@ fn interrupted_and_resumed_or_not() {
                 checkpoint: Some(partial.0.clone()),
                 resume: true,
                 tile: Some([2, 1]),
-                threads: threads(1),
+                workers: threads(1),
                 ..with(estimator)
             };
             let first = interrupt(&scene, &options, paths);
             assert!(first > 0);
             // Goes on where it was, and can be interrupted again.
             let two = Options {
-                threads: threads(2),
+                workers: threads(2),
                 ..options.clone()
             };
             let second = interrupt(&scene, &two, paths / 4);
@@ -233,7 +239,10 @@ fn what_is_finished_is_not_traced_again() {
     assert_eq!(first.resumed_paths, 0);
     let again = |progress: Progress| assert!(matches!(progress, Progress::Started { .. }));
     let again = Options {
-        progress: Some(&again),
+        workers: Workers {
+            progress: Some(&again),
+            ..options.workers
+        },
         ..options.clone()
     };
     let second = render(&scene, &again).unwrap();

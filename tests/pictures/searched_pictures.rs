@@ -7,6 +7,7 @@ use qrt::core::oracle::{MOST_FACES, NearestOracle};
 use qrt::core::scene::Estimator;
 use qrt::runtime::render::{Model, Options, RenderError, Rendered, Visibility, render};
 use qrt::runtime::search::Guess;
+use qrt::runtime::workers::Workers;
 use std::fmt::Write;
 use std::num::NonZeroUsize;
 
@@ -128,7 +129,10 @@ fn neither_threads_nor_tiles_nor_crops_change_a_search() {
     for (tile, threads) in [([1, 1], 1), ([5, 3], 3), ([13, 11], 2)] {
         let cut = Options {
             tile: Some(tile),
-            threads: NonZeroUsize::new(threads),
+            workers: Workers {
+                threads: NonZeroUsize::new(threads),
+                ..Workers::default()
+            },
             ..plain.clone()
         };
         let cut = render(&room, &cut).unwrap();

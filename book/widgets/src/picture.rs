@@ -6,8 +6,8 @@
 //! that the page stays alive meanwhile.
 
 use crate::answer::Answer;
-use qrt_core::scene::Counting;
 use qrt_core::scene::meshes::Meshes;
+use qrt_core::scene::{Counting, Estimator};
 use qrt_core::valid::validate;
 use qrt_runtime::counting::Comparators;
 use qrt_runtime::estimators::{
@@ -225,8 +225,8 @@ fn estimator(
 ) -> Result<Box<dyn AmplitudeEstimator>, Box<dyn Error>> {
     Ok(match name {
         "monte-carlo" => Box::new(Paths(settings.queries)),
-        "paper" => Box::new(WindowedCounting::paper(settings)?),
-        "sine" => Box::new(WindowedCounting::sine(settings)?),
+        "paper" => Box::new(WindowedCounting::new(Estimator::Paper, settings)?),
+        "sine" => Box::new(WindowedCounting::new(Estimator::Sine, settings)?),
         "adaptive-bayes" => Box::new(AdaptiveBayes::new(settings)?),
         _ => return Err("the figure has no such estimator".into()),
     })

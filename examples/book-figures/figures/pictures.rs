@@ -7,6 +7,7 @@ use qrt::runtime::image::Image;
 use qrt::runtime::machines::Real;
 use qrt::runtime::render::{Model, Options, render};
 use qrt::runtime::sample::tallies;
+use qrt::runtime::workers::Workers;
 
 /// Between pictures of a strip, in their pixels.
 const GAP: u32 = 2;
@@ -83,7 +84,7 @@ pub(super) fn first() -> Figure {
 fn mean_of(real: &Real) -> Image {
     let pixels: Vec<[u32; 2]> = (0..SIDE * SIDE).map(|k| [k % SIDE, k / SIDE]).collect();
     let paths = real.paths();
-    let sums = tallies(real, &pixels, 0..paths, &[], None).expect("nobody cancels");
+    let sums = tallies(real, &pixels, 0..paths, &[], &Workers::default()).expect("nobody cancels");
     let pixel = |sum: qrt::runtime::sample::Tally| sum.colour.map(|c| c / paths as f64);
     Image {
         width: SIDE,

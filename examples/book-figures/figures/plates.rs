@@ -11,6 +11,7 @@ use qrt::core::valid::ValidScene;
 use qrt::drawing::{Axis, Drawn, Plot, Series};
 use qrt::runtime::machines::Real;
 use qrt::runtime::sample::tallies;
+use qrt::runtime::workers::Workers;
 use std::f64::consts::PI;
 
 const RHO: f64 = 0.8;
@@ -117,7 +118,8 @@ pub(super) fn dimensions() -> Figure {
     let pixels: Vec<[u32; 2]> = (0..SIDE * SIDE).map(|k| [k % SIDE, k / SIDE]).collect();
     let paths = 1_u64 << PATH_BITS;
     let error = |real: &Real, depth: usize| {
-        let sums = tallies(real, &pixels, 0..paths, &[], None).expect("nobody cancels");
+        let sums =
+            tallies(real, &pixels, 0..paths, &[], &Workers::default()).expect("nobody cancels");
         let (mut squares, mut mean) = (0.0, 0.0);
         for (pixel, sum) in pixels.iter().zip(sums) {
             let truth = columns[pixel[0] as usize][depth - 1];

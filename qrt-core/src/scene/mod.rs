@@ -352,14 +352,14 @@ record! {
     pub estimator: Estimator = word::<Estimator>(), or Estimator::AdaptiveBayes;
 }
 
-impl Counting {
+impl Estimator {
     /// The window in which the counting register is prepared: that of `paper`, `qss` and `sine`, which
-    /// have one of their own, and `counting.window` for all others.
-    pub fn register_window(&self) -> Window {
-        match self.estimator {
-            Estimator::Paper | Estimator::Qss => Window::Rect,
-            Estimator::Sine => Window::Sine,
-            _ => self.window,
+    /// have one of their own, and `asked`, the scene's `counting.window`, for all others.
+    pub fn register_window(self, asked: Window) -> Window {
+        match self {
+            Self::Paper | Self::Qss => Window::Rect,
+            Self::Sine => Window::Sine,
+            _ => asked,
         }
     }
 }

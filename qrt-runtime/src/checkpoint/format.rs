@@ -65,12 +65,7 @@ impl Header {
         let body = &mut body;
         let mut read = || {
             let [width, height] = [take_u32(body)?, take_u32(body)?];
-            let crop = [
-                take_u32(body)?,
-                take_u32(body)?,
-                take_u32(body)?,
-                take_u32(body)?,
-            ];
+            let crop = take_rectangle(body)?;
             let seed = take_u64(body)?;
             let scene_hash = take_text(body)?;
             let mut options = BTreeMap::new();
@@ -147,21 +142,7 @@ impl Tile {
     /// Takes a tile off `bytes`; `None` at the end, and if it is torn.
     pub(super) fn decode(bytes: &mut &[u8], crop: [u32; 4]) -> Option<Self> {
         let all = *bytes;
-        let [x, y, width, height] = [
-            take_u32(bytes)?,
-            take_u32(bytes)?,
-            take_u32(bytes)?,
-            take_u32(bytes)?,
-        ];
-        let mut tile = Self {
-            x,
-            y,
-            width,
-            height,
-            pixels: Vec::new(),
-            queries: Vec::new(),
-            good: Vec::new(),
-        };
+        let mut tile = Self::of(take_rectangle(bytes)?);
         let area = tile.area_within(crop)?;
         let mut payload = take(bytes, area.checked_mul(PIXEL)?)?;
         take_seal(bytes, all)?;
@@ -206,6 +187,12 @@ fn take<'a>(bytes: &mut &'a [u8], count: u64) -> Option<&'a [u8]> {
 
 fn take_u32(bytes: &mut &[u8]) -> Option<u32> {
     Some(u32::from_le_bytes(take(bytes, 4)?.try_into().ok()?))
+}
+
+/// x, y, width and height.
+fn take_rectangle(bytes: &mut &[u8]) -> Option<[u32; 4]> {
+    let mut next = || take_u32(bytes);
+    Some([next()?, next()?, next()?, next()?])
 }
 
 fn take_u64(bytes: &mut &[u8]) -> Option<u64> {

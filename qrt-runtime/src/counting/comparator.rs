@@ -70,6 +70,15 @@ impl Comparators {
         })
     }
 
+    /// Comparators of a pixel's channels, red, green and blue, whose colours are in `[0, scale]`.
+    ///
+    /// # Errors
+    /// As [`Comparators::new`].
+    pub fn rgb(scale: [f64; 3], comparator: Comparator) -> Result<[Self; 3], CountingError> {
+        let [r, g, b] = scale.map(|scale| Self::new(scale, comparator));
+        Ok([r?, g?, b?])
+    }
+
     /// C, the number of comparators, and of ids per path.
     pub fn count(&self) -> u64 {
         1 << self.bits

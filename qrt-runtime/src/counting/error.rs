@@ -1,19 +1,19 @@
 //! What counting refuses.
 
-use std::fmt;
-
 /// The largest counting register.
 pub const MAX_PHASE_BITS: u32 = 40;
 /// The most repetitions of one estimate.
 pub const MAX_REPETITIONS: u32 = 1_000_000;
 
 /// Why counting cannot be done as asked.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CountingError {
     /// There are no ids.
+    #[error("the total number of ids is 0; it must be at least 1")]
     NoIds,
     /// More good ids than ids.
+    #[error("{good} good ids out of {total}: there cannot be more good ids than ids")]
     MoreGoodThanTotal {
         /// Good ids.
         good: u64,
@@ -21,12 +21,19 @@ pub enum CountingError {
         total: u64,
     },
     /// The amplitude is not in [0, 1].
+    #[error("an amplitude of {0} is not in [0, 1]")]
     AmplitudeOutOfRange(f64),
     /// The counting register has no size in `1..=40` bits.
+    #[error("{0} phase bits are not in 1..={MAX_PHASE_BITS}")]
     PhaseBitsOutOfRange(u32),
     /// The repetitions are not in `1..=1000000`.
+    #[error("{0} repetitions are not in 1..={MAX_REPETITIONS}")]
     RepetitionsOutOfRange(u32),
     /// An outcome beyond T/2.
+    #[error(
+        "outcome {outcome} is beyond T/2 = {largest}; outcomes y and T - y are folded onto \
+         0..={largest}"
+    )]
     OutcomeOutOfRange {
         /// The outcome.
         outcome: u64,
@@ -34,10 +41,13 @@ pub enum CountingError {
         largest: u64,
     },
     /// Nothing was measured, so nothing can be inferred.
+    #[error("no outcome to infer anything from")]
     NoOutcomes,
     /// No number of good ids could have given these outcomes.
+    #[error("no number of good ids could have given these outcomes")]
     ImpossibleOutcomes,
     /// More ids than can be gone through one by one.
+    #[error("{total} ids are too many to go through one by one; at most {most}")]
     TooManyIds {
         /// All ids.
         total: u64,
@@ -45,55 +55,12 @@ pub enum CountingError {
         most: u64,
     },
     /// A comparator register that is not in `0..=30` bits.
+    #[error("{0} comparator bits are not in 0..=30")]
     ComparatorBitsOutOfRange(u32),
     /// A colour scale that is negative, not finite, or too small for its comparators.
+    #[error(
+        "a colour scale of {0} is negative, not finite, or too small to be divided among its \
+         comparators"
+    )]
     ScaleOutOfRange(f64),
 }
-
-impl fmt::Display for CountingError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match *self {
-            Self::NoIds => write!(f, "the total number of ids is 0; it must be at least 1"),
-            Self::MoreGoodThanTotal { good, total } => {
-                write!(
-                    f,
-                    "{good} good ids out of {total}: there cannot be more good ids than ids"
-                )
-            }
-            Self::AmplitudeOutOfRange(amplitude) => {
-                write!(f, "an amplitude of {amplitude} is not in [0, 1]")
-            }
-            Self::PhaseBitsOutOfRange(bits) => {
-                write!(f, "{bits} phase bits are not in 1..={MAX_PHASE_BITS}")
-            }
-            Self::RepetitionsOutOfRange(count) => {
-                write!(f, "{count} repetitions are not in 1..={MAX_REPETITIONS}")
-            }
-            Self::OutcomeOutOfRange { outcome, largest } => write!(
-                f,
-                "outcome {outcome} is beyond T/2 = {largest}; outcomes y and T - y are folded \
-                 onto 0..={largest}"
-            ),
-            Self::NoOutcomes => write!(f, "no outcome to infer anything from"),
-            Self::ImpossibleOutcomes => {
-                write!(f, "no number of good ids could have given these outcomes")
-            }
-            Self::TooManyIds { total, most } => {
-                write!(
-                    f,
-                    "{total} ids are too many to go through one by one; at most {most}"
-                )
-            }
-            Self::ComparatorBitsOutOfRange(bits) => {
-                write!(f, "{bits} comparator bits are not in 0..=30")
-            }
-            Self::ScaleOutOfRange(scale) => write!(
-                f,
-                "a colour scale of {scale} is negative, not finite, or too small to be divided \
-                 among its comparators"
-            ),
-        }
-    }
-}
-
-impl std::error::Error for CountingError {}

@@ -24,6 +24,11 @@ pub struct Problem {
     pub total: u64,
 }
 
+/// Qubits of an id among `total`, which is at least 1.
+pub(super) fn id_bits(total: u64) -> u32 {
+    u64::BITS - (total - 1).leading_zeros()
+}
+
 /// Queries and shots, up to now.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Spent {
@@ -175,7 +180,7 @@ impl<'a> Device<'a> {
 
     /// The probability that a state survives `queries` and all its id's bits are read rightly.
     fn intact(&self, queries: u64) -> f64 {
-        let bits = u64::BITS - (self.problem.total - 1).leading_zeros();
+        let bits = id_bits(self.problem.total);
         self.noise.intact(queries) * self.noise.read_rightly(bits)
     }
 

@@ -42,7 +42,7 @@ pub use bayes::{AdaptiveBayes, RandomDepth};
 pub use device::{Device, MAX_ITERATIONS, Problem, Spent};
 pub use error::EstimatorError;
 pub use exact::Exact;
-pub use iterative::{Chebyshev, Iqae, Miqae};
+pub use iterative::Iterative;
 pub use mlae::Mlae;
 pub use monte_carlo::MonteCarlo;
 pub use noise::{Noise, NoiseError};
@@ -107,17 +107,16 @@ pub fn estimator(
     settings.check()?;
     Ok(match name {
         Estimator::Exact => Box::new(Exact),
-        Estimator::Paper => Box::new(WindowedCounting::paper(settings)?),
+        Estimator::Paper | Estimator::Sine => Box::new(WindowedCounting::new(name, settings)?),
         Estimator::PosteriorMean => Box::new(PosteriorMean::new(settings)?),
-        Estimator::Sine => Box::new(WindowedCounting::sine(settings)?),
         Estimator::AdaptiveBayes => Box::new(AdaptiveBayes::new(settings)?),
         Estimator::RandomDepth => Box::new(RandomDepth::new(settings)?),
         Estimator::Mlae => Box::new(Mlae::new(settings)),
-        Estimator::Iqae => Box::new(Iqae::new(settings)),
-        Estimator::Miqae => Box::new(Miqae::new(settings)),
-        Estimator::Chebyshev => Box::new(Chebyshev::new(settings)),
+        Estimator::Iqae => Box::new(Iterative::iqae(settings)),
+        Estimator::Miqae => Box::new(Iterative::miqae(settings)),
+        Estimator::Chebyshev => Box::new(Iterative::chebyshev(settings)),
         Estimator::MonteCarlo => Box::new(MonteCarlo::new(settings)),
-        Estimator::Qss => Box::new(Supersampling::new(settings)),
+        Estimator::Qss => Box::new(Supersampling::new(settings)?),
         Estimator::Qcoin => Box::new(QuantumCoin::new(settings)),
         Estimator::AbramsWilliams => Box::new(AbramsWilliams::new(settings)),
     })

@@ -1,6 +1,7 @@
 //! Noise of a device.
 
 use super::EstimatorError;
+use super::device::id_bits;
 use std::fmt;
 use std::str::FromStr;
 
@@ -48,8 +49,7 @@ impl Noise {
     /// The probability that a shot of the shifted circuit among `total` ids survives `queries`, and
     /// that its ids and its coin are read rightly.
     pub fn coin_intact(&self, queries: u64, total: u64) -> f64 {
-        let bits = u64::BITS - (total - 1).leading_zeros();
-        self.intact(queries) * self.read_rightly(bits + 1)
+        self.intact(queries) * self.read_rightly(id_bits(total) + 1)
     }
 
     /// The probability that `bits` are all read rightly.
@@ -81,20 +81,9 @@ impl fmt::Display for Noise {
 }
 
 /// What is not [`Noise`] as it is written on the command line.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{0}; noise is written as `depolarising=1e-4,readout=0.01`, with probabilities in 0..=1")]
 pub struct NoiseError(String);
-
-impl fmt::Display for NoiseError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "{}; noise is written as `depolarising=1e-4,readout=0.01`, with probabilities in 0..=1",
-            self.0
-        )
-    }
-}
-
-impl std::error::Error for NoiseError {}
 
 impl FromStr for Noise {
     type Err = NoiseError;

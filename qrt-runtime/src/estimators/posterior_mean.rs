@@ -3,7 +3,7 @@
 use super::interval::credible_content;
 use super::{AmplitudeEstimator, Device, Estimate, EstimatorError, Settings, WindowedCounting};
 use crate::counting::posterior_mean;
-use qrt_core::scene::Window;
+use qrt_core::scene::Estimator;
 
 /// `posterior-mean`: the data of `paper`, B runs of the counting circuit with the window of the
 /// scene, and the mean of S/N under a prior uniform over S in `0 ..= N`: of all estimates, the one
@@ -16,51 +16,33 @@ use qrt_core::scene::Window;
 /// Takes B (T - 1) queries, whatever `queries` says; known noise plays no part in its likelihood.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PosteriorMean {
-    /// t, of T = 2^t.
-    pub phase_bits: u32,
-    /// B.
-    pub repetitions: u32,
-    /// The window of the counting register.
-    pub window: Window,
-    /// The interval's.
-    pub confidence: f64,
+    counting: WindowedCounting,
 }
 
 impl PosteriorMean {
     /// # Errors
     /// A setting out of range.
     pub fn new(settings: &Settings) -> Result<Self, EstimatorError> {
-        settings.check()?;
-        Ok(Self {
-            phase_bits: settings.phase_bits,
-            repetitions: settings.repetitions,
-            window: settings.window,
-            confidence: settings.confidence,
-        })
+        let counting = WindowedCounting::new(Estimator::PosteriorMean, settings)?;
+        Ok(Self { counting })
     }
 }
 
 impl AmplitudeEstimator for PosteriorMean {
     fn estimate(&self, device: &mut Device<'_>) -> Result<Estimate, EstimatorError> {
         let start = device.spent();
-        let outcomes = device.phases(self.phase_bits, self.window, self.repetitions)?;
-        let total = device.total();
-        let found = posterior_mean(
-            &outcomes,
-            total,
-            self.phase_bits,
-            self.window,
-            credible_content(self.confidence),
-        )?;
-        let medians = WindowedCounting {
-            phase_bits: self.phase_bits,
-            repetitions: self.repetitions,
-            window: self.window,
-            confidence: self.confidence,
-        }
-        .medians_interval(&outcomes);
+        let outcomes = self.counting.outcomes(device)?;
+        let WindowedCounting {
+            phase_bits,
+            window,
+            confidence,
+            ..
+        } = self.counting;
+        let content = credible_content(confidence);
+        let found = posterior_mean(&outcomes, device.total(), phase_bits, window, content)?;
+        let medians = self.counting.medians_interval(&outcomes);
         let (low, high) = found.interval;
         let interval = (low.min(medians.0), high.max(medians.1));
-        Ok(device.estimate(start, found.mean, interval, self.confidence))
+        Ok(device.estimate(start, found.mean, interval, confidence))
     }
 }

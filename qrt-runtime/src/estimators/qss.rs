@@ -1,10 +1,11 @@
 //! `qss`: quantum supersampling.
 
-use std::sync::{Arc, Mutex, PoisonError};
-
-use super::{AmplitudeEstimator, Device, Estimate, EstimatorError, Noise, Settings};
+use super::{
+    AmplitudeEstimator, Device, Estimate, EstimatorError, Noise, Settings, WindowedCounting,
+};
 use crate::counting::LookupTable;
-use qrt_core::scene::Window;
+use qrt_core::scene::Estimator;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// Tables that one estimator keeps.
 const TABLES: usize = 8;
@@ -24,22 +25,18 @@ const TABLES: usize = 8;
 /// intervals are wide.
 #[derive(Debug)]
 pub struct Supersampling {
-    phase_bits: u32,
-    repetitions: u32,
-    confidence: f64,
+    counting: WindowedCounting,
     known_noise: Noise,
     tables: Mutex<Vec<Arc<LookupTable>>>,
 }
 
 impl Supersampling {
-    pub(super) fn new(settings: &Settings) -> Self {
-        Self {
-            phase_bits: settings.phase_bits,
-            repetitions: settings.repetitions,
-            confidence: settings.confidence,
+    pub(super) fn new(settings: &Settings) -> Result<Self, EstimatorError> {
+        Ok(Self {
+            counting: WindowedCounting::new(Estimator::Qss, settings)?,
             known_noise: settings.known_noise,
             tables: Mutex::default(),
-        }
+        })
     }
 
     /// The table for N ids, made when it is first wanted.
@@ -51,10 +48,10 @@ impl Supersampling {
         if let Some(table) = tables.iter().find(|table| table.total() == total) {
             return Ok(table.clone());
         }
-        let depth = (1 << self.phase_bits) - 1;
+        let bits = self.counting.phase_bits;
         let noise = self.known_noise;
-        let intact = noise.intact(depth) * noise.read_rightly(self.phase_bits);
-        let table = LookupTable::new(total, self.phase_bits, self.confidence, intact)?;
+        let intact = noise.intact((1 << bits) - 1) * noise.read_rightly(bits);
+        let table = LookupTable::new(total, bits, self.counting.confidence, intact)?;
         let table = Arc::new(table);
         if tables.len() == TABLES {
             tables.remove(0);
@@ -69,14 +66,14 @@ impl AmplitudeEstimator for Supersampling {
         let start = device.spent();
         let total = device.total();
         let table = self.table(total)?;
-        let mut readings = device.phases(self.phase_bits, Window::Rect, self.repetitions)?;
+        let mut readings = self.counting.outcomes(device)?;
         readings.sort_unstable();
         let column = table.column(readings[(readings.len() - 1) / 2])?;
         let amplitude = column.good as f64 / total as f64;
         Ok(Estimate {
             good: Some(column.good),
-            ln_likelihood: (self.repetitions == 1).then_some(column.ln_likelihood),
-            ..device.estimate(start, amplitude, column.interval, self.confidence)
+            ln_likelihood: (self.counting.repetitions == 1).then_some(column.ln_likelihood),
+            ..device.estimate(start, amplitude, column.interval, self.counting.confidence)
         })
     }
 }

@@ -54,7 +54,7 @@ impl QuantumCoin {
         }
     }
 
-    /// L.
+    /// L, the tosses of a step.
     pub fn tosses(&self) -> u64 {
         self.tosses
     }

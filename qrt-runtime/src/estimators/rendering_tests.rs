@@ -186,7 +186,7 @@ fn supersampling_looks_up_what_is_likeliest() {
 #[test]
 fn supersampling_covers_least_between_its_readings() {
     let (total, bits) = (1_u64 << 40, 8);
-    let supersampling = super::Supersampling::new(&settings(bits));
+    let supersampling = super::Supersampling::new(&settings(bits)).unwrap();
     let table = supersampling.table(total).unwrap();
     let covered = |steps: f64| {
         let amplitude = libm::sin(std::f64::consts::PI * steps / 256.0).powi(2);

@@ -3,7 +3,7 @@
 use super::interval::median_steps;
 use super::{AmplitudeEstimator, Device, Estimate, EstimatorError, Settings};
 use crate::counting::maximum_likelihood;
-use qrt_core::scene::Window;
+use qrt_core::scene::{Estimator, Window};
 use std::f64::consts::PI;
 
 /// Repeated quantum counting, and the likeliest S: `paper` with the rectangular window, `sine`
@@ -17,9 +17,9 @@ use std::f64::consts::PI;
 /// 95 %; with B = 3 it is 1.0. Where the likeliest S lies outside, the interval is extended to it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WindowedCounting {
-    /// t, of T = 2^t.
+    /// t, of T = 2^t, in `1..=40`.
     pub phase_bits: u32,
-    /// B.
+    /// B, the runs of the circuit, in `1..=1000000`.
     pub repetitions: u32,
     /// The window of the counting register.
     pub window: Window,
@@ -28,30 +28,24 @@ pub struct WindowedCounting {
 }
 
 impl WindowedCounting {
-    /// The paper's.
+    /// The counting circuit of an estimator with a counting register: `paper`, `sine`,
+    /// `posterior-mean` or `qss`.
     ///
     /// # Errors
-    /// A register or repetitions out of range.
-    pub fn paper(settings: &Settings) -> Result<Self, EstimatorError> {
-        Self::with(settings, Window::Rect)
-    }
-
-    /// With the sine window.
-    ///
-    /// # Errors
-    /// A register or repetitions out of range.
-    pub fn sine(settings: &Settings) -> Result<Self, EstimatorError> {
-        Self::with(settings, Window::Sine)
-    }
-
-    fn with(settings: &Settings, window: Window) -> Result<Self, EstimatorError> {
+    /// A setting out of range.
+    pub fn new(name: Estimator, settings: &Settings) -> Result<Self, EstimatorError> {
         settings.check()?;
         Ok(Self {
             phase_bits: settings.phase_bits,
             repetitions: settings.repetitions,
-            window,
+            window: name.register_window(settings.window),
             confidence: settings.confidence,
         })
+    }
+
+    /// Runs the circuit B times.
+    pub(super) fn outcomes(&self, device: &mut Device<'_>) -> Result<Vec<u64>, EstimatorError> {
+        device.phases(self.phase_bits, self.window, self.repetitions)
     }
 
     /// What `outcomes` say about the good ids among `total`; [`Self::repetitions`] plays no part.
@@ -98,7 +92,7 @@ impl WindowedCounting {
 
 impl AmplitudeEstimator for WindowedCounting {
     fn estimate(&self, device: &mut Device<'_>) -> Result<Estimate, EstimatorError> {
-        let outcomes = device.phases(self.phase_bits, self.window, self.repetitions)?;
+        let outcomes = self.outcomes(device)?;
         self.infer(&outcomes, device.total())
     }
 }

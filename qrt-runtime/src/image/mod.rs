@@ -17,8 +17,8 @@ pub use metadata::Metadata;
 pub use png_file::read_png_metadata;
 
 use crate::replace_file::replace_file;
+use std::io;
 use std::path::{Path, PathBuf};
-use std::{fmt, io};
 
 /// Linear RGB (sRGB primaries), row by row from the top, each row from the left.
 #[derive(Clone, Debug, PartialEq)]
@@ -167,22 +167,35 @@ fn channel_name(channel: usize) -> &'static str {
 }
 
 /// Why a picture can't be written or read.
-#[derive(Debug)]
+#[derive(Debug, thiserror::Error)]
 #[allow(missing_docs)]
 pub enum ImageError {
     /// Neither `.png` nor `.exr`.
+    #[error(
+        "`{}` does not say which kind of picture it is: end its name in `.png` or `.exr`",
+        .path.display()
+    )]
     Extension { path: PathBuf },
     /// Not a number of stops between -1,000 and 1,000.
+    #[error("an exposure of {exposure} stops; it must lie between -1000 and 1000")]
     Exposure { exposure: f64 },
     /// EXR is linear.
+    #[error(
+        "an EXR picture keeps linear radiance and has no exposure: leave it out, or write a `.png`"
+    )]
     ExposureOfExr,
     /// A side of 0 or too long, or pixels that don't fill it.
+    #[error("a picture of {width} x {height} cannot be made of {pixels} pixels")]
     Shape {
         width: u32,
         height: u32,
         pixels: usize,
     },
     /// NaN or infinite.
+    #[error(
+        "pixel ({x}, {y}), channel {}, is {value}, which is no radiance",
+        channel_name(*.channel)
+    )]
     NotFinite {
         x: u32,
         y: u32,
@@ -190,6 +203,10 @@ pub enum ImageError {
         value: f64,
     },
     /// Beyond a 32-bit float.
+    #[error(
+        "pixel ({x}, {y}), channel {}, is {value:e}: EXR's 32-bit floats end at {:e}",
+        channel_name(*.channel), f32::MAX
+    )]
     TooLarge {
         x: u32,
         y: u32,
@@ -197,86 +214,15 @@ pub enum ImageError {
         value: f64,
     },
     /// Not a key of metadata.
+    #[error("`{key}` is no key of metadata: 1 to 27 ASCII letters, digits, `_` or `-`")]
     Key { key: String },
     /// Not a value of metadata.
+    #[error("the value of `{key}` contains a NUL or is larger than 2 GiB")]
     Value { key: String },
     /// The file system refused.
+    #[error("`{}`: {source}", .path.display())]
     Io { path: PathBuf, source: io::Error },
     /// Not a file that can be read as a picture.
+    #[error("`{}`: {reason}", .path.display())]
     Decode { path: PathBuf, reason: String },
-}
-
-impl fmt::Display for ImageError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Extension { path } => write!(
-                f,
-                "`{}` does not say which kind of picture it is: end its name in `.png` or `.exr`",
-                path.display()
-            ),
-            Self::Exposure { exposure } => {
-                write!(
-                    f,
-                    "an exposure of {exposure} stops; it must lie between -1000 and 1000"
-                )
-            }
-            Self::ExposureOfExr => write!(
-                f,
-                "an EXR picture keeps linear radiance and has no exposure: leave it out, or write \
-                 a `.png`"
-            ),
-            Self::Shape {
-                width,
-                height,
-                pixels,
-            } => {
-                write!(
-                    f,
-                    "a picture of {width} x {height} cannot be made of {pixels} pixels"
-                )
-            }
-            Self::NotFinite {
-                x,
-                y,
-                channel,
-                value,
-            } => write!(
-                f,
-                "pixel ({x}, {y}), channel {}, is {value}, which is no radiance",
-                channel_name(*channel)
-            ),
-            Self::TooLarge {
-                x,
-                y,
-                channel,
-                value,
-            } => write!(
-                f,
-                "pixel ({x}, {y}), channel {}, is {value:e}: EXR's 32-bit floats end at {:e}",
-                channel_name(*channel),
-                f32::MAX
-            ),
-            Self::Key { key } => write!(
-                f,
-                "`{key}` is no key of metadata: 1 to 27 ASCII letters, digits, `_` or `-`"
-            ),
-            Self::Value { key } => {
-                write!(
-                    f,
-                    "the value of `{key}` contains a NUL or is larger than 2 GiB"
-                )
-            }
-            Self::Io { path, source } => write!(f, "`{}`: {source}", path.display()),
-            Self::Decode { path, reason } => write!(f, "`{}`: {reason}", path.display()),
-        }
-    }
-}
-
-impl std::error::Error for ImageError {
-    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
-        match self {
-            Self::Io { source, .. } => Some(source),
-            _ => None,
-        }
-    }
 }

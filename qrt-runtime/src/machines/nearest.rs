@@ -6,12 +6,13 @@
 
 use super::fixed::{self, Fixed};
 use super::gates::{Gates, Rows};
-use super::oracle::Defect;
+use super::oracle::{Defect, check, name, qubits};
+use super::pool::Pool;
 use super::span::Span;
 use qrt_circuit::{Circuit, Operand, Qubit, RegisterId, Word, lower};
 use qrt_core::oracle::NearestOracle;
 use std::ops::Range;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 /// A face that a ray meets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -42,7 +43,7 @@ pub struct Answers {
 }
 
 impl Answers {
-    /// By basis state of ray number `ray`: is its sign turned?
+    /// By basis state of ray number `ray`: whether its phase is flipped.
     pub fn marks(&self, ray: usize) -> &[bool] {
         &self.marks[ray * self.states..][..self.states]
     }
@@ -63,20 +64,24 @@ pub struct NearestMachine {
 enum Machine {
     Fixed {
         fixed: Box<Fixed>,
-        lanes: Mutex<Vec<fixed::Lanes>>,
+        lanes: Pool<fixed::Lanes>,
     },
-    Gates {
-        gates: Box<Gates>,
-        rows: Mutex<Vec<Rows>>,
-        inputs: [Vec<Qubit>; 4],
-        distance: Vec<Qubit>,
-        compute: Box<Circuit>,
-    },
+    Gates(Box<GatesCircuit>),
+}
+
+/// Compute, flip and uncompute, gate by gate, and where compute puts what.
+struct GatesCircuit {
+    gates: Gates,
+    rows: Pool<Rows>,
+    /// By input, as in [`RayBlock::inputs`].
+    inputs: [Vec<Qubit>; 4],
+    distance: Vec<Qubit>,
+    compute: Circuit,
 }
 
 /// Basis states, a lane each.
 #[derive(Default)]
-struct Block {
+struct RayBlock {
     /// By input: id, primitive, and the nearest so far.
     inputs: [Vec<u64>; 4],
     /// Lanes in turn that belong to one ray: whose, and how many.
@@ -91,7 +96,7 @@ impl NearestMachine {
         Self {
             machine: Machine::Fixed {
                 fixed,
-                lanes: Mutex::new(Vec::new()),
+                lanes: Pool::new(),
             },
             oracle,
             seed,
@@ -122,12 +127,7 @@ impl NearestMachine {
     ) -> Result<Self, Defect> {
         let gates = Gates::new(&parts.iter().collect::<Vec<_>>())?;
         let compute = parts.into_iter().next().unwrap_or_default();
-        let held = |register: RegisterId| {
-            let mut held = compute.outputs.iter();
-            held.find(|(id, _)| *id == register)
-                .map(|(_, qubits)| qubits.clone())
-                .unwrap_or_default()
-        };
+        let held = |register: RegisterId| qubits(&compute, register).to_vec();
         let distance = match oracle.outputs()[0] {
             Some(word) => {
                 held(word.register)[word.offset as usize..][..word.width as usize].to_vec()
@@ -135,13 +135,13 @@ impl NearestMachine {
             None => Vec::new(),
         };
         Ok(Self {
-            machine: Machine::Gates {
-                gates: Box::new(gates),
-                rows: Mutex::new(Vec::new()),
+            machine: Machine::Gates(Box::new(GatesCircuit {
+                gates,
+                rows: Pool::new(),
                 inputs: registers(&oracle).map(held),
                 distance,
-                compute: Box::new(compute),
-            },
+                compute,
+            })),
             oracle,
             seed,
         })
@@ -165,11 +165,11 @@ impl NearestMachine {
         answers.distances.resize(states * asked.len(), 0);
         let most = match &self.machine {
             Machine::Fixed { .. } => Fixed::LANES,
-            Machine::Gates { .. } => Gates::LANES,
+            Machine::Gates(_) => Gates::LANES,
         };
         let mut marks = answers.marks.as_mut_slice();
         let mut distances = answers.distances.as_mut_slice();
-        let mut block = Block::default();
+        let mut block = RayBlock::default();
         for (place, ray) in asked.iter().enumerate() {
             let mut first = 0;
             while first < states {
@@ -189,7 +189,12 @@ impl NearestMachine {
         Ok(())
     }
 
-    fn run(&self, block: &Block, marks: &mut [bool], distances: &mut [i64]) -> Result<(), Defect> {
+    fn run(
+        &self,
+        block: &RayBlock,
+        marks: &mut [bool],
+        distances: &mut [i64],
+    ) -> Result<(), Defect> {
         if let Operand::Constant(value) = self.oracle.distance {
             distances.fill(value);
         }
@@ -200,8 +205,6 @@ impl NearestMachine {
         let [distance, nearer] = self.oracle.outputs();
         match &self.machine {
             Machine::Fixed { fixed, lanes } => {
-                let own = lanes.lock().unwrap_or_else(PoisonError::into_inner).pop();
-                let mut own = own.unwrap_or_else(|| fixed.lanes());
                 let mut bits = vec![0; marks.len()];
                 let mut wanted: Vec<&mut [i64]> = Vec::new();
                 if distance.is_some() {
@@ -211,58 +214,46 @@ impl NearestMachine {
                     wanted.push(&mut bits);
                 }
                 let inputs = block.inputs.each_ref().map(Vec::as_slice);
-                fixed.run(&mut own, &inputs, &spans, &mut wanted);
+                lanes.lend(
+                    || fixed.lanes(),
+                    |own| {
+                        fixed.run(own, &inputs, &spans, &mut wanted);
+                        Ok::<(), Defect>(())
+                    },
+                )?;
                 let turned = self.oracle.nearer.is_some_and(|bit| bit.inverted);
                 for (mark, bit) in marks.iter_mut().zip(&bits) {
                     *mark = (*bit == 1) != turned;
                 }
-                lanes
-                    .lock()
-                    .unwrap_or_else(PoisonError::into_inner)
-                    .push(own);
                 Ok(())
             }
-            Machine::Gates { rows, gates, .. } => {
-                let own = rows.lock().unwrap_or_else(PoisonError::into_inner).pop();
-                let mut own = own.unwrap_or_else(|| gates.rows());
-                self.through_gates(&mut own, block, &spans, marks, distances)?;
-                // Rows that are not as they must be are not used again.
-                rows.lock()
-                    .unwrap_or_else(PoisonError::into_inner)
-                    .push(own);
-                Ok(())
-            }
+            Machine::Gates(circuit) => circuit.rows.lend(
+                || circuit.gates.rows(),
+                |rows| self.through_gates(circuit, rows, block, &spans, marks, distances),
+            ),
         }
     }
 
     fn through_gates(
         &self,
+        circuit: &GatesCircuit,
         rows: &mut Rows,
-        block: &Block,
+        block: &RayBlock,
         spans: &[Span<'_>],
         marks: &mut [bool],
         distances: &mut [i64],
     ) -> Result<(), Defect> {
-        let Machine::Gates {
-            gates,
-            inputs,
-            distance,
-            compute,
-            ..
-        } = &self.machine
-        else {
-            return Ok(());
-        };
-        let count = block.lanes();
+        let gates = &circuit.gates;
         rows.clear();
-        for (qubits, contents) in inputs.iter().zip(&block.inputs) {
+        let inputs = [0, 1, 2, 3].map(|k| (&circuit.inputs[k][..], &block.inputs[k][..]));
+        for (qubits, contents) in inputs {
             rows.set(qubits, contents);
         }
         rows.set_parameters(spans);
         gates.run(0, rows);
-        let mut bits = vec![0; count];
         if let [Some(word), _] = self.oracle.outputs() {
-            rows.get(distance, &mut bits);
+            let mut bits = vec![0; block.lanes()];
+            rows.get(&circuit.distance, &mut bits);
             let alone = Word { offset: 0, ..word };
             for (distance, bits) in distances.iter_mut().zip(&bits) {
                 *distance = alone.read(*bits);
@@ -273,30 +264,13 @@ impl NearestMachine {
         for (lane, mark) in marks.iter_mut().enumerate() {
             *mark = rows.signs()[lane / 64] >> (lane % 64) & 1 == 1;
         }
-        let held: Vec<Qubit> = inputs.iter().flatten().copied().collect();
-        if let Some(dirty) = rows.dirty(&held, count) {
-            let ray = block.ray(dirty.lane);
-            let mut names = compute.outputs.iter();
-            let register = names.find(|(_, qubits)| qubits.contains(&dirty.qubit));
-            let program = &self.oracle.program;
-            return Err(Defect::Dirty {
-                dirty,
-                pixel: ray.pixel,
-                id: ray.id,
-                register: register.map_or_else(
-                    || "an ancilla".to_owned(),
-                    |(id, _)| program.registers[id.index()].name.clone(),
-                ),
-            });
-        }
-        for (qubits, contents) in inputs.iter().zip(&block.inputs) {
-            rows.get(qubits, &mut bits);
-            if let Some(lane) = bits.iter().zip(contents).position(|(is, was)| is != was) {
-                let Asked { pixel, id, .. } = block.ray(lane);
-                return Err(Defect::Id { pixel, id });
-            }
-        }
-        Ok(())
+        let path = |lane| {
+            let Asked { pixel, id, .. } = block.ray(lane);
+            (pixel, id)
+        };
+        check(rows, &inputs, path, |qubit| {
+            name(&circuit.compute, &self.oracle.program, qubit)
+        })
     }
 
     /// The classical words of a ray's pixel.
@@ -305,7 +279,7 @@ impl NearestMachine {
     }
 }
 
-impl Block {
+impl RayBlock {
     fn lanes(&self) -> usize {
         self.inputs[0].len()
     }

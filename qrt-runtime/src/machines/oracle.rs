@@ -17,18 +17,21 @@ mod through_gates;
 
 pub use defect::Defect;
 pub use first_hits::{FirstHits, PathRun};
-pub use parts::Parts;
+pub use parts::OracleCircuits;
+pub(super) use parts::{name, qubits};
+pub(super) use through_gates::check;
 
 use super::fixed::{self, Fixed};
 use super::gates::{Gates, Rows};
 use super::instructions::InstructionSet;
 use super::native;
 use super::native::NativeOracle;
+use super::pool::Pool;
 use super::span::Span;
 use qrt_circuit::{Operand, Word};
 use qrt_core::oracle::{Channel, LUMINANCE_CHANNEL, Oracle};
 use std::ops::Range;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 /// An oracle of all three channels on a machine.
 pub struct OracleMachine {
@@ -44,7 +47,7 @@ pub struct OracleMachine {
 enum Machine {
     Fixed {
         fixed: Box<Fixed>,
-        lanes: Mutex<Vec<fixed::Lanes>>,
+        lanes: Pool<fixed::Lanes>,
     },
     Native {
         run: fn(InstructionSet, &[native::Run<'_>], &mut [Vec<i64>]),
@@ -52,8 +55,8 @@ enum Machine {
     },
     Gates {
         gates: Box<Gates>,
-        rows: Mutex<Vec<Rows>>,
-        parts: Box<Parts>,
+        rows: Pool<Rows>,
+        parts: Box<OracleCircuits>,
     },
 }
 
@@ -92,8 +95,12 @@ impl OracleMachine {
         let fixed = Fixed::new(&oracle.program, &words).with_instructions(instructions);
         let machine = Machine::Fixed {
             fixed: Box::new(fixed),
-            lanes: Mutex::new(Vec::new()),
+            lanes: Pool::new(),
         };
+        Self::of(oracle, seed, outputs, machine)
+    }
+
+    fn of(oracle: Arc<Oracle>, seed: u64, outputs: Vec<Operand>, machine: Machine) -> Self {
         Self {
             oracle,
             seed,
@@ -128,13 +135,7 @@ impl OracleMachine {
             run: native::run::<C>,
             instructions,
         };
-        Self {
-            oracle,
-            seed,
-            first_hits: None,
-            outputs,
-            machine,
-        }
+        Self::of(oracle, seed, outputs, machine)
     }
 
     /// The gates machine. The block between compute and uncompute is tried here, for every colour
@@ -143,7 +144,7 @@ impl OracleMachine {
     /// # Errors
     /// If that block is wrong.
     pub fn gates(oracle: Arc<Oracle>, seed: u64, colours: bool) -> Result<Self, Defect> {
-        let parts = Parts::new(&oracle);
+        let parts = OracleCircuits::new(&oracle);
         Self::of_parts(oracle, parts, seed, colours)
     }
 
@@ -153,7 +154,7 @@ impl OracleMachine {
     /// As [`OracleMachine::gates`].
     pub fn of_parts(
         oracle: Arc<Oracle>,
-        parts: Parts,
+        parts: OracleCircuits,
         seed: u64,
         colours: bool,
     ) -> Result<Self, Defect> {
@@ -163,17 +164,12 @@ impl OracleMachine {
         let gates = Box::new(Gates::new(&circuits)?);
         flips::try_all(&oracle, &parts)?;
         let outputs = outputs(&oracle, colours);
-        Ok(Self {
-            machine: Machine::Gates {
-                gates,
-                rows: Mutex::new(Vec::new()),
-                parts: Box::new(parts),
-            },
-            oracle,
-            seed,
-            first_hits: None,
-            outputs,
-        })
+        let machine = Machine::Gates {
+            gates,
+            rows: Pool::new(),
+            parts: Box::new(parts),
+        };
+        Ok(Self::of(oracle, seed, outputs, machine))
     }
 
     /// With what finds the first hits, if they are inputs of the oracle.
@@ -188,7 +184,7 @@ impl OracleMachine {
     }
 
     /// The parts of the circuit, if this is the gates machine.
-    pub fn parts(&self) -> Option<&Parts> {
+    pub fn parts(&self) -> Option<&OracleCircuits> {
         match &self.machine {
             Machine::Gates { parts, .. } => Some(parts),
             Machine::Fixed { .. } | Machine::Native { .. } => None,
@@ -216,7 +212,7 @@ impl OracleMachine {
             Machine::Fixed { .. } | Machine::Native { .. } => Fixed::LANES,
             Machine::Gates { .. } => Gates::LANES,
         };
-        let mut block = Block {
+        let mut block = OracleBlock {
             ids: Vec::with_capacity(most),
             runs: Vec::new(),
             hits: Vec::new(),
@@ -227,7 +223,7 @@ impl OracleMachine {
             let mut first = ids.start;
             while first < ids.end {
                 let count = (ids.end - first).min((most - block.ids.len()) as u64);
-                block.runs.push(Run {
+                block.runs.push(PixelRun {
                     pixel,
                     paths: PathRun {
                         pixel: place,
@@ -261,7 +257,7 @@ impl OracleMachine {
         there.then(|| self.outputs.len() - 1)
     }
 
-    fn hand_over(&self, block: &Block, finished: &mut impl FnMut(Finished<'_>)) {
+    fn hand_over(&self, block: &OracleBlock, finished: &mut impl FnMut(Finished<'_>)) {
         let luminance = self.luminance();
         let colours = self.outputs.len() - usize::from(luminance.is_some()) > 3;
         let mut start = 0;
@@ -281,16 +277,8 @@ impl OracleMachine {
         }
     }
 
-    fn run(&self, block: &mut Block, parameters: &[Vec<u64>]) -> Result<(), Defect> {
-        let count = block.ids.len();
-        block.queries.clear();
-        block.queries.resize(block.runs.len(), 0);
-        if self.oracle.nearest.is_some() {
-            let runs: Vec<PathRun> = block.runs.iter().map(|run| run.paths).collect();
-            let first_hits = self.first_hits.as_ref().ok_or(Defect::FirstHits)?;
-            block.hits.resize(count, 0);
-            first_hits.find(&runs, &mut block.hits, &mut block.queries)?;
-        }
+    fn run(&self, block: &mut OracleBlock, parameters: &[Vec<u64>]) -> Result<(), Defect> {
+        self.find_first_hits(block)?;
         let spans: Vec<Span<'_>> = block
             .runs
             .iter()
@@ -301,16 +289,10 @@ impl OracleMachine {
             .collect();
         match &self.machine {
             Machine::Fixed { fixed, lanes } => {
-                let mut own = take(lanes).unwrap_or_else(|| fixed.lanes());
-                let zeros = vec![0; count];
-                let wanted = self.outputs.iter().zip(&mut block.values);
-                let wanted = wanted.filter(|(output, _)| word_of(**output).is_some());
-                let mut wanted: Vec<&mut [i64]> =
-                    wanted.map(|(_, values)| &mut values[..count]).collect();
-                let inputs = [&block.ids, &zeros, &block.hits].map(Vec::as_slice);
-                let inputs = &inputs[..2 + usize::from(self.oracle.nearest.is_some())];
-                fixed.run(&mut own, inputs, &spans, &mut wanted);
-                put_back(lanes, own);
+                lanes.lend(
+                    || fixed.lanes(),
+                    |own| self.run_fixed(fixed, own, block, &spans),
+                )?;
             }
             Machine::Native { run, instructions } => {
                 let runs = block.runs.iter().map(|run| native::Run {
@@ -321,14 +303,49 @@ impl OracleMachine {
                 let runs: Vec<_> = runs.collect();
                 run(*instructions, &runs, &mut block.values);
             }
-            Machine::Gates { gates, rows, parts } => {
-                let mut own = take(rows).unwrap_or_else(|| gates.rows());
-                let done = self.run_gates(gates, parts, &mut own, block, &spans);
-                // Rows that are not as they must be are not used again.
-                done?;
-                put_back(rows, own);
-            }
+            Machine::Gates { gates, rows, parts } => rows.lend(
+                || gates.rows(),
+                |own| self.run_gates(gates, parts, own, block, &spans),
+            )?,
         }
+        self.complete(block);
+        Ok(())
+    }
+
+    /// Finds the paths' first hits, where they are inputs of the oracle.
+    fn find_first_hits(&self, block: &mut OracleBlock) -> Result<(), Defect> {
+        block.queries.clear();
+        block.queries.resize(block.runs.len(), 0);
+        if self.oracle.nearest.is_none() {
+            return Ok(());
+        }
+        let runs: Vec<PathRun> = block.runs.iter().map(|run| run.paths).collect();
+        let first_hits = self.first_hits.as_ref().ok_or(Defect::FirstHits)?;
+        block.hits.resize(block.ids.len(), 0);
+        first_hits.find(&runs, &mut block.hits, &mut block.queries)
+    }
+
+    fn run_fixed(
+        &self,
+        fixed: &Fixed,
+        lanes: &mut fixed::Lanes,
+        block: &mut OracleBlock,
+        spans: &[Span<'_>],
+    ) -> Result<(), Defect> {
+        let count = block.ids.len();
+        let zeros = vec![0; count];
+        let wanted = self.outputs.iter().zip(&mut block.values);
+        let wanted = wanted.filter(|(output, _)| word_of(**output).is_some());
+        let mut wanted: Vec<&mut [i64]> = wanted.map(|(_, values)| &mut values[..count]).collect();
+        let inputs = [&block.ids, &zeros, &block.hits].map(Vec::as_slice);
+        let inputs = &inputs[..2 + usize::from(self.oracle.nearest.is_some())];
+        fixed.run(lanes, inputs, spans, &mut wanted);
+        Ok(())
+    }
+
+    /// Adds the outputs that are the same on all paths, and cuts counts to the comparators' number.
+    fn complete(&self, block: &mut OracleBlock) {
+        let count = block.ids.len();
         for (output, values) in self.outputs.iter().zip(&mut block.values) {
             if let Operand::Constant(value) = output {
                 values[..count].fill(*value);
@@ -341,14 +358,13 @@ impl OracleMachine {
                 *value = (*value).clamp(0, most);
             }
         }
-        Ok(())
     }
 }
 
-/// What a thread has at a time.
-struct Block {
+/// Paths that a thread runs at a time, and what is read of them.
+struct OracleBlock {
     ids: Vec<u64>,
-    runs: Vec<Run>,
+    runs: Vec<PixelRun>,
     /// By path: its first hit, if that is an input.
     hits: Vec<u64>,
     /// By run: the queries that these took.
@@ -356,7 +372,7 @@ struct Block {
     values: Vec<Vec<i64>>,
 }
 
-struct Run {
+struct PixelRun {
     /// The pixel's place in the list that was given.
     pixel: usize,
     paths: PathRun,
@@ -377,14 +393,4 @@ fn word_of(operand: Operand) -> Option<Word> {
         Operand::Word(word) => Some(word),
         Operand::Constant(_) => None,
     }
-}
-
-fn take<T>(pool: &Mutex<Vec<T>>) -> Option<T> {
-    pool.lock().unwrap_or_else(PoisonError::into_inner).pop()
-}
-
-fn put_back<T>(pool: &Mutex<Vec<T>>, own: T) {
-    pool.lock()
-        .unwrap_or_else(PoisonError::into_inner)
-        .push(own);
 }

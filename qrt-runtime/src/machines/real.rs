@@ -89,7 +89,7 @@ pub struct PixelSum {
 
 /// A block of finished paths of one pixel: their colours per channel.
 #[derive(Clone, Copy, Debug)]
-pub struct Block<'a> {
+pub struct PathBlock<'a> {
     /// The pixel's place in the list that was asked for.
     pub pixel: usize,
     /// Red, green, blue of each path, in the order of ids.
@@ -161,7 +161,7 @@ impl Real {
 
     /// Traces every path of `pixels` (column, row) and hands over their colours, block by block:
     /// a pixel's blocks come in the order of ids.
-    pub fn trace(&self, pixels: &[[u32; 2]], finished: impl FnMut(Block<'_>)) {
+    pub fn trace(&self, pixels: &[[u32; 2]], finished: impl FnMut(PathBlock<'_>)) {
         self.trace_range(pixels, 0..self.points.paths(), finished);
     }
 
@@ -170,7 +170,7 @@ impl Real {
         &self,
         pixels: &[[u32; 2]],
         ids: std::ops::Range<u64>,
-        mut finished: impl FnMut(Block<'_>),
+        mut finished: impl FnMut(PathBlock<'_>),
     ) {
         let mut inputs = Inputs {
             indices: vec![[0; BLOCK]; self.points.dimensions()],
@@ -199,7 +199,7 @@ impl Real {
                     self.run(&inputs, filled, &mut colours);
                     for (pixel, range) in runs.drain(..) {
                         let colours = [0, 1, 2].map(|c: usize| &colours[c][range.clone()]);
-                        finished(Block { pixel, colours });
+                        finished(PathBlock { pixel, colours });
                     }
                     filled = 0;
                 }
@@ -220,7 +220,7 @@ impl Real {
     }
 
     fn run(&self, inputs: &Inputs, count: usize, colours: &mut [[f64; BLOCK]; 3]) {
-        let block = TraceBlock {
+        let block = TraceTask {
             stage: &self.stage,
             bvh: self.bvh.as_ref(),
             inputs,
@@ -248,7 +248,7 @@ impl Real {
     }
 }
 
-struct TraceBlock<'a> {
+struct TraceTask<'a> {
     stage: &'a Stage<3>,
     bvh: Option<&'a Bvh>,
     inputs: &'a Inputs,
@@ -256,7 +256,7 @@ struct TraceBlock<'a> {
     colours: &'a mut [[f64; BLOCK]; 3],
 }
 
-impl WithSimd for TraceBlock<'_> {
+impl WithSimd for TraceTask<'_> {
     type Output = ();
 
     #[inline(always)]

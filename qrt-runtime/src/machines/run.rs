@@ -23,12 +23,12 @@
 
 use super::{Fixed, Gates, InvalidGate};
 use qrt_circuit::{Contents, Op, Operand, Program, Qubit, RegisterId, Word, lower};
-use std::fmt;
 
 /// Why a program did not run as a routine does.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum RunError {
     /// A state has another number of contents than the program has inputs.
+    #[error("state {state} does not hold {expected} contents, one an input")]
     Inputs {
         /// The state's place.
         state: usize,
@@ -36,6 +36,7 @@ pub enum RunError {
         expected: usize,
     },
     /// A state's content has more bits than its register.
+    #[error("state {state} holds more than fits into `{register}`")]
     TooWide {
         /// The state's place.
         state: usize,
@@ -43,15 +44,19 @@ pub enum RunError {
         register: String,
     },
     /// A program with classical words, which only a scene's pixels decide.
+    #[error("the program has classical words")]
     Parameters,
     /// The lowering made a list of gates that is no circuit: a defect of qrt.
+    #[error(transparent)]
     Gate(InvalidGate),
     /// A register is not given back.
+    #[error("`{register}` is never given back")]
     Kept {
         /// The register's name.
         register: String,
     },
     /// A register is given back that is not zero, or is undone after its operands have changed.
+    #[error("`{register}` is given back, and is not zero from state {state}")]
     Dirty {
         /// The state's place.
         state: usize,
@@ -59,33 +64,6 @@ pub enum RunError {
         register: String,
     },
 }
-
-impl fmt::Display for RunError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Inputs { state, expected } => {
-                write!(
-                    f,
-                    "state {state} does not hold {expected} contents, one an input"
-                )
-            }
-            Self::TooWide { state, register } => {
-                write!(f, "state {state} holds more than fits into `{register}`")
-            }
-            Self::Parameters => f.write_str("the program has classical words"),
-            Self::Gate(gate) => gate.fmt(f),
-            Self::Kept { register } => write!(f, "`{register}` is never given back"),
-            Self::Dirty { state, register } => {
-                write!(
-                    f,
-                    "`{register}` is given back, and is not zero from state {state}"
-                )
-            }
-        }
-    }
-}
-
-impl std::error::Error for RunError {}
 
 /// By the definition of its operations, one state at a time. Whatever is undone is compared with
 /// what its operation computes at that moment.

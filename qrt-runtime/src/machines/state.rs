@@ -5,10 +5,13 @@ use qrt_circuit::{
 };
 use qrt_core::oracle::compiled::CompiledOracle;
 use qrt_core::sampling::SamplingError;
-use std::fmt;
 
 /// A register that was not what it must be when it was undone or given back.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "`{register}` held {held} when it was undone, and not {expected}: something it was computed \
+     from, or itself, was changed"
+)]
 pub struct Unclean {
     /// What it is called.
     pub register: String,
@@ -17,19 +20,6 @@ pub struct Unclean {
     /// What it had to hold, so that the inverse leaves 0.
     pub expected: u64,
 }
-
-impl fmt::Display for Unclean {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "`{}` held {} when it was undone, and not {}: something it was computed from, or itself, \
-             was changed",
-            self.register, self.held, self.expected
-        )
-    }
-}
-
-impl std::error::Error for Unclean {}
 
 /// A machine of one basis state, which shows what registers hold and checks what is undone.
 ///

@@ -7,16 +7,16 @@ use std::fmt;
 
 /// Errors that hold with the asked confidence, in units of the mean radiance.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Parts {
+pub struct ErrorParts {
     /// Of a finite number of paths.
     pub paths: f64,
     /// Of comparing with a finite number of thresholds.
     pub comparators: f64,
     /// Of numbers of finite width.
     pub width: f64,
-    /// Of estimating.
+    /// Of estimating amplitudes from measurements.
     pub counting: f64,
-    /// Of all together.
+    /// Of all of them together, which is no sum of theirs.
     pub total: f64,
 }
 
@@ -25,7 +25,7 @@ pub struct Parts {
 pub struct Figures {
     /// What was asked.
     pub accuracy: Accuracy,
-    /// The picture's mean radiance, as far as it was tried.
+    /// The mean radiance over pixels and channels of the picture, as far as it was tried.
     pub mean: f64,
     /// Pixels that were tried, and those of the film.
     pub pixels: [u64; 2],
@@ -43,12 +43,12 @@ pub struct Figures {
     pub estimator: Estimator,
     /// Chosen: T = 2^phase_bits.
     pub phase_bits: u32,
-    /// Chosen: B.
+    /// Chosen: B, the runs of the counting circuit.
     pub repetitions: u32,
     /// The share of channels that is expected to be within the asked error.
     pub within: f64,
-    /// The errors behind it.
-    pub parts: Parts,
+    /// The errors behind it, in units of the mean radiance.
+    pub parts: ErrorParts,
     /// Queries of a pixel, all channels together, on average.
     pub queries: f64,
     /// One call of the dearest channel's oracle; none where the scene has no circuit.
@@ -79,7 +79,7 @@ impl fmt::Display for Figures {
             ", comparator.bits {}, counting.phase_bits {}, repetitions {}, estimator {}",
             self.comparator_bits, self.phase_bits, self.repetitions, self.estimator
         )?;
-        let Parts {
+        let ErrorParts {
             paths,
             comparators,
             width,

@@ -26,21 +26,21 @@
 //! The seed of a picture plays no part: a scene always gets the same knobs.
 
 mod counted;
+mod error;
 mod figures;
 mod pilot;
 mod search;
 mod together;
 
-pub use figures::{Figures, Parts};
+pub use error::PlanError;
+pub use figures::{ErrorParts, Figures};
 pub use pilot::MOST_TRIED;
 
 use crate::estimators::Noise;
-use crate::render::RenderError;
+use crate::workers::Workers;
 use pilot::Pilot;
 use qrt_core::scene::{Counting, Estimator};
 use qrt_core::valid::ValidScene;
-use std::num::NonZeroUsize;
-use std::sync::atomic::AtomicBool;
 
 /// How to plan. What isn't set follows from the scene.
 #[derive(Clone, Copy, Default)]
@@ -49,10 +49,8 @@ pub struct Options<'a> {
     pub estimator: Option<Estimator>,
     /// Noise of the device that will count.
     pub noise: Noise,
-    /// Threads; as many as the machine has cores unless set.
-    pub threads: Option<NonZeroUsize>,
-    /// Set it, from any thread, to stop.
-    pub cancel: Option<&'a AtomicBool>,
+    /// Who does the work.
+    pub workers: Workers<'a>,
 }
 
 /// A scene with chosen knobs.
@@ -67,17 +65,14 @@ pub struct Plan {
 /// Chooses the knobs of a scene that asks for an accuracy; `None` for one that doesn't.
 ///
 /// # Errors
-/// An accuracy that cannot be reached or shown, and what [`crate::render::render`] refuses.
-pub fn plan(scene: &ValidScene, options: &Options<'_>) -> Result<Option<Plan>, RenderError> {
+/// See [`PlanError`].
+pub fn plan(scene: &ValidScene, options: &Options<'_>) -> Result<Option<Plan>, PlanError> {
     let Some(accuracy) = scene.scene().accuracy else {
         return Ok(None);
     };
     let estimator = options.estimator.unwrap_or(Counting::default().estimator);
-    let threads = options.threads.map_or(0, NonZeroUsize::get);
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-    let pool = pool.map_err(|error| RenderError::Threads(error.to_string()))?;
-    pool.install(|| {
+    options.workers.run(|| {
         let pilot = Pilot::new(scene, accuracy, estimator, options)?;
         search::search(pilot).map(Some)
-    })
+    })?
 }

@@ -1,11 +1,11 @@
 //! The errors of a sample of pixels, part by part.
 
-use super::Options;
-use crate::counting::Comparators;
+use super::{Options, PlanError};
+use crate::counting::{Comparators, CountingError};
 use crate::estimators::Noise;
 use crate::machines::{OracleMachine, Real};
-use crate::render::RenderError;
 use crate::sample::{Means, counted_tallies, prefix_means, radiance, spread, tallies};
+use crate::workers::Workers;
 use qrt_core::oracle::{Oracle, Spent, spent};
 use qrt_core::sampling::MAX_PATH_BITS;
 use qrt_core::scene::{Accuracy, Comparator, Estimator, Sequence};
@@ -13,7 +13,6 @@ use qrt_core::valid::{Knobs, ValidScene};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::sync::Mutex;
-use std::sync::atomic::AtomicBool;
 
 /// Path bits beyond which errors are extrapolated.
 pub const MOST_TRIED: u32 = 18;
@@ -60,7 +59,7 @@ pub(super) struct Pilot<'a> {
     /// alone keep the asked error, and so [`Self::values`] do: what more paths change of them hardly
     /// changes this.
     pub(super) counted: Mutex<BTreeMap<(u32, u32), Runs>>,
-    cancel: Option<&'a AtomicBool>,
+    workers: Workers<'a>,
 }
 
 impl<'a> Pilot<'a> {
@@ -69,7 +68,7 @@ impl<'a> Pilot<'a> {
         accuracy: Accuracy,
         estimator: Estimator,
         options: &Options<'a>,
-    ) -> Result<Self, RenderError> {
+    ) -> Result<Self, PlanError> {
         let film = [scene.scene().film.width, scene.scene().film.height];
         let failing = 1.0 - accuracy.confidence;
         let pixels = spread(film, (12.0 / failing).clamp(256.0, 4096.0) as u64);
@@ -83,12 +82,12 @@ impl<'a> Pilot<'a> {
                 pixels.len()
             )));
         }
-        let cancel = options.cancel;
-        let bound = real(&of_bits(scene, MEAN.1)?, 0)?.stage().bound();
+        let workers = options.workers;
+        let bound = Real::new(&of_bits(scene, MEAN.1)?, 0)?.stage().bound();
         let mean_of = |key: u64| {
-            let machine = real(&net(scene, MEAN.1)?, key)?;
-            let means = prefix_means(&machine, &spread(film, MEAN.0), &[MEAN.1], cancel)?;
-            Ok::<f64, RenderError>(means.first().map_or(0.0, |means| radiance(means)))
+            let machine = Real::new(&net(scene, MEAN.1)?, key)?;
+            let means = prefix_means(&machine, &spread(film, MEAN.0), &[MEAN.1], &workers)?;
+            Ok::<f64, PlanError>(means.first().map_or(0.0, |means| radiance(means)))
         };
         let mean = 0.5 * (mean_of(SHIFTS[0])? + mean_of(SHIFTS[1])?);
         if mean <= 0.0 && bound != [0.0; 3] {
@@ -109,7 +108,7 @@ impl<'a> Pilot<'a> {
             values: Vec::new(),
             nets: Vec::new(),
             counted: Mutex::new(BTreeMap::new()),
-            cancel,
+            workers,
         };
         pilot.choose_comparators()?;
         if pilot.is_lattice() {
@@ -130,8 +129,14 @@ impl<'a> Pilot<'a> {
         a.iter().zip(b).map(differences).collect()
     }
 
+    /// The means of the tried pixels over the first `2^k` paths, for each k of `bits`.
+    fn means(&self, scene: &ValidScene, seed: u64, bits: &[u32]) -> Result<Vec<Means>, PlanError> {
+        let real = Real::new(scene, seed)?;
+        Ok(prefix_means(&real, &self.pixels, bits, &self.workers)?)
+    }
+
     /// The error of `2^bits` paths, and whether it is an extrapolation.
-    pub(super) fn paths(&mut self, bits: u32) -> Result<(Errors, bool), RenderError> {
+    pub(super) fn paths(&mut self, bits: u32) -> Result<(Errors, bool), PlanError> {
         if self.is_lattice() {
             return Ok((self.nets[0].clone(), false));
         }
@@ -140,8 +145,7 @@ impl<'a> Pilot<'a> {
         if tried >= have {
             let all: Vec<u32> = (FEWEST..=tried).collect();
             let scene = net(self.scene, tried)?;
-            let [a, b] = [SHIFTS[0], SHIFTS[1]]
-                .map(|key| prefix_means(&real(&scene, key)?, &self.pixels, &all, self.cancel));
+            let [a, b] = [SHIFTS[0], SHIFTS[1]].map(|key| self.means(&scene, key, &all));
             let (a, b) = (a?, b?);
             let pairs = a.iter().zip(&b);
             self.nets = pairs
@@ -176,26 +180,31 @@ impl<'a> Pilot<'a> {
         fit.map_or(0.0, |fit| (fit.slope + fit.slope_band).clamp(-1.0, 0.0))
     }
 
-    fn compare_lattice(&mut self) -> Result<(), RenderError> {
-        let own = real(&of_bits(self.scene, 0)?, 0)?;
-        let bits = own.paths().ilog2();
-        let means = prefix_means(&own, &self.pixels, &[bits], self.cancel)?;
+    fn compare_lattice(&mut self) -> Result<(), PlanError> {
+        let own = of_bits(self.scene, 0)?;
+        let bits = own.scene().sampling.path_bits;
+        let means = self.means(&own, 0, &[bits])?;
         let limit_bits = (bits + 4).min(MOST_TRIED).max(bits);
-        let limit = real(&net(self.scene, limit_bits)?, SHIFTS[2])?;
-        let limits = prefix_means(&limit, &self.pixels, &[limit_bits], self.cancel)?;
+        let limits = self.means(&net(self.scene, limit_bits)?, SHIFTS[2], &[limit_bits])?;
         self.nets = vec![self.relative(&means[0], &limits[0], 1.0)];
         self.values.clone_from(&means[0]);
         Ok(())
     }
 
-    fn choose_comparators(&mut self) -> Result<(), RenderError> {
-        let machine = real(&net(self.scene, COMPARED)?, SHIFTS[0])?;
+    fn choose_comparators(&mut self) -> Result<(), PlanError> {
+        let machine = Real::new(&net(self.scene, COMPARED)?, SHIFTS[0])?;
         let mut comparators = Vec::new();
         for bits in COMPARATORS {
             comparators.push(self.comparators(bits)?);
         }
         let paths = 1_u64 << COMPARED;
-        let found = tallies(&machine, &self.pixels, 0..paths, &comparators, self.cancel)?;
+        let found = tallies(
+            &machine,
+            &self.pixels,
+            0..paths,
+            &comparators,
+            &self.workers,
+        )?;
         let means: Means = found
             .iter()
             .map(|tally| tally.colour.map(|sum| sum / paths as f64))
@@ -223,13 +232,12 @@ impl<'a> Pilot<'a> {
         Ok(())
     }
 
-    fn comparators(&self, bits: u32) -> Result<[Comparators; 3], RenderError> {
+    fn comparators(&self, bits: u32) -> Result<[Comparators; 3], CountingError> {
         let comparator = Comparator {
             bits,
             ..Comparator::default()
         };
-        let [r, g, b] = self.bound.map(|scale| Comparators::new(scale, comparator));
-        Ok([r?, g?, b?])
+        Comparators::rgb(self.bound, comparator)
     }
 
     /// The error of numbers with so many fraction bits, and what a call costs with so many paths; none where there
@@ -238,7 +246,7 @@ impl<'a> Pilot<'a> {
         &self,
         path_bits: u32,
         fraction: u32,
-    ) -> Result<Option<(Errors, Spent)>, RenderError> {
+    ) -> Result<Option<(Errors, Spent)>, PlanError> {
         let mut knobs = net_knobs(self.scene, path_bits);
         if self.is_lattice() {
             knobs = self.scene.knobs();
@@ -252,10 +260,10 @@ impl<'a> Pilot<'a> {
         let spent = spent(&channels);
         let machine = OracleMachine::fixed(Arc::new(oracle), SHIFTS[0], false);
         let paths = machine.paths().min(1 << COMPARED);
-        let own = real(&scene, SHIFTS[0])?;
+        let own = Real::new(&scene, SHIFTS[0])?;
         let comparators = [self.comparators(self.comparator_bits)?];
-        let in_real = tallies(&own, &self.pixels, 0..paths, &comparators, self.cancel)?;
-        let in_fixed = counted_tallies(&machine, &self.pixels, 0..paths, self.cancel)?;
+        let in_real = tallies(&own, &self.pixels, 0..paths, &comparators, &self.workers)?;
+        let in_fixed = counted_tallies(&machine, &self.pixels, 0..paths, &self.workers)?;
         let ids = (paths << self.comparator_bits) as f64;
         let [a, b]: [Means; 2] = [in_fixed, in_real].map(|tallies| {
             let value =
@@ -277,12 +285,8 @@ pub(super) fn quantile(errors: &[[f64; 3]], share: f64) -> f64 {
         .unwrap_or(0.0)
 }
 
-pub(super) fn unreachable(why: String) -> RenderError {
-    RenderError::Unreachable(why)
-}
-
-fn real(scene: &ValidScene, seed: u64) -> Result<Real, RenderError> {
-    Ok(Real::new(scene, seed)?)
+pub(super) fn unreachable(why: String) -> PlanError {
+    PlanError::Unreachable(why)
 }
 
 /// The scene's knobs under a net of `2^bits` paths.
@@ -298,12 +302,12 @@ fn net_knobs(scene: &ValidScene, bits: u32) -> Knobs {
     knobs
 }
 
-fn net(scene: &ValidScene, bits: u32) -> Result<ValidScene, RenderError> {
+fn net(scene: &ValidScene, bits: u32) -> Result<ValidScene, PlanError> {
     valid(scene, net_knobs(scene, bits))
 }
 
 /// The scene's own sequence: of `2^bits` paths if it is a net.
-fn of_bits(scene: &ValidScene, bits: u32) -> Result<ValidScene, RenderError> {
+fn of_bits(scene: &ValidScene, bits: u32) -> Result<ValidScene, PlanError> {
     let mut knobs = scene.knobs();
     if knobs.sampling.sequence == Sequence::DigitalNet {
         knobs.sampling.path_bits = bits;
@@ -311,7 +315,7 @@ fn of_bits(scene: &ValidScene, bits: u32) -> Result<ValidScene, RenderError> {
     valid(scene, knobs)
 }
 
-pub(super) fn valid(scene: &ValidScene, knobs: Knobs) -> Result<ValidScene, RenderError> {
+pub(super) fn valid(scene: &ValidScene, knobs: Knobs) -> Result<ValidScene, PlanError> {
     scene.with_knobs(knobs).map_err(|problems| {
         let first = problems.into_iter().next();
         unreachable(first.map_or_else(String::new, |problem| problem.message))

@@ -2,8 +2,7 @@
 
 use super::pilot::{Errors, FEWEST, Pilot, quantile, unreachable, valid};
 use super::together::{each_total, failing, will_do};
-use super::{Figures, Parts, Plan};
-use crate::render::RenderError;
+use super::{ErrorParts, Figures, Plan, PlanError};
 use qrt_core::oracle::{DEFAULT_FRACTION, Spent};
 use qrt_core::scene::{Counting, Estimator, Sequence};
 
@@ -33,7 +32,7 @@ struct Counted {
     queries: f64,
 }
 
-pub(super) fn search(mut pilot: Pilot<'_>) -> Result<Plan, RenderError> {
+pub(super) fn search(mut pilot: Pilot<'_>) -> Result<Plan, PlanError> {
     if pilot.mean <= 0.0 {
         // Proven black: nothing is counted, and nothing is wrong.
         let path_bits = pilot_bits(&pilot, FEWEST);
@@ -54,7 +53,7 @@ fn pilot_bits(pilot: &Pilot<'_>, bits: u32) -> u32 {
 }
 
 /// Fewest paths of which more would hardly save queries, at any width.
-fn choose_paths(pilot: &mut Pilot<'_>) -> Result<(u32, Counted), RenderError> {
+fn choose_paths(pilot: &mut Pilot<'_>) -> Result<(u32, Counted), PlanError> {
     let none = vec![[0.0; 3]; pilot.pixels.len()];
     if pilot.is_lattice() {
         let counted = cheapest(pilot, 0, &none, START)?.ok_or_else(|| out_of_reach(pilot, 0))?;
@@ -91,12 +90,12 @@ fn choose_paths(pilot: &mut Pilot<'_>) -> Result<(u32, Counted), RenderError> {
 }
 
 /// Whether the paths' error alone leaves anything for counting.
-fn alone_will_do(pilot: &mut Pilot<'_>, bits: u32) -> Result<bool, RenderError> {
+fn alone_will_do(pilot: &mut Pilot<'_>, bits: u32) -> Result<bool, PlanError> {
     let (paths, _) = pilot.paths(bits)?;
     Ok(will_do(pilot, &[&paths, &pilot.comparator_errors], None))
 }
 
-fn out_of_reach(pilot: &Pilot<'_>, bits: u32) -> RenderError {
+fn out_of_reach(pilot: &Pilot<'_>, bits: u32) -> PlanError {
     let (error, confidence) = (pilot.accuracy.error, pilot.accuracy.confidence);
     unreachable(if pilot.is_lattice() {
         format!(
@@ -118,7 +117,7 @@ fn choose_width(
     pilot: &mut Pilot<'_>,
     path_bits: u32,
     wide: Counted,
-) -> Result<(Option<Width>, Counted), RenderError> {
+) -> Result<(Option<Width>, Counted), PlanError> {
     let many = pilot.scene.polygons().len() > MANY_POLYGONS;
     let (first, step) = if many {
         (DEFAULT_FRACTION, 4)
@@ -167,7 +166,7 @@ fn cheapest(
     path_bits: u32,
     width: &Errors,
     start: u32,
-) -> Result<Option<Counted>, RenderError> {
+) -> Result<Option<Counted>, PlanError> {
     let (paths, _) = pilot.paths(path_bits)?;
     let pilot = &*pilot;
     let attempt = |phase_bits: u32, repetitions: u32| {
@@ -185,7 +184,7 @@ fn cheapest(
             queries,
         };
         let good = will_do(pilot, &others, Some(&counted.errors));
-        Ok::<_, RenderError>(good.then_some(counted))
+        Ok::<_, PlanError>(good.then_some(counted))
     };
     if pilot.estimator == Estimator::Exact {
         let counting = Counting::default();
@@ -228,7 +227,7 @@ fn finish(
     path_bits: u32,
     width: Option<Width>,
     counted: Option<Counted>,
-) -> Result<Plan, RenderError> {
+) -> Result<Plan, PlanError> {
     let none = vec![[0.0; 3]; pilot.pixels.len()];
     let black = counted.is_none();
     let (paths, extrapolated) = if black {
@@ -245,7 +244,7 @@ fn finish(
     let others = [&paths, &pilot.comparator_errors, width_errors];
     each_total(pilot, &others, Some(errors), |total| totals.push(total));
     let confidence = pilot.accuracy.confidence;
-    let parts = Parts {
+    let parts = ErrorParts {
         paths: quantile(&paths, confidence),
         comparators: quantile(&pilot.comparator_errors, confidence),
         width: quantile(width_errors, confidence),

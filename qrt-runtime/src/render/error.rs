@@ -1,23 +1,38 @@
 //! Why a picture isn't rendered.
 
-use super::one_run::OneRunError;
 use crate::checkpoint::CheckpointError;
 use crate::counting::CountingError;
 use crate::estimators::EstimatorError;
-use std::fmt;
-use std::path::PathBuf;
+use crate::machines::Defect;
+use crate::plan::PlanError;
+use crate::search::RoundsError;
+use crate::workers::ThreadsError;
+use qrt_core::oracle::OracleError;
+use qrt_core::sampling::SamplingError;
+use qrt_core::scene::Estimator;
+use std::path::{Path, PathBuf};
 
 /// Why a picture isn't rendered.
-#[derive(Debug)]
+#[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum RenderError {
-    /// The scene asks for an accuracy that no knobs reach, or that cannot be shown: why.
-    Unreachable(String),
+    /// No parameters keep the accuracy that the scene asks for.
+    #[error(transparent)]
+    Plan(#[from] PlanError),
     /// One run for all channels, and an estimator that measures no paths.
+    #[error(
+        "colour from one run is that of the paths which are measured, and the estimator `exact` \
+         measures none: choose another estimator, or three runs"
+    )]
     NothingMeasured,
     /// Noise of measurements, with an estimator that makes none.
+    #[error(
+        "noise is that of queries and measurements, and the estimator `exact` makes none: choose \
+         another estimator, or no noise"
+    )]
     NothingNoisy,
     /// A crop without pixels, or not within the film.
+    #[error("{}", outside(.crop, .film))]
     Crop {
         /// x, y, width, height.
         crop: [u32; 4],
@@ -25,18 +40,28 @@ pub enum RenderError {
         film: [u32; 2],
     },
     /// More paths than a 64-bit word counts.
+    #[error(
+        "{pixels} pixels of 2^{path_bits} paths are more than 2^64 paths, which no machine traces \
+         in a lifetime: lower `sampling.path_bits`, or the film"
+    )]
     TooManyPaths {
         /// Pixels to be rendered.
         pixels: u64,
-        /// Paths of each.
+        /// Paths of each, as a power of two.
         path_bits: u32,
     },
     /// A picture that doesn't fit into memory.
+    #[error("there is not enough memory for {pixels} pixels")]
     Memory {
         /// Its pixels.
         pixels: u64,
     },
     /// A bound on a path's colour so large that sums over paths would overflow.
+    #[error(
+        "a path's {} can only be bounded by {bound:e}, too large to sum: lower the radiance or the \
+         number of depths",
+        name(*.channel)
+    )]
     Bound {
         /// 0, 1, 2: red, green, blue.
         channel: usize,
@@ -44,28 +69,52 @@ pub enum RenderError {
         bound: f64,
     },
     /// The sequence of paths can't be made.
-    Sampling(qrt_core::sampling::SamplingError),
+    #[error(transparent)]
+    Sampling(#[from] SamplingError),
     /// The scene has no circuit.
-    Oracle(qrt_core::oracle::OracleError),
+    #[error(transparent)]
+    Oracle(#[from] OracleError),
+    /// A circuit that was compiled does not do what is asked.
+    #[error(transparent)]
+    Compiled(#[from] CompiledError),
     /// A model that has no oracle, and so nothing to search with.
+    #[error(
+        "first hits are searched for by a circuit, which the model `real` does not have: use \
+         `fixed` or `gates`"
+    )]
     SearchModel,
     /// An estimator that counts the ids of a superposition, where every path is searched by itself.
-    SearchEstimator(qrt_core::scene::Estimator),
+    #[error(
+        "the estimator `{0}` counts paths in superposition, and first hits are searched for path \
+         by path: use `exact`, or find first hits classically"
+    )]
+    SearchEstimator(Estimator),
     /// A search that cannot be made.
-    Search(crate::search::RoundsError),
+    #[error(transparent)]
+    Search(#[from] RoundsError),
     /// The circuit does not do what an oracle must: a defect of qrt. The picture would prove
     /// nothing, so there is none.
-    Defect(crate::machines::Defect),
+    #[error("{0}: a defect of qrt; the picture would prove nothing, so there is none")]
+    Defect(#[from] Defect),
     /// The pixels can't be counted as asked.
-    Counting(CountingError),
+    #[error(transparent)]
+    Counting(#[from] CountingError),
     /// The estimator can't do what it is asked.
-    Estimator(EstimatorError),
+    #[error(transparent)]
+    Estimator(#[from] EstimatorError),
     /// The threads can't be started.
-    Threads(String),
+    #[error(transparent)]
+    Threads(#[from] ThreadsError),
     /// The checkpoint can't be used.
-    Checkpoint(CheckpointError),
+    #[error(transparent)]
+    Checkpoint(#[from] CheckpointError),
     /// Paths with a colour that is negative, not a number, or above the bound that was proven for
     /// it: a defect of qrt. The picture would be wrong, so there is none.
+    #[error(
+        "pixel ({}, {}): {paths} of its paths have a {} outside [0, {bound:e}], such as \
+         {colour:e}; this is a defect of qrt, please report it with the scene",
+        .pixel[0], .pixel[1], name(*.channel)
+    )]
     OutOfBounds {
         /// Column and row on the film.
         pixel: [u32; 2],
@@ -73,12 +122,13 @@ pub enum RenderError {
         channel: usize,
         /// How many paths of the pixel.
         paths: u64,
-        /// The colour of one of them.
+        /// The colour of one of them, in radiance.
         colour: f64,
-        /// The bound.
+        /// The bound, in radiance.
         bound: f64,
     },
     /// Cancelled.
+    #[error("interrupted after {finished} of {pixels} pixels{}", kept(.checkpoint.as_deref()))]
     Interrupted {
         /// Pixels that are finished.
         finished: u64,
@@ -89,30 +139,50 @@ pub enum RenderError {
     },
 }
 
+/// What the circuit of a scene of `qrt!` does not do. [`super::render`] does it with one that it
+/// builds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum CompiledError {
+    /// The model runs no circuit.
+    #[error(
+        "a compiled circuit is run by the models `fixed` and `gates`; `real` runs none: choose one \
+         of the two, or use `render`"
+    )]
+    Model,
+    /// The scene's parameters are chosen when it is rendered, after its circuit was compiled.
+    #[error(
+        "the scene asks for an `accuracy`, and its circuit was compiled before the knobs are \
+         chosen that keep it: write the knobs into the scene, or use `render`"
+    )]
+    Accuracy,
+    /// The circuit computes no luminance.
+    #[error(
+        "a compiled circuit computes three channels and no luminance, which colour from one run \
+         counts: choose three runs, or use `render`"
+    )]
+    OneRun,
+    /// The circuit finds first hits itself.
+    #[error(
+        "a compiled circuit finds first hits itself, and none that are searched for: find first \
+         hits classically, or use `render`"
+    )]
+    Visibility,
+}
+
 impl RenderError {
     /// Whether it is the request that can't be met, rather than the job that failed: another
     /// attempt will fail alike.
     pub fn is_refusal(&self) -> bool {
         match self {
-            Self::Unreachable(_)
-            | Self::NothingMeasured
-            | Self::NothingNoisy
-            | Self::Crop { .. }
-            | Self::TooManyPaths { .. }
-            | Self::Bound { .. }
-            | Self::Sampling(_)
-            | Self::Oracle(_)
-            | Self::SearchModel
-            | Self::SearchEstimator(_)
-            | Self::Search(_)
-            | Self::Counting(_)
-            | Self::Estimator(_) => true,
+            Self::Plan(error) => error.is_refusal(),
             Self::Checkpoint(error) => matches!(error, CheckpointError::Differs { .. }),
             Self::Memory { .. }
             | Self::Threads(_)
             | Self::Defect(_)
             | Self::OutOfBounds { .. }
             | Self::Interrupted { .. } => false,
+            _ => true,
         }
     }
 }
@@ -124,156 +194,18 @@ fn name(channel: usize) -> &'static str {
         .unwrap_or("?")
 }
 
-impl fmt::Display for RenderError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Unreachable(why) => write!(f, "the scene's `accuracy` cannot be kept: {why}"),
-            Self::NothingMeasured => write!(
-                f,
-                "colour from one run is that of the paths which are measured, and the estimator \
-                 `exact` measures none: choose another estimator, or three runs"
-            ),
-            Self::NothingNoisy => write!(
-                f,
-                "noise is that of queries and measurements, and the estimator `exact` makes none: \
-                 choose another estimator, or no noise"
-            ),
-            Self::Crop { crop, film } => {
-                let [x, y, width, height] = crop;
-                if *width == 0 || *height == 0 {
-                    write!(f, "a crop of {width} x {height} has no pixels")
-                } else {
-                    let [w, h] = film;
-                    write!(
-                        f,
-                        "a crop of {width} x {height} at ({x}, {y}) does not lie within the film \
-                         of {w} x {h}"
-                    )
-                }
-            }
-            Self::TooManyPaths { pixels, path_bits } => write!(
-                f,
-                "{pixels} pixels of 2^{path_bits} paths are more than 2^64 paths, which no \
-                 machine traces in a lifetime: lower `sampling.path_bits`, or the film"
-            ),
-            Self::Memory { pixels } => {
-                write!(f, "there is not enough memory for {pixels} pixels")
-            }
-            Self::Bound { channel, bound } => write!(
-                f,
-                "a path's {} can only be bounded by {bound:e}, too large to sum: lower the \
-                 radiance or the number of depths",
-                name(*channel)
-            ),
-            Self::Sampling(error) => error.fmt(f),
-            Self::Oracle(error) => error.fmt(f),
-            Self::SearchModel => f.write_str(
-                "first hits are searched for by a circuit, which the model `real` does not have: \
-                 use `fixed` or `gates`",
-            ),
-            Self::SearchEstimator(estimator) => write!(
-                f,
-                "the estimator `{estimator}` counts paths in superposition, and first hits are \
-                 searched for path by path: use `exact`, or find first hits classically"
-            ),
-            Self::Search(error) => error.fmt(f),
-            Self::Defect(error) => write!(
-                f,
-                "{error}: a defect of qrt; the picture would prove nothing, so there is none"
-            ),
-            Self::Estimator(error) => error.fmt(f),
-            Self::Counting(error) => error.fmt(f),
-            Self::Threads(reason) => write!(f, "the threads cannot be started: {reason}"),
-            Self::Checkpoint(error) => error.fmt(f),
-            Self::OutOfBounds {
-                pixel: [x, y],
-                channel,
-                paths,
-                colour,
-                bound,
-            } => write!(
-                f,
-                "pixel ({x}, {y}): {paths} of its paths have a {} outside [0, {bound:e}], such as \
-                 {colour:e}; this is a defect of qrt, please report it with the scene",
-                name(*channel)
-            ),
-            Self::Interrupted {
-                finished,
-                pixels,
-                checkpoint,
-            } => {
-                write!(f, "interrupted after {finished} of {pixels} pixels")?;
-                match checkpoint {
-                    Some(path) => write!(f, ", which `{}` keeps", path.display()),
-                    None => Ok(()),
-                }
-            }
-        }
+fn outside([x, y, width, height]: &[u32; 4], [w, h]: &[u32; 2]) -> String {
+    if *width == 0 || *height == 0 {
+        format!("a crop of {width} x {height} has no pixels")
+    } else {
+        format!(
+            "a crop of {width} x {height} at ({x}, {y}) does not lie within the film of {w} x {h}"
+        )
     }
 }
 
-impl std::error::Error for RenderError {
-    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
-        match self {
-            Self::Sampling(error) => Some(error),
-            Self::Oracle(error) => Some(error),
-            Self::Search(error) => Some(error),
-            Self::Defect(error) => Some(error),
-            Self::Estimator(error) => Some(error),
-            Self::Counting(error) => Some(error),
-            Self::Checkpoint(error) => Some(error),
-            _ => None,
-        }
-    }
-}
-
-impl From<qrt_core::sampling::SamplingError> for RenderError {
-    fn from(error: qrt_core::sampling::SamplingError) -> Self {
-        Self::Sampling(error)
-    }
-}
-
-impl From<qrt_core::oracle::OracleError> for RenderError {
-    fn from(error: qrt_core::oracle::OracleError) -> Self {
-        Self::Oracle(error)
-    }
-}
-
-impl From<crate::search::RoundsError> for RenderError {
-    fn from(error: crate::search::RoundsError) -> Self {
-        Self::Search(error)
-    }
-}
-
-impl From<crate::machines::Defect> for RenderError {
-    fn from(error: crate::machines::Defect) -> Self {
-        Self::Defect(error)
-    }
-}
-
-impl From<OneRunError> for RenderError {
-    fn from(error: OneRunError) -> Self {
-        match error {
-            OneRunError::Estimator(error) => error.into(),
-            OneRunError::Defect(defect) => defect.into(),
-        }
-    }
-}
-
-impl From<EstimatorError> for RenderError {
-    fn from(error: EstimatorError) -> Self {
-        Self::Estimator(error)
-    }
-}
-
-impl From<CountingError> for RenderError {
-    fn from(error: CountingError) -> Self {
-        Self::Counting(error)
-    }
-}
-
-impl From<CheckpointError> for RenderError {
-    fn from(error: CheckpointError) -> Self {
-        Self::Checkpoint(error)
-    }
+fn kept(checkpoint: Option<&Path>) -> String {
+    checkpoint.map_or_else(String::new, |path| {
+        format!(", which `{}` keeps", path.display())
+    })
 }

@@ -12,9 +12,10 @@
 //! Its luminance is as good as counting makes it. Its colour has the error of so many samples as good
 //! ids were measured, which is none where all paths have one colour.
 
+use super::RenderError;
 use super::pixel::{Pixels, Source};
 use crate::counting::{Comparators, CountingError};
-use crate::estimators::{AmplitudeEstimator, Device, EstimatorError, Noise, Problem};
+use crate::estimators::{AmplitudeEstimator, Device, Noise, Problem};
 use crate::machines::Defect;
 use crate::random::Stream;
 use qrt_core::oracle::{LUMINANCE_CHANNEL, luminance};
@@ -97,7 +98,7 @@ impl OneRun {
         noise: Noise,
         [x, y]: [u32; 2],
         segments: &Segments,
-    ) -> Result<([f64; 3], u64), OneRunError> {
+    ) -> Result<([f64; 3], u64), RenderError> {
         if self.comparators.step() == 0.0 {
             return Ok(([0.0; 3], 0));
         }
@@ -193,23 +194,5 @@ impl OneRun {
                 })
             }
         }
-    }
-}
-
-/// Why a pixel has no colour.
-pub(super) enum OneRunError {
-    Estimator(EstimatorError),
-    Defect(Defect),
-}
-
-impl From<EstimatorError> for OneRunError {
-    fn from(error: EstimatorError) -> Self {
-        Self::Estimator(error)
-    }
-}
-
-impl From<Defect> for OneRunError {
-    fn from(defect: Defect) -> Self {
-        Self::Defect(defect)
     }
 }

@@ -1,12 +1,14 @@
 //! From the paths of a pixel to its colour.
 
 use super::one_run::{OneRun, Segments};
-use super::sum::Sum;
-use super::{Colour, RenderError};
+use super::{Colour, Options, RenderError};
 use crate::counting::Comparators;
-use crate::estimators::{AmplitudeEstimator, Device, Noise, Problem, Settings, estimator};
-use crate::machines::{Block, Defect, OracleMachine, Real};
+use crate::estimators::{
+    AmplitudeEstimator, Device, Estimate, EstimatorError, Noise, Problem, Settings, estimator,
+};
+use crate::machines::{Defect, OracleMachine, PathBlock, Real};
 use crate::random::Stream;
+use crate::sample::Sum;
 use qrt_core::scene::{Estimator, Scene};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -74,9 +76,7 @@ impl Pixels {
         source: Source,
         scene: &Scene,
         estimate: Estimator,
-        noise: Noise,
-        colour: Colour,
-        seed: u64,
+        options: &Options<'_>,
     ) -> Result<Self, RenderError> {
         let (bound, paths) = match &source {
             Source::Real(real) => (real.stage().bound(), real.paths()),
@@ -93,10 +93,10 @@ impl Pixels {
                 return Err(RenderError::Bound { channel, bound });
             }
         }
-        if estimate == Estimator::Exact && noise != Noise::NONE {
+        if estimate == Estimator::Exact && options.noise != Noise::NONE {
             return Err(RenderError::NothingNoisy);
         }
-        let one_run = match colour {
+        let one_run = match options.colour {
             Colour::ThreeRuns => None,
             Colour::OneRun if estimate == Estimator::Exact => {
                 return Err(RenderError::NothingMeasured);
@@ -106,11 +106,10 @@ impl Pixels {
         let counter = if estimate == Estimator::Exact {
             None
         } else {
-            let [r, g, b] = bound.map(|scale| Comparators::new(scale, scene.comparator));
             Some(Counter {
-                comparators: [r?, g?, b?],
+                comparators: Comparators::rgb(bound, scene.comparator)?,
                 estimator: estimator(estimate, &Settings::of(&scene.counting)?)?,
-                noise,
+                noise: options.noise,
                 one_run,
             })
         };
@@ -118,7 +117,7 @@ impl Pixels {
             source,
             comparator_bits: scene.comparator.bits,
             bound,
-            seed,
+            seed: options.seed,
             paths,
             counter,
         })
@@ -224,7 +223,7 @@ impl Pixels {
         Ok(Some(totals))
     }
 
-    fn take(&self, totals: &mut Totals, block: &Block<'_>) {
+    fn take(&self, totals: &mut Totals, block: &PathBlock<'_>) {
         for (channel, colours) in block.colours.into_iter().enumerate() {
             let limit = self.bound[channel] * (1.0 + ROUNDING);
             let inside = |colour: f64| colour >= 0.0 && colour <= limit;
@@ -257,6 +256,7 @@ impl Pixels {
     /// The colour of a pixel, and the queries that it took: without an estimator the mean of its
     /// paths, without queries.
     pub(super) fn finish(&self, pixel: [u32; 2], totals: &Totals) -> Result<Pixel, RenderError> {
+        self.check(pixel, totals)?;
         let mut finished = Pixel {
             colour: [0.0; 3],
             queries: totals.queries,
@@ -265,56 +265,70 @@ impl Pixels {
                 Source::Oracle(_) => totals.good,
             },
         };
-        let ids = self.paths << self.comparator_bits;
-        for channel in 0..3 {
-            let (paths, colour) = totals.stray[channel];
-            let bound = self.bound[channel];
-            if paths > 0 {
-                return Err(RenderError::OutOfBounds {
-                    pixel,
-                    channel,
-                    paths,
-                    colour,
-                    bound,
-                });
-            }
-            if self.one_run().is_some() {
-                continue;
-            }
-            finished.colour[channel] = match &self.counter {
-                None if matches!(self.source, Source::Oracle(_)) => {
-                    bound * (totals.good[channel] as f64 / ids as f64)
-                }
-                None => totals.colour[channel].value() / self.paths as f64,
-                // Nothing to count: black is proven.
-                Some(_) if bound == 0.0 => 0.0,
-                Some(counter) => {
-                    let comparators = counter.comparators[channel];
-                    let problem = Problem {
-                        good: totals.good[channel],
-                        total: self.paths * comparators.count(),
-                    };
-                    let [x, y] = pixel;
-                    let mut stream = Stream::new(self.seed, x, y, channel as u8);
-                    let mut device = Device::new(problem, counter.noise, &mut stream)?;
-                    let estimate = counter.estimator.estimate(&mut device)?;
-                    // At most 3 * 2^40 * 10^6, below 2^62.
-                    finished.queries += estimate.queries;
-                    comparators.pixel_of_amplitude(estimate.amplitude)
-                }
-            };
-        }
-        if let Some(counter) = &self.counter
-            && let Some(one_run) = &counter.one_run
-        {
-            let Counter {
-                estimator, noise, ..
-            } = counter;
+        let Some(counter) = &self.counter else {
+            finished.colour = self.means(totals);
+            return Ok(finished);
+        };
+        if let Some(one_run) = &counter.one_run {
+            let estimator = &*counter.estimator;
             (finished.colour, finished.queries) =
-                one_run.finish(self, &**estimator, *noise, pixel, &totals.segments)?;
+                one_run.finish(self, estimator, counter.noise, pixel, &totals.segments)?;
             finished.good = [0; 3];
+            return Ok(finished);
+        }
+        for channel in 0..3 {
+            // Where nothing is to be counted, black is proven.
+            if self.bound[channel] > 0.0 {
+                let estimate = self.estimate(counter, pixel, channel, totals.good[channel])?;
+                // At most 3 * 2^40 * 10^6, below 2^62.
+                finished.queries += estimate.queries;
+                finished.colour[channel] =
+                    counter.comparators[channel].pixel_of_amplitude(estimate.amplitude);
+            }
         }
         Ok(finished)
+    }
+
+    /// That all colours of a pixel's paths were within their bounds.
+    fn check(&self, pixel: [u32; 2], totals: &Totals) -> Result<(), RenderError> {
+        let stray = totals.stray.iter().enumerate();
+        let mut stray = stray.filter(|(_, (paths, _))| *paths > 0);
+        match stray.next() {
+            None => Ok(()),
+            Some((channel, &(paths, colour))) => Err(RenderError::OutOfBounds {
+                pixel,
+                channel,
+                paths,
+                colour,
+                bound: self.bound[channel],
+            }),
+        }
+    }
+
+    /// The mean of a pixel's paths: of their colours, or of the thresholds that these exceed.
+    fn means(&self, totals: &Totals) -> [f64; 3] {
+        let ids = self.paths << self.comparator_bits;
+        std::array::from_fn(|channel| match self.source {
+            Source::Real(_) => totals.colour[channel].value() / self.paths as f64,
+            Source::Oracle(_) => self.bound[channel] * (totals.good[channel] as f64 / ids as f64),
+        })
+    }
+
+    /// What the estimator says of a pixel's channel.
+    fn estimate(
+        &self,
+        counter: &Counter,
+        [x, y]: [u32; 2],
+        channel: usize,
+        good: u64,
+    ) -> Result<Estimate, EstimatorError> {
+        let problem = Problem {
+            good,
+            total: self.paths * counter.comparators[channel].count(),
+        };
+        let mut stream = Stream::new(self.seed, x, y, channel as u8);
+        let mut device = Device::new(problem, counter.noise, &mut stream)?;
+        counter.estimator.estimate(&mut device)
     }
 }
 
@@ -356,15 +370,7 @@ sampling: { path_bits: 5 }
     fn wall(estimator: Estimator) -> Pixels {
         let scene = parse(WALL, "wall.yaml", &[], "".as_ref()).unwrap().valid;
         let real = Source::Real(Box::new(Real::new(&scene, 0).unwrap()));
-        Pixels::new(
-            real,
-            scene.scene(),
-            estimator,
-            Noise::NONE,
-            Colour::ThreeRuns,
-            0,
-        )
-        .unwrap()
+        Pixels::new(real, scene.scene(), estimator, &Options::default()).unwrap()
     }
 
     #[test]
@@ -402,7 +408,7 @@ sampling: { path_bits: 5 }
         for colour in [f64::NAN, -1e-300, f64::INFINITY] {
             let mut totals = Totals::default();
             let colours = [1.0, colour, 1.0];
-            let block = Block {
+            let block = PathBlock {
                 pixel: 0,
                 colours: [&colours; 3],
             };

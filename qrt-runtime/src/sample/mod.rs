@@ -3,15 +3,20 @@
 //! All sums are over pixels that are given, in an order that ids decide, so that they do not depend
 //! on the number of threads. Work is done on the threads of the pool that calls.
 
+mod drawn;
+mod error;
 mod spread;
+mod sum;
 mod tally;
 
+pub(crate) use drawn::{Drawn, Draws};
+pub use error::SampleError;
 pub use spread::spread;
+pub(crate) use sum::Sum;
 pub use tally::{Tally, counted_tallies, tallies};
 
 use crate::machines::Real;
-use crate::render::RenderError;
-use std::sync::atomic::AtomicBool;
+use crate::workers::Workers;
 
 /// By pixel and channel, the mean of a pixel's paths.
 pub type Means = Vec<[f64; 3]>;
@@ -20,13 +25,13 @@ pub type Means = Vec<[f64; 3]>;
 /// the machine's path bits): under the digital net, what a scene of so many path bits shows.
 ///
 /// # Errors
-/// Cancelled.
+/// See [`SampleError`].
 pub fn prefix_means(
     real: &Real,
     pixels: &[[u32; 2]],
     bits: &[u32],
-    cancel: Option<&AtomicBool>,
-) -> Result<Vec<Means>, RenderError> {
+    workers: &Workers<'_>,
+) -> Result<Vec<Means>, SampleError> {
     let mut sums = vec![[0.0; 3]; pixels.len()];
     let mut first = 0;
     let mut means = Vec::with_capacity(bits.len());
@@ -34,7 +39,7 @@ pub fn prefix_means(
         let paths = 1_u64 << bits;
         for (sum, tally) in sums
             .iter_mut()
-            .zip(tallies(real, pixels, first..paths, &[], cancel)?)
+            .zip(tallies(real, pixels, first..paths, &[], workers)?)
         {
             for (sum, more) in sum.iter_mut().zip(tally.colour) {
                 *sum += more;

@@ -1,11 +1,11 @@
 //! Sums over the paths of pixels, on all threads.
 
+use super::{SampleError, Sum};
 use crate::counting::Comparators;
 use crate::machines::{OracleMachine, Real};
-use crate::render::{RenderError, Sum};
+use crate::workers::Workers;
 use rayon::prelude::*;
 use std::ops::Range;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Paths that a thread traces at a time.
 const RUN: u64 = 1 << 15;
@@ -37,15 +37,15 @@ impl Tally {
 /// channel.
 ///
 /// # Errors
-/// Cancelled.
+/// See [`SampleError`].
 pub fn tallies(
     real: &Real,
     pixels: &[[u32; 2]],
     ids: Range<u64>,
     comparators: &[[Comparators; 3]],
-    cancel: Option<&AtomicBool>,
-) -> Result<Vec<Tally>, RenderError> {
-    in_runs(pixels, ids, cancel, |pixels, ids| {
+    workers: &Workers<'_>,
+) -> Result<Vec<Tally>, SampleError> {
+    in_runs(pixels, ids, workers, |pixels, ids| {
         let mut sums = vec![[Sum::default(); 3]; pixels.len()];
         let mut good = vec![vec![[0_u64; 3]; comparators.len()]; pixels.len()];
         real.trace_range(pixels, ids, |block| {
@@ -73,9 +73,9 @@ pub fn counted_tallies(
     machine: &OracleMachine,
     pixels: &[[u32; 2]],
     ids: Range<u64>,
-    cancel: Option<&AtomicBool>,
-) -> Result<Vec<Tally>, RenderError> {
-    in_runs(pixels, ids, cancel, |pixels, ids| {
+    workers: &Workers<'_>,
+) -> Result<Vec<Tally>, SampleError> {
+    in_runs(pixels, ids, workers, |pixels, ids| {
         let mut tallies = vec![Tally::default(); pixels.len()];
         for tally in &mut tallies {
             tally.good = vec![[0; 3]];
@@ -94,24 +94,20 @@ pub fn counted_tallies(
 fn in_runs(
     pixels: &[[u32; 2]],
     ids: Range<u64>,
-    cancel: Option<&AtomicBool>,
-    run: impl Fn(&[[u32; 2]], Range<u64>) -> Result<Vec<Tally>, RenderError> + Sync,
-) -> Result<Vec<Tally>, RenderError> {
+    workers: &Workers<'_>,
+    run: impl Fn(&[[u32; 2]], Range<u64>) -> Result<Vec<Tally>, SampleError> + Sync,
+) -> Result<Vec<Tally>, SampleError> {
     let length = ids.end.saturating_sub(ids.start);
     let together = (RUN / length.max(1)).max(1) as usize;
     let runs = length.div_ceil(RUN).max(1);
     let groups: Vec<&[[u32; 2]]> = pixels.chunks(together).collect();
     let all = groups.len() as u64 * runs;
-    let cancelled = || cancel.is_some_and(|flag| flag.load(Ordering::Relaxed));
     let parts: Vec<Vec<Tally>> = (0..all)
         .into_par_iter()
         .map(|number| {
-            if cancelled() {
-                return Err(RenderError::Interrupted {
-                    finished: 0,
-                    pixels: pixels.len() as u64,
-                    checkpoint: None,
-                });
+            if workers.cancelled() {
+                let pixels = pixels.len() as u64;
+                return Err(SampleError::Interrupted { pixels });
             }
             let start = ids.start + number % runs * RUN;
             let part = start..(start + RUN).min(ids.end);

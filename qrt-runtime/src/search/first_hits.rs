@@ -2,6 +2,7 @@
 
 use super::{Rounds, Search};
 use crate::machines::{Answers, Asked, Candidate, Defect, FirstHits, NearestMachine, PathRun};
+use crate::named::named;
 use crate::random::Stream;
 use std::collections::BTreeMap;
 
@@ -22,24 +23,16 @@ const STATES: usize = 1 << 18;
 /// The channel of [`Stream`] that searches draw from; counting has those of the colours.
 const CHANNEL: u8 = 16;
 
-/// What a search begins with.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Guess {
-    /// Whatever its first round measures.
-    Random,
-    /// What the path before it met, and for the first one of a pixel what the same path of the
-    /// pixel beside it met: coherence between pixels (Santos 2024).
-    #[default]
-    Coherent,
-}
-
-impl Guess {
-    /// As it is written.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Random => "random",
-            Self::Coherent => "coherent",
-        }
+named! {
+    /// What a search begins with.
+    #[derive(Default)]
+    pub enum Guess {
+        /// Whatever its first round measures.
+        Random = "random",
+        /// What the path before it met, and for the first one of a pixel what the same path of the
+        /// pixel beside it met: coherence between pixels (Santos 2024).
+        #[default]
+        Coherent = "coherent",
     }
 }
 

@@ -67,7 +67,7 @@ impl Search {
         self.queries
     }
 
-    /// Has it given up, and so ended?
+    /// Whether it has given up, and so ended.
     pub fn is_over(&self) -> bool {
         self.over
     }

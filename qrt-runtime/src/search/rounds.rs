@@ -1,7 +1,5 @@
 //! Rounds of a search with an unknown number of marked states, and when to give up.
 
-use std::fmt;
-
 /// The factor by which the number of iterations that is drawn from grows from round to round.
 const GROWTH: f64 = 1.2;
 
@@ -9,25 +7,14 @@ const GROWTH: f64 = 1.2;
 pub const LEAST_FAILURE: f64 = 1e-15;
 
 /// Why there are no such rounds.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum RoundsError {
     /// A failure probability outside [`LEAST_FAILURE`]` .. 1`.
+    #[error(
+        "a search cannot fail with probability {0}: give one from {LEAST_FAILURE} on and below 1"
+    )]
     Failure(f64),
 }
-
-impl fmt::Display for RoundsError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Failure(failure) => write!(
-                f,
-                "a search cannot fail with probability {failure}: give one from {LEAST_FAILURE} on \
-                 and below 1"
-            ),
-        }
-    }
-}
-
-impl std::error::Error for RoundsError {}
 
 /// The probability that k iterations end in a marked state, if `marked` of `states` are:
 /// `sin^2((2k + 1) theta)`.

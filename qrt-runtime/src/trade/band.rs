@@ -8,11 +8,14 @@ const RESAMPLED: usize = 400;
 const KEY: u64 = 0xB007_57AA;
 
 /// A root mean square, with its interval at 95 %: the percentile bootstrap over pixels (Efron, 1979).
+/// All are relative to the mean radiance.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[allow(missing_docs)]
 pub struct Band {
+    /// The root mean square.
     pub value: f64,
+    /// The interval's lower end.
     pub low: f64,
+    /// The interval's upper end.
     pub high: f64,
 }
 

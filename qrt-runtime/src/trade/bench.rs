@@ -5,17 +5,15 @@ use super::error::TradeError;
 use super::setting::Setting;
 use super::table::Row;
 use crate::counting::Comparators;
-use crate::estimators::{Device, Noise, Problem, Settings, estimator};
+use crate::estimators::{Noise, Settings, estimator};
 use crate::machines::{OracleMachine, Real};
-use crate::random::Stream;
-use crate::render::{Model, RenderError};
-use crate::sample::{self, Means, Tally, counted_tallies, tallies};
+use crate::render::Model;
+use crate::sample::{self, Drawn, Draws, Means, SampleError, Tally, counted_tallies, tallies};
+use crate::workers::Workers;
 use qrt_core::oracle::{Oracle, Spent, spent};
 use qrt_core::scene::{Circuit, Comparator, Estimator, Sampling};
 use qrt_core::valid::{Knobs, ValidScene};
-use rayon::prelude::*;
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 /// How much is measured.
@@ -36,7 +34,7 @@ pub(super) struct Bench<'a> {
     pub(super) pixels: Vec<[u32; 2]>,
     pub(super) seed: u64,
     pub(super) effort: Effort,
-    pub(super) cancel: Option<&'a AtomicBool>,
+    pub(super) workers: Workers<'a>,
     pub(super) references: Vec<(usize, Means)>,
     pub(super) depths: Option<Vec<Means>>,
     real: Vec<((Sampling, Comparator), Traced)>,
@@ -69,7 +67,7 @@ impl<'a> Bench<'a> {
         pixels: Vec<[u32; 2]>,
         seed: u64,
         effort: Effort,
-        cancel: Option<&'a AtomicBool>,
+        workers: Workers<'a>,
     ) -> Self {
         Self {
             knobs: scene.knobs(),
@@ -77,7 +75,7 @@ impl<'a> Bench<'a> {
             pixels,
             seed,
             effort,
-            cancel,
+            workers,
             references: Vec::new(),
             depths: None,
             real: Vec::new(),
@@ -99,7 +97,7 @@ impl<'a> Bench<'a> {
             .with_knobs(knobs.clone())
             .map_err(TradeError::Knobs)?;
         self.built(&scene, &knobs)?;
-        Real::new(&scene, self.seed).map_err(RenderError::from)?;
+        Real::new(&scene, self.seed)?;
         Ok(())
     }
 
@@ -122,10 +120,7 @@ impl<'a> Bench<'a> {
             Model::Real => real.clone(),
             model => self.counted(&knobs, &built, model)?,
         };
-        let bound = Real::new(&scene, self.seed)
-            .map_err(RenderError::from)?
-            .stage()
-            .bound();
+        let bound = Real::new(&scene, self.seed)?.stage().bound();
         let ids = (1_u64 << knobs.sampling.path_bits) << knobs.comparator.bits;
         let value =
             |good: &[u64; 3]| std::array::from_fn(|c| bound[c] * (good[c] as f64 / ids as f64));
@@ -134,11 +129,10 @@ impl<'a> Bench<'a> {
         let estimated = self.estimated(&knobs, &bound, &counted.good, ids)?;
         let drawn = drawn(&estimated, &in_model, &truth, mean);
         let pixels = self.pixels.len() as f64;
-        let queries: u64 = estimated.pixels.iter().map(|pixel| pixel.queries).sum();
         let depth = self.depth_error(setting.depths, mean)?;
         Ok(Some(Row {
             setting,
-            queries: queries as f64 / pixels / self.effort.draws as f64,
+            queries: estimated.queries as f64 / pixels / self.effort.draws as f64,
             spent: built.spent,
             mean,
             errors: [
@@ -159,15 +153,10 @@ impl<'a> Bench<'a> {
             return Ok(found.clone());
         }
         let start = Instant::now();
-        let real = Real::new(scene, self.seed).map_err(RenderError::from)?;
-        let mut comparators = Vec::new();
-        for scale in real.stage().bound() {
-            let made = Comparators::new(scale, knobs.comparator);
-            comparators.push(made.map_err(RenderError::from)?);
-        }
-        let comparators: [Comparators; 3] = std::array::from_fn(|c| comparators[c]);
+        let real = Real::new(scene, self.seed)?;
+        let comparators = Comparators::rgb(real.stage().bound(), knobs.comparator)?;
         let paths = real.paths();
-        let found = tallies(&real, &self.pixels, 0..paths, &[comparators], self.cancel)?;
+        let found = tallies(&real, &self.pixels, 0..paths, &[comparators], &self.workers)?;
         let traced = Traced {
             means: means(&found, paths),
             good: good(&found),
@@ -187,7 +176,7 @@ impl<'a> Bench<'a> {
             Ok(all) => all,
             // A row without a circuit is left out; a scene without one has no table.
             Err(_) if circuit_key(&own) != key => return Ok(None),
-            Err(error) => return Err(RenderError::from(error).into()),
+            Err(error) => return Err(error.into()),
         };
         let built = Built {
             oracle: Arc::new(oracle),
@@ -213,11 +202,11 @@ impl<'a> Bench<'a> {
         let oracle = Arc::clone(&built.oracle);
         let machine = match model {
             Model::Gates => {
-                OracleMachine::gates(oracle, self.seed, false).map_err(RenderError::from)?
+                OracleMachine::gates(oracle, self.seed, false).map_err(SampleError::from)?
             }
             Model::Real | Model::Fixed => OracleMachine::fixed(oracle, self.seed, false),
         };
-        let found = counted_tallies(&machine, &self.pixels, 0..machine.paths(), self.cancel)?;
+        let found = counted_tallies(&machine, &self.pixels, 0..machine.paths(), &self.workers)?;
         let traced = Traced {
             means: Means::new(),
             good: good(&found),
@@ -236,49 +225,35 @@ impl<'a> Bench<'a> {
         total: u64,
     ) -> Result<Estimated, TradeError> {
         let start = Instant::now();
-        let made = Settings::of(&knobs.counting)
-            .and_then(|settings| estimator(knobs.counting.estimator, &settings))
-            .map_err(RenderError::from)?;
-        let exact = knobs.counting.estimator == Estimator::Exact;
-        let pixel = |(&[x, y], good): (&[u32; 2], &[u64; 3])| {
-            let mut values = vec![[0.0; 3]; self.effort.draws as usize];
-            let mut queries = 0;
-            for (draw, values) in (0_u64..).zip(&mut values) {
-                // The first draw is the picture's own.
-                let seed = self.seed ^ draw.wrapping_mul(0x9E37_79B9_7F4A_7C15);
-                for channel in (0..3).filter(|&c| bound[c] > 0.0) {
-                    let problem = Problem {
-                        good: good[channel],
-                        total,
-                    };
-                    let mut stream = Stream::new(seed, x, y, channel as u8);
-                    let mut device = Device::new(problem, Noise::NONE, &mut stream)?;
-                    let estimate = made.estimate(&mut device)?;
-                    values[channel] = bound[channel] * estimate.amplitude;
-                    queries += if exact { 0 } else { estimate.queries };
-                }
-            }
-            Ok(EstimatedPixel { values, queries })
+        let settings = Settings::of(&knobs.counting)?;
+        let draws = Draws {
+            estimator: &*estimator(knobs.counting.estimator, &settings)?,
+            noise: Noise::NONE,
+            // The first draw is the picture's own.
+            seed: self.seed,
+            count: self.effort.draws,
+            counted: bound.map(|bound| bound > 0.0),
+            total,
         };
-        let pairs = self.pixels.par_iter().zip(good);
-        let pixels = pairs.map(pixel).collect::<Result<Vec<_>, RenderError>>()?;
+        let found = draws.of(&self.pixels, good)?;
+        let exact = knobs.counting.estimator == Estimator::Exact;
+        let queries: u64 = found.iter().map(|drawn| drawn.queries).sum();
+        let value = |amplitudes: &[f64; 3]| std::array::from_fn(|c| bound[c] * amplitudes[c]);
+        let values = |drawn: Drawn| drawn.amplitudes.iter().map(value).collect();
         Ok(Estimated {
-            pixels,
+            values: found.into_iter().map(values).collect(),
+            queries: if exact { 0 } else { queries },
             seconds: start.elapsed().as_secs_f64(),
         })
     }
 }
 
 struct Estimated {
-    pixels: Vec<EstimatedPixel>,
-    seconds: f64,
-}
-
-struct EstimatedPixel {
-    /// By draw.
-    values: Vec<[f64; 3]>,
-    /// Of all draws.
+    /// By pixel, draw and channel, in radiance.
+    values: Vec<Vec<[f64; 3]>>,
+    /// Of all pixels, draws and channels.
     queries: u64,
+    seconds: f64,
 }
 
 fn circuit_key(knobs: &Knobs) -> CircuitKey {
@@ -300,15 +275,12 @@ fn good(tallies: &[Tally]) -> Vec<[u64; 3]> {
 /// E_T and the total error: of all draws, against S/N and against the limit.
 fn drawn(estimated: &Estimated, counted: &Means, truth: &Means, mean: f64) -> [Band; 2] {
     [counted, truth].map(|other| {
-        let square = |(pixel, other): (&EstimatedPixel, &[f64; 3])| {
-            let values = pixel
-                .values
-                .iter()
-                .flat_map(|value| value.iter().zip(other));
-            let sum: f64 = values.map(|(a, b)| ((a - b) / mean).powi(2)).sum();
-            sum / (3 * pixel.values.len()).max(1) as f64
+        let square = |(values, other): (&Vec<[f64; 3]>, &[f64; 3])| {
+            let pairs = values.iter().flat_map(|value| value.iter().zip(other));
+            let sum: f64 = pairs.map(|(a, b)| ((a - b) / mean).powi(2)).sum();
+            sum / (3 * values.len()).max(1) as f64
         };
-        let pairs = estimated.pixels.iter().zip(other);
+        let pairs = estimated.values.iter().zip(other);
         Band::of_squares(&pairs.map(square).collect::<Vec<_>>())
     })
 }

@@ -1,23 +1,60 @@
 //! Why there is no table.
 
-use crate::render::RenderError;
+use crate::counting::CountingError;
+use crate::estimators::EstimatorError;
+use crate::sample::SampleError;
+use crate::workers::ThreadsError;
+use qrt_core::oracle::OracleError;
 use qrt_core::report::Problem;
+use qrt_core::sampling::SamplingError;
+use std::io;
 use std::path::PathBuf;
-use std::{fmt, io};
 
 /// Why there is no table.
-#[derive(Debug)]
+#[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum TradeError {
-    /// What is measured cannot be rendered, or was interrupted: rows that are finished stay.
-    Render(RenderError),
+    /// The sample of pixels is not summed, or was interrupted: rows that are finished stay.
+    #[error(transparent)]
+    Sample(#[from] SampleError),
+    /// The scene has no circuit.
+    #[error(transparent)]
+    Oracle(#[from] OracleError),
+    /// The sequence of paths can't be made.
+    #[error(transparent)]
+    Sampling(#[from] SamplingError),
+    /// The pixels can't be counted as asked.
+    #[error(transparent)]
+    Counting(#[from] CountingError),
+    /// The estimator can't do what it is asked.
+    #[error(transparent)]
+    Estimator(#[from] EstimatorError),
+    /// The threads can't be started.
+    #[error(transparent)]
+    Threads(#[from] ThreadsError),
     /// Every pixel is black: nothing can be relative to their mean.
+    #[error(
+        "every pixel that was tried is black: errors are relative to the picture's mean radiance, \
+         which is 0"
+    )]
     Black,
-    /// The knobs of the scene cannot be turned.
+    /// The scene's parameters cannot be varied.
+    #[error("the scene's knobs cannot be turned: {}", first(.0))]
     Knobs(Vec<Problem>),
     /// A file cannot be written or read.
-    File(PathBuf, io::Error),
+    #[error("`{}`: {source}", .path.display())]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// What the file system says.
+        source: io::Error,
+    },
     /// The table that is there is another's.
+    #[error(
+        "`{}` is the table of another {what}: {found}, not {asked}; remove it, or name another \
+         folder",
+        .path.display()
+    )]
     Differs {
         /// The table.
         path: PathBuf,
@@ -29,6 +66,10 @@ pub enum TradeError {
         asked: String,
     },
     /// The table that is there cannot be read.
+    #[error(
+        "`{}`: line {line} is no row of this table; remove the file, or name another folder",
+        .path.display()
+    )]
     Unreadable {
         /// The table.
         path: PathBuf,
@@ -37,63 +78,13 @@ pub enum TradeError {
     },
 }
 
+fn first(problems: &[Problem]) -> &str {
+    problems.first().map_or("", |problem| &problem.message)
+}
+
 impl TradeError {
     /// Whether it is the request that can't be met, rather than the job that failed.
     pub fn is_refusal(&self) -> bool {
-        match self {
-            Self::Render(error) => error.is_refusal(),
-            Self::Black | Self::Knobs(_) | Self::Differs { .. } | Self::Unreadable { .. } => true,
-            Self::File(..) => false,
-        }
-    }
-}
-
-impl fmt::Display for TradeError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Render(error) => error.fmt(f),
-            Self::Black => write!(
-                f,
-                "every pixel that was tried is black: errors are relative to the picture's mean \
-                 radiance, which is 0"
-            ),
-            Self::Knobs(problems) => {
-                let first = problems.first().map_or("", |problem| &problem.message);
-                write!(f, "the scene's knobs cannot be turned: {first}")
-            }
-            Self::File(path, error) => write!(f, "`{}`: {error}", path.display()),
-            Self::Differs {
-                path,
-                what,
-                found,
-                asked,
-            } => write!(
-                f,
-                "`{}` is the table of another {what}: {found}, not {asked}; remove it, or name \
-                 another folder",
-                path.display()
-            ),
-            Self::Unreadable { path, line } => write!(
-                f,
-                "`{}`: line {line} is no row of this table; remove the file, or name another folder",
-                path.display()
-            ),
-        }
-    }
-}
-
-impl std::error::Error for TradeError {
-    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
-        match self {
-            Self::Render(error) => Some(error),
-            Self::File(_, error) => Some(error),
-            _ => None,
-        }
-    }
-}
-
-impl From<RenderError> for TradeError {
-    fn from(error: RenderError) -> Self {
-        Self::Render(error)
+        !matches!(self, Self::Sample(_) | Self::Threads(_) | Self::File { .. })
     }
 }

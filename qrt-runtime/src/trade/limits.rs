@@ -5,7 +5,6 @@ use super::bench::Bench;
 use super::error::TradeError;
 use super::setting::depths;
 use crate::machines::Real;
-use crate::render::RenderError;
 use crate::sample::{Means, prefix_means};
 use qrt_core::scene::{Sampling, Sequence};
 use qrt_core::valid::MAX_NET_DEPTHS;
@@ -42,8 +41,8 @@ impl Bench<'_> {
         // Ids need not be counted here.
         knobs.comparator.bits = 1;
         let scene = self.scene.with_knobs(knobs).map_err(TradeError::Knobs)?;
-        let real = Real::new(&scene, self.seed ^ key).map_err(RenderError::from)?;
-        let mut means = prefix_means(&real, &self.pixels, &[bits], self.cancel)?;
+        let real = Real::new(&scene, self.seed ^ key)?;
+        let mut means = prefix_means(&real, &self.pixels, &[bits], &self.workers)?;
         Ok(means.pop().unwrap_or_default())
     }
 

@@ -62,15 +62,13 @@ pub use pareto::pareto;
 pub use setting::{Setting, Sweep};
 pub use table::{ERRORS, Row};
 
-use crate::render::RenderError;
 use crate::replace_file::replace_file;
 use crate::sample::spread;
+use crate::workers::{Progress, Workers};
 use bench::{Bench, Effort};
 use qrt_core::valid::ValidScene;
 use std::io::Write as _;
-use std::num::NonZeroUsize;
 use std::path::Path;
-use std::sync::atomic::AtomicBool;
 
 /// What to measure, and how.
 #[derive(Clone, Copy, Default)]
@@ -81,26 +79,8 @@ pub struct Options<'a> {
     pub seed: u64,
     /// Fewer settings, pixels and reference paths.
     pub quick: bool,
-    /// Threads; as many as the machine has cores unless set.
-    pub threads: Option<NonZeroUsize>,
-    /// Set it, from any thread, to stop.
-    pub cancel: Option<&'a AtomicBool>,
-    /// Told how far the work is.
-    pub progress: Option<&'a (dyn Fn(Progress) + Sync)>,
-}
-
-/// How far the work is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Progress {
-    /// Once, at the beginning.
-    Started {
-        /// Rows of the table.
-        rows: u64,
-        /// Of these, those that an earlier run has left.
-        resumed: u64,
-    },
-    /// One more row is finished.
-    Row,
+    /// Who does the work; told of rows.
+    pub workers: Workers<'a>,
 }
 
 /// What was measured.
@@ -110,7 +90,7 @@ pub struct Trade {
     pub name: String,
     /// Pixels that were rendered, and those of the film.
     pub pixels: [u64; 2],
-    /// The seed.
+    /// What keyed shifts and draws.
     pub seed: u64,
     /// Paths of the reference: `2^reference_bits`.
     pub reference_bits: u32,
@@ -151,16 +131,15 @@ pub fn trade(
     folder: &Path,
     options: &Options<'_>,
 ) -> Result<Trade, TradeError> {
-    let threads = options.threads.map_or(0, NonZeroUsize::get);
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-    let pool = pool.map_err(|error| RenderError::Threads(error.to_string()))?;
-    std::fs::create_dir_all(folder)
-        .map_err(|error| TradeError::File(folder.to_path_buf(), error))?;
-    let measured = pool.install(|| measure(scene, folder, options))?;
+    let failed = |path: &Path| {
+        let path = path.to_path_buf();
+        |source: std::io::Error| TradeError::File { path, source }
+    };
+    std::fs::create_dir_all(folder).map_err(failed(folder))?;
+    let measured = (options.workers).run(|| measure(scene, folder, options))??;
     let write = |name: &str, text: &str| {
         let path = folder.join(name);
-        replace_file(&path, |out| out.write_all(text.as_bytes()))
-            .map_err(|error: std::io::Error| TradeError::File(path.clone(), error))
+        replace_file(&path, |out| out.write_all(text.as_bytes())).map_err(failed(&path))
     };
     let figures = figures::all(&measured);
     for figure in &figures {
@@ -193,19 +172,14 @@ fn measure(scene: &ValidScene, folder: &Path, options: &Options<'_>) -> Result<T
         ("quick", options.quick.to_string()),
     ];
     let count = pixels.len() as u64;
-    let mut bench = Bench::new(scene, pixels, options.seed, effort, options.cancel);
+    let mut bench = Bench::new(scene, pixels, options.seed, effort, options.workers);
     // What cannot be measured at all is told before a file is written.
     bench.check()?;
     let mut table = table::Table::open(&folder.join("trade.csv"), &header)?;
     let found = table.found(&settings)?;
     let resumed = found.iter().flatten().count();
-    let say = |progress| {
-        if let Some(tell) = options.progress {
-            tell(progress);
-        }
-    };
-    say(Progress::Started {
-        rows: settings.len() as u64,
+    options.workers.report(Progress::Started {
+        total: settings.len() as u64,
         resumed: resumed as u64,
     });
     let mut measured = Trade {
@@ -226,7 +200,7 @@ fn measure(scene: &ValidScene, folder: &Path, options: &Options<'_>) -> Result<T
             Some(row) => measured.rows.push(table.append(&row)?),
             None => measured.without_circuit.push(setting),
         }
-        say(Progress::Row);
+        options.workers.report(Progress::Finished(1));
     }
     Ok(measured)
 }

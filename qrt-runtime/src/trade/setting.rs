@@ -1,5 +1,6 @@
 //! What stands in a row: one value of every knob.
 
+use crate::named::named;
 use crate::render::Model;
 use qrt_core::oracle::DEFAULT_FRACTION;
 use qrt_core::scene::{
@@ -7,56 +8,27 @@ use qrt_core::scene::{
 };
 use qrt_core::valid::Knobs;
 
-/// Which knob a row belongs to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Sweep {
-    /// The scene as it is.
-    Scene,
-    /// Every estimator with registers of every size.
-    Counting,
-    /// Repetitions of a smaller register.
-    Repetitions,
-    /// Comparators.
-    Comparator,
-    /// The width of numbers.
-    Fraction,
-    /// Paths of either sequence.
-    Paths,
-    /// When registers are uncomputed, and how the nearest hit is kept.
-    Circuit,
-    /// What traces the paths.
-    Model,
-    /// The length of paths.
-    Depth,
-}
-
-impl Sweep {
-    /// All of them, in the order of their rows.
-    pub const ALL: [Self; 9] = [
-        Self::Scene,
-        Self::Counting,
-        Self::Repetitions,
-        Self::Comparator,
-        Self::Fraction,
-        Self::Paths,
-        Self::Circuit,
-        Self::Model,
-        Self::Depth,
-    ];
-
-    /// As it is written.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Scene => "scene",
-            Self::Counting => "counting",
-            Self::Repetitions => "repetitions",
-            Self::Comparator => "comparator",
-            Self::Fraction => "fraction",
-            Self::Paths => "paths",
-            Self::Circuit => "circuit",
-            Self::Model => "model",
-            Self::Depth => "depth",
-        }
+named! {
+    /// Which parameter a row is about.
+    pub enum Sweep {
+        /// The scene as it is.
+        Scene = "scene",
+        /// Every estimator with registers of every size.
+        Counting = "counting",
+        /// Repetitions of a smaller register.
+        Repetitions = "repetitions",
+        /// The number of comparators.
+        Comparator = "comparator",
+        /// The width of numbers.
+        Fraction = "fraction",
+        /// Paths of either sequence.
+        Paths = "paths",
+        /// When registers are uncomputed, and how the nearest hit is kept.
+        Circuit = "circuit",
+        /// What traces the paths.
+        Model = "model",
+        /// The length of paths.
+        Depth = "depth",
     }
 }
 
@@ -69,9 +41,9 @@ pub struct Setting {
     pub model: Model,
     /// How good ids are counted.
     pub estimator: Estimator,
-    /// t, of T = 2^t.
+    /// t, of T = 2^t phases.
     pub phase_bits: u32,
-    /// B.
+    /// B, the runs of the counting circuit.
     pub repetitions: u32,
     /// How path ids become points.
     pub sequence: Sequence,

@@ -13,38 +13,10 @@ const HALVED: u32 = 4;
 pub(super) fn settings(knobs: &Knobs, quick: bool) -> Vec<Setting> {
     let scene = Setting::of(knobs);
     let step = if quick { 2 } else { 1 };
-    let mut rows = vec![scene];
     let of = |sweep| Setting { sweep, ..scene };
-
-    let most = scene.phase_bits.max(12) + if quick { 0 } else { 2 };
-    let least = if quick { 4 } else { 2 };
-    for &estimator in Estimator::ALL {
-        if estimator == Estimator::Exact {
-            continue;
-        }
-        rows.extend(
-            (least..=most.min(40))
-                .step_by(step)
-                .map(|phase_bits| Setting {
-                    estimator,
-                    phase_bits,
-                    repetitions: 1,
-                    ..of(Sweep::Counting)
-                }),
-        );
-    }
-    let mut repeated = vec![Estimator::Paper];
-    if ![Estimator::Paper, Estimator::Exact].contains(&scene.estimator) {
-        repeated.insert(0, scene.estimator);
-    }
-    for estimator in repeated {
-        rows.extend((0..=5).map(|k| Setting {
-            estimator,
-            phase_bits: scene.phase_bits.saturating_sub(HALVED).max(3),
-            repetitions: 1 << k,
-            ..of(Sweep::Repetitions)
-        }));
-    }
+    let mut rows = vec![scene];
+    rows.extend(counting(of(Sweep::Counting), quick, step));
+    rows.extend(repetitions(of(Sweep::Repetitions)));
     rows.extend((2..=16).step_by(step).map(|comparator_bits| Setting {
         comparator_bits,
         ..of(Sweep::Comparator)
@@ -54,27 +26,8 @@ pub(super) fn settings(knobs: &Knobs, quick: bool) -> Vec<Setting> {
         fraction,
         ..of(Sweep::Fraction)
     }));
-    let most = (scene.path_bits + 2).clamp(10, 18);
-    for sequence in [Sequence::DigitalNet, Sequence::ProductLattice] {
-        let bits = (4..=most).step_by(step);
-        rows.extend(bits.map(|path_bits| Setting {
-            sequence,
-            path_bits,
-            ..of(Sweep::Paths)
-        }));
-    }
-    for (uncompute, nearest) in [
-        (Uncompute::Keep, Nearest::Running),
-        (Uncompute::Scoped, Nearest::Running),
-        (Uncompute::Keep, Nearest::Paper),
-        (Uncompute::Scoped, Nearest::Paper),
-    ] {
-        rows.push(Setting {
-            uncompute,
-            nearest,
-            ..of(Sweep::Circuit)
-        });
-    }
+    rows.extend(paths(of(Sweep::Paths), step));
+    rows.extend(circuits(of(Sweep::Circuit)));
     rows.extend(Model::ALL.map(|model| Setting {
         model,
         ..of(Sweep::Model)
@@ -87,4 +40,63 @@ pub(super) fn settings(knobs: &Knobs, quick: bool) -> Vec<Setting> {
         }));
     }
     rows
+}
+
+/// Every estimator with registers of every size.
+fn counting(scene: Setting, quick: bool, step: usize) -> impl Iterator<Item = Setting> {
+    let most = scene.phase_bits.max(12) + if quick { 0 } else { 2 };
+    let least = if quick { 4 } else { 2 };
+    let counted = Estimator::ALL.iter().filter(|&&e| e != Estimator::Exact);
+    counted.flat_map(move |&estimator| {
+        let bits = (least..=most.min(40)).step_by(step);
+        bits.map(move |phase_bits| Setting {
+            estimator,
+            phase_bits,
+            repetitions: 1,
+            ..scene
+        })
+    })
+}
+
+/// Repetitions of a smaller register: by the scene's estimator, if it counts, and by the paper's.
+fn repetitions(scene: Setting) -> impl Iterator<Item = Setting> {
+    let mut repeated = vec![Estimator::Paper];
+    if ![Estimator::Paper, Estimator::Exact].contains(&scene.estimator) {
+        repeated.insert(0, scene.estimator);
+    }
+    repeated.into_iter().flat_map(move |estimator| {
+        (0..=5).map(move |k| Setting {
+            estimator,
+            phase_bits: scene.phase_bits.saturating_sub(HALVED).max(3),
+            repetitions: 1 << k,
+            ..scene
+        })
+    })
+}
+
+/// Paths of either sequence.
+fn paths(scene: Setting, step: usize) -> impl Iterator<Item = Setting> {
+    let most = (scene.path_bits + 2).clamp(10, 18);
+    let sequences = [Sequence::DigitalNet, Sequence::ProductLattice];
+    sequences.into_iter().flat_map(move |sequence| {
+        let bits = (4..=most).step_by(step);
+        bits.map(move |path_bits| Setting {
+            sequence,
+            path_bits,
+            ..scene
+        })
+    })
+}
+
+/// When registers are uncomputed, and how the nearest hit is kept.
+fn circuits(scene: Setting) -> impl Iterator<Item = Setting> {
+    [Nearest::Running, Nearest::Paper]
+        .into_iter()
+        .flat_map(move |nearest| {
+            [Uncompute::Keep, Uncompute::Scoped].map(|uncompute| Setting {
+                uncompute,
+                nearest,
+                ..scene
+            })
+        })
 }

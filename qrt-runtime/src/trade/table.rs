@@ -110,7 +110,10 @@ pub(super) struct Table {
 impl Table {
     /// Goes on with the table at `path`, or begins it.
     pub(super) fn open(path: &Path, header: &Header) -> Result<Self, TradeError> {
-        let failed = |error| TradeError::File(path.to_path_buf(), error);
+        let failed = |source| TradeError::File {
+            path: path.to_path_buf(),
+            source,
+        };
         let text = match std::fs::read_to_string(path) {
             Ok(text) => text,
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => String::new(),
@@ -169,7 +172,10 @@ impl Table {
 
     /// Writes a finished row; and gives it back as it will be read again.
     pub(super) fn append(&mut self, row: &Row) -> Result<Row, TradeError> {
-        let failed = |error| TradeError::File(self.path.clone(), error);
+        let failed = |source| TradeError::File {
+            path: self.path.clone(),
+            source,
+        };
         let line = row.line();
         writeln!(self.file, "{line}").map_err(failed)?;
         Ok(Row::read(row.setting, &line).unwrap_or(*row))
@@ -191,7 +197,7 @@ fn columns() -> String {
     format!("{key},{figures},{errors},seconds")
 }
 
-/// Is it the table of the same things?
+/// That the first line of a table names the same things.
 fn check(path: &Path, found: &str, header: &Header) -> Result<(), TradeError> {
     let Some(parts) = found.strip_prefix("# qrt trade: ") else {
         return Err(TradeError::Unreadable {

@@ -7,19 +7,20 @@
 //! * A count must be the number of thresholds below the colour, counted from their definition.
 //! * `fixed` and `real` differ by E_W, the error of a finite width: measured, pixel by pixel.
 
+mod error;
 mod paths;
 
-use crate::machines::{Defect, OracleMachine, Parts, Real};
+pub use error::VerifyError;
+
+use crate::machines::{Defect, OracleCircuits, OracleMachine, Real};
 use crate::plan;
-use crate::render::{Progress, RenderError};
 use crate::sample::spread;
-use paths::{Found, Trio};
+use crate::workers::{Progress, Workers};
+use paths::{Found, Trio, show};
 use qrt_core::oracle::{self, Oracle};
 use qrt_core::valid::ValidScene;
 use rayon::prelude::*;
-use std::num::NonZeroUsize;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Paths of a pixel that are compared at a time.
 const RUN: u64 = 1 << 14;
@@ -37,12 +38,8 @@ pub struct Options<'a> {
     pub pixels: u64,
     /// Keys the shifts of the digital net.
     pub seed: u64,
-    /// Threads; as many as the machine has cores unless set.
-    pub threads: Option<NonZeroUsize>,
-    /// Set it, from any thread, to stop.
-    pub cancel: Option<&'a AtomicBool>,
-    /// Told how far the work is, from any thread.
-    pub progress: Option<&'a (dyn Fn(Progress) + Sync)>,
+    /// Who does the work; told of paths.
+    pub workers: Workers<'a>,
 }
 
 impl Default for Options<'_> {
@@ -50,9 +47,7 @@ impl Default for Options<'_> {
         Self {
             pixels: 16,
             seed: 0,
-            threads: None,
-            cancel: None,
-            progress: None,
+            workers: Workers::default(),
         }
     }
 }
@@ -62,7 +57,7 @@ impl Default for Options<'_> {
 pub struct Mismatch {
     /// Column and row of the pixel.
     pub pixel: [u32; 2],
-    /// The path.
+    /// The path's index.
     pub id: u64,
     /// 0 red, 1 green, 2 blue.
     pub channel: usize,
@@ -75,17 +70,17 @@ pub struct Mismatch {
 }
 
 /// What was found.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Report {
     /// Pixels, as columns and rows.
     pub pixels: Vec<[u32; 2]>,
     /// Paths compared; with a defect, paths that would have been.
     pub paths: u64,
-    /// Qubits and gates of one run of the circuit, all channels' flips included.
+    /// Qubits of one run of the circuit, all channels' flips included.
     pub qubits: u32,
-    /// See `qubits`.
+    /// Gates of one run of the circuit, all channels' flips included.
     pub gates: usize,
-    /// Fraction bits.
+    /// Fraction bits of every number.
     pub fraction: u32,
     /// How many (path, channel) pairs disagree.
     pub mismatched: u64,
@@ -93,12 +88,12 @@ pub struct Report {
     pub mismatches: Vec<Mismatch>,
     /// What the circuit did wrong, if it did.
     pub defect: Option<Defect>,
-    /// Per channel: the mean of the pixels, by the real machine. This and what follows is 0 if there
+    /// Per channel: the mean radiance of the pixels, by the real machine. This and what follows is 0 if there
     /// is a defect.
     pub mean: [f64; 3],
     /// Per channel: E_W, the root mean square over pixels of fixed less real.
     pub width_error: [f64; 3],
-    /// Per channel: the greatest difference of a pixel.
+    /// Per channel: the greatest difference of a pixel, in radiance.
     pub greatest: [f64; 3],
     /// Share of (path, channel) pairs whose colours differ by more than a hundredth of the scale:
     /// paths that met something else.
@@ -106,7 +101,7 @@ pub struct Report {
 }
 
 impl Report {
-    /// Is all as it must be?
+    /// Whether all is as it must be: no mismatch, and no defect.
     pub fn holds(&self) -> bool {
         self.mismatched == 0 && self.defect.is_none()
     }
@@ -124,16 +119,15 @@ impl Report {
 ///
 /// # Errors
 /// A scene without a circuit, and an interruption. What the machines find is in the report.
-pub fn verify(scene: &ValidScene, options: &Options<'_>) -> Result<Report, RenderError> {
+pub fn verify(scene: &ValidScene, options: &Options<'_>) -> Result<Report, VerifyError> {
     let planning = plan::Options {
-        threads: options.threads,
-        cancel: options.cancel,
+        workers: options.workers,
         ..plan::Options::default()
     };
     let planned = plan::plan(scene, &planning)?;
     let scene = planned.as_ref().map_or(scene, |plan| &plan.scene);
     let oracle = Arc::new(Oracle::rgb(scene, oracle::Options::default())?);
-    let parts = Parts::new(&oracle);
+    let parts = OracleCircuits::new(&oracle);
     verify_parts(scene, &oracle, parts, options)
 }
 
@@ -144,14 +138,14 @@ pub fn verify(scene: &ValidScene, options: &Options<'_>) -> Result<Report, Rende
 pub fn verify_parts(
     scene: &ValidScene,
     oracle: &Arc<Oracle>,
-    parts: Parts,
+    parts: OracleCircuits,
     options: &Options<'_>,
-) -> Result<Report, RenderError> {
+) -> Result<Report, VerifyError> {
     let area = u64::from(oracle.film[0]) * u64::from(oracle.film[1]);
     let count = options.pixels.clamp(1, area);
     let path_bits = oracle.points.path_bits();
     let Some(paths) = count.checked_mul(1 << path_bits) else {
-        return Err(RenderError::TooManyPaths {
+        return Err(VerifyError::TooManyPaths {
             pixels: count,
             path_bits,
         });
@@ -162,77 +156,59 @@ pub fn verify_parts(
         qubits: parts.compute.qubits,
         gates: parts.gates(),
         fraction: oracle.fraction,
-        mismatched: 0,
-        mismatches: Vec::new(),
-        defect: None,
-        mean: [0.0; 3],
-        width_error: [0.0; 3],
-        greatest: [0.0; 3],
-        parted: 0.0,
+        ..Report::default()
     };
     let real = Real::new(scene, options.seed)?;
     let fixed = OracleMachine::fixed(oracle.clone(), options.seed, true);
-    let threads = options.threads.map_or(0, NonZeroUsize::get);
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-    let pool = pool.map_err(|error| RenderError::Threads(error.to_string()))?;
-    let gates = pool.install(|| OracleMachine::of_parts(oracle.clone(), parts, options.seed, true));
-    let gates = match gates {
-        Ok(gates) => gates,
-        Err(defect) => {
-            report.defect = Some(defect);
-            return Ok(report);
+    options.workers.run(|| {
+        let gates = OracleMachine::of_parts(oracle.clone(), parts, options.seed, true);
+        match gates {
+            Ok(gates) => {
+                let trio = Trio {
+                    oracle,
+                    real: &real,
+                    fixed: &fixed,
+                    gates: &gates,
+                    at: scene.scene().comparator.at,
+                };
+                report.compare(&trio, &options.workers)?;
+            }
+            Err(defect) => report.defect = Some(defect),
         }
-    };
-    let trio = Trio {
-        oracle,
-        real: &real,
-        fixed: &fixed,
-        gates: &gates,
-        at: scene.scene().comparator.at,
-    };
-    pool.install(|| report.compare(&trio, options))?;
-    Ok(report)
+        Ok(report)
+    })?
 }
 
 impl Report {
     /// Compares all paths of all pixels, in runs.
-    fn compare(&mut self, trio: &Trio<'_>, options: &Options<'_>) -> Result<(), RenderError> {
-        let say = |progress| {
-            if let Some(tell) = options.progress {
-                tell(progress);
-            }
-        };
-        say(Progress::Started {
-            paths: self.paths,
+    fn compare(&mut self, trio: &Trio<'_>, workers: &Workers<'_>) -> Result<(), VerifyError> {
+        workers.report(Progress::Started {
+            total: self.paths,
             resumed: 0,
         });
-        let of_pixel = self.paths / self.pixels.len() as u64;
+        let pixels = self.pixels.len() as u64;
+        let of_pixel = self.paths / pixels;
         let runs = of_pixel.div_ceil(RUN);
-        let all = runs * self.pixels.len() as u64;
+        let all = runs * pixels;
         let mut pixel = Found::default();
-        let mut parted = 0;
         for first in (0..all).step_by(HELD as usize) {
             let numbers = first..(first + HELD).min(all);
-            let found: Vec<Result<Found, Defect>> = numbers
-                .clone()
-                .into_par_iter()
-                .map(|number| {
-                    if options.cancel.is_some_and(|c| c.load(Ordering::Relaxed)) {
-                        return Ok(Found::default());
-                    }
-                    let start = number % runs * RUN;
-                    let ids = start..(start + RUN).min(of_pixel);
-                    let length = ids.end - ids.start;
-                    let found = trio.run(self.pixels[(number / runs) as usize], ids);
-                    say(Progress::Traced(length));
-                    found
-                })
-                .collect();
-            if options.cancel.is_some_and(|c| c.load(Ordering::Relaxed)) {
-                return Err(RenderError::Interrupted {
+            let found = numbers.clone().into_par_iter().map(|number| {
+                if workers.cancelled() {
+                    return Ok(Found::default());
+                }
+                let start = number % runs * RUN;
+                let ids = start..(start + RUN).min(of_pixel);
+                let length = ids.end - ids.start;
+                let found = trio.run(self.pixels[(number / runs) as usize], ids);
+                workers.report(Progress::Finished(length));
+                found
+            });
+            let found: Vec<Result<Found, Defect>> = found.collect();
+            if workers.cancelled() {
+                return Err(VerifyError::Interrupted {
                     finished: first / runs,
-                    pixels: self.pixels.len() as u64,
-                    checkpoint: None,
+                    pixels,
                 });
             }
             for (number, found) in numbers.zip(found) {
@@ -242,19 +218,18 @@ impl Report {
                         self.defect = Some(defect);
                         // Of some of the pixels, they would be of none.
                         [self.mean, self.width_error, self.greatest] = [[0.0; 3]; 3];
+                        self.parted = 0.0;
                         return Ok(());
                     }
                 }
                 if number % runs + 1 == runs {
-                    parted += pixel.parted;
                     self.take(std::mem::take(&mut pixel), of_pixel);
                 }
             }
         }
-        let pixels = self.pixels.len() as f64;
-        self.mean = self.mean.map(|sum| sum / pixels);
-        self.width_error = self.width_error.map(|sum| (sum / pixels).sqrt());
-        self.parted = parted as f64 / (3.0 * self.paths as f64);
+        self.mean = self.mean.map(|sum| sum / pixels as f64);
+        self.width_error = self.width_error.map(|sum| (sum / pixels as f64).sqrt());
+        self.parted /= 3.0 * self.paths as f64;
         Ok(())
     }
 
@@ -267,9 +242,8 @@ impl Report {
             self.width_error[c] += difference * difference;
             self.greatest[c] = self.greatest[c].max(difference.abs());
         }
+        self.parted += found.parted as f64;
         self.mismatched += found.mismatched;
-        let room = SHOWN - self.mismatches.len().min(SHOWN);
-        self.mismatches
-            .extend(found.mismatches.into_iter().take(room));
+        show(&mut self.mismatches, found.mismatches);
     }
 }

@@ -25,10 +25,14 @@ impl Found {
         }
         self.parted += next.parted;
         self.mismatched += next.mismatched;
-        let room = SHOWN - self.mismatches.len().min(SHOWN);
-        self.mismatches
-            .extend(next.mismatches.into_iter().take(room));
+        show(&mut self.mismatches, next.mismatches);
     }
+}
+
+/// Adds mismatches to those that are reported one by one, as long as there is room.
+pub(super) fn show(shown: &mut Vec<Mismatch>, more: Vec<Mismatch>) {
+    let room = SHOWN.saturating_sub(shown.len());
+    shown.extend(more.into_iter().take(room));
 }
 
 /// The three machines.

@@ -3,12 +3,13 @@
 mod json;
 mod text;
 
+use super::args::{SceneArgs, choice};
 use super::failure::Failure;
 use super::files::{can_be_written, keep_apart};
 use super::terminal;
-use clap::{Args, ValueEnum};
-use qrt_core::front::{self, Loaded};
-use qrt_core::inspect::{Frame, Inspection, PassFigures};
+use clap::Args;
+use qrt_core::front::Loaded;
+use qrt_core::inspect::{CHANNELS, Frame, Inspection, PassFigures};
 use qrt_core::oracle::{Options, Spent, check_budget};
 use qrt_core::valid::ValidScene;
 use qrt_runtime::draw;
@@ -36,12 +37,9 @@ Examples:
   qrt inspect box.yaml --registers map.svg --circuit frame.svg
   qrt inspect box.yaml --circuit -                      the circuit, drawn in the terminal")]
 pub(crate) struct InspectArgs {
-    /// The scene, a YAML file
-    #[arg(value_name = "SCENE")]
-    scene: PathBuf,
     /// The channel [default: the one whose oracle has the most Toffolis]
-    #[arg(long, value_enum, value_name = "CHANNEL")]
-    channel: Option<Channel>,
+    #[arg(long, value_parser = choice(CHANNEL_CHOICES, channel_name), value_name = "CHANNEL")]
+    channel: Option<usize>,
     /// List each plane or primitive of a search, not only their sum
     #[arg(short = 'v', long, conflicts_with = "json")]
     planes: bool,
@@ -54,19 +52,15 @@ pub(crate) struct InspectArgs {
     /// Draw the circuit as boxes on wires; `-` draws it in the terminal
     #[arg(long, value_name = "FILE.svg")]
     circuit: Option<PathBuf>,
-    /// Override a key of the scene; may be repeated
-    #[arg(long = "set", value_name = "KEY=VALUE")]
-    sets: Vec<String>,
+    #[command(flatten)]
+    scene: SceneArgs,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum Channel {
-    /// Red
-    R,
-    /// Green
-    G,
-    /// Blue
-    B,
+pub(super) const CHANNEL_CHOICES: [(usize, &str); 3] = [(0, "Red"), (1, "Green"), (2, "Blue")];
+
+/// `r`, `g` or `b`.
+pub(super) fn channel_name(channel: usize) -> &'static str {
+    CHANNELS[channel]
 }
 
 /// What is shown.
@@ -85,16 +79,15 @@ pub(crate) fn run(args: &InspectArgs) -> Result<(), Failure> {
     }
     let circuit = args.circuit.as_deref().filter(|_| !in_terminal);
     let files = [circuit, args.registers.as_deref()].into_iter().flatten();
-    keep_apart(std::iter::once(&*args.scene).chain(files.clone()))?;
+    keep_apart(std::iter::once(&*args.scene.scene).chain(files.clone()))?;
     for file in files {
         can_be_written(file)?;
     }
-    let loaded = front::load(&args.scene, &args.sets)?;
+    let loaded = args.scene.load()?;
     let planned = plan(&loaded.valid, &PlanOptions::default())?;
     let scene = planned.as_ref().map_or(&loaded.valid, |plan| &plan.scene);
-    let channel = args.channel.map(|channel| channel as usize);
     let refused = |error: qrt_core::oracle::OracleError| loaded.report(vec![error.problem()]);
-    let inspection = Inspection::new(scene, channel, Options::default()).map_err(refused)?;
+    let inspection = Inspection::new(scene, args.channel, Options::default()).map_err(refused)?;
     let passes = inspection.passes(scene).map_err(refused)?;
 
     let name = &scene.scene().name;

@@ -2,7 +2,7 @@
 
 use super::posterior::Posterior;
 use super::{Goal, depth};
-use crate::estimators::{AmplitudeEstimator, Device, Estimate, EstimatorError, Noise, Settings};
+use crate::estimators::{AmplitudeEstimator, Device, Estimate, EstimatorError, Settings};
 
 /// `adaptive-bayes`: single shots, each at the depth that is expected to sharpen the posterior most
 /// per query; the posterior mean. The default, and the most accurate here.
@@ -23,31 +23,25 @@ use crate::estimators::{AmplitudeEstimator, Device, Estimate, EstimatorError, No
 /// 10^-12). Never spends more than the queries allowed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AdaptiveBayes {
-    queries: u64,
     goal: Goal,
-    noise: Noise,
 }
 
 impl AdaptiveBayes {
     /// # Errors
     /// A setting out of range.
     pub fn new(settings: &Settings) -> Result<Self, EstimatorError> {
-        settings.check()?;
-        Ok(Self {
-            queries: settings.queries,
-            goal: Goal::of(settings),
-            noise: settings.known_noise,
-        })
+        let goal = Goal::of(settings)?;
+        Ok(Self { goal })
     }
 }
 
 impl AmplitudeEstimator for AdaptiveBayes {
     fn estimate(&self, device: &mut Device<'_>) -> Result<Estimate, EstimatorError> {
         let start = device.spent();
-        let mut posterior = Posterior::new(device.total(), self.noise);
-        let mut left = self.queries;
+        let mut posterior = Posterior::new(device.total(), self.goal.noise);
+        let mut left = self.goal.queries;
         while left > 0 && !self.goal.is_reached(&posterior) {
-            let plan = depth::choose(&mut posterior, &self.noise, left);
+            let plan = depth::choose(&mut posterior, &self.goal.noise, left);
             let good = device.iterated(plan.iterations, plan.shots)?;
             posterior.observe(plan.iterations, good, plan.shots - good);
             left -= plan.shots * plan.iterations.max(1);

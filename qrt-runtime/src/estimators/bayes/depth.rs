@@ -33,7 +33,7 @@ const ROUND: f64 = 0.3;
 
 /// What to measure next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Plan {
+pub(super) struct Measurement {
     pub(super) iterations: u64,
     pub(super) shots: u64,
 }
@@ -44,7 +44,7 @@ pub(super) struct Plan {
 /// out others. At most `left` queries, which is at least one.
 ///
 /// Where noise or [`MAX_ITERATIONS`] forbid the fitting depth, several shots are taken at once.
-pub(super) fn choose(posterior: &mut Posterior, noise: &Noise, left: u64) -> Plan {
+pub(super) fn choose(posterior: &mut Posterior, noise: &Noise, left: u64) -> Measurement {
     let width = posterior.width();
     let deepest = left.min(MAX_ITERATIONS).min(posterior.deepest() as u64);
     let fitting = fitting(left as f64 * width, width);
@@ -87,7 +87,7 @@ pub(super) fn choose(posterior: &mut Posterior, noise: &Noise, left: u64) -> Pla
     } else {
         1
     };
-    Plan {
+    Measurement {
         iterations,
         shots: shots.clamp(1, left / iterations.max(1)),
     }

@@ -18,25 +18,30 @@ mod tests;
 pub use adaptive::AdaptiveBayes;
 pub use random_depth::RandomDepth;
 
-use crate::estimators::Settings;
+use crate::estimators::{EstimatorError, Noise, Settings};
 use posterior::Posterior;
 
-/// When to stop.
+/// What is known of the device, and when to stop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Goal {
+    queries: u64,
     error: Option<f64>,
     confidence: f64,
+    noise: Noise,
 }
 
 /// The probability of all other S at which one is known.
 const DOUBT: f64 = 1e-12;
 
 impl Goal {
-    fn of(settings: &Settings) -> Self {
-        Self {
+    fn of(settings: &Settings) -> Result<Self, EstimatorError> {
+        settings.check()?;
+        Ok(Self {
+            queries: settings.queries,
             error: settings.error,
             confidence: settings.confidence,
-        }
+            noise: settings.known_noise,
+        })
     }
 
     /// Whether S is known, or the interval as narrow as is asked.

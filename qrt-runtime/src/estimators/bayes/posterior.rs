@@ -1,6 +1,7 @@
 //! What is known of theta after shots at several depths.
 
 use super::support::{self, Support};
+use crate::estimators::device::id_bits;
 use crate::estimators::interval::credible_content;
 use crate::estimators::{Device, Estimate, Noise, Spent};
 use std::f64::consts::PI;
@@ -99,7 +100,7 @@ impl Posterior {
         let mut posterior = Self {
             total,
             noise,
-            bits: u64::BITS - (total - 1).leading_zeros(),
+            bits: id_bits(total),
             support: Support::whole(total),
             shots: Vec::new(),
             information: 0.0,

@@ -3,7 +3,7 @@
 use super::posterior::Posterior;
 use super::{Goal, depth};
 use crate::estimators::{
-    AmplitudeEstimator, Device, Estimate, EstimatorError, MAX_ITERATIONS, Noise, Settings,
+    AmplitudeEstimator, Device, Estimate, EstimatorError, MAX_ITERATIONS, Settings,
 };
 
 /// `random-depth`: single shots after a number of iterations drawn uniformly from a range that
@@ -20,9 +20,7 @@ use crate::estimators::{
 /// Interval and stopping as with `adaptive-bayes`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RandomDepth {
-    queries: u64,
     goal: Goal,
-    noise: Noise,
 }
 
 /// What the range of depths grows by with each shot.
@@ -32,21 +30,17 @@ impl RandomDepth {
     /// # Errors
     /// A setting out of range.
     pub fn new(settings: &Settings) -> Result<Self, EstimatorError> {
-        settings.check()?;
-        Ok(Self {
-            queries: settings.queries,
-            goal: Goal::of(settings),
-            noise: settings.known_noise,
-        })
+        let goal = Goal::of(settings)?;
+        Ok(Self { goal })
     }
 }
 
 impl AmplitudeEstimator for RandomDepth {
     fn estimate(&self, device: &mut Device<'_>) -> Result<Estimate, EstimatorError> {
         let start = device.spent();
-        let mut posterior = Posterior::new(device.total(), self.noise);
-        let most = (MAX_ITERATIONS as f64).min(2.0 * depth::useful(&self.noise));
-        let mut left = self.queries;
+        let mut posterior = Posterior::new(device.total(), self.goal.noise);
+        let most = (MAX_ITERATIONS as f64).min(2.0 * depth::useful(&self.goal.noise));
+        let mut left = self.goal.queries;
         let (mut range, mut shots) = (1.0_f64, 0);
         while left > 0 && !self.goal.is_reached(&posterior) {
             let limit = most.min(posterior.deepest()).min(left as f64);

@@ -16,14 +16,24 @@ mod miqae;
 #[cfg(test)]
 mod tests;
 
-pub use chebyshev::Chebyshev;
-pub use iqae::Iqae;
-pub use miqae::Miqae;
-
 use super::clopper_pearson::clopper_pearson;
-use super::{Device, Estimate, EstimatorError, MAX_ITERATIONS, Settings};
+use super::{AmplitudeEstimator, Device, Estimate, EstimatorError, MAX_ITERATIONS, Settings};
 use arc::{Arc, Multiples};
 use std::f64::consts::PI;
+
+/// An estimator of this family: [`Iterative::iqae`], [`Iterative::miqae`] or
+/// [`Iterative::chebyshev`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Iterative {
+    goal: Goal,
+    rules: Rules,
+}
+
+impl AmplitudeEstimator for Iterative {
+    fn estimate(&self, device: &mut Device<'_>) -> Result<Estimate, EstimatorError> {
+        self.rules.run(&self.goal, device)
+    }
+}
 
 /// What distinguishes one method of this family from another.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -68,8 +78,8 @@ struct Goal {
 }
 
 impl Goal {
-    /// The asked error; without one, the error that a method with this `cost`, queries times error,
-    /// reaches with the queries there are.
+    /// The asked error; without one, the error that a method reaches with the queries there are. Its
+    /// `cost` is queries times error: about what most runs take.
     fn new(settings: &Settings, cost: f64) -> Self {
         let reachable = (cost / settings.queries as f64).clamp(1e-15, 0.499);
         Self {

@@ -37,7 +37,7 @@ fn mean_queries(estimator: &dyn AmplitudeEstimator, error: f64, runs: u32) -> (f
 #[test]
 fn chebyshev_takes_the_published_queries() {
     let error = 1e-4;
-    let estimator = Chebyshev::new(&settings(u64::MAX, Some(error)));
+    let estimator = Iterative::chebyshev(&settings(u64::MAX, Some(error)));
     let (queries, within) = mean_queries(&estimator, error, 400);
     let constant = queries * error;
     assert!((constant / 3.99 - 1.1).abs() < 0.08, "{constant}");
@@ -52,13 +52,13 @@ fn iterations_keep_the_published_bounds() {
         let settings = settings(u64::MAX, Some(error));
         let depths = libm::log2(0.25 * PI / error);
         let bound = 50.0 * libm::log(2.0 / 0.05 * depths);
-        let (queries, within) = mean_queries(&Iqae::new(&settings), error, 200);
+        let (queries, within) = mean_queries(&Iterative::iqae(&settings), error, 200);
         assert!(
             queries * error < bound && within > 0.93,
             "{queries} {within}"
         );
         let bound = 61.0 * libm::log(5.2 / 0.05);
-        let (queries, within) = mean_queries(&Miqae::new(&settings), error, 200);
+        let (queries, within) = mean_queries(&Iterative::miqae(&settings), error, 200);
         assert!(
             queries * error < bound && within > 0.95,
             "{queries} {within}"

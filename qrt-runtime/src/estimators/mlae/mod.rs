@@ -7,6 +7,7 @@ mod search;
 mod tests;
 
 use super::clopper_pearson::clopper_pearson;
+use super::device::id_bits;
 use super::normal::normal_quantile;
 use super::turns::amplitude;
 use super::{AmplitudeEstimator, Device, Estimate, EstimatorError, Noise, Settings};
@@ -79,8 +80,7 @@ impl Mlae {
     /// Measures level by level.
     fn measured(&self, device: &mut Device<'_>) -> Result<Likelihood, EstimatorError> {
         let start = device.spent().queries;
-        let bits = u64::BITS - (device.total() - 1).leading_zeros();
-        let schedule = Schedule::new(self.noise, bits);
+        let schedule = Schedule::new(self.noise, id_bits(device.total()));
         let enough = self.error.map_or(f64::INFINITY, |error| Self::COST / error);
         let mut planned = schedule
             .levels(self.queries.min(enough.ceil() as u64))

@@ -24,29 +24,19 @@ use qrt_circuit::Circuit;
 use rayon::prelude::*;
 use rows::LANES;
 use std::cell::Cell;
-use std::fmt;
 
 /// A gate that a circuit cannot have.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "gate {gate} of circuit {circuit} is controlled by its own target, or names a qubit or a \
+     parameter that the circuit does not have"
+)]
 pub struct InvalidGate {
     /// The circuit's place in the list that was given.
     pub circuit: usize,
     /// The gate's place in it.
     pub gate: usize,
 }
-
-impl fmt::Display for InvalidGate {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "gate {} of circuit {} is controlled by its own target, or names a qubit or a \
-             parameter that the circuit does not have",
-            self.gate, self.circuit
-        )
-    }
-}
-
-impl std::error::Error for InvalidGate {}
 
 /// Circuits, ready to be run on rows of states.
 ///

@@ -1,8 +1,8 @@
 //! Vectors of x86-64-v3: eight lanes in registers of 256 bits, truths as lanes of ones or zeros.
 
-use super::avx512::entries;
 use super::scalar;
 use super::vectors::{Integers, Truths, Vectors};
+use super::x86::{common, halves, instructions, lane_by_lane, shifts, whole};
 use pulp::x86::V3;
 use std::arch::x86_64::{__m256d, __m256i};
 
@@ -19,14 +19,8 @@ pub struct Ints(V3, __m256i);
 pub struct Longs(V3, [__m256i; 2]);
 
 impl Truths for Masks {
-    #[inline(always)]
-    fn and(self, other: Self) -> Self {
-        Self(self.0, self.0.avx2._mm256_and_si256(self.1, other.1))
-    }
-    #[inline(always)]
-    fn xor(self, other: Self) -> Self {
-        Self(self.0, self.0.avx2._mm256_xor_si256(self.1, other.1))
-    }
+    instructions!(whole, avx2: and = _mm256_and_si256, xor = _mm256_xor_si256);
+
     #[inline(always)]
     fn not(self) -> Self {
         let all = self.0.avx._mm256_set1_epi32(-1);
@@ -42,36 +36,19 @@ impl Ints {
 }
 
 impl Integers<Masks> for Ints {
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        Self(self.0, self.0.avx2._mm256_add_epi32(self.1, other.1))
-    }
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        Self(self.0, self.0.avx2._mm256_sub_epi32(self.1, other.1))
-    }
-    #[inline(always)]
-    fn mul(self, other: Self) -> Self {
-        Self(self.0, self.0.avx2._mm256_mullo_epi32(self.1, other.1))
-    }
-    #[inline(always)]
-    fn xor(self, other: Self) -> Self {
-        Self(self.0, self.0.avx2._mm256_xor_si256(self.1, other.1))
-    }
-    #[inline(always)]
-    fn left(self, by: u32) -> Self {
-        let by = Self::all(self.0, by.cast_signed());
-        Self(self.0, self.0.avx2._mm256_sllv_epi32(self.1, by.1))
-    }
-    #[inline(always)]
-    fn right(self, by: u32) -> Self {
-        let by = Self::all(self.0, by.cast_signed());
-        Self(self.0, self.0.avx2._mm256_srav_epi32(self.1, by.1))
-    }
+    instructions!(
+        whole, avx2:
+        add = _mm256_add_epi32,
+        sub = _mm256_sub_epi32,
+        mul = _mm256_mullo_epi32,
+        xor = _mm256_xor_si256
+    );
+    shifts!(whole, avx2: left = _mm256_sllv_epi32, right = _mm256_srav_epi32);
+
     #[inline(always)]
     fn lowest(self, bits: u32) -> Self {
         let bits = Self::all(self.0, (u32::MAX >> (32 - bits)).cast_signed());
-        Self(self.0, self.0.avx2._mm256_and_si256(self.1, bits.1))
+        whole!(self, bits, avx2._mm256_and_si256)
     }
     #[inline(always)]
     fn less(self, other: Self) -> Masks {
@@ -95,17 +72,6 @@ impl Integers<Masks> for Ints {
     }
 }
 
-/// An operation of both halves. A macro and not a function of a closure: a closure is compiled
-/// without the instruction set until it is inlined, which is left to chance.
-macro_rules! halves {
-    ($a:ident, $b:ident, $operation:ident) => {{
-        let avx2 = $a.0.avx2;
-        let low = avx2.$operation($a.1[0], $b.1[0]);
-        let high = avx2.$operation($a.1[1], $b.1[1]);
-        Self($a.0, [low, high])
-    }};
-}
-
 impl Longs {
     #[inline(always)]
     fn all(simd: V3, value: i64) -> Self {
@@ -116,18 +82,18 @@ impl Longs {
     #[inline(always)]
     fn right_unsigned(self, by: u32) -> Self {
         let by = Self::all(self.0, by.into());
-        halves!(self, by, _mm256_srlv_epi64)
+        halves!(self, by, avx2._mm256_srlv_epi64)
     }
 
     /// Products of the lower halves of lanes, unsigned.
     #[inline(always)]
     fn mul_low(self, other: Self) -> Self {
-        halves!(self, other, _mm256_mul_epu32)
+        halves!(self, other, avx2._mm256_mul_epu32)
     }
 
     #[inline(always)]
     fn equal(self, other: Self) -> Masks {
-        halves!(self, other, _mm256_cmpeq_epi64).masks()
+        halves!(self, other, avx2._mm256_cmpeq_epi64).masks()
     }
 
     /// Lanes of ones or zeros, narrowed.
@@ -164,28 +130,19 @@ impl Longs {
 const POWER: i64 = 0x4330_0000_0000_0000;
 
 impl Integers<Masks> for Longs {
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        halves!(self, other, _mm256_add_epi64)
-    }
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        halves!(self, other, _mm256_sub_epi64)
-    }
+    instructions!(
+        halves, avx2:
+        add = _mm256_add_epi64,
+        sub = _mm256_sub_epi64,
+        xor = _mm256_xor_si256
+    );
+    shifts!(halves, avx2: left = _mm256_sllv_epi64);
+
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
         let crossed = self.right_unsigned(32).mul_low(other);
         let crossed = crossed.add(self.mul_low(other.right_unsigned(32)));
         self.mul_low(other).add(crossed.left(32))
-    }
-    #[inline(always)]
-    fn xor(self, other: Self) -> Self {
-        halves!(self, other, _mm256_xor_si256)
-    }
-    #[inline(always)]
-    fn left(self, by: u32) -> Self {
-        let by = Self::all(self.0, by.into());
-        halves!(self, by, _mm256_sllv_epi64)
     }
     #[inline(always)]
     fn right(self, by: u32) -> Self {
@@ -196,16 +153,16 @@ impl Integers<Masks> for Longs {
     #[inline(always)]
     fn lowest(self, bits: u32) -> Self {
         let bits = Self::all(self.0, (u64::MAX >> (64 - bits)).cast_signed());
-        halves!(self, bits, _mm256_and_si256)
+        halves!(self, bits, avx2._mm256_and_si256)
     }
     #[inline(always)]
     fn less(self, other: Self) -> Masks {
-        halves!(other, self, _mm256_cmpgt_epi64).masks()
+        halves!(other, self, avx2._mm256_cmpgt_epi64).masks()
     }
     #[inline(always)]
     fn has(self, bits: i64) -> Masks {
         let mask = Self::all(self.0, bits);
-        let set = halves!(self, mask, _mm256_and_si256);
+        let set = halves!(self, mask, avx2._mm256_and_si256);
         if bits.cast_unsigned().is_power_of_two() {
             return set.equal(mask);
         }
@@ -223,17 +180,6 @@ impl Integers<Masks> for Longs {
 
 /// The odd lanes, in the even ones' places.
 const ODD: i32 = 0b11_11_01_01;
-
-/// Both halves' lanes, changed one by one beside those of another vector: for what no instruction
-/// does.
-macro_rules! lane_by_lane {
-    ($simd:expr, $a:expr, $b:expr, $change:ident $(, $more:expr)?) => {{
-        let mut lanes: [i64; 8] = pulp::cast($a.1);
-        let beside: [i64; 8] = pulp::cast($b.1);
-        scalar::$change(&mut lanes, &beside $(, $more)?);
-        Longs($simd, pulp::cast(lanes))
-    }};
-}
 
 /// Eight entries, by the index's lowest 3 bits.
 #[inline(always)]
@@ -258,30 +204,12 @@ fn either(low: Ints, high: Ints, index: Ints, bit: u32) -> Ints {
 }
 
 impl Vectors for V3 {
-    const LANES: usize = 8;
-    type Truths = Masks;
-    type Ints = Ints;
-    type Longs = Longs;
+    common!(8);
 
     #[inline(always)]
     fn truths(self, all: bool) -> Masks {
         Masks(self, Ints::all(self, -i32::from(all)).1)
     }
-    #[inline(always)]
-    fn ints(self, all: i32) -> Ints {
-        Ints::all(self, all)
-    }
-    #[inline(always)]
-    fn longs(self, all: i64) -> Longs {
-        Longs::all(self, all)
-    }
-    #[inline(always)]
-    fn from(self, first: u64) -> Longs {
-        let all = Longs::all(self, first.cast_signed());
-        let places: [i64; 8] = [0, 1, 2, 3, 4, 5, 6, 7];
-        all.add(Longs(self, pulp::cast(places)))
-    }
-
     #[inline(always)]
     fn widen(self, a: Ints) -> Longs {
         let low = self.avx._mm256_castsi256_si128(a.1);
@@ -333,11 +261,6 @@ impl Vectors for V3 {
     }
 
     #[inline(always)]
-    fn product_of_longs(self, a: Longs, b: Longs, drop: u32) -> Longs {
-        lane_by_lane!(self, a, b, products, drop)
-    }
-
-    #[inline(always)]
     fn quotient_single(self, a: Ints, b: Ints, up: u32) -> Ints {
         let avx = self.avx;
         let power = avx._mm256_set1_ps(f32::from_bits((127 + up) << 23));
@@ -352,10 +275,6 @@ impl Vectors for V3 {
         Longs::floors(self, [low, self.avx._mm256_div_pd(high, by_high)])
     }
     #[inline(always)]
-    fn quotient_of_longs(self, a: Longs, b: Longs) -> Longs {
-        lane_by_lane!(self, a, b, quotients)
-    }
-    #[inline(always)]
     fn root_single(self, a: Ints) -> Ints {
         let avx = self.avx;
         let root = avx._mm256_sqrt_ps(avx._mm256_cvtepi32_ps(a.1));
@@ -367,11 +286,6 @@ impl Vectors for V3 {
         let low = self.avx._mm256_sqrt_pd(low);
         Longs::floors(self, [low, self.avx._mm256_sqrt_pd(high)])
     }
-    #[inline(always)]
-    fn root_of_longs(self, a: Longs) -> Longs {
-        lane_by_lane!(self, a, a, roots)
-    }
-
     #[inline(always)]
     fn table16(self, table: &[i32; 16], index: Ints) -> Ints {
         let [low, high]: [[i32; 8]; 2] = pulp::cast(*table);
@@ -396,22 +310,8 @@ impl Vectors for V3 {
         Ints(self, found)
     }
     #[inline(always)]
-    fn wide_table<const L: usize>(self, table: &[i64; L], index: Ints) -> Longs {
-        let index: [u32; 8] = pulp::cast(index.1);
-        Longs(self, pulp::cast(entries(table, index)))
-    }
-    #[inline(always)]
     fn marks(self, table: u32, index: Ints) -> Masks {
         let table = Ints::all(self, table.cast_signed());
         Ints(self, self.avx2._mm256_srlv_epi32(table.1, index.1)).has(1)
-    }
-
-    #[inline(always)]
-    fn store(self, a: Longs, lanes: &mut [i64]) {
-        let all: [i64; 8] = pulp::cast(a.1);
-        match lanes.first_chunk_mut::<8>() {
-            Some(lanes) => *lanes = all,
-            None => lanes.copy_from_slice(&all[..lanes.len()]),
-        }
     }
 }

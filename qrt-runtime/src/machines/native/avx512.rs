@@ -2,6 +2,7 @@
 
 use super::scalar;
 use super::vectors::{Integers, Truths, Vectors};
+use super::x86::{common, halves, instructions, lane_by_lane, shifts, whole};
 use pulp::x86::V4;
 use std::arch::x86_64::__m512i;
 
@@ -32,40 +33,27 @@ impl Truths for Masks {
     }
 }
 
+impl Ints {
+    #[inline(always)]
+    fn all(simd: V4, value: i32) -> Self {
+        Self(simd, simd.avx512f._mm512_set1_epi32(value))
+    }
+}
+
 impl Integers<Masks> for Ints {
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        Self(self.0, self.0.avx512f._mm512_add_epi32(self.1, other.1))
-    }
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        Self(self.0, self.0.avx512f._mm512_sub_epi32(self.1, other.1))
-    }
-    #[inline(always)]
-    fn mul(self, other: Self) -> Self {
-        Self(self.0, self.0.avx512f._mm512_mullo_epi32(self.1, other.1))
-    }
-    #[inline(always)]
-    fn xor(self, other: Self) -> Self {
-        Self(self.0, self.0.avx512f._mm512_xor_epi32(self.1, other.1))
-    }
-    #[inline(always)]
-    fn left(self, by: u32) -> Self {
-        let f = self.0.avx512f;
-        let by = f._mm512_set1_epi32(by.cast_signed());
-        Self(self.0, f._mm512_sllv_epi32(self.1, by))
-    }
-    #[inline(always)]
-    fn right(self, by: u32) -> Self {
-        let f = self.0.avx512f;
-        let by = f._mm512_set1_epi32(by.cast_signed());
-        Self(self.0, f._mm512_srav_epi32(self.1, by))
-    }
+    instructions!(
+        whole, avx512f:
+        add = _mm512_add_epi32,
+        sub = _mm512_sub_epi32,
+        mul = _mm512_mullo_epi32,
+        xor = _mm512_xor_epi32
+    );
+    shifts!(whole, avx512f: left = _mm512_sllv_epi32, right = _mm512_srav_epi32);
+
     #[inline(always)]
     fn lowest(self, bits: u32) -> Self {
-        let f = self.0.avx512f;
-        let bits = f._mm512_set1_epi32((u32::MAX >> (32 - bits)).cast_signed());
-        Self(self.0, f._mm512_and_epi32(self.1, bits))
+        let bits = Self::all(self.0, (u32::MAX >> (32 - bits)).cast_signed());
+        whole!(self, bits, avx512f._mm512_and_epi32)
     }
     #[inline(always)]
     fn less(self, other: Self) -> Masks {
@@ -83,17 +71,6 @@ impl Integers<Masks> for Ints {
     }
 }
 
-/// An operation of both halves. A macro and not a function of a closure: a closure is compiled
-/// without the instruction set until it is inlined, which is left to chance.
-macro_rules! halves {
-    ($a:ident, $b:ident, $f:expr, $operation:ident) => {{
-        let f = $f;
-        let low = f.$operation($a.1[0], $b.1[0]);
-        let high = f.$operation($a.1[1], $b.1[1]);
-        Self($a.0, [low, high])
-    }};
-}
-
 impl Longs {
     #[inline(always)]
     fn all(simd: V4, value: i64) -> Self {
@@ -102,36 +79,19 @@ impl Longs {
 }
 
 impl Integers<Masks> for Longs {
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        halves!(self, other, self.0.avx512f, _mm512_add_epi64)
-    }
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        halves!(self, other, self.0.avx512f, _mm512_sub_epi64)
-    }
-    #[inline(always)]
-    fn mul(self, other: Self) -> Self {
-        halves!(self, other, self.0.avx512dq, _mm512_mullo_epi64)
-    }
-    #[inline(always)]
-    fn xor(self, other: Self) -> Self {
-        halves!(self, other, self.0.avx512f, _mm512_xor_epi64)
-    }
-    #[inline(always)]
-    fn left(self, by: u32) -> Self {
-        let by = Self::all(self.0, by.into());
-        halves!(self, by, self.0.avx512f, _mm512_sllv_epi64)
-    }
-    #[inline(always)]
-    fn right(self, by: u32) -> Self {
-        let by = Self::all(self.0, by.into());
-        halves!(self, by, self.0.avx512f, _mm512_srav_epi64)
-    }
+    instructions!(
+        halves, avx512f:
+        add = _mm512_add_epi64,
+        sub = _mm512_sub_epi64,
+        xor = _mm512_xor_epi64
+    );
+    instructions!(halves, avx512dq: mul = _mm512_mullo_epi64);
+    shifts!(halves, avx512f: left = _mm512_sllv_epi64, right = _mm512_srav_epi64);
+
     #[inline(always)]
     fn lowest(self, bits: u32) -> Self {
         let bits = Self::all(self.0, (u64::MAX >> (64 - bits)).cast_signed());
-        halves!(self, bits, self.0.avx512f, _mm512_and_epi64)
+        halves!(self, bits, avx512f._mm512_and_epi64)
     }
     #[inline(always)]
     fn less(self, other: Self) -> Masks {
@@ -163,55 +123,13 @@ const ODD: i32 = 0b11_11_01_01;
 /// Which lanes are odd.
 const ODD_LANES: u16 = 0xaaaa;
 
-/// Both halves' lanes, changed one by one beside those of another vector: for what no instruction
-/// does.
-macro_rules! lane_by_lane {
-    ($simd:expr, $a:expr, $b:expr, $change:ident $(, $more:expr)?) => {{
-        let mut lanes: [i64; 16] = pulp::cast($a.1);
-        let beside: [i64; 16] = pulp::cast($b.1);
-        scalar::$change(&mut lanes, &beside $(, $more)?);
-        Longs($simd, pulp::cast(lanes))
-    }};
-}
-
-/// Entries of a table, lane by lane. Called, not inlined: it is long, and rare.
-#[inline(never)]
-pub(super) fn entries<const L: usize, const N: usize>(
-    table: &[i64; L],
-    index: [u32; N],
-) -> [i64; N] {
-    let mut found = [0; N];
-    for (found, index) in found.iter_mut().zip(index) {
-        *found = table[index as usize & (L - 1)];
-    }
-    found
-}
-
 impl Vectors for V4 {
-    const LANES: usize = 16;
-    type Truths = Masks;
-    type Ints = Ints;
-    type Longs = Longs;
+    common!(16);
 
     #[inline(always)]
     fn truths(self, all: bool) -> Masks {
         Masks(if all { u16::MAX } else { 0 })
     }
-    #[inline(always)]
-    fn ints(self, all: i32) -> Ints {
-        Ints(self, self.avx512f._mm512_set1_epi32(all))
-    }
-    #[inline(always)]
-    fn longs(self, all: i64) -> Longs {
-        Longs::all(self, all)
-    }
-    #[inline(always)]
-    fn from(self, first: u64) -> Longs {
-        let all = Longs::all(self, first.cast_signed());
-        let places: [i64; 16] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
-        all.add(Longs(self, pulp::cast(places)))
-    }
-
     #[inline(always)]
     fn widen(self, a: Ints) -> Longs {
         let f = self.avx512f;
@@ -256,11 +174,6 @@ impl Vectors for V4 {
     }
 
     #[inline(always)]
-    fn product_of_longs(self, a: Longs, b: Longs, drop: u32) -> Longs {
-        lane_by_lane!(self, a, b, products, drop)
-    }
-
-    #[inline(always)]
     fn quotient_single(self, a: Ints, b: Ints, up: u32) -> Ints {
         let f = self.avx512f;
         let power = f._mm512_set1_ps(f32::from_bits((127 + up) << 23));
@@ -278,10 +191,6 @@ impl Vectors for V4 {
         Longs(self, [low, high])
     }
     #[inline(always)]
-    fn quotient_of_longs(self, a: Longs, b: Longs) -> Longs {
-        lane_by_lane!(self, a, b, quotients)
-    }
-    #[inline(always)]
     fn root_single(self, a: Ints) -> Ints {
         let f = self.avx512f;
         let root = f._mm512_sqrt_ps(f._mm512_cvtepi32_ps(a.1));
@@ -294,11 +203,6 @@ impl Vectors for V4 {
         let high = f._mm512_sqrt_pd(dq._mm512_cvtepi64_pd(a.1[1]));
         let low = dq._mm512_cvttpd_epi64(low);
         Longs(self, [low, dq._mm512_cvttpd_epi64(high)])
-    }
-
-    #[inline(always)]
-    fn root_of_longs(self, a: Longs) -> Longs {
-        lane_by_lane!(self, a, a, roots)
     }
 
     #[inline(always)]
@@ -325,25 +229,9 @@ impl Vectors for V4 {
         Ints(self, found)
     }
     #[inline(always)]
-    fn wide_table<const L: usize>(self, table: &[i64; L], index: Ints) -> Longs {
-        Longs(
-            self,
-            pulp::cast(entries::<L, 16>(table, pulp::cast(index.1))),
-        )
-    }
-    #[inline(always)]
     fn marks(self, table: u32, index: Ints) -> Masks {
         let f = self.avx512f;
         let table = f._mm512_set1_epi32(table.cast_signed());
         Ints(self, f._mm512_srlv_epi32(table, index.1)).has(1)
-    }
-
-    #[inline(always)]
-    fn store(self, a: Longs, lanes: &mut [i64]) {
-        let all: [i64; 16] = pulp::cast(a.1);
-        match lanes.first_chunk_mut::<16>() {
-            Some(lanes) => *lanes = all,
-            None => lanes.copy_from_slice(&all[..lanes.len()]),
-        }
     }
 }

@@ -16,6 +16,8 @@ mod scalar;
 #[cfg(test)]
 mod tests;
 mod vectors;
+#[cfg(target_arch = "x86_64")]
+mod x86;
 
 pub use scalar::Scalar;
 pub use vectors::{Integers, Truths, Vectors, word};
@@ -53,26 +55,26 @@ pub(super) fn run<C: NativeOracle>(set: InstructionSet, runs: &[Run<'_>], values
     if set == InstructionSet::Avx512
         && let Some(simd) = pulp::x86::V4::try_new()
     {
-        return simd.vectorize(Block::<C, _>::new(simd, runs, values));
+        return simd.vectorize(NativeTask::<C, _>::new(simd, runs, values));
     }
     #[cfg(target_arch = "x86_64")]
     if set == InstructionSet::Avx2
         && let Some(simd) = pulp::x86::V3::try_new()
     {
-        return simd.vectorize(Block::<C, _>::new(simd, runs, values));
+        return simd.vectorize(NativeTask::<C, _>::new(simd, runs, values));
     }
     let _ = set;
-    Block::<C, _>::new(Scalar, runs, values).call();
+    NativeTask::<C, _>::new(Scalar, runs, values).call();
 }
 
-struct Block<'a, C, V> {
+struct NativeTask<'a, C, V> {
     vectors: V,
     runs: &'a [Run<'a>],
     values: &'a mut [Vec<i64>],
     oracle: PhantomData<C>,
 }
 
-impl<'a, C, V> Block<'a, C, V> {
+impl<'a, C, V> NativeTask<'a, C, V> {
     fn new(vectors: V, runs: &'a [Run<'a>], values: &'a mut [Vec<i64>]) -> Self {
         Self {
             vectors,
@@ -83,7 +85,7 @@ impl<'a, C, V> Block<'a, C, V> {
     }
 }
 
-impl<C: NativeOracle, V: Vectors> NullaryFnOnce for Block<'_, C, V> {
+impl<C: NativeOracle, V: Vectors> NullaryFnOnce for NativeTask<'_, C, V> {
     type Output = ();
 
     #[inline(always)]

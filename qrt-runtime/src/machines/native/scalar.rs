@@ -199,3 +199,16 @@ pub(super) fn roots(lanes: &mut [i64], _: &[i64]) {
         *a = a.cast_unsigned().isqrt().cast_signed();
     }
 }
+
+/// Entries of a table, lane by lane. Called, not inlined: it is long, and rare.
+#[inline(never)]
+pub(super) fn entries<const L: usize, const N: usize>(
+    table: &[i64; L],
+    index: [u32; N],
+) -> [i64; N] {
+    let mut found = [0; N];
+    for (found, index) in found.iter_mut().zip(index) {
+        *found = table[index as usize & (L - 1)];
+    }
+    found
+}

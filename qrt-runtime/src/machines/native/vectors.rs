@@ -4,7 +4,7 @@
 pub trait Truths: Copy {
     /// Conjunction.
     fn and(self, other: Self) -> Self;
-    /// Are they different?
+    /// Where the two differ.
     fn xor(self, other: Self) -> Self;
     /// Negation.
     fn not(self) -> Self;
@@ -26,9 +26,9 @@ pub trait Integers<T>: Copy {
     fn right(self, by: u32) -> Self;
     /// The lowest bits, with zeros.
     fn lowest(self, bits: u32) -> Self;
-    /// `a < b`
+    /// Where `a < b`.
     fn less(self, other: Self) -> T;
-    /// Is any of these bits set?
+    /// Where any of these bits is set.
     fn has(self, bits: i64) -> T;
     /// Itself where `when` holds, the other elsewhere.
     fn choose(self, when: T, other: Self) -> Self;

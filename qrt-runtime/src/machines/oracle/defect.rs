@@ -2,15 +2,19 @@
 
 use crate::machines::gates::{Dirty, InvalidGate};
 use qrt_circuit::Qubit;
-use std::fmt;
 
 /// A circuit that does not do what an oracle must: a defect of qrt, found while it ran.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Defect {
     /// The list of gates is not a circuit.
-    Gate(InvalidGate),
+    #[error(transparent)]
+    Gate(#[from] InvalidGate),
     /// A qubit that was not returned to zero.
+    #[error(
+        "qubit {} (`{register}`) is not returned to zero on path {id} of pixel ({}, {})",
+        .dirty.qubit, .pixel[0], .pixel[1]
+    )]
     Dirty {
         /// Which, and in which lane.
         dirty: Dirty,
@@ -22,6 +26,7 @@ pub enum Defect {
         register: String,
     },
     /// A path whose id was changed, or what else it is given by.
+    #[error("an input of path {id} of pixel ({}, {}) is changed", .pixel[0], .pixel[1])]
     Id {
         /// Column and row of the path's pixel.
         pixel: [u32; 2],
@@ -29,8 +34,13 @@ pub enum Defect {
         id: u64,
     },
     /// Paths whose first hits are inputs of the oracle, with nothing that finds them.
+    #[error("the paths' first hits are inputs of the oracle, and nothing finds them")]
     FirstHits,
     /// A sign that was turned, or not, against the comparison.
+    #[error(
+        "channel {channel}: the phase of comparator {comparator} is wrong for a colour above \
+         {count} thresholds"
+    )]
     Flip {
         /// 0 red, 1 green, 2 blue, 3 luminance.
         channel: usize,
@@ -40,6 +50,10 @@ pub enum Defect {
         comparator: u64,
     },
     /// A comparison that changes what it compares.
+    #[error(
+        "channel {channel}: comparing comparator {comparator} with a colour above {count} \
+         thresholds changes one of them"
+    )]
     Compared {
         /// 0 red, 1 green, 2 blue, 3 luminance.
         channel: usize,
@@ -49,6 +63,7 @@ pub enum Defect {
         comparator: u64,
     },
     /// A comparison that touches a qubit which holds something else.
+    #[error("channel {channel}: the comparison touches qubit {qubit}, which holds `{register}`")]
     Foreign {
         /// 0 red, 1 green, 2 blue, 3 luminance.
         channel: usize,
@@ -57,62 +72,4 @@ pub enum Defect {
         /// What it holds.
         register: String,
     },
-}
-
-impl fmt::Display for Defect {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Gate(gate) => gate.fmt(f),
-            Self::Dirty {
-                dirty,
-                pixel: [x, y],
-                id,
-                register,
-            } => write!(
-                f,
-                "qubit {} (`{register}`) is not returned to zero on path {id} of pixel ({x}, {y})",
-                dirty.qubit
-            ),
-            Self::Id { pixel: [x, y], id } => {
-                write!(f, "an input of path {id} of pixel ({x}, {y}) is changed")
-            }
-            Self::FirstHits => f.write_str(
-                "the paths' first hits are inputs of the oracle, and nothing finds them",
-            ),
-            Self::Flip {
-                channel,
-                count,
-                comparator,
-            } => write!(
-                f,
-                "channel {channel}: the phase of comparator {comparator} is wrong for a colour \
-                 above {count} thresholds"
-            ),
-            Self::Compared {
-                channel,
-                count,
-                comparator,
-            } => write!(
-                f,
-                "channel {channel}: comparing comparator {comparator} with a colour above {count} \
-                 thresholds changes one of them"
-            ),
-            Self::Foreign {
-                channel,
-                qubit,
-                register,
-            } => write!(
-                f,
-                "channel {channel}: the comparison touches qubit {qubit}, which holds `{register}`"
-            ),
-        }
-    }
-}
-
-impl std::error::Error for Defect {}
-
-impl From<InvalidGate> for Defect {
-    fn from(gate: InvalidGate) -> Self {
-        Self::Gate(gate)
-    }
 }

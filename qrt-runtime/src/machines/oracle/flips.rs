@@ -1,6 +1,6 @@
 //! The comparisons between compute and uncompute, on all that they can meet.
 
-use super::{Defect, Parts};
+use super::{Defect, OracleCircuits};
 use crate::machines::gates::Gates;
 use qrt_circuit::{Circuit, Gate, Operand, Qubit, Word};
 use qrt_core::oracle::{Channel, Oracle};
@@ -14,7 +14,7 @@ const EXHAUSTIVE: u32 = 30;
 ///
 /// # Errors
 /// The first defect that shows.
-pub(super) fn try_all(oracle: &Oracle, parts: &Parts) -> Result<(), Defect> {
+pub(super) fn try_all(oracle: &Oracle, parts: &OracleCircuits) -> Result<(), Defect> {
     let flips = oracle.channels.iter().zip(&parts.flips);
     for (channel, flip) in flips {
         let flip = Flip::new(oracle, parts, channel, flip)?;
@@ -81,7 +81,7 @@ struct Flip {
 impl Flip {
     fn new(
         oracle: &Oracle,
-        parts: &Parts,
+        parts: &OracleCircuits,
         channel: &Channel,
         flip: &Circuit,
     ) -> Result<Self, Defect> {

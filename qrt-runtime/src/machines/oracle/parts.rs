@@ -1,11 +1,11 @@
 //! An oracle as circuits: what the gates machine runs.
 
-use qrt_circuit::{Circuit, Instruction, Operand, Qubit, RegisterId, lower};
+use qrt_circuit::{Circuit, Instruction, Operand, Program, Qubit, RegisterId, lower};
 use qrt_core::oracle::Oracle;
 
 /// The parts of an oracle's circuit, which share their qubits.
 #[derive(Clone, Debug)]
-pub struct Parts {
+pub struct OracleCircuits {
     /// From ids to colours.
     pub compute: Circuit,
     /// By channel: compare, flip, undo the comparison.
@@ -14,7 +14,7 @@ pub struct Parts {
     pub uncompute: Circuit,
 }
 
-impl Parts {
+impl OracleCircuits {
     /// Lowers an oracle to gates: compute, all channels' flips one after another, uncompute.
     pub fn new(oracle: &Oracle) -> Self {
         let mut whole = oracle.program.clone();
@@ -63,18 +63,28 @@ impl Parts {
     }
 
     pub(super) fn register(&self, register: RegisterId) -> &[Qubit] {
-        let mut held = self.compute.outputs.iter();
-        held.find(|(id, _)| *id == register)
-            .map_or(&[], |(_, qubits)| qubits)
+        qubits(&self.compute, register)
     }
 
-    /// The register that a qubit belongs to after compute, if it belongs to one.
+    /// What a qubit belongs to after compute.
     pub(super) fn name(&self, oracle: &Oracle, qubit: Qubit) -> String {
-        let mut held = self.compute.outputs.iter();
-        held.find(|(_, qubits)| qubits.contains(&qubit))
-            .map_or_else(
-                || "an ancilla".to_owned(),
-                |(register, _)| oracle.program.registers[register.index()].name.clone(),
-            )
+        name(&self.compute, &oracle.program, qubit)
     }
+}
+
+/// The qubits of a register after `compute`; none if it holds none.
+pub(in crate::machines) fn qubits(compute: &Circuit, register: RegisterId) -> &[Qubit] {
+    let mut held = compute.outputs.iter();
+    held.find(|(id, _)| *id == register)
+        .map_or(&[], |(_, qubits)| qubits)
+}
+
+/// The register of `program` that a qubit belongs to after `compute`, or that it belongs to none.
+pub(in crate::machines) fn name(compute: &Circuit, program: &Program, qubit: Qubit) -> String {
+    let mut held = compute.outputs.iter();
+    let register = held.find(|(_, qubits)| qubits.contains(&qubit));
+    register.map_or_else(
+        || "an ancilla".to_owned(),
+        |(register, _)| program.registers[register.index()].name.clone(),
+    )
 }

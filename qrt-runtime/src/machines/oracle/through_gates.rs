@@ -1,17 +1,17 @@
 //! Blocks of paths through the gates: compute, read, uncompute, look at every qubit.
 
-use super::{Block, Defect, OracleMachine, Parts, word_of};
+use super::{Defect, OracleBlock, OracleCircuits, OracleMachine, word_of};
 use crate::machines::gates::{Gates, Rows};
 use crate::machines::span::Span;
-use qrt_circuit::Word;
+use qrt_circuit::{Qubit, Word};
 
 impl OracleMachine {
     pub(super) fn run_gates(
         &self,
         gates: &Gates,
-        parts: &Parts,
+        parts: &OracleCircuits,
         rows: &mut Rows,
-        block: &mut Block,
+        block: &mut OracleBlock,
         spans: &[Span<'_>],
     ) -> Result<(), Defect> {
         let count = block.ids.len();
@@ -44,23 +44,42 @@ impl OracleMachine {
             });
             runs.next().map_or([0, 0], |run| run.paths.pixel)
         };
-        if let Some(dirty) = rows.dirty(&[&id[..], &hit].concat(), count) {
-            return Err(Defect::Dirty {
-                dirty,
-                pixel: place(dirty.lane),
-                id: block.ids.get(dirty.lane).copied().unwrap_or(0),
-                register: parts.name(&self.oracle, dirty.qubit),
-            });
-        }
-        for (qubits, contents) in [(&id, &block.ids), (&hit, &block.hits)] {
-            rows.get(qubits, &mut bits);
-            if let Some(lane) = bits.iter().zip(contents).position(|(is, was)| is != was) {
-                return Err(Defect::Id {
-                    pixel: place(lane),
-                    id: block.ids[lane],
-                });
-            }
-        }
-        Ok(())
+        let inputs = [(&id[..], &block.ids[..]), (&hit, &block.hits)];
+        let path = |lane| (place(lane), block.ids[lane]);
+        check(rows, &inputs, path, |qubit| parts.name(&self.oracle, qubit))
     }
+}
+
+/// That after uncompute all qubits are zero again but those of `inputs`, which hold what they held.
+/// `path` says which pixel and path a lane is, `name` what a qubit belongs to.
+pub(in crate::machines) fn check(
+    rows: &Rows,
+    inputs: &[(&[Qubit], &[u64])],
+    path: impl Fn(usize) -> ([u32; 2], u64),
+    name: impl Fn(Qubit) -> String,
+) -> Result<(), Defect> {
+    let held: Vec<Qubit> = inputs
+        .iter()
+        .flat_map(|(qubits, _)| *qubits)
+        .copied()
+        .collect();
+    let count = inputs.first().map_or(0, |(_, contents)| contents.len());
+    if let Some(dirty) = rows.dirty(&held, count) {
+        let (pixel, id) = path(dirty.lane);
+        return Err(Defect::Dirty {
+            dirty,
+            pixel,
+            id,
+            register: name(dirty.qubit),
+        });
+    }
+    let mut bits = vec![0; count];
+    for (qubits, contents) in inputs {
+        rows.get(qubits, &mut bits);
+        if let Some(lane) = bits.iter().zip(*contents).position(|(is, was)| is != was) {
+            let (pixel, id) = path(lane);
+            return Err(Defect::Id { pixel, id });
+        }
+    }
+    Ok(())
 }

@@ -4,13 +4,16 @@ use crate::counting::CountingError;
 use qrt_circuit::Qubit;
 use qrt_circuit::quantum::QuantumError;
 use qrt_core::oracle::OracleError;
-use std::fmt;
 
 /// Why amplitudes cannot be followed as asked.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StateVectorError {
     /// More qubits than the dense machine holds.
+    #[error(
+        "a state vector of {qubits} qubits; at most {most}: the sparse machine has no limit of \
+         qubits"
+    )]
     TooManyQubits {
         /// Of the circuit.
         qubits: u32,
@@ -18,6 +21,7 @@ pub enum StateVectorError {
         most: u32,
     },
     /// More basis states with amplitude than the sparse machine may hold.
+    #[error("{states} basis states with amplitude; at most {most} are allowed")]
     TooManyStates {
         /// As many as a gate asks for, at least.
         states: u64,
@@ -25,19 +29,25 @@ pub enum StateVectorError {
         most: u64,
     },
     /// So much memory cannot be had.
+    #[error("no {bytes} bytes of memory for amplitudes")]
     Memory {
         /// Bytes.
         bytes: u64,
     },
     /// A gate or a register names a qubit that the machine does not have, or one twice.
+    #[error("qubit {0} is used twice by one gate or register, or is none of the machine's")]
     InvalidQubit(Qubit),
     /// A bound on amplitudes that is negative or no number.
+    #[error("a bound of {0} on the amplitudes that are dropped; it is not negative")]
     Bound(f64),
     /// Nothing can be measured: all states have been dropped.
+    #[error("no state carries amplitude: all have been dropped")]
     NoStates,
     /// An angle that is not finite.
+    #[error("a rotation by {0}")]
     Angle(f64),
     /// A register whose outcomes are too many to be listed.
+    #[error("a register of {bits} qubits has too many outcomes to list; at most {most} qubits")]
     RegisterTooWide {
         /// Its qubits.
         bits: u32,
@@ -45,6 +55,10 @@ pub enum StateVectorError {
         most: u32,
     },
     /// An ancilla that is not zero when it must be: a defect of the circuit.
+    #[error(
+        "ancilla {qubit} is not returned to zero: with probability {probability:.3e} ancillas are \
+         read as 1"
+    )]
     Dirty {
         /// The first such qubit.
         qubit: Qubit,
@@ -52,8 +66,10 @@ pub enum StateVectorError {
         probability: f64,
     },
     /// A truth table that does not have a power of two of entries.
+    #[error("a truth table of {0} entries, not a power of two")]
     TableSize(usize),
     /// A counting register that is too large to be followed.
+    #[error("amplitudes of a counting register of {bits} bits; at most {most}")]
     PhaseBits {
         /// Its qubits.
         bits: u32,
@@ -61,80 +77,17 @@ pub enum StateVectorError {
         most: u32,
     },
     /// The circuit cannot be made.
-    Circuit(QuantumError),
+    #[error(transparent)]
+    Circuit(#[from] QuantumError),
     /// The scene has no oracle.
-    Oracle(OracleError),
+    #[error(transparent)]
+    Oracle(#[from] OracleError),
     /// The counts are none.
-    Counts(CountingError),
+    #[error(transparent)]
+    Counts(#[from] CountingError),
 }
 
-impl fmt::Display for StateVectorError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::TooManyQubits { qubits, most } => write!(
-                f,
-                "a state vector of {qubits} qubits; at most {most}: the sparse machine has no limit \
-                 of qubits"
-            ),
-            Self::TooManyStates { states, most } => write!(
-                f,
-                "{states} basis states with amplitude; at most {most} are allowed"
-            ),
-            Self::Memory { bytes } => write!(f, "no {bytes} bytes of memory for amplitudes"),
-            Self::InvalidQubit(qubit) => write!(
-                f,
-                "qubit {qubit} is used twice by one gate or register, or is none of the machine's"
-            ),
-            Self::Bound(bound) => write!(
-                f,
-                "a bound of {bound} on the amplitudes that are dropped; it is not negative"
-            ),
-            Self::NoStates => f.write_str("no state carries amplitude: all have been dropped"),
-            Self::Angle(angle) => write!(f, "a rotation by {angle}"),
-            Self::RegisterTooWide { bits, most } => write!(
-                f,
-                "a register of {bits} qubits has too many outcomes to list; at most {most} qubits"
-            ),
-            Self::Dirty { qubit, probability } => write!(
-                f,
-                "ancilla {qubit} is not returned to zero: with probability {probability:.3e} \
-                 ancillas are read as 1"
-            ),
-            Self::TableSize(entries) => {
-                write!(f, "a truth table of {entries} entries, not a power of two")
-            }
-            Self::PhaseBits { bits, most } => write!(
-                f,
-                "amplitudes of a counting register of {bits} bits; at most {most}"
-            ),
-            Self::Circuit(error) => error.fmt(f),
-            Self::Oracle(error) => error.fmt(f),
-            Self::Counts(error) => error.fmt(f),
-        }
-    }
-}
-
-impl std::error::Error for StateVectorError {}
-
-impl From<QuantumError> for StateVectorError {
-    fn from(error: QuantumError) -> Self {
-        Self::Circuit(error)
-    }
-}
-
-impl From<OracleError> for StateVectorError {
-    fn from(error: OracleError) -> Self {
-        Self::Oracle(error)
-    }
-}
-
-impl From<CountingError> for StateVectorError {
-    fn from(error: CountingError) -> Self {
-        Self::Counts(error)
-    }
-}
-
-/// Are all `qubits` different and among `0..count`?
+/// That all `qubits` are different and among `0..count`.
 pub(super) fn check_qubits(qubits: &[Qubit], count: u32) -> Result<(), StateVectorError> {
     for (place, qubit) in qubits.iter().enumerate() {
         if *qubit >= count || qubits[..place].contains(qubit) {

@@ -51,7 +51,7 @@ impl Sum {
     }
 
     /// Adds a sum over later ids. To be used on block boundaries.
-    pub(super) fn append(&mut self, later: &Self) {
+    pub(crate) fn append(&mut self, later: &Self) {
         self.total = self.value() + later.value();
         self.lanes = [0.0; LANES];
         self.filled = 0;

@@ -1,0 +1,93 @@
+//! The finished pixels of a picture, and the checkpoint that keeps them.
+
+use super::tiles::rows;
+use super::{Options, RenderError};
+use crate::checkpoint::{Checkpoint, Header, Tile};
+use crate::image::Image;
+
+/// What is finished.
+pub(super) struct Film {
+    crop: [u32; 4],
+    pub(super) image: Image,
+    pub(super) queries: Vec<u64>,
+    pub(super) good: Vec<[u64; 3]>,
+    /// Pixels that are finished.
+    pub(super) finished: u64,
+    checkpoint: Option<Checkpoint>,
+}
+
+impl Film {
+    pub(super) fn new(crop: [u32; 4], area: u64) -> Result<Self, RenderError> {
+        Ok(Self {
+            crop,
+            image: Image {
+                width: crop[2],
+                height: crop[3],
+                pixels: filled([0.0; 3], area)?,
+            },
+            queries: filled(0, area)?,
+            good: filled([0; 3], area)?,
+            finished: 0,
+            checkpoint: None,
+        })
+    }
+
+    /// Opens the checkpoint, and tells which pixels it has; of a new one, or none, an empty list.
+    pub(super) fn open(
+        &mut self,
+        options: &Options<'_>,
+        header: impl FnOnce() -> Header,
+    ) -> Result<Vec<bool>, RenderError> {
+        let mut finished = Vec::new();
+        let Some(path) = &options.checkpoint else {
+            return Ok(finished);
+        };
+        if options.resume && path.exists() {
+            let (checkpoint, tiles) = Checkpoint::open(path, &header())?;
+            if !tiles.is_empty() {
+                finished.resize(self.queries.len(), false);
+            }
+            for tile in &tiles {
+                self.paint(tile);
+                for row in rows(tile, self.crop) {
+                    finished[row].fill(true);
+                }
+            }
+            self.finished = finished.iter().filter(|&&f| f).count() as u64;
+            self.checkpoint = Some(checkpoint);
+        } else {
+            self.checkpoint = Some(Checkpoint::create(path, &header())?);
+        }
+        Ok(finished)
+    }
+
+    /// Takes in a finished tile, once it is in the checkpoint.
+    pub(super) fn keep(&mut self, tile: &Tile) -> Result<(), RenderError> {
+        if let Some(checkpoint) = &mut self.checkpoint {
+            checkpoint.append(tile)?;
+        }
+        self.paint(tile);
+        self.finished += tile.pixels.len() as u64;
+        Ok(())
+    }
+
+    fn paint(&mut self, tile: &Tile) {
+        let width = tile.width as usize;
+        for (number, row) in rows(tile, self.crop).enumerate() {
+            let own = number * width..(number + 1) * width;
+            self.image.pixels[row.clone()].copy_from_slice(&tile.pixels[own.clone()]);
+            self.good[row.clone()].copy_from_slice(&tile.good[own.clone()]);
+            self.queries[row].copy_from_slice(&tile.queries[own]);
+        }
+    }
+}
+
+/// A value for each pixel, if there is memory for it.
+fn filled<T: Clone>(value: T, pixels: u64) -> Result<Vec<T>, RenderError> {
+    let memory = || RenderError::Memory { pixels };
+    let size = usize::try_from(pixels).map_err(|_| memory())?;
+    let mut all = Vec::new();
+    all.try_reserve_exact(size).map_err(|_| memory())?;
+    all.resize(size, value);
+    Ok(all)
+}

@@ -1,0 +1,180 @@
+//! The work on a picture, tile by tile on all threads.
+
+use super::film::Film;
+use super::pixel::{Pixels, Source, Totals};
+use super::tiles::{self, Tiles};
+use super::{Colour, Model, RenderError, Rendered, Request};
+use crate::checkpoint::{Header, Tile};
+use crate::workers::Progress;
+use rayon::prelude::*;
+use std::sync::{Mutex, PoisonError};
+use std::time::Instant;
+
+/// A picture under way.
+pub(super) struct Job<'a> {
+    request: Request<'a>,
+    pixels: Pixels,
+    tiles: Tiles,
+    /// By pixel, whether a checkpoint has it; empty if there was none.
+    resumed: Vec<bool>,
+    film: Mutex<Film>,
+}
+
+/// Why the work on a tile ended early.
+enum Stop {
+    Cancelled,
+    Failed(RenderError),
+}
+
+impl<E: Into<RenderError>> From<E> for Stop {
+    fn from(error: E) -> Self {
+        Self::Failed(error.into())
+    }
+}
+
+impl<'a> Job<'a> {
+    /// Prepares the work, and opens the checkpoint if there is one.
+    pub(super) fn new(request: Request<'a>, source: Source) -> Result<Self, RenderError> {
+        let written = request.scene.scene();
+        let pixels = Pixels::new(source, written, request.estimator, request.options)?;
+        let mut film = Film::new(request.crop, request.area)?;
+        let resumed = film.open(request.options, || header(&request))?;
+        Ok(Self {
+            tiles: Tiles::new(request.crop, request.options.tile, request.paths),
+            pixels,
+            resumed,
+            film: Mutex::new(film),
+            request,
+        })
+    }
+
+    /// Renders all tiles that the checkpoint does not have.
+    pub(super) fn run(self) -> Result<Rendered, RenderError> {
+        let Request {
+            scene,
+            options,
+            crop,
+            estimator,
+            area,
+            paths,
+        } = self.request;
+        let resumed = self.resumed.iter().filter(|&&pixel| pixel).count() as u64;
+        options.workers.report(Progress::Started {
+            total: area * paths,
+            resumed: resumed * paths,
+        });
+        let (done, seconds, threads) = options.workers.run(|| {
+            let start = Instant::now();
+            let tiles = (0..self.tiles.count()).into_par_iter();
+            let done = tiles.try_for_each(|number| self.tile(number));
+            let seconds = start.elapsed().as_secs_f64();
+            (done, seconds, rayon::current_num_threads())
+        })?;
+        let film = self
+            .film
+            .into_inner()
+            .unwrap_or_else(PoisonError::into_inner);
+        match done {
+            Ok(()) => Ok(Rendered {
+                image: film.image,
+                queries: film.queries,
+                good: (options.model != Model::Real && options.colour == Colour::ThreeRuns)
+                    .then_some(film.good),
+                model: options.model,
+                visibility: options.visibility,
+                searched: None,
+                crop,
+                estimator,
+                colour: options.colour,
+                noise: options.noise,
+                seed: options.seed,
+                knobs: scene.knobs(),
+                plan: None,
+                bound: self.pixels.bound(),
+                ids: paths << scene.scene().comparator.bits,
+                paths: area * paths,
+                resumed_paths: resumed * paths,
+                seconds,
+                threads,
+            }),
+            Err(Stop::Cancelled) => Err(RenderError::Interrupted {
+                finished: film.finished,
+                pixels: area,
+                checkpoint: options.checkpoint.clone(),
+            }),
+            Err(Stop::Failed(error)) => Err(error),
+        }
+    }
+
+    fn tile(&self, number: u64) -> Result<(), Stop> {
+        let Request { options, crop, .. } = self.request;
+        let workers = &options.workers;
+        let mut tile = Tile::of(self.tiles.rectangle(number));
+        let resumed = |row| {
+            self.resumed
+                .get(row)
+                .is_some_and(|row: &[bool]| row.iter().all(|&r| r))
+        };
+        if tiles::rows(&tile, crop).all(resumed) {
+            return Ok(());
+        }
+        if workers.cancelled() {
+            return Err(Stop::Cancelled);
+        }
+        let places: Vec<[u32; 2]> = tiles::pixels(self.tiles.rectangle(number)).collect();
+        if self.pixels.splits() {
+            let traced = |paths| {
+                workers.report(Progress::Finished(paths));
+                !workers.cancelled()
+            };
+            for &place in &places {
+                let totals = self.pixels.many(place, &traced)?;
+                self.finish(&mut tile, place, &totals.ok_or(Stop::Cancelled)?)?;
+            }
+        } else {
+            for (&place, totals) in places.iter().zip(&self.pixels.few(&places)?) {
+                if workers.cancelled() {
+                    return Err(Stop::Cancelled);
+                }
+                self.finish(&mut tile, place, totals)?;
+            }
+            let paths = places.len() as u64 * self.request.paths;
+            workers.report(Progress::Finished(paths));
+        }
+        let mut film = self.film.lock().unwrap_or_else(PoisonError::into_inner);
+        film.keep(&tile)?;
+        Ok(())
+    }
+
+    /// Adds a pixel to its tile.
+    fn finish(&self, tile: &mut Tile, place: [u32; 2], totals: &Totals) -> Result<(), RenderError> {
+        let pixel = self.pixels.finish(place, totals)?;
+        tile.pixels.push(pixel.colour);
+        tile.queries.push(pixel.queries);
+        tile.good.push(pixel.good);
+        Ok(())
+    }
+}
+
+/// What decides a pixel.
+fn header(request: &Request<'_>) -> Header {
+    let Request { scene, options, .. } = *request;
+    let decisive = [
+        ("model", options.model.name().to_owned()),
+        ("estimator", request.estimator.name().to_owned()),
+        ("colour", options.colour.name().to_owned()),
+        ("noise", options.noise.to_string()),
+        ("version", env!("CARGO_PKG_VERSION").to_owned()),
+    ];
+    let decisive = decisive.map(|(key, value)| (key.to_owned(), value));
+    Header {
+        scene_hash: scene.fingerprint().to_string(),
+        seed: options.seed,
+        options: (decisive.into_iter())
+            .chain(options.visibility.written())
+            .collect(),
+        width: scene.scene().film.width,
+        height: scene.scene().film.height,
+        crop: request.crop,
+    }
+}
