@@ -1,10 +1,10 @@
 //! Reports of real faults, one for each code.
 
 use qrt::core::circuit::builder::BuildError;
-use qrt::core::diagnostics::Report;
 use qrt::core::front::{Loaded, obj, parse};
 use qrt::core::oracle::{MOST_FACES, Oracle, OracleError, check_budget, spent};
 use qrt::core::scene::{Bsdf, Jacobian};
+use qrt::core::syntax::{Problem, Report};
 use qrt::core::valid::{bsdf, validate};
 use std::collections::BTreeMap;
 use std::fs;
@@ -122,7 +122,8 @@ fn elsewhere() -> Vec<String> {
         texts.push(tell(&fine, vec![error.problem()]));
     }
 
-    let whole = |problem| Report::of_file("a scene made in Rust", problem).render(false);
+    let whole =
+        |problem: Problem| Report::of_file("a scene made in Rust", problem.what).render(false);
     let mut scene = fine.valid.scene().clone();
     scene.materials.push(scene.materials[0].clone());
     let problems = validate(scene, "".as_ref()).unwrap_err();

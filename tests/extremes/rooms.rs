@@ -5,9 +5,9 @@
 //! rounding error shows.
 
 use super::Extreme;
-use qrt::core::diagnostics::Report;
 use qrt::core::front::parse;
 use qrt::core::scene::Estimator;
+use qrt::core::syntax::Report;
 use qrt::runtime::render::{Model, Options, render};
 use std::fmt::Write as _;
 

@@ -14,10 +14,10 @@ pub mod svg;
 #[cfg(test)]
 mod tests;
 
+pub use crate::syntax::grouped;
 pub use blocks::BlockFigures;
 pub use frame::{Frame, FrameBox, Wire, text as frame_text};
 pub use layout::{Layout, Lifetime};
-pub use number::grouped;
 pub use passes::{PassFigures, pass_figures};
 pub use stages::{Part, Stage};
 

@@ -1,22 +1,4 @@
-//! Numbers for people.
-
-/// `1234567` as `1,234,567`.
-///
-/// ```
-/// assert_eq!(qrt_core::inspect::grouped(1_234_567), "1,234,567");
-/// assert_eq!(qrt_core::inspect::grouped(12), "12");
-/// ```
-pub fn grouped(number: u64) -> String {
-    let digits = number.to_string();
-    let mut text = String::with_capacity(digits.len() * 4 / 3 + 1);
-    for (place, digit) in digits.chars().enumerate() {
-        if place > 0 && (digits.len() - place).is_multiple_of(3) {
-            text.push(',');
-        }
-        text.push(digit);
-    }
-    text
-}
+//! Numbers where space is short.
 
 /// `1234567` as `1.23 M`: three digits, where space is short.
 pub(super) fn short(number: u64) -> String {
@@ -41,18 +23,6 @@ pub(super) fn short(number: u64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn thousands_are_set_apart() {
-        for (number, text) in [
-            (0, "0"),
-            (999, "999"),
-            (1000, "1,000"),
-            (u64::MAX, "18,446,744,073,709,551,615"),
-        ] {
-            assert_eq!(grouped(number), text);
-        }
-    }
 
     #[test]
     fn short_numbers_have_three_digits() {

@@ -3,8 +3,8 @@
 use super::body::{Body, Origin};
 use super::tokens::{Token, join};
 use super::values::{entry, faulty, text};
-use qrt_core::codes;
-use qrt_core::front::tree::{Node, Span, Value};
+use qrt_core::syntax::codes;
+use qrt_core::syntax::tree::{Node, Span, Value};
 
 impl Body {
     pub(super) fn material(&mut self, first: &Token, rest: &[Token], place: Span) {

@@ -6,8 +6,8 @@ use super::names::Names;
 use super::terms::Terms;
 use super::tokens::{Kind, Token, between_commas, join, place_of};
 use proc_macro2::Delimiter;
-use qrt_core::codes;
-use qrt_core::front::tree::{Entry, Node, Scalar, Span, Value};
+use qrt_core::syntax::codes;
+use qrt_core::syntax::tree::{Entry, Node, Scalar, Span, Value};
 
 /// The source of a node that could not be read: what is said of it is already known.
 const FAULTY: u32 = u32::MAX;

@@ -1,6 +1,6 @@
 //! A YAML scene written as `qrt!` would have it, as far as it has a form there.
 
-use qrt_core::front::tree::{Entry, Kind, Node, Scalar, Value};
+use qrt_core::syntax::tree::{Entry, Kind, Node, Scalar, Value};
 
 /// The scene as tokens' text; nothing where YAML says what no token can.
 pub(super) fn scene(tree: &Node) -> Option<String> {

@@ -314,6 +314,6 @@ fn of_bits(scene: &ValidScene, bits: u32) -> Result<ValidScene, RenderError> {
 pub(super) fn valid(scene: &ValidScene, knobs: Knobs) -> Result<ValidScene, RenderError> {
     scene.with_knobs(knobs).map_err(|problems| {
         let first = problems.into_iter().next();
-        unreachable(first.map_or_else(String::new, |problem| problem.message))
+        unreachable(first.map_or_else(String::new, |problem| problem.words().message))
     })
 }

@@ -1,7 +1,7 @@
 //! Why there is no table.
 
 use crate::render::RenderError;
-use qrt_core::report::Problem;
+use qrt_core::syntax::Problem;
 use std::path::PathBuf;
 use std::{fmt, io};
 
@@ -58,7 +58,8 @@ impl fmt::Display for TradeError {
                  radiance, which is 0"
             ),
             Self::Knobs(problems) => {
-                let first = problems.first().map_or("", |problem| &problem.message);
+                let first = problems.first().map(|problem| problem.words().message);
+                let first = first.unwrap_or_default();
                 write!(f, "the scene's knobs cannot be turned: {first}")
             }
             Self::File(path, error) => write!(f, "`{}`: {error}", path.display()),

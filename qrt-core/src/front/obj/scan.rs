@@ -1,7 +1,7 @@
 //! The check of an OBJ file's text, statement by statement, and its plain form.
 
 use super::{Library, ObjError, Statement, Statements, mtl, number, words};
-use crate::expr::suggest::nearest;
+use crate::syntax::nearest;
 use std::fmt::Write;
 use std::path::Path;
 

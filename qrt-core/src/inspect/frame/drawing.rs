@@ -1,9 +1,10 @@
 //! The frame as SVG: wires to the right, boxes on them.
 
-use super::super::number::{grouped, short};
+use super::super::number::short;
 use super::super::svg::{Canvas, SMALL, width_of};
 use super::super::{CHANNELS, Inspection};
 use super::{Frame, FrameBox};
+use crate::syntax::grouped;
 
 /// Between wires.
 const ROW: f64 = 34.0;

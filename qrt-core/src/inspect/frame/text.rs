@@ -1,7 +1,7 @@
 //! The frame in a terminal: wires run down, so that depths need lines, not columns.
 
-use super::super::number::grouped;
 use super::Frame;
+use crate::syntax::grouped;
 use std::fmt::Write as _;
 
 /// Columns that a drawing fills at most, where that can be.

@@ -3,7 +3,8 @@
 //! YAML text and the tokens of the `qrt!` macro both become such a tree; everything after it (the
 //! decoder of [`crate::scene`], the checks of [`crate::valid`], the rendering of errors) is shared.
 
-use crate::report::{Path, Step};
+use super::path::{Path, Step};
+use std::fmt;
 
 /// A place in a source. Only the front end that made it knows what the numbers mean: for text they
 /// are byte offsets into source number `source`.
@@ -164,88 +165,45 @@ impl Node {
     }
 
     /// What this is, for "expected a number, found ...".
-    pub fn found(&self) -> String {
+    pub fn found(&self) -> Found {
         match &self.value {
-            Value::Null => "nothing".into(),
-            Value::List(items) if items.len() == 1 => "a list of one".into(),
-            Value::List(items) => format!("a list of {}", items.len()),
-            Value::Map(_) => "a map".into(),
-            Value::Scalar(scalar) => match scalar.kind() {
-                Kind::Number(_) => format!("the number {}", scalar.text),
-                Kind::Bool(_) => format!("the truth value {}", scalar.text),
-                Kind::Text => format!("the text \"{}\"", shorten(&scalar.text)),
-            },
+            Value::Null => Found::Nothing,
+            Value::List(items) => Found::List(items.len()),
+            Value::Map(_) => Found::Map,
+            Value::Scalar(scalar) => Found::Scalar(scalar.clone()),
         }
     }
 
     /// The node at `path`, or the nearest one above it that is written (a default is written
     /// nowhere), with the span to show: that of the key where the path ends in a name.
-    pub fn resolve(&self, path: &Path) -> Found<'_> {
-        let mut found = Found {
+    pub fn resolve(&self, path: &Path) -> Resolved<'_> {
+        let mut found = Resolved {
             node: self,
             span: self.span,
             exact: true,
         };
         for step in &path.0 {
-            let node = found.node;
-            match (step, &node.value) {
-                (Step::Key(key), Value::Map(_)) => match node.entry(key) {
-                    Some(entry) => {
-                        found = Found {
-                            node: &entry.value,
-                            span: entry.value.span,
-                            exact: true,
-                        };
-                        if matches!(entry.value.value, Value::Null) {
-                            found.span = entry.key_span;
-                        }
+            let (node, span) = match (step, &found.node.value) {
+                (Step::Key(key), Value::Map(_)) => match found.node.entry(key) {
+                    Some(entry) if entry.value.value == Value::Null => {
+                        (&entry.value, entry.key_span)
                     }
-                    None => {
-                        return Found {
-                            exact: false,
-                            ..found
-                        };
-                    }
+                    Some(entry) => (&entry.value, entry.value.span),
+                    None => return found.above(),
                 },
-                (Step::Name(key), Value::Map(_)) => match node.entry(key) {
-                    Some(entry) => {
-                        found = Found {
-                            node: &entry.value,
-                            span: entry.key_span,
-                            exact: true,
-                        };
-                    }
-                    None => {
-                        return Found {
-                            exact: false,
-                            ..found
-                        };
-                    }
+                (Step::Name(key), Value::Map(_)) => match found.node.entry(key) {
+                    Some(entry) => (&entry.value, entry.key_span),
+                    None => return found.above(),
                 },
                 (Step::Item(index), Value::List(items)) => match items.get(*index) {
-                    Some(item) => {
-                        found = Found {
-                            node: item,
-                            span: item.span,
-                            exact: true,
-                        }
-                    }
-                    None => {
-                        return Found {
-                            exact: false,
-                            ..found
-                        };
-                    }
+                    Some(item) => (item, item.span),
+                    None => return found.above(),
                 },
                 // A list of one may be written without its brackets.
-                (Step::Item(0), Value::Scalar(_)) => {}
-                _ => {
-                    return Found {
-                        exact: false,
-                        ..found
-                    };
-                }
-            }
+                (Step::Item(0), Value::Scalar(_)) => continue,
+                _ => return found.above(),
+            };
+            (found.node, found.span) = (node, span);
         }
         found
     }
@@ -277,13 +235,49 @@ impl Node {
 
 /// Where a path leads.
 #[derive(Clone, Copy, Debug)]
-pub struct Found<'a> {
+pub struct Resolved<'a> {
     /// The node, or the nearest above.
     pub node: &'a Node,
     /// The place to show.
     pub span: Span,
     /// Whether the whole path is written.
     pub exact: bool,
+}
+
+impl Resolved<'_> {
+    /// This, as the nearest above.
+    fn above(self) -> Self {
+        Self {
+            exact: false,
+            ..self
+        }
+    }
+}
+
+/// What stands at a place, whatever was expected there.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum Found {
+    Nothing,
+    List(usize),
+    Map,
+    Scalar(Scalar),
+}
+
+impl fmt::Display for Found {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Nothing => f.write_str("nothing"),
+            Self::List(1) => f.write_str("a list of one"),
+            Self::List(count) => write!(f, "a list of {count}"),
+            Self::Map => f.write_str("a map"),
+            Self::Scalar(scalar) => match scalar.kind() {
+                Kind::Number(_) => write!(f, "the number {}", scalar.text),
+                Kind::Bool(_) => write!(f, "the truth value {}", scalar.text),
+                Kind::Text => write!(f, "the text \"{}\"", shorten(&scalar.text)),
+            },
+        }
+    }
 }
 
 /// At most 40 characters of `text`.
