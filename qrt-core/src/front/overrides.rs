@@ -7,19 +7,13 @@ use crate::front::yaml;
 use crate::scene::text::Data;
 use crate::scene::{Circuit, Comparator, Counting, Precision, Sampling, shape::Part};
 use crate::syntax::tree::{Entry, Node, Scalar, Span, Value};
-use crate::syntax::{Override as Fault, Problems, Source};
+use crate::syntax::{Override as Fault, Problems, Source, Step};
 
 /// An override that was read: where to put what.
 #[derive(Clone, Debug)]
 pub struct Override {
     steps: Vec<(Step, Span)>,
     value: Node,
-}
-
-#[derive(Clone, Debug, PartialEq)]
-enum Step {
-    Key(String),
-    Item(usize),
 }
 
 /// Reads `key=value`, the text of `source`, which is source number `number`; reports what is wrong with
@@ -85,7 +79,7 @@ pub fn apply(tree: &mut Node, set: Override, problems: &mut Problems) {
         }
         let found = node.found();
         node = match (step, &mut node.value) {
-            (Step::Key(key), Value::Map(entries)) => {
+            (Step::Key(key) | Step::Name(key), Value::Map(entries)) => {
                 default = default.and_then(|data| data.get(&key));
                 let index = entries.iter().position(|entry| entry.key == key);
                 let index = index.unwrap_or_else(|| {
@@ -108,7 +102,9 @@ pub fn apply(tree: &mut Node, set: Override, problems: &mut Problems) {
                 };
                 item
             }
-            (Step::Key(key), _) => return problems.add(span, Fault::NotAMap { key, found }),
+            (Step::Key(key) | Step::Name(key), _) => {
+                return problems.add(span, Fault::NotAMap { key, found });
+            }
             (Step::Item(index), _) => return problems.add(span, Fault::NotAList { index, found }),
         };
     }

@@ -14,8 +14,11 @@ pub(crate) struct Field {
 }
 
 impl Problems {
-    /// Reports that `node` is not what is expected.
+    /// Reports that `node` is not what is expected, unless it is known to be wrong.
     pub(crate) fn wrong_type(&mut self, node: &Node, at: &Place<'_>, expected: Expected) {
+        if node.value == Value::Unread {
+            return self.mark(at.path());
+        }
         let found = node.found();
         self.refuse(at, Structure::WrongType { expected, found });
     }

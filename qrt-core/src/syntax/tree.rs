@@ -32,6 +32,8 @@ pub struct Node {
 pub enum Value {
     /// Nothing written, `~` or `null`.
     Null,
+    /// What could not be read, which has been reported.
+    Unread,
     /// A number, a word or a text; [`Scalar::kind`] tells which.
     Scalar(Scalar),
     /// Elements in order.
@@ -167,7 +169,7 @@ impl Node {
     /// What this is, for "expected a number, found ...".
     pub fn found(&self) -> Found {
         match &self.value {
-            Value::Null => Found::Nothing,
+            Value::Null | Value::Unread => Found::Nothing,
             Value::List(items) => Found::List(items.len()),
             Value::Map(_) => Found::Map,
             Value::Scalar(scalar) => Found::Scalar(scalar.clone()),
@@ -211,7 +213,7 @@ impl Node {
     /// Nodes in this tree, itself included.
     pub fn count(&self) -> usize {
         1 + match &self.value {
-            Value::Null | Value::Scalar(_) => 0,
+            Value::Null | Value::Unread | Value::Scalar(_) => 0,
             Value::List(items) => items.iter().map(Node::count).sum(),
             Value::Map(entries) => entries.iter().map(|entry| entry.value.count()).sum(),
         }
@@ -220,7 +222,7 @@ impl Node {
     /// Levels of lists and maps in this tree.
     pub fn height(&self) -> usize {
         match &self.value {
-            Value::Null | Value::Scalar(_) => 0,
+            Value::Null | Value::Unread | Value::Scalar(_) => 0,
             Value::List(items) => 1 + items.iter().map(Node::height).max().unwrap_or(0),
             Value::Map(entries) => {
                 1 + entries

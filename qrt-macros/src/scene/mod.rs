@@ -29,7 +29,7 @@ pub(crate) use {input::Read, input::read, terms::Terms, tokens::Table};
 use body::Body;
 use header::Header;
 use qrt_core::front::{Files, Loaded, of_tree};
-use qrt_core::syntax::tree::{Node, Span, Value};
+use qrt_core::syntax::tree::{Node, Span};
 use qrt_core::syntax::{At, Path, Problem, Step, Structure, What, codes};
 use qrt_core::valid::ValidScene;
 use std::path::Path as FilePath;
@@ -99,7 +99,7 @@ impl Parsed {
         }
     }
 
-    /// Adds a problem at its tokens, unless it only follows from what could not be read.
+    /// Adds a problem at its tokens, unless it may only follow from a key that could not be read.
     fn place(&self, written: &Written, problem: &Problem, faults: &mut Faults) {
         let Written { tree, body } = written;
         let Some(path) = problem.path() else {
@@ -108,7 +108,7 @@ impl Parsed {
         let found = tree.resolve(path);
         let reader = &body.reader;
         let is_missing = matches!(problem.what, What::Structure(Structure::MissingKeys { .. }));
-        if follows(tree, path) || is_missing && reader.incomplete.contains(&found.node.span) {
+        if is_missing && reader.incomplete.contains(&found.node.span) {
             return;
         }
         let expression = (found.node.span.source as usize)
@@ -149,29 +149,6 @@ impl Parsed {
             }
         }
     }
-}
-
-/// Whether what is said of `path` follows from a value there, above or below, that was not read.
-fn follows(tree: &Node, path: &Path) -> bool {
-    let mut node = tree;
-    for step in &path.0 {
-        if matches!(node.value, Value::Null) && values::is_faulty(node) {
-            return true;
-        }
-        node = match (step, &node.value) {
-            (Step::Key(key) | Step::Name(key), Value::Map(_)) => match node.entry(key) {
-                Some(entry) => &entry.value,
-                None => return false,
-            },
-            (Step::Item(index), Value::List(items)) => match items.get(*index) {
-                Some(item) => item,
-                None => return false,
-            },
-            _ => return false,
-        };
-    }
-    let is_name = matches!(path.0.last(), Some(Step::Name(_)));
-    !is_name && !path.0.is_empty() && values::is_faulty(node)
 }
 
 /// The scene that `body` and `name` say, if it is one; everything that is wrong otherwise.

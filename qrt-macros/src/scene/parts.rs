@@ -121,9 +121,10 @@ impl Body {
         let (kind, pass) = ("depth", self.reader.names.passes());
         self.rays.push(Origin { kind, label, pass });
         // Where the ray itself is meant, its whole entry is.
-        let source = node.span.source;
-        let span = Span { source, ..place };
-        self.depths.push(Node { span, ..node });
+        self.depths.push(Node {
+            span: place,
+            ..node
+        });
     }
 
     /// The label in front of `rest`, which must be new.

@@ -15,7 +15,8 @@ impl<S: Shape, const N: usize> Array<S, N> {
             problems.wrong_type(node, at, Expected::Elements(N));
             return None;
         };
-        if items.len() != N {
+        let is_whole = items.iter().all(|item| item.value != Value::Unread);
+        if items.len() != N && is_whole {
             let (expected, found) = (N, node.found());
             problems.refuse(at, Structure::WrongLength { expected, found });
         }
