@@ -5,15 +5,7 @@
 //! tags, several documents, merge keys, keys that are not names) is an error with its place; aliases
 //! are expanded within a budget of nodes, and nesting has a limit.
 //!
-//! Readers that go from YAML straight to types were tried first. `yaml_serde` 0.10, which continues
-//! `serde_yaml`, stops at the first error; its generic values carry no places, so that nothing that
-//! is found after reading (a material that no one defined, a quad without area) can be shown in the
-//! text; and it takes the single-key maps of materials for enumerations only through a wrapper.
-//! `serde-saphyr` 2.0 shows the first error well, duplicate keys included, but only the first. With
-//! both, defaults, ranges and the schema would have to be said a second time. So the events of
-//! `saphyr-parser` 0.3, a crate of two small dependencies, become a tree here, and one definition of
-//! each part (see [`crate::scene`]) does the rest. `yaml_serde` stays as the independent reader that
-//! the tests compare with.
+//! ARCHITECTURE.md says why this is not left to a reader that goes from YAML straight to types.
 
 mod locator;
 

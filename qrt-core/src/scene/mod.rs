@@ -270,7 +270,7 @@ record! {
     pub sequence: Sequence = word::<Sequence>(), or Sequence::DigitalNet;
     /// R = 2^path_bits paths; default 12. Under product-lattice it is the sum of all bits, and
     /// only that.
-    pub path_bits: u32 = whole::<u32>(0, MAX_PATH_BITS as u64), or 12;
+    pub path_bits: u32 = whole::<u32>(0, MAX_PATH_BITS), or 12;
     /// One entry per ray of a path, the primary ray first; default three.
     pub depths: Vec<DepthSampling> = List {
         item: part::<DepthSampling>(), least: 1

@@ -221,87 +221,62 @@ impl Shape for Number {
     }
 }
 
-/// Types of whole numbers in scenes.
-pub(crate) trait Natural: Copy {
-    fn from_u64(value: u64) -> Self;
-    fn to_u64(self) -> u64;
-}
-
-impl Natural for u32 {
-    fn from_u64(value: u64) -> Self {
-        Self::try_from(value).unwrap_or(Self::MAX)
-    }
-    fn to_u64(self) -> u64 {
-        u64::from(self)
-    }
-}
-
-impl Natural for u64 {
-    fn from_u64(value: u64) -> Self {
-        value
-    }
-    fn to_u64(self) -> u64 {
-        self
-    }
-}
-
 /// A whole number in a range.
 #[derive(Clone, Copy)]
 pub(crate) struct Whole<T> {
-    low: u64,
-    high: u64,
-    kind: PhantomData<T>,
+    low: T,
+    high: T,
 }
 
 /// A whole number from `low` to `high`, both included; at most 2^53, where every f64 is one.
-pub(crate) const fn whole<T>(low: u64, high: u64) -> Whole<T> {
-    Whole {
-        low,
-        high,
-        kind: PhantomData,
-    }
+pub(crate) const fn whole<T>(low: T, high: T) -> Whole<T> {
+    Whole { low, high }
 }
 
-impl<T: Natural> Whole<T> {
+impl<T: Copy + Into<u64>> Whole<T> {
     fn out_of_range(&self, value: f64) -> Datum {
-        let Self { low, high, .. } = *self;
+        let (low, high) = (self.low.into(), self.high.into());
         Datum::WholeOutOfRange { value, low, high }
     }
 }
 
-impl<T: Natural> Shape for Whole<T> {
+impl<T: Copy + PartialOrd + Into<u64> + TryFrom<u64>> Shape for Whole<T> {
     type Value = T;
     fn decode(&self, node: &Node, at: &Place<'_>, problems: &mut Problems) -> T {
         let Some(value) = read_number(node, at, problems, Expected::Whole) else {
-            return self.fallback();
+            return self.low;
         };
         if value.fract() != 0.0 && value.is_finite() {
             problems.wrong_type(node, at, Expected::Whole);
-            return self.fallback();
+            return self.low;
         }
-        if !(self.low as f64..=self.high as f64).contains(&value) {
+        let whole = (value >= 0.0).then_some(value as u64);
+        let whole = whole.and_then(|whole| T::try_from(whole).ok());
+        let whole = whole.filter(|whole| (self.low..=self.high).contains(whole));
+        whole.unwrap_or_else(|| {
             problems.refuse(at, self.out_of_range(value));
-            return self.fallback();
-        }
-        T::from_u64(value as u64)
+            self.low
+        })
     }
     fn fallback(&self) -> T {
-        T::from_u64(self.low)
+        self.low
     }
     fn check(&self, value: &T, at: &Place<'_>, problems: &mut Problems) {
-        let value = value.to_u64();
-        if !(self.low..=self.high).contains(&value) {
+        if !(self.low..=self.high).contains(value) {
+            let value: u64 = (*value).into();
             problems.refuse(at, self.out_of_range(value as f64));
         }
     }
     fn encode(&self, value: &T) -> Option<Data> {
-        Some(Data::Number(value.to_u64() as f64))
+        let value: u64 = (*value).into();
+        Some(Data::Number(value as f64))
     }
     fn schema(&self) -> Data {
+        let (low, high): (u64, u64) = (self.low.into(), self.high.into());
         Data::map([
             ("type", Data::text("integer")),
-            ("minimum", Data::Number(self.low as f64)),
-            ("maximum", Data::Number(self.high as f64)),
+            ("minimum", Data::Number(low as f64)),
+            ("maximum", Data::Number(high as f64)),
         ])
     }
 }

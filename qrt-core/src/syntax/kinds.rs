@@ -6,7 +6,6 @@
     reason = "a variant is documented by its words, an argument by its name"
 )]
 
-use super::codes::*;
 use super::name::{listed, nearest};
 use super::number::{grouped, number, rounded};
 use super::tree::{Found, Kind, Scalar, shorten};
@@ -88,7 +87,7 @@ macro_rules! problems {
                 fn words(&self) -> Words {
                     match self {
                         $( Self::$problem $({ $($argument),* })? => Words {
-                            code: $code,
+                            code: super::codes::$code,
                             message: text!($message),
                             label: text!($($label)?),
                             help: help!($($help)?),
@@ -110,10 +109,8 @@ macro_rules! problems {
 problems! {
     /// Of a scene's file.
     File {
-        Folder = UNREADABLE "this is a folder"
-            help "name a scene file";
-        Irregular = UNREADABLE "this is not a regular file"
-            help "name a scene file";
+        Folder = UNREADABLE "this is a folder" help "name a scene file";
+        Irregular = UNREADABLE "this is not a regular file" help "name a scene file";
         Missing = UNREADABLE "there is no such file"
             help "check the path, or start a scene with `qrt new NAME`";
         Denied = UNREADABLE "you may not read this file";
@@ -121,8 +118,7 @@ problems! {
         TooLarge { most: u64 } = TOO_LARGE { format!("the file is larger than {} MiB", most >> 20) }
             help "put large geometry into OBJ meshes";
         NotUtf8 { byte: usize, line: usize } = NOT_UTF8
-            "the file is not UTF-8 text: byte {byte}, on line {line}"
-            help "save it as UTF-8";
+            "the file is not UTF-8 text: byte {byte}, on line {line}" help "save it as UTF-8";
     }
 
     /// Of a text as YAML.
@@ -133,8 +129,7 @@ problems! {
                 (_, true) => Some("remove the invisible character".into()),
                 _ => None,
             } };
-        Empty = EMPTY "the scene is empty"
-            help "`qrt new NAME` writes a scene to start from";
+        Empty = EMPTY "the scene is empty" help "`qrt new NAME` writes a scene to start from";
         DuplicateKey { key: String } = DUPLICATE_KEY
             { format!("the key `{}` is written twice", shorten(key)) }
             label "again here" help "keep one of the two" also "first written here";
@@ -163,8 +158,7 @@ problems! {
             help "write it as `--set sampling.path_bits=14`";
         NotAnIndex = SET_SYNTAX "an index is a whole number from 0"
             help "write it as `--set sampling.path_bits=14`";
-        NoKey = SET_SYNTAX "a key is missing here"
-            help "write it as `--set sampling.path_bits=14`";
+        NoKey = SET_SYNTAX "a key is missing here" help "write it as `--set sampling.path_bits=14`";
         NoFirstKey = SET_SYNTAX "an override begins with a key"
             help "write it as `--set sampling.path_bits=14`";
         NoValue = SET_SYNTAX "the value is missing here"
@@ -182,8 +176,7 @@ problems! {
             "expected {expected}, found {found}"
             label { format!("not {}", expected.kind()) } help { expected.help(found) };
         WrongLength { expected: usize, found: Found } = WRONG_LENGTH
-            "expected a list of {expected}, found {found}"
-            label "must have {expected} elements";
+            "expected a list of {expected}, found {found}" label "must have {expected} elements";
         WrongChannels { found: Found } = WRONG_LENGTH "expected one expression or three, found {found}"
             help "one expression means grey; three are red, green and blue";
         UnknownKey { key: String, noun: &'static str, keys: Vec<&'static str> } = UNKNOWN_KEY
@@ -259,8 +252,7 @@ problems! {
         Coincident { first: usize, second: usize } = COINCIDENT
             "vertices {first} and {second} are one point"
             label "same as vertex {first}" also "the other";
-        Flat = ZERO_AREA "this primitive has no area"
-            label "the vertices lie on a line";
+        Flat = ZERO_AREA "this primitive has no area" label "the vertices lie on a line";
         Straight { at: usize } = ZERO_AREA "the quad has no corner at vertex {at}"
             label "on a line with its neighbours" help "write a triangle, or move this vertex";
         Reflex { at: usize } = NOT_CONVEX
@@ -368,8 +360,7 @@ problems! {
             help "their light would count as often: cover each direction at most once";
         WrongJacobian { stated: f64, right: f64, at: [f64; 2], mistake: Mistake } = JACOBIAN_MISMATCH
             { format!("the stated Jacobian is {} at {}, but |dphi/du x dphi/dv| = {}",
-                rounded(*stated), point(*at), rounded(*right)) }
-            help "{mistake}";
+                rounded(*stated), point(*at), rounded(*right)) } help "{mistake}";
         Negative { value: f64, at: Variables } = BSDF_NEGATIVE
             { format!("the value is negative: {} at {}", rounded(*value), situation(at)) }
             help "`max(0, ...)` cuts the negative part off";
@@ -437,8 +428,7 @@ problems! {
                 "{cheaper}; or use fewer bits of `precision.fraction`, or raise `budget.toffoli`")) };
         UnboundedQuotient = QUOTIENT_UNBOUNDED
             "an expression of the scene divides by what may be zero, so that no register is wide enough \
-             for the quotient"
-            help "keep the divisor away from 0, as in `a / (b + 0.01)`";
+             for the quotient" help "keep the divisor away from 0, as in `a / (b + 0.01)`";
         TooWide { what: &'static str, bits: u32, most: u32 } = NUMBER_TOO_WIDE
             "{what} needs {bits} bits and a register has at most {most}"
             help "choose a smaller `precision.fraction`, or bring the camera nearer to the geometry";

@@ -77,18 +77,17 @@ impl<'a> Place<'a> {
 
     /// The value of `key` below this.
     pub(crate) fn key(&'a self, key: &'a str) -> Place<'a> {
-        Place {
-            parent: Some(self),
-            step: At::Key(key),
-        }
+        self.with(At::Key(key))
     }
 
     /// Element `index` below this.
     pub(crate) fn item(&'a self, index: usize) -> Place<'a> {
-        Place {
-            parent: Some(self),
-            step: At::Item(index),
-        }
+        self.with(At::Item(index))
+    }
+
+    fn with(&'a self, step: At<'a>) -> Place<'a> {
+        let parent = Some(self);
+        Place { parent, step }
     }
 
     /// As a path.

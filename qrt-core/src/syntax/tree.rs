@@ -185,29 +185,37 @@ impl Node {
             exact: true,
         };
         for step in &path.0 {
-            let (node, span) = match (step, &found.node.value) {
-                (Step::Key(key), Value::Map(_)) => match found.node.entry(key) {
-                    Some(entry) if entry.value.value == Value::Null => {
-                        (&entry.value, entry.key_span)
-                    }
-                    Some(entry) => (&entry.value, entry.value.span),
-                    None => return found.above(),
-                },
-                (Step::Name(key), Value::Map(_)) => match found.node.entry(key) {
-                    Some(entry) => (&entry.value, entry.key_span),
-                    None => return found.above(),
-                },
-                (Step::Item(index), Value::List(items)) => match items.get(*index) {
-                    Some(item) => (item, item.span),
-                    None => return found.above(),
-                },
-                // A list of one may be written without its brackets.
-                (Step::Item(0), Value::Scalar(_)) => continue,
-                _ => return found.above(),
+            let Some((node, span)) = found.node.below(step) else {
+                found.exact = false;
+                break;
             };
             (found.node, found.span) = (node, span);
         }
         found
+    }
+
+    /// The node one step below, and its place.
+    fn below(&self, step: &Step) -> Option<(&Node, Span)> {
+        match (step, &self.value) {
+            (Step::Key(key), Value::Map(_)) => {
+                let Entry {
+                    key_span, value, ..
+                } = self.entry(key)?;
+                let is_written = value.value != Value::Null;
+                Some((value, if is_written { value.span } else { *key_span }))
+            }
+            (Step::Name(key), Value::Map(_)) => {
+                let entry = self.entry(key)?;
+                Some((&entry.value, entry.key_span))
+            }
+            (Step::Item(index), Value::List(items)) => {
+                let item = items.get(*index)?;
+                Some((item, item.span))
+            }
+            // A list of one may be written without its brackets.
+            (Step::Item(0), Value::Scalar(_)) => Some((self, self.span)),
+            _ => None,
+        }
     }
 
     /// Nodes in this tree, itself included.
@@ -244,16 +252,6 @@ pub struct Resolved<'a> {
     pub span: Span,
     /// Whether the whole path is written.
     pub exact: bool,
-}
-
-impl Resolved<'_> {
-    /// This, as the nearest above.
-    fn above(self) -> Self {
-        Self {
-            exact: false,
-            ..self
-        }
-    }
 }
 
 /// What stands at a place, whatever was expected there.

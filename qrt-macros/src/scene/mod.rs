@@ -30,7 +30,7 @@ use body::Body;
 use header::Header;
 use qrt_core::front::{Files, Loaded, of_tree};
 use qrt_core::syntax::tree::{Node, Span};
-use qrt_core::syntax::{At, Path, Problem, Step, Structure, What, codes};
+use qrt_core::syntax::{At, Problem, Step, Structure, What, codes};
 use qrt_core::valid::ValidScene;
 use std::path::Path as FilePath;
 

@@ -133,7 +133,7 @@ fn record(name: &str, node: &Node) -> Option<String> {
 fn value(record_name: &str, key: &str, node: &Node) -> Option<String> {
     let is_expression = record_name == "bsdf";
     Some(match &node.value {
-        Value::Null => return None,
+        Value::Null | Value::Unread => return None,
         Value::Map(_) => record(key, node)?,
         Value::Scalar(scalar) if is_expression => scalar.text.clone(),
         Value::Scalar(scalar) => self::scalar(key, scalar),
