@@ -262,16 +262,15 @@ problems! {
             help "list the vertices in order around the outline";
     }
 
-    /// Of a mesh as it is placed; some of its triangles, from the first of them, counted from 0.
+    /// Of a mesh as it is placed.
     Mesh {
-        NoMaterial { some: usize, all: usize, first: usize } = OBJ_NO_MATERIAL
-            { triangles(*some, *all, *first, "have no material") }
+        NoMaterial { triangles: Triangles } = OBJ_NO_MATERIAL { triangles.that("have no material") }
             help "give the mesh a `material`";
-        Flat { some: usize, all: usize, first: usize } = MESH_ZERO_AREA
-            { triangles(*some, *all, *first, "have no area once scaled and moved") }
+        Flat { triangles: Triangles } = MESH_ZERO_AREA
+            { triangles.that("have no area once scaled and moved") }
             help "rounding takes it: use a larger scale or a smaller translation";
-        Far { some: usize, all: usize, first: usize } = MESH_RANGE
-            { triangles(*some, *all, *first, "are out of range once scaled and moved") }
+        Far { triangles: Triangles } = MESH_RANGE
+            { triangles.that("are out of range once scaled and moved") }
             help "use a smaller transform";
         TooBright { material: String, radiance: f64, most: f64 } = RADIANCE
             { format!("the radiance {} of `{material}` is too large", number(*radiance)) }
@@ -561,6 +560,22 @@ impl fmt::Display for Range {
     }
 }
 
+/// Some of a mesh's triangles, from the first of them, counted from 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Triangles {
+    pub some: usize,
+    pub all: usize,
+    pub first: usize,
+}
+
+impl Triangles {
+    fn that(self, fault: &str) -> String {
+        let Self { some, all, first } = self;
+        let number = first + 1;
+        format!("{some} of {all} triangles {fault}; the first is number {number}")
+    }
+}
+
 /// What was stated in place of a map's Jacobian.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Mistake {
@@ -601,13 +616,6 @@ fn meant(name: &str, names: &[&'static str]) -> Option<String> {
 fn without_article(noun: &str) -> &str {
     let bare = noun.strip_prefix("a ").or_else(|| noun.strip_prefix("an "));
     bare.unwrap_or(noun)
-}
-
-fn triangles(some: usize, all: usize, first: usize, what: &str) -> String {
-    format!(
-        "{some} of {all} triangles {what}; the first is number {}",
-        first + 1
-    )
 }
 
 fn point([u, v]: [f64; 2]) -> String {

@@ -6,7 +6,9 @@
 use crate::front::{Files, obj};
 use crate::scene::shape::LARGEST;
 use crate::scene::{Geometry, Mesh, Scene};
-use crate::syntax::{self, Material, Path, Problem, Problems, Shape as Fault, nearest};
+use crate::syntax::{
+    self, Material, Mesh as Unplaced, Path, Problem, Problems, Shape as Fault, Triangles, nearest,
+};
 use crate::valid::{Polygon, Surface, matte};
 use glam::DVec3;
 use std::collections::HashMap;
@@ -181,7 +183,7 @@ impl Build<'_> {
         if named.is_none() {
             for material in read.materials {
                 if let Some(radiance) = material.radiance.iter().find(|value| **value > LARGEST) {
-                    let what = syntax::Mesh::TooBright {
+                    let what = Unplaced::TooBright {
                         material: material.name.clone(),
                         radiance: *radiance,
                         most: LARGEST,
@@ -217,28 +219,16 @@ impl Build<'_> {
             }
         }
         let all = read.faces.len();
-        type What = fn(usize, usize, usize) -> syntax::Mesh;
-        let counts: [(&Vec<usize>, What); 3] = [
-            (&bare, |some, all, first| syntax::Mesh::NoMaterial {
-                some,
-                all,
-                first,
-            }),
-            (&flat, |some, all, first| syntax::Mesh::Flat {
-                some,
-                all,
-                first,
-            }),
-            (&far, |some, all, first| syntax::Mesh::Far {
-                some,
-                all,
-                first,
-            }),
+        let kinds: [(&[usize], fn(Triangles) -> Unplaced); 3] = [
+            (&bare, |triangles| Unplaced::NoMaterial { triangles }),
+            (&flat, |triangles| Unplaced::Flat { triangles }),
+            (&far, |triangles| Unplaced::Far { triangles }),
         ];
-        for (faces, what) in counts {
-            if let Some(first) = faces.first() {
-                self.problems
-                    .add(path.key("obj"), what(faces.len(), all, *first));
+        for (faces, what) in kinds {
+            if let Some(&first) = faces.first() {
+                let some = faces.len();
+                let what = what(Triangles { some, all, first });
+                self.problems.add(path.key("obj"), what);
             }
         }
     }
