@@ -1,6 +1,7 @@
 //! The language, its derivatives, its simplification and its bounds, each against something else.
 
 use super::*;
+use crate::syntax::Problem;
 
 fn read(text: &str) -> Expr {
     Expr::parse(text, &Variable::ALL).unwrap_or_else(|p| panic!("{text}: {p:?}"))
@@ -146,7 +147,7 @@ fn problems_name_their_bytes() {
 fn all_unknown_names_are_told_at_once() {
     let problems = Expr::parse("a1 + b1*cos_i", &Variable::SQUARE).expect_err("three");
     assert_eq!(
-        problems.iter().map(|p| p.code()).collect::<Vec<_>>(),
+        problems.iter().map(Problem::code).collect::<Vec<_>>(),
         ["QRT0401", "QRT0401", "QRT0402"]
     );
 }

@@ -34,19 +34,19 @@ pub(super) fn scene(scene: Scene, node: &Node, at: &Place<'_>, problems: &mut Pr
     if node.entry("accuracy").is_some() {
         for key in ["precision", "comparator", "counting"] {
             if node.entry(key).is_some() {
-                problems.push(conflict(at.path(), key));
+                problems.push(conflict(&at.path(), key));
             }
         }
         let sampling = node.entry("sampling");
         if sampling.is_some_and(|entry| entry.value.entry("path_bits").is_some()) {
-            problems.push(conflict(at.key("sampling").path(), "path_bits"));
+            problems.push(conflict(&at.key("sampling").path(), "path_bits"));
         }
     }
     scene
 }
 
 /// The problem of `key`, in the record at `path`, beside `accuracy`.
-pub(crate) fn conflict(path: Path, key: &'static str) -> Problem {
+pub(crate) fn conflict(path: &Path, key: &'static str) -> Problem {
     let problem = Problem::new(
         path.name(key),
         crate::syntax::Sampling::BesideAccuracy { key },

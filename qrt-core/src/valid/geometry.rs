@@ -219,7 +219,7 @@ impl Build<'_> {
             }
         }
         let all = read.faces.len();
-        let kinds: [(&[usize], fn(Triangles) -> Unplaced); 3] = [
+        let kinds: [(&[usize], Kind); 3] = [
             (&bare, |triangles| Unplaced::NoMaterial { triangles }),
             (&flat, |triangles| Unplaced::Flat { triangles }),
             (&far, |triangles| Unplaced::Far { triangles }),
@@ -233,6 +233,9 @@ impl Build<'_> {
         }
     }
 }
+
+/// What is wrong with triangles of a mesh that cannot be placed.
+type Kind = fn(Triangles) -> Unplaced;
 
 fn triangle([a, b, c]: [DVec3; 3], surface: u32) -> Polygon {
     Polygon {

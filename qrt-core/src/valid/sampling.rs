@@ -45,14 +45,14 @@ pub(super) fn check(scene: &Scene, problems: &mut Problems) {
             ("counting", scene.counting != Counting::default()),
         ];
         for (knob, _) in knobs.into_iter().filter(|(_, changed)| *changed) {
-            problems.push(settle::conflict(Path::root(), knob));
+            problems.push(settle::conflict(&Path::root(), knob));
         }
         let default = match sampling.sequence {
             Sequence::DigitalNet => Sampling::default().path_bits,
             Sequence::ProductLattice => sampling.lattice_bits(),
         };
         if sampling.path_bits != default {
-            problems.push(settle::conflict(path, "path_bits"));
+            problems.push(settle::conflict(&path, "path_bits"));
         }
     }
 }
