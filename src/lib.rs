@@ -65,10 +65,10 @@ pub use qrt_runtime as runtime;
 pub mod prelude {
     pub use qrt_circuit::format::{Bool, Fixed, Format, Int, Reg, UFixed, UInt};
     pub use qrt_circuit::{Bit, Machine, Operand, Program, Recorder, Style, When, Word};
-    pub use qrt_core::diagnostics::Report;
     pub use qrt_core::front::{Loaded, load, parse};
     pub use qrt_core::oracle::compiled::CompiledOracle;
     pub use qrt_core::scene::{Estimator, Scene};
+    pub use qrt_core::syntax::Report;
     pub use qrt_core::valid::{ValidScene, validate};
     pub use qrt_macros::{qrt, reversible};
     pub use qrt_runtime::image::{Encoding, Image, ImageError, Metadata, save, write_counts};

@@ -8,7 +8,7 @@
 
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
-use qrt::core::codes;
+use qrt::core::syntax::codes;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;

@@ -86,15 +86,7 @@ pub enum OracleError {
 
 impl fmt::Display for OracleError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Build(error) => error.fmt(f),
-            Self::Sampling(error) => error.fmt(f),
-            Self::TooManyFaces { faces } => write!(
-                f,
-                "the scene has {faces} faces, and tables of faces hold at most {MOST_FACES}; use \
-                 a coarser mesh"
-            ),
-        }
+        self.problem().what.fmt(f)
     }
 }
 

@@ -1,6 +1,6 @@
 //! How a command fails.
 
-use qrt_core::diagnostics::Report;
+use qrt_core::syntax::Report;
 use qrt_runtime::counting::CountingError;
 use qrt_runtime::estimators::EstimatorError;
 use qrt_runtime::image::ImageError;

@@ -1,7 +1,7 @@
 //! The scenes that a reader opens first are right, and do what their comments say.
 
-use qrt_core::diagnostics::Report;
 use qrt_core::front::load;
+use qrt_core::syntax::Report;
 use qrt_core::valid::ValidScene;
 use qrt_runtime::machines::Real;
 use std::path::PathBuf;

@@ -5,8 +5,8 @@
 
 use super::cases;
 use proptest::prelude::*;
-use qrt::core::diagnostics::Source;
 use qrt::core::front;
+use qrt::core::syntax::Source;
 use std::time::{Duration, Instant};
 
 /// Reads a text and renders what is wrong with it.
@@ -14,7 +14,7 @@ fn judge(text: &str, sets: &[String]) {
     match front::parse(text, "mutated.yaml", sets, "tests/good_scenes".as_ref()) {
         Ok(loaded) => assert!(loaded.valid.scene().film.width > 0),
         Err(report) => {
-            assert!(!report.problems.is_empty());
+            assert!(!report.codes().is_empty());
             for colour in [false, true] {
                 assert!(report.render(colour).contains("error"));
             }
@@ -317,9 +317,16 @@ fn bombs_are_refused_in_time() {
 /// Places at the very end, between the bytes of a character, and behind the end.
 #[test]
 fn any_place_can_be_shown() {
-    use qrt::core::diagnostics::{Placed, Report};
-    use qrt::core::front::tree::Span;
-    use qrt::core::report::{Path, Problem};
+    use qrt::core::syntax::tree::Span;
+    use qrt::core::syntax::{Problem, Report, What, Words, codes};
+    let words = Words {
+        code: codes::SYNTAX,
+        message: "anything".into(),
+        label: "here\n\tand there".into(),
+        help: None,
+        also: "other",
+    };
+    let what = What::Told(Box::new(words));
     for text in [
         "",
         "\n",
@@ -333,25 +340,14 @@ fn any_place_can_be_shown() {
         for start in 0..text.len() + 3 {
             for end in 0..text.len() + 3 {
                 for other in [None, Some(0), Some(text.len())] {
-                    let problem = Problem::new("QRT0103", Path::root(), "anything")
-                        .label("here\n\tand there")
-                        .also(Path::root(), "other");
-                    let span = Span {
+                    let span = |start, end| Span {
                         source: 0,
                         start,
                         end,
                     };
-                    let also = other.map(|at| Span {
-                        source: 0,
-                        start: at,
-                        end: at + 1,
-                    });
-                    let placed = Placed {
-                        problem,
-                        span: Some(span),
-                        also,
-                    };
-                    let report = Report::of_placed(vec![source.clone()], vec![placed]);
+                    let mut problem = Problem::new(span(start, end), what.clone());
+                    problem.also = other.map(|at| span(at, at + 1).into());
+                    let report = Report::new(vec![source.clone()], None, vec![problem]);
                     assert!(report.render(false).contains("any.yaml"));
                 }
             }

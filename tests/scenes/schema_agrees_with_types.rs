@@ -6,7 +6,8 @@
 #![allow(clippy::format_push_string)]
 
 use qrt::core::scene::Scene;
-use qrt::core::{codes, front, schema};
+use qrt::core::syntax::codes;
+use qrt::core::{front, schema};
 use serde_json::{Value, json};
 use std::path::Path;
 

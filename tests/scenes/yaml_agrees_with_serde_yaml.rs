@@ -5,16 +5,17 @@
 
 use super::cases;
 use proptest::prelude::*;
-use qrt::core::diagnostics::Source;
-use qrt::core::front::tree::{Kind, Node, Value};
 use qrt::core::front::yaml;
+use qrt::core::syntax::tree::{Kind, Node, Value};
+use qrt::core::syntax::{Problems, Source};
 use serde_yaml::Value as Other;
 
 fn read(text: &str) -> Option<Node> {
     let source = Source::new("text", text);
-    let reading = yaml::read(&source, 0..source.text.len(), 0);
-    assert!(reading.tree.is_some() || !reading.problems.is_empty());
-    reading.tree.filter(|_| reading.problems.is_empty())
+    let mut problems = Problems::default();
+    let tree = yaml::read(&source, 0..source.text.len(), 0, &mut problems);
+    assert!(tree.is_some() || problems.count() > 0);
+    tree.filter(|_| problems.count() == 0)
 }
 
 fn same(node: &Node, other: &Other) -> bool {

@@ -4,7 +4,7 @@
 
 use crate::answer::Answer;
 use qrt_core::expr::{Expr, Variables};
-use qrt_core::report::{Problem, Step};
+use qrt_core::syntax::{Problem, Step};
 use qrt_core::sampling::{ProductLattice, SamplingError, cell_centre, maps};
 use qrt_core::scene::{Bsdf, Jacobian, Map};
 use qrt_core::valid::bsdf;
@@ -108,8 +108,10 @@ fn own(text: &str) -> Result<Box<[Expr; 3]>, String> {
 
 /// A problem as qrt tells it: its code and message, its place, and what to write instead.
 fn told(map: &[String; 3], problem: &Problem) -> String {
-    let mut out = format!("error[{}]: {}", problem.code, problem.message);
-    let component = problem.path.0.iter().find_map(|step| match step {
+    let words = problem.words();
+    let mut out = format!("error[{}]: {}", words.code, words.message);
+    let mut steps = problem.path().into_iter().flat_map(|path| &path.0);
+    let component = steps.find_map(|step| match step {
         Step::Item(place) => map.get(*place).map(|text| (["x", "y", "z"][*place], text)),
         _ => None,
     });
@@ -120,7 +122,7 @@ fn told(map: &[String; 3], problem: &Problem) -> String {
         let marks = "^".repeat(marked.max(1));
         let _ = write!(out, "\n  |\n{name} | {text}\n  | {:before$}{marks}", "");
     }
-    if let Some(help) = &problem.help {
+    if let Some(help) = words.help {
         let _ = write!(out, "\n  = help: {help}");
     }
     out

@@ -43,6 +43,7 @@ pub(crate) use passes::{Known, assemble};
 pub use value::{Bool, Index, Real};
 
 use crate::sampling::PathPoints;
+use crate::syntax::{Circuit, What};
 use crate::tracer::{Axis, Coordinate, Named};
 use names::Nameable;
 use passes::Draft;
@@ -82,20 +83,22 @@ pub enum BuildError {
     },
 }
 
+impl BuildError {
+    /// What this says of the scene.
+    pub(crate) fn problem(&self) -> Circuit {
+        match *self {
+            Self::UnboundedQuotient => Circuit::UnboundedQuotient,
+            Self::TooWide { what, bits } => {
+                let most = MAX_BITS;
+                Circuit::TooWide { what, bits, most }
+            }
+        }
+    }
+}
+
 impl std::fmt::Display for BuildError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::UnboundedQuotient => write!(
-                f,
-                "an expression of the scene divides by what may be zero, so that no register is \
-                 wide enough for the quotient; keep the divisor away from 0, as in `a / (b + 0.01)`"
-            ),
-            Self::TooWide { what, bits } => write!(
-                f,
-                "{what} needs {bits} bits and a register has at most {MAX_BITS}; choose a smaller \
-                 `precision.fraction`, or bring the camera nearer to the geometry"
-            ),
-        }
+        What::from(self.problem()).fmt(f)
     }
 }
 

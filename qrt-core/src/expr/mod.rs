@@ -36,7 +36,6 @@ mod parse;
 #[cfg(test)]
 mod properties;
 mod simplify;
-pub(crate) mod suggest;
 #[cfg(test)]
 mod tests;
 

@@ -1,9 +1,8 @@
 //! From text to [`Expr`], or all that is wrong with the text.
 
 use super::arena::Arena;
-use super::suggest::nearest;
 use super::{Expr, Function, Id, Node, Variable};
-use crate::report::{Path, Problem};
+use crate::syntax::{Expression as Fault, Path, Problem, nearest};
 use std::ops::Range;
 
 /// The longest expression, in bytes.
@@ -23,17 +22,15 @@ impl Expr {
     /// ```
     /// use qrt_core::expr::{Expr, Variable};
     /// let problems = Expr::parse("2*cosi", &Variable::ALL).unwrap_err();
-    /// assert_eq!(problems[0].message, "unknown name `cosi`");
-    /// assert_eq!(problems[0].help.as_deref(), Some("did you mean `cos_i`?"));
+    /// assert_eq!(problems[0].words().message, "unknown name `cosi`");
+    /// assert_eq!(problems[0].words().help.as_deref(), Some("did you mean `cos_i`?"));
     /// assert_eq!(problems[0].within, Some(2..6));
     /// ```
     pub fn parse(text: &str, allowed: &[Variable]) -> Result<Self, Vec<Problem>> {
         if text.len() > MAX_LENGTH {
-            let message = format!(
-                "expression of {} bytes; the limit is {MAX_LENGTH}",
-                text.len()
-            );
-            return Err(vec![Problem::new("QRT0405", Path::root(), message)]);
+            let (bytes, most) = (text.len(), MAX_LENGTH);
+            let what = Fault::TooLong { bytes, most };
+            return Err(vec![Problem::new(Path::root(), what)]);
         }
         let mut parser = Parser {
             text,
@@ -79,32 +76,30 @@ struct Parser<'a> {
     problems: Vec<Problem>,
 }
 
-fn problem(code: &'static str, range: Range<usize>, message: impl Into<String>) -> Problem {
-    Problem::new(code, Path::root(), message).within(range)
+fn problem(range: Range<usize>, what: Fault) -> Problem {
+    Problem {
+        within: Some(range),
+        ..Problem::new(Path::root(), what)
+    }
+}
+
+/// What ends the reading.
+fn stop<T>(range: Range<usize>, what: Fault) -> Fallible<T> {
+    Err(Box::new(problem(range, what)))
 }
 
 impl Parser<'_> {
     fn whole(&mut self) -> Fallible<Id> {
         self.advance()?;
         if self.token == Token::End {
-            let empty = problem("QRT0406", 0..self.text.len(), "the expression is empty");
-            return Err(Box::new(empty));
+            return stop(0..self.text.len(), Fault::Empty);
         }
         let root = self.sum()?;
         if self.token == Token::End {
             return Ok(root);
         }
-        let found = problem(
-            "QRT0400",
-            self.range.clone(),
-            format!("unexpected {}", self.found()),
-        );
-        Err(Box::new(match self.token {
-            Token::Symbol(')') => found.help("there is no `(` for this `)`"),
-            Token::Symbol(',') => found.help("a comma stands only between a function's operands"),
-            Token::Symbol('=') => found.help("write the value alone, without an equation"),
-            _ => found.help("a product is written with `*`"),
-        }))
+        let found = self.found();
+        stop(self.range.clone(), Fault::Unexpected { found })
     }
 
     fn sum(&mut self) -> Fallible<Id> {
@@ -126,8 +121,8 @@ impl Parser<'_> {
             let start = self.range.start;
             self.advance()?;
             if self.token == Token::Symbol('*') {
-                let power = problem("QRT0400", start..self.range.end, "unexpected `**`");
-                return Err(Box::new(power.help("a power is written with `^`")));
+                let found = "**".to_owned();
+                return stop(start..self.range.end, Fault::Unexpected { found });
             }
             let right = self.signed()?;
             left = self.arena.push(match symbol {
@@ -202,8 +197,8 @@ impl Parser<'_> {
                 Ok(inner)
             }
             _ => {
-                let expected = format!("expected a value, found {}", self.found());
-                Err(Box::new(problem("QRT0400", self.range.clone(), expected)))
+                let found = (self.token != Token::End).then(|| self.found());
+                stop(self.range.clone(), Fault::NoValue { found })
             }
         }
     }
@@ -212,44 +207,27 @@ impl Parser<'_> {
         if name == "pi" {
             return self.arena.number(std::f64::consts::PI);
         }
-        match Variable::ALL.into_iter().find(|v| v.name() == name) {
-            Some(variable) if self.allowed.contains(&variable) => {
-                return self.arena.push(Node::Variable(variable));
-            }
-            Some(_) => {
-                let message = format!("`{name}` has no value here");
-                let mut wrong = problem("QRT0402", range, message);
-                if !self.allowed.is_empty() {
-                    let names: Vec<_> = self.allowed.iter().map(|v| v.name()).collect();
-                    wrong = wrong.help(format!("this may depend on {}", names.join(", ")));
-                }
-                self.problems.push(wrong);
-            }
-            None if is_function(name) => {
-                let message = format!("the function `{name}` has no operands");
-                let example = match operand_count(name) {
-                    2 => format!("write `{name}(u, v)`"),
-                    4 => format!("write `{name}(a, b, x, y)`: x where a < b, y elsewhere"),
-                    _ => format!("write `{name}(u)`"),
-                };
-                self.problems
-                    .push(problem("QRT0403", range, message).help(example));
-            }
-            None => {
-                let names = self.allowed.iter().map(|v| v.name()).chain(["pi"]);
-                let mut unknown = problem("QRT0401", range, format!("unknown name `{name}`"));
-                let guess = nearest(name, names.chain(function_names()));
-                unknown = match (name, guess) {
-                    ("e", _) => unknown.help("Euler's number is `exp(1)`"),
-                    (_, Some(guess)) => unknown.help(format!("did you mean `{guess}`?")),
-                    (_, None) => {
-                        let names: Vec<_> = self.allowed.iter().map(|v| v.name()).collect();
-                        unknown.help(format!("this may depend on {}, pi", names.join(", ")))
-                    }
-                };
-                self.problems.push(unknown);
-            }
+        let variable = Variable::ALL.into_iter().find(|v| v.name() == name);
+        if let Some(variable) = variable.filter(|variable| self.allowed.contains(variable)) {
+            return self.arena.push(Node::Variable(variable));
         }
+        let allowed: Vec<_> = self.allowed.iter().map(|v| v.name()).collect();
+        let owned = name.to_owned();
+        let what = if variable.is_some() {
+            let name = owned;
+            Fault::NoValueHere { name, allowed }
+        } else if is_function(name) {
+            let (name, wanted) = (owned, operand_count(name));
+            Fault::NoOperands { name, wanted }
+        } else {
+            let names = allowed.iter().copied().chain(["pi"]);
+            Fault::UnknownName {
+                name: owned,
+                near: nearest(name, names.chain(function_names())),
+                allowed,
+            }
+        };
+        self.problems.push(problem(range, what));
         self.arena.number(1.0)
     }
 
@@ -268,21 +246,13 @@ impl Parser<'_> {
         self.close(open)?;
         if !is_function(name) {
             let is_value = name == "pi" || Variable::ALL.iter().any(|v| v.name() == name);
-            let wrong = if is_value {
-                problem("QRT0403", range, format!("`{name}` is not a function"))
-                    .help("a product is written with `*`")
+            let (name, functions) = (name.to_owned(), function_names().collect());
+            let what = if is_value {
+                Fault::NotAFunction { name }
             } else {
-                let unknown = problem("QRT0401", range, format!("unknown function `{name}`"));
-                match (name, nearest(name, function_names())) {
-                    ("ln", _) => unknown.help("the natural logarithm is `log`"),
-                    (_, Some(guess)) => unknown.help(format!("did you mean `{guess}`?")),
-                    (_, None) => {
-                        let names: Vec<_> = function_names().collect();
-                        unknown.help(format!("there are {}", names.join(", ")))
-                    }
-                }
+                Fault::UnknownFunction { name, functions }
             };
-            self.problems.push(wrong);
+            self.problems.push(problem(range, what));
             return Ok(self.arena.number(1.0));
         }
         if let Some(f) = Function::ALL.into_iter().find(|f| f.name() == name)
@@ -299,11 +269,12 @@ impl Parser<'_> {
             ("pow", [a, b]) => self.raise(*a, *b),
             ("if_less", [a, b, x, y]) => self.arena.push(Node::IfLess(*a, *b, *x, *y)),
             _ => {
-                let (wanted, given) = (operand_count(name), operands.len());
-                let s = if wanted == 1 { "" } else { "s" };
-                let message = format!("`{name}` takes {wanted} operand{s}, not {given}");
-                self.problems
-                    .push(problem("QRT0403", range.start..end, message));
+                let what = Fault::Operands {
+                    name: name.to_owned(),
+                    wanted: operand_count(name),
+                    given: operands.len(),
+                };
+                self.problems.push(problem(range.start..end, what));
                 self.arena.number(1.0)
             }
         })
@@ -312,8 +283,7 @@ impl Parser<'_> {
     /// Steps over the symbol at hand, one level down.
     fn enter(&mut self) -> Fallible<()> {
         if self.depth == MAX_DEPTH {
-            let message = format!("expression nested deeper than {MAX_DEPTH}");
-            return Err(Box::new(problem("QRT0405", self.range.clone(), message)));
+            return stop(self.range.clone(), Fault::TooDeep { most: MAX_DEPTH });
         }
         self.depth += 1;
         self.advance()
@@ -322,28 +292,19 @@ impl Parser<'_> {
     /// Steps over the parenthesis that closes the one at `open`, one level up.
     fn close(&mut self, open: Range<usize>) -> Fallible<()> {
         if self.token != Token::Symbol(')') {
+            if self.token == Token::End {
+                return stop(open, Fault::NeverClosed);
+            }
             let found = self.found();
-            let wrong = if self.token == Token::End {
-                problem("QRT0400", open, "this `(` is never closed")
-            } else {
-                problem(
-                    "QRT0400",
-                    self.range.clone(),
-                    format!("expected `)`, found {found}"),
-                )
-                .help("a product is written with `*`")
-            };
-            return Err(Box::new(wrong));
+            return stop(self.range.clone(), Fault::NotClosed { found });
         }
         self.depth -= 1;
         self.advance()
     }
 
+    /// The token at hand.
     fn found(&self) -> String {
-        match self.token {
-            Token::End => "the end".to_owned(),
-            _ => format!("`{}`", &self.text[self.range.clone()]),
-        }
+        self.text[self.range.clone()].to_owned()
     }
 
     fn advance(&mut self) -> Fallible<()> {
@@ -394,20 +355,13 @@ fn number_length(text: &[u8]) -> usize {
 }
 
 fn number(text: &str, start: usize) -> Fallible<f64> {
-    let range = start..start + text.len();
-    match text.parse::<f64>() {
-        Ok(value) if value.is_finite() => Ok(value),
-        Ok(_) => Err(Box::new(problem(
-            "QRT0404",
-            range,
-            format!("`{text}` is too large"),
-        ))),
-        Err(_) => Err(Box::new(problem(
-            "QRT0404",
-            range,
-            format!("`{text}` is not a number"),
-        ))),
-    }
+    let owned = || text.to_owned();
+    let what = match text.parse::<f64>() {
+        Ok(value) if value.is_finite() => return Ok(value),
+        Ok(_) => Fault::TooLarge { text: owned() },
+        Err(_) => Fault::NotANumber { text: owned() },
+    };
+    stop(start..start + text.len(), what)
 }
 
 const OTHERS: [(&str, usize); 7] = [

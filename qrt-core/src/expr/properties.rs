@@ -299,7 +299,7 @@ fn no_text_makes_the_parser_panic() {
                 prop_assert!(!problems.is_empty());
                 for problem in problems {
                     let range = problem.within.unwrap_or_default();
-                    prop_assert!(text.get(range).is_some(), "{}", problem.message);
+                    prop_assert!(text.get(range).is_some(), "{}", problem.what);
                 }
             }
         }

@@ -1,6 +1,7 @@
 //! The language, its derivatives, its simplification and its bounds, each against something else.
 
 use super::*;
+use crate::syntax::Problem;
 
 fn read(text: &str) -> Expr {
     Expr::parse(text, &Variable::ALL).unwrap_or_else(|p| panic!("{text}: {p:?}"))
@@ -71,11 +72,12 @@ fn dependence_is_known_of_every_node() {
 fn wrong(text: &str) -> (&'static str, std::ops::Range<usize>, String, String) {
     let mut problems = Expr::parse(text, &Variable::SQUARE).expect_err(text);
     let p = problems.remove(0);
+    let words = p.words();
     (
-        p.code,
+        words.code,
         p.within.expect("a place"),
-        p.message,
-        p.help.unwrap_or_default(),
+        words.message,
+        words.help.unwrap_or_default(),
     )
 }
 
@@ -145,7 +147,7 @@ fn problems_name_their_bytes() {
 fn all_unknown_names_are_told_at_once() {
     let problems = Expr::parse("a1 + b1*cos_i", &Variable::SQUARE).expect_err("three");
     assert_eq!(
-        problems.iter().map(|p| p.code).collect::<Vec<_>>(),
+        problems.iter().map(Problem::code).collect::<Vec<_>>(),
         ["QRT0401", "QRT0401", "QRT0402"]
     );
 }
@@ -154,7 +156,7 @@ fn all_unknown_names_are_told_at_once() {
 fn depth_and_length_have_limits_instead_of_crashes() {
     let deep = |open: &str, n: usize, close: &str| {
         let text = open.repeat(n) + "u" + &close.repeat(n);
-        Expr::parse(&text, &Variable::SQUARE).map_err(|p| p[0].code)
+        Expr::parse(&text, &Variable::SQUARE).map_err(|p| p[0].code())
     };
     assert!(deep("(", MAX_DEPTH, ")").is_ok());
     for (open, close) in [("(", ")"), ("-", ""), ("2^", ""), ("sin(", ")")] {

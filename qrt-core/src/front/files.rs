@@ -19,7 +19,7 @@ use std::path::{Path, PathBuf};
 /// let scene = parse_with(text, "lamp.yaml", &[], Files::held(held))?.valid;
 /// assert_eq!(scene.polygons().len(), 1);
 /// assert!(scene.files()[0].ends_with("lamp.obj"));
-/// # Ok::<(), qrt_core::diagnostics::Report>(())
+/// # Ok::<(), qrt_core::syntax::Report>(())
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Files<'a> {

@@ -3,20 +3,15 @@
 mod files;
 pub mod obj;
 pub mod overrides;
-pub mod tree;
 pub mod yaml;
 
-use crate::codes;
-use crate::diagnostics::{Report, Source};
-use crate::report::{Faulty, Path, Problem};
 use crate::scene::Scene;
-use crate::scene::decode::{Decoder, Place};
 use crate::scene::shape::Part;
-use crate::valid::{ValidScene, validate};
+use crate::syntax::tree::Node;
+use crate::syntax::{File, Place, Problem, Problems, Report, Source};
+use crate::valid::{self, ValidScene};
 pub use files::Files;
-use files::Unread;
-use tree::Node;
-use yaml::Reading;
+pub(crate) use files::Unread;
 
 /// Bytes that a scene file may have.
 pub const MAX_BYTES: u64 = 16 << 20;
@@ -38,7 +33,7 @@ impl Loaded {
     pub fn report(&self, problems: Vec<Problem>) -> Report {
         let mut sources = vec![self.source.clone()];
         sources.extend(self.overrides.iter().cloned());
-        Report::of_tree(sources, &self.tree, Vec::new(), problems)
+        Report::new(sources, Some(&self.tree), problems)
     }
 }
 
@@ -98,34 +93,28 @@ pub fn parse_with(
 
 fn from_source(source: Source, sets: &[String], files: Files<'_>) -> Result<Loaded, Report> {
     let mut sources = vec![source];
-    let Reading {
-        mut tree,
-        mut problems,
-    } = yaml::read(&sources[0], 0..sources[0].text.len(), 0);
+    let mut problems = Problems::default();
+    let mut tree = yaml::read(&sources[0], 0..sources[0].text.len(), 0, &mut problems);
     for text in sets {
         let number = sources.len() as u32;
         let source = Source::new("<--set>", text.as_str());
-        match (overrides::read(&source, number), &mut tree) {
-            (Ok(set), Some(tree)) => {
-                problems.extend(overrides::apply(tree, set).err().map(|placed| *placed));
-            }
-            (Ok(_), None) => {}
-            (Err(found), _) => problems.extend(found),
+        let set = overrides::read(&source, number, &mut problems);
+        if let (Some(set), Some(tree)) = (set, &mut tree) {
+            overrides::apply(tree, set, &mut problems);
         }
         sources.push(source);
     }
     let Some(tree) = tree else {
-        return Err(Report::of_placed(sources, problems));
+        return Err(Report::new(sources, None, problems.all()));
     };
-    match of_tree(&tree, files) {
-        Ok(valid) if problems.is_empty() => Ok(Loaded {
+    match decoded(&tree, files, problems) {
+        Ok(valid) => Ok(Loaded {
             valid,
             source: sources.remove(0),
             overrides: sources,
             tree,
         }),
-        Ok(_) => Err(Report::of_placed(sources, problems)),
-        Err(found) => Err(Report::of_tree(sources, &tree, problems, found)),
+        Err(found) => Err(Report::new(sources, Some(&tree), found)),
     }
 }
 
@@ -134,69 +123,43 @@ fn from_source(source: Source, sets: &[String], files: Files<'_>) -> Result<Load
 /// # Errors
 /// Everything that is wrong with it.
 pub fn of_tree(tree: &Node, files: Files<'_>) -> Result<ValidScene, Vec<Problem>> {
-    let mut decoder = Decoder::default();
-    let scene = Scene::decode(tree, &Place::ROOT, &mut decoder);
+    decoded(tree, files, Problems::default())
+}
+
+fn decoded(
+    tree: &Node,
+    files: Files<'_>,
+    mut problems: Problems,
+) -> Result<ValidScene, Vec<Problem>> {
+    let scene = Scene::decode(tree, &Place::ROOT, &mut problems);
     let meshes = obj::load_all(&scene, files);
-    let checked = validate(scene, &meshes);
-    let Decoder {
-        mut problems,
-        replaced,
-    } = decoder;
-    match checked {
-        Ok(valid) if problems.is_empty() => return Ok(valid),
-        Ok(_) => {}
-        Err(found) => {
-            let faulty = Faulty::of(&replaced);
-            // Where the materials could not be read, nobody knows which names there are.
-            let nameless = replaced.contains(&Path::root().key("materials"));
-            problems.extend(found.into_iter().filter(|problem| {
-                let unknown = nameless && problem.code == codes::UNKNOWN_MATERIAL;
-                !unknown && !faulty.touches(&problem.path)
-            }));
-        }
-    }
-    Err(problems)
+    valid::check(scene, &meshes, problems)
 }
 
 fn read_file(files: Files<'_>, path: &std::path::Path) -> Result<Source, Report> {
     let name = path.display().to_string();
-    let fail = |code, message: String, help: Option<&str>| {
-        let mut problem = Problem::new(code, Path::root(), message);
-        problem.help = help.map(str::to_owned);
-        Report::of_file(&name, problem)
-    };
+    let fail = |what| Report::of_file(&name, what);
     let unreadable = |why: Unread| {
         use std::io::ErrorKind;
-        let (message, help) = match why {
-            Unread::Irregular { is_folder: true } => {
-                ("this is a folder".to_owned(), Some("name a scene file"))
-            }
-            Unread::Irregular { is_folder: false } => {
-                let message = "this is not a regular file".to_owned();
-                (message, Some("name a scene file"))
-            }
-            Unread::TooLarge => {
-                let message = format!("the file is larger than {} MiB", MAX_BYTES >> 20);
-                let help = "put large geometry into OBJ meshes";
-                return fail(codes::TOO_LARGE, message, Some(help));
-            }
+        fail(match why {
+            Unread::Irregular { is_folder: true } => File::Folder,
+            Unread::Irregular { is_folder: false } => File::Irregular,
+            Unread::TooLarge => File::TooLarge { most: MAX_BYTES },
             Unread::Failed(error) => match error.kind() {
-                ErrorKind::NotFound => (
-                    "there is no such file".to_owned(),
-                    Some("check the path, or start a scene with `qrt new NAME`"),
-                ),
-                ErrorKind::PermissionDenied => ("you may not read this file".to_owned(), None),
-                _ => (format!("the file cannot be read: {error}"), None),
+                ErrorKind::NotFound => File::Missing,
+                ErrorKind::PermissionDenied => File::Denied,
+                _ => File::Failed {
+                    why: error.to_string(),
+                },
             },
-        };
-        fail(codes::UNREADABLE, message, help)
+        })
     };
     let bytes = files.read(path, MAX_BYTES).map_err(unreadable)?;
     let text = String::from_utf8(bytes).map_err(|error| {
-        let at = error.utf8_error().valid_up_to();
-        let line = error.as_bytes()[..at].split(|&byte| byte == b'\n').count();
-        let message = format!("the file is not UTF-8 text: byte {at}, on line {line}");
-        fail(codes::NOT_UTF8, message, Some("save it as UTF-8"))
+        let byte = error.utf8_error().valid_up_to();
+        let before = &error.as_bytes()[..byte];
+        let line = before.split(|&byte| byte == b'\n').count();
+        fail(File::NotUtf8 { byte, line })
     })?;
     Ok(Source::new(name, text))
 }

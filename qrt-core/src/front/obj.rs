@@ -16,9 +16,9 @@ mod scan;
 mod tests;
 
 use super::{Files, Unread};
-use crate::codes;
 use crate::scene::meshes::{Meshes, ObjError, ObjFace, ObjMesh};
 use crate::scene::{Geometry, Scene};
+use crate::syntax::codes;
 use glam::DVec3;
 use mtl::Materials;
 use scan::Scanner;

@@ -3,13 +3,11 @@
 //! They change the tree before it is decoded, so that a value from the command line is read and
 //! checked like one of the file; its place is the override's own text.
 
-use crate::codes;
-use crate::diagnostics::{Placed, Source};
-use crate::front::tree::{Entry, Node, Span, Value};
-use crate::front::yaml::{self, Reading};
-use crate::report::{Path, Problem};
+use crate::front::yaml;
 use crate::scene::text::Data;
 use crate::scene::{Circuit, Comparator, Counting, Precision, Sampling, shape::Part};
+use crate::syntax::tree::{Entry, Node, Scalar, Span, Value};
+use crate::syntax::{Override as Fault, Problems, Source, Step};
 
 /// An override that was read: where to put what.
 #[derive(Clone, Debug)]
@@ -18,32 +16,21 @@ pub struct Override {
     value: Node,
 }
 
-#[derive(Clone, Debug, PartialEq)]
-enum Step {
-    Key(String),
-    Item(usize),
-}
-
-/// Reads `key=value`, the text of `source`, which is source number `number`.
-///
-/// # Errors
-/// What is wrong with the key or with the value as YAML.
-pub fn read(source: &Source, number: u32) -> Result<Override, Vec<Placed>> {
+/// Reads `key=value`, the text of `source`, which is source number `number`; reports what is wrong with
+/// the key, or with the value as YAML.
+pub fn read(source: &Source, number: u32, problems: &mut Problems) -> Option<Override> {
     let text = source.text.as_str();
-    let syntax = |start: usize, end: usize, message: &str| {
-        let problem = Problem::new(codes::SET_SYNTAX, Path::root(), message)
-            .help("write it as `--set sampling.path_bits=14`");
-        vec![placed(
-            problem,
-            Span {
-                source: number,
-                start,
-                end,
-            },
-        )]
+    let span = |start: usize, end: usize| Span {
+        source: number,
+        start,
+        end,
+    };
+    let mut syntax = |start: usize, end: usize, what: Fault| {
+        problems.add(span(start, end), what);
+        None
     };
     let Some(equals) = text.find('=') else {
-        return Err(syntax(0, text.len(), "an override is written key=value"));
+        return syntax(0, text.len(), Fault::NotAPair);
     };
     let mut steps = Vec::new();
     let mut at = 0;
@@ -52,7 +39,7 @@ pub fn read(source: &Source, number: u32) -> Result<Override, Vec<Placed>> {
         let item = rest.strip_prefix('[').and_then(|rest| rest.split_once(']'));
         let (step, length) = if let (Some((index, _)), false) = (item, steps.is_empty()) {
             let Ok(value) = index.trim().parse::<usize>() else {
-                return Err(syntax(at, equals, "an index is a whole number from 0"));
+                return syntax(at, equals, Fault::NotAnIndex);
             };
             (Step::Item(value), index.len() + 2)
         } else {
@@ -60,42 +47,28 @@ pub fn read(source: &Source, number: u32) -> Result<Override, Vec<Placed>> {
             let word = &rest[dot..];
             let length = word.find(['.', '[']).unwrap_or(word.len());
             if length == 0 || (dot == 0 && !steps.is_empty()) {
-                return Err(syntax(at, equals, "a key is missing here"));
+                return syntax(at, equals, Fault::NoKey);
             }
             at += dot;
             (Step::Key(word[..length].trim().to_owned()), length)
         };
-        steps.push((
-            step,
-            Span {
-                source: number,
-                start: at,
-                end: at + length,
-            },
-        ));
+        steps.push((step, span(at, at + length)));
         at += length;
     }
     if steps.is_empty() {
-        return Err(syntax(0, text.len(), "an override begins with a key"));
+        return syntax(0, text.len(), Fault::NoFirstKey);
     }
     if text[equals + 1..].trim().is_empty() {
-        return Err(syntax(equals, text.len(), "the value is missing here"));
+        return syntax(equals, text.len(), Fault::NoValue);
     }
-    match yaml::read(source, equals + 1..text.len(), number) {
-        Reading {
-            tree: Some(value),
-            problems,
-        } if problems.is_empty() => Ok(Override { steps, value }),
-        Reading { problems, .. } => Err(problems),
-    }
+    let known = problems.count();
+    let value = yaml::read(source, equals + 1..text.len(), number, problems)?;
+    (problems.count() == known).then_some(Override { steps, value })
 }
 
 /// Puts the override's value into the tree. A key that is not there is added (blocks that may be
-/// left out are filled with their defaults); an element that is not there is an error.
-///
-/// # Errors
-/// The step that leads nowhere.
-pub fn apply(tree: &mut Node, set: Override) -> Result<(), Box<Placed>> {
+/// left out are filled with their defaults); a step that leads nowhere is reported.
+pub fn apply(tree: &mut Node, set: Override, problems: &mut Problems) {
     let defaults = defaults();
     let mut default = Some(&defaults);
     let mut node = tree;
@@ -105,14 +78,8 @@ pub fn apply(tree: &mut Node, set: Override) -> Result<(), Box<Placed>> {
             node.span = span;
         }
         let found = node.found();
-        let lost = |message: String| {
-            Box::new(placed(
-                Problem::new(codes::SET_PLACE, Path::root(), message),
-                span,
-            ))
-        };
         node = match (step, &mut node.value) {
-            (Step::Key(key), Value::Map(entries)) => {
+            (Step::Key(key) | Step::Name(key), Value::Map(entries)) => {
                 default = default.and_then(|data| data.get(&key));
                 let index = entries.iter().position(|entry| entry.key == key);
                 let index = index.unwrap_or_else(|| {
@@ -131,21 +98,17 @@ pub fn apply(tree: &mut Node, set: Override) -> Result<(), Box<Placed>> {
                 default = None;
                 let count = items.len();
                 let Some(item) = items.get_mut(index) else {
-                    let message = format!("there is no element {index}: the list has {count}");
-                    return Err(lost(message));
+                    return problems.add(span, Fault::NoElement { index, count });
                 };
                 item
             }
-            (Step::Key(key), _) => {
-                return Err(lost(format!("there is no key `{key}` in {found}")));
+            (Step::Key(key) | Step::Name(key), _) => {
+                return problems.add(span, Fault::NotAMap { key, found });
             }
-            (Step::Item(index), _) => {
-                return Err(lost(format!("there is no element {index} in {found}")));
-            }
+            (Step::Item(index), _) => return problems.add(span, Fault::NotAList { index, found }),
         };
     }
     *node = set.value;
-    Ok(())
 }
 
 /// What the blocks that may be left out hold then, as far as an override may reach into it.
@@ -165,7 +128,6 @@ fn defaults() -> Data {
 }
 
 fn value_of(data: &Data, span: Span) -> Value {
-    use crate::front::tree::Scalar;
     let node = |data: &Data| Node {
         span,
         value: value_of(data, span),
@@ -188,13 +150,5 @@ fn value_of(data: &Data, span: Span) -> Value {
             text: data.canonical(),
             quoted: false,
         }),
-    }
-}
-
-fn placed(problem: Problem, span: Span) -> Placed {
-    Placed {
-        problem,
-        span: Some(span),
-        also: None,
     }
 }

@@ -5,22 +5,12 @@
 //! tags, several documents, merge keys, keys that are not names) is an error with its place; aliases
 //! are expanded within a budget of nodes, and nesting has a limit.
 //!
-//! Readers that go from YAML straight to types were tried first. `yaml_serde` 0.10, which continues
-//! `serde_yaml`, stops at the first error; its generic values carry no places, so that nothing that
-//! is found after reading (a material that no one defined, a quad without area) can be shown in the
-//! text; and it takes the single-key maps of materials for enumerations only through a wrapper.
-//! `serde-saphyr` 2.0 shows the first error well, duplicate keys included, but only the first. With
-//! both, defaults, ranges and the schema would have to be said a second time. So the events of
-//! `saphyr-parser` 0.3, a crate of two small dependencies, become a tree here, and one definition of
-//! each part (see [`crate::scene`]) does the rest. `yaml_serde` stays as the independent reader that
-//! the tests compare with.
+//! ARCHITECTURE.md says why this is not left to a reader that goes from YAML straight to types.
 
 mod locator;
 
-use crate::codes;
-use crate::diagnostics::{Placed, Source};
-use crate::front::tree::{Entry, Node, Scalar, Span, Value, is_null, shorten};
-use crate::report::{Path, Problem};
+use crate::syntax::tree::{Entry, Node, Scalar, Span, Value, is_null};
+use crate::syntax::{Problem, Problems, Source, Yaml};
 use locator::Locator;
 use saphyr_parser::{Event, Parser, ScalarStyle};
 use std::collections::HashMap;
@@ -31,18 +21,16 @@ pub const ALIAS_BUDGET: usize = 1 << 18;
 /// Levels of lists and maps in a scene.
 pub const MAX_DEPTH: usize = 64;
 
-/// What was read of a text.
-#[derive(Debug)]
-pub struct Reading {
-    /// The tree, if the text could be read to its end; without what is wrong with it.
-    pub tree: Option<Node>,
-    /// What is wrong with the text as YAML. Syntax errors end the reading.
-    pub problems: Vec<Placed>,
-}
-
-/// The tree of `source`'s bytes `range`; places are marked as of source number `number`.
-pub fn read(source: &Source, range: Range<usize>, number: u32) -> Reading {
+/// The tree of `source`'s bytes `range`, if they could be read to their end; without what is wrong with
+/// it. Places are marked as of source number `number`. Syntax errors end the reading.
+pub fn read(
+    source: &Source,
+    range: Range<usize>,
+    number: u32,
+    problems: &mut Problems,
+) -> Option<Node> {
     let text = source.text.get(range.clone()).unwrap_or_default();
+    let known = problems.count();
     let mut builder = Builder {
         locator: Locator::new(text, range.start, number),
         stack: Vec::new(),
@@ -50,42 +38,22 @@ pub fn read(source: &Source, range: Range<usize>, number: u32) -> Reading {
         anchors: HashMap::new(),
         expanded: 0,
         documents: 0,
-        problems: Vec::new(),
+        problems,
         merged: false,
     };
-    let ended = builder.run(Parser::new_from_str(text));
-    let Builder {
-        root,
-        mut problems,
-        merged,
-        ..
-    } = builder;
-    let tree = match (ended, root) {
-        (Ok(()), Some(node)) if node.value != Value::Null => Some(node),
-        (Err(Stop), _) => None,
-        (Ok(()), _) => {
-            if problems.is_empty() {
-                let at = Span {
-                    source: number,
-                    start: range.start,
-                    end: range.start,
-                };
-                let what = Problem::new(codes::EMPTY, Path::root(), "the scene is empty");
-                let what = what.help("`qrt new NAME` writes a scene to start from");
-                problems.push(Placed {
-                    problem: what,
-                    span: Some(at),
-                    also: None,
-                });
-            }
-            None
-        }
-    };
-    // What a merge would have brought in would be reported as missing.
-    Reading {
-        tree: tree.filter(|_| !merged),
-        problems,
+    builder.run(Parser::new_from_str(text)).ok()?;
+    let Builder { root, merged, .. } = builder;
+    let root = root.filter(|node| node.value != Value::Null);
+    if root.is_none() && problems.count() == known {
+        let start = Span {
+            source: number,
+            start: range.start,
+            end: range.start,
+        };
+        problems.add(start, Yaml::Empty);
     }
+    // What a merge would have brought in would be reported as missing.
+    root.filter(|_| !merged)
 }
 
 /// Reading cannot go on; the reason is among the problems.
@@ -122,7 +90,7 @@ struct Builder<'a> {
     anchors: HashMap<usize, Node>,
     expanded: usize,
     documents: usize,
-    problems: Vec<Placed>,
+    problems: &'a mut Problems,
     /// Whether there was a merge key.
     merged: bool,
 }
@@ -152,17 +120,8 @@ impl<'a> Builder<'a> {
             _ => None,
         };
         if let Some(tag) = tag {
-            let tag = shorten(&format!("{}{}", tag.handle, tag.suffix));
-            let problem = problem(
-                codes::TAG,
-                format!("the YAML tag `{tag}` has no meaning here"),
-            )
-            .help("remove it: a value's type follows from its place in the scene");
-            self.problems.push(Placed {
-                problem,
-                span: Some(span),
-                also: None,
-            });
+            let tag = format!("{}{}", tag.handle, tag.suffix);
+            self.problems.add(span, Yaml::Tag { tag });
         }
         match event {
             Event::Nothing | Event::StreamStart | Event::StreamEnd | Event::DocumentEnd => Ok(()),
@@ -171,8 +130,7 @@ impl<'a> Builder<'a> {
                 if self.documents == 1 {
                     return Ok(());
                 }
-                let what = problem(codes::SECOND_DOCUMENT, "a second YAML document starts here");
-                self.stop(what.help("a file holds one scene"), span)
+                self.stop(span, Yaml::SecondDocument)
             }
             Event::Alias(anchor) => self.alias(anchor, span),
             Event::Scalar(text, style, anchor, _) => self.scalar(&text, style, anchor, span),
@@ -192,49 +150,28 @@ impl<'a> Builder<'a> {
         }
     }
 
-    fn stop(&mut self, problem: Problem, span: Span) -> Result<(), Stop> {
-        self.problems.push(Placed {
-            problem,
-            span: Some(span),
-            also: None,
-        });
+    fn stop(&mut self, at: Span, what: Yaml) -> Result<(), Stop> {
+        self.problems.add(at, what);
         Err(Stop)
     }
 
-    fn syntax_error(&mut self, info: &str, at: usize) -> Result<(), Stop> {
-        if info.contains("unknown anchor") {
-            let span = self.locator.word(at);
-            let what = problem(codes::ALIAS, "this alias has no anchor before it");
-            return self.stop(
-                what.help("write `&name` before the value it stands for"),
-                span,
-            );
-        }
-        if info.contains("recursion limit") {
-            return self.too_deep(self.locator.word(at));
-        }
-        let mut what = problem(codes::SYNTAX, format!("not YAML: {info}"));
-        if self
-            .locator
-            .line_of(at)
-            .bytes()
-            .take_while(|b| b" \t".contains(b))
-            .any(|b| b == b'\t')
-        {
-            what = what.help("indent with spaces: YAML has no tabs in its indentation");
-        } else if info.contains("unprintable") || info.contains("byte order mark") {
-            what = what.help("remove the invisible character");
-        }
+    /// The parser's errors are words; two of them have a name here.
+    fn syntax_error(&mut self, why: &str, at: usize) -> Result<(), Stop> {
+        let what = if why.contains("unknown anchor") {
+            Yaml::UnknownAlias
+        } else if why.contains("recursion limit") {
+            Yaml::TooDeep { most: MAX_DEPTH }
+        } else {
+            let is_blank = |byte: &u8| b" \t".contains(byte);
+            let mut indentation = self.locator.line_of(at).bytes().take_while(is_blank);
+            Yaml::Syntax {
+                why: why.to_owned(),
+                has_tab: indentation.any(|byte| byte == b'\t'),
+                is_invisible: why.contains("unprintable") || why.contains("byte order mark"),
+            }
+        };
         let span = self.locator.word(at);
-        self.stop(what, span)
-    }
-
-    fn too_deep(&mut self, span: Span) -> Result<(), Stop> {
-        let what = problem(
-            codes::TOO_DEEP,
-            format!("more than {MAX_DEPTH} levels of nesting"),
-        );
-        self.stop(what.help("a scene needs fewer than ten"), span)
+        self.stop(span, what)
     }
 
     /// Whether the next value is a key, not a value.
@@ -250,10 +187,10 @@ impl<'a> Builder<'a> {
 
     fn open(&mut self, anchor: usize, span: Span, body: Body) -> Result<(), Stop> {
         if self.at_key() {
-            return self.complex_key(span);
+            return self.stop(span, Yaml::ComplexKey);
         }
         if self.stack.len() == MAX_DEPTH {
-            return self.too_deep(span);
+            return self.stop(span, Yaml::TooDeep { most: MAX_DEPTH });
         }
         self.stack.push(Frame {
             start: span,
@@ -261,14 +198,6 @@ impl<'a> Builder<'a> {
             body,
         });
         Ok(())
-    }
-
-    fn complex_key(&mut self, span: Span) -> Result<(), Stop> {
-        let what = problem(codes::COMPLEX_KEY, "a key must be a word or a text");
-        self.stop(
-            what.help("a list, a map, an alias or nothing cannot be a key"),
-            span,
-        )
     }
 
     fn close(&mut self, event: Span) {
@@ -326,17 +255,11 @@ impl<'a> Builder<'a> {
             return Ok(());
         }
         if !quoted && is_null(text) {
-            return self.complex_key(span);
+            return self.stop(span, Yaml::ComplexKey);
         }
         let mut faulty = false;
         if !quoted && text == "<<" {
-            let what = problem(codes::MERGE_KEY, "merge keys are not part of YAML 1.2");
-            let what = what.help("write the entries out; whole values can be shared by `*alias`");
-            self.problems.push(Placed {
-                problem: what,
-                span: Some(span),
-                also: None,
-            });
+            self.problems.add(span, Yaml::MergeKey);
             faulty = true;
             self.merged = true;
         }
@@ -348,18 +271,9 @@ impl<'a> Builder<'a> {
             return Ok(());
         };
         if let (Some(first), false) = (seen.get(text), faulty) {
-            let what = problem(
-                codes::DUPLICATE_KEY,
-                format!("the key `{}` is written twice", shorten(text)),
-            )
-            .label("again here")
-            .help("keep one of the two")
-            .also(Path::root(), "first written here");
-            self.problems.push(Placed {
-                problem: what,
-                span: Some(span),
-                also: Some(*first),
-            });
+            let key = text.to_owned();
+            let problem = Problem::new(span, Yaml::DuplicateKey { key });
+            self.problems.push(problem.also(*first));
             faulty = true;
         } else {
             seen.insert(text.to_owned(), span);
@@ -381,23 +295,18 @@ impl<'a> Builder<'a> {
 
     fn alias(&mut self, anchor: usize, span: Span) -> Result<(), Stop> {
         if self.at_key() {
-            return self.complex_key(span);
+            return self.stop(span, Yaml::ComplexKey);
         }
         let Some(node) = self.anchors.get(&anchor) else {
-            let what = problem(codes::ALIAS, "this alias stands within its own anchor");
-            return self.stop(what.help("a value cannot contain itself"), span);
+            return self.stop(span, Yaml::RecursiveAlias);
         };
         let (count, height) = (node.count(), node.height());
         self.expanded = self.expanded.saturating_add(count);
         if self.expanded > ALIAS_BUDGET {
-            let what = problem(
-                codes::ALIAS_BUDGET,
-                format!("aliases expand to more than {ALIAS_BUDGET} values by here"),
-            );
-            return self.stop(what.help("put large geometry into OBJ meshes"), span);
+            return self.stop(span, Yaml::AliasBudget { most: ALIAS_BUDGET });
         }
         if self.stack.len() + height > MAX_DEPTH {
-            return self.too_deep(span);
+            return self.stop(span, Yaml::TooDeep { most: MAX_DEPTH });
         }
         let node = node.clone();
         self.add(node, 0);
@@ -427,8 +336,4 @@ impl<'a> Builder<'a> {
             }
         }
     }
-}
-
-fn problem(code: &'static str, message: impl Into<String>) -> Problem {
-    Problem::new(code, Path::root(), message)
 }

@@ -13,11 +13,11 @@ mod stages;
 #[cfg(test)]
 mod tests;
 
+pub use crate::syntax::grouped;
 pub use blocks::BlockFigures;
 pub use frame::{Frame, FrameBox, Wire};
 pub use layout::{Layout, Lifetime};
 pub use passes::{PassFigures, pass_figures};
-pub use qrt_circuit::grouped;
 pub use stages::{Part, Stage};
 
 use crate::compile::Role;

@@ -1,11 +1,9 @@
 //! What a scene allows its circuit, and what is wrong when there is no circuit.
 
-use super::{Oracle, OracleError};
-use crate::codes;
+use super::{MOST_FACES, Oracle, OracleError};
 use crate::compile::BuildError;
-use crate::inspect::grouped;
-use crate::report::{Path, Problem};
 use crate::scene::{Nearest, Uncompute};
+use crate::syntax::{Circuit, Path, Problem, Problems, Sampling};
 use crate::valid::ValidScene;
 use qrt_circuit::{Op, RegisterId, lower};
 use std::collections::HashMap;
@@ -67,78 +65,48 @@ pub fn check_budget(scene: &ValidScene, spent: Spent) -> Result<(), Vec<Problem>
     let Some(budget) = written.budget else {
         return Ok(());
     };
-    let fraction = "fewer bits of `precision.fraction`";
-    let mut problems = Vec::new();
-    let mut exceeded =
-        |code, key: &str, what: &str, limit: Option<u64>, actual: u64, help: String| {
-            if let Some(limit) = limit.filter(|&limit| limit < actual) {
-                let message = format!(
-                    "the circuit has {} {what}, {} more than the budget allows",
-                    grouped(actual),
-                    grouped(actual - limit)
-                );
-                let path = Path::root().key("budget").key(key);
-                let label = format!("at most {}", grouped(limit));
-                problems.push(Problem::new(code, path, message).label(label).help(help));
-            }
-        };
     let scoped = written.circuit.uncompute == Uncompute::Scoped;
-    let help = if scoped {
-        format!("use {fraction}, or a shorter list of `sampling.depths`; or raise `budget.qubits`")
-    } else {
-        format!(
-            "`circuit.uncompute: scoped` needs fewer qubits, for more gates; or use {fraction}, or \
-             raise `budget.qubits`"
-        )
-    };
-    exceeded(
-        codes::BUDGET_QUBITS,
-        "qubits",
-        "qubits",
-        budget.qubits,
-        spent.qubits,
-        help,
-    );
-    let cheaper = match (scoped, written.circuit.nearest) {
-        (true, _) => "`circuit.uncompute: keep` needs fewer gates, for more qubits",
-        (_, Nearest::Paper) => "`circuit.nearest: running` needs fewer gates",
-        _ => "each entry of `sampling.depths` traces the scene once more",
-    };
-    let help = format!("{cheaper}; or use {fraction}, or raise `budget.toffoli`");
-    exceeded(
-        codes::BUDGET_TOFFOLI,
-        "toffoli",
-        "Toffoli gates",
-        budget.toffoli,
-        spent.toffoli,
-        help,
-    );
-    if problems.is_empty() {
-        Ok(())
-    } else {
-        Err(problems)
+    let path = Path::root().key("budget");
+    let mut problems = Problems::default();
+    let used = spent.qubits;
+    if let Some(most) = budget.qubits.filter(|&most| most < used) {
+        let what = Circuit::Qubits { used, most, scoped };
+        problems.add(path.key("qubits"), what);
     }
+    let used = spent.toffoli;
+    if let Some(most) = budget.toffoli.filter(|&most| most < used) {
+        let what = Circuit::Toffolis {
+            used,
+            most,
+            scoped,
+            running: written.circuit.nearest == Nearest::Running,
+        };
+        problems.add(path.key("toffoli"), what);
+    }
+    problems.result(())
 }
 
 impl OracleError {
     /// What is wrong with the scene. [`crate::front::Loaded::report`] shows it there.
     pub fn problem(&self) -> Problem {
-        let (code, path) = match self {
-            Self::Build(BuildError::UnboundedQuotient) => {
-                (codes::QUOTIENT_UNBOUNDED, Path::root().key("materials"))
+        let root = Path::root();
+        match self {
+            Self::Build(error) => {
+                let path = match error {
+                    BuildError::UnboundedQuotient => root.key("materials"),
+                    BuildError::TooWide { .. } => root.key("precision").key("fraction"),
+                };
+                Problem::new(path, error.problem())
             }
-            Self::Build(BuildError::TooWide { .. }) => (
-                codes::NUMBER_TOO_WIDE,
-                Path::root().key("precision").key("fraction"),
-            ),
-            Self::Sampling(_) => (codes::TOO_MANY_IDS, Path::root().key("sampling")),
-            Self::TooManyFaces { .. } => (codes::TOO_MANY_FACES, Path::root().key("geometry")),
-        };
-        // What is wrong; what to do.
-        let text = self.to_string();
-        match text.split_once("; ") {
-            Some((wrong, help)) => Problem::new(code, path, wrong).help(help),
-            None => Problem::new(code, path, text),
+            Self::Sampling(error) => {
+                let why = error.to_string();
+                Problem::new(root.key("sampling"), Sampling::Impossible { why })
+            }
+            &Self::TooManyFaces { faces } => {
+                let most = MOST_FACES;
+                let what = Circuit::TooManyFaces { faces, most };
+                Problem::new(root.key("geometry"), what)
+            }
         }
     }
 }
@@ -147,6 +115,7 @@ impl OracleError {
 mod tests {
     use super::*;
     use crate::front::{Loaded, parse};
+    use crate::syntax::codes;
 
     fn loaded(more: &str) -> Loaded {
         let text = format!(
@@ -190,11 +159,11 @@ geometry: [quad: {{ vertices: [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], mate
                 "{more}\nbudget: {{ qubits: 999, toffoli: 10000 }}"
             ));
             let problems = check_budget(&loaded.valid, SPENT).unwrap_err();
-            let codes: Vec<_> = problems.iter().map(|problem| problem.code).collect();
+            let codes: Vec<_> = problems.iter().map(Problem::code).collect();
             assert_eq!(codes, [codes::BUDGET_QUBITS, codes::BUDGET_TOFFOLI]);
             for (problem, advice) in problems.iter().zip(advice) {
                 assert!(
-                    problem.help.as_ref().unwrap().contains(advice),
+                    problem.words().help.unwrap().contains(advice),
                     "{problem:?}"
                 );
             }

@@ -2,7 +2,7 @@
 //! ([`crate::front::obj`]); [`crate::valid::validate`] checks them along with the scene.
 
 use super::{Mesh, Rgb};
-use crate::codes;
+use crate::syntax::codes;
 use glam::DVec3;
 use std::collections::BTreeMap;
 use std::fmt;

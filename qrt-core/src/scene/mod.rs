@@ -12,12 +12,10 @@ pub(crate) mod settle;
 pub(crate) mod shape;
 pub mod text;
 
-use crate::codes;
-use crate::diagnostics::{Report, Source};
-use crate::front::tree::{Node, Span, Value};
 use crate::front::yaml;
 use crate::sampling::MAX_PATH_BITS;
-use decode::{Decoder, Place};
+use crate::syntax::tree::{Node, Span, Value};
+use crate::syntax::{Datum, Place, Problems, Report, Source};
 use glam::DVec3;
 pub use qrt_circuit::quantum::Window;
 use record::{keyword, record, variant};
@@ -30,8 +28,10 @@ use text::{Data, Fingerprint};
 /// Linear RGB.
 pub type Rgb = [f64; 3];
 
-const REFLECTANCE: Array<Number, 3> = Array(number(0.0, 1.0).coded(codes::ALBEDO));
-const RADIANCE: Array<Number, 3> = Array(number(0.0, LARGEST).coded(codes::RADIANCE));
+const REFLECTANCE: Array<Number, 3> =
+    Array(number(0.0, 1.0).or(|value, range| Datum::NotAlbedo { value, range }));
+const RADIANCE: Array<Number, 3> =
+    Array(number(0.0, LARGEST).or(|value, range| Datum::NotRadiance { value, range }));
 const LENGTH: Number = number(0.0, LARGEST).above();
 
 record! {
@@ -49,7 +49,7 @@ record! {
     pub materials: Vec<(String, Material)> = Named(part::<Material>());
     /// Primitives and meshes. Coordinates have the unit that you choose, the scene unit.
     pub geometry: Vec<Geometry> = List {
-        item: part::<Geometry>(), least: 0, fewer: (codes::WRONG_LENGTH, "")
+        item: part::<Geometry>(), least: 0
     };
     /// The paths of a pixel: how many, and how long.
     pub sampling: Sampling = part::<Sampling>(), or Sampling::default();
@@ -272,10 +272,10 @@ record! {
     pub sequence: Sequence = word::<Sequence>(), or Sequence::DigitalNet;
     /// R = 2^path_bits paths; default 12. Under product-lattice it is the sum of all bits, and
     /// only that.
-    pub path_bits: u32 = whole::<u32>(0, MAX_PATH_BITS as u64), or 12;
+    pub path_bits: u32 = whole::<u32>(0, MAX_PATH_BITS), or 12;
     /// One entry per ray of a path, the primary ray first; default three.
     pub depths: Vec<DepthSampling> = List {
-        item: part::<DepthSampling>(), least: 1, fewer: (codes::NO_DEPTH, "a path has at least one ray")
+        item: part::<DepthSampling>(), least: 1
     }, or vec![DepthSampling { bits: [8, 8], map: Map::Auto }; 3];
 }
 
@@ -461,7 +461,7 @@ fn of_defaults<T: Part>() -> T {
         span: Span::default(),
         value: Value::Map(Vec::new()),
     };
-    T::decode(&node, &Place::ROOT, &mut Decoder::default())
+    T::decode(&node, &Place::ROOT, &mut Problems::default())
 }
 
 macro_rules! defaults {
@@ -515,28 +515,23 @@ impl Scene {
     /// )?;
     /// assert_eq!(scene.sampling.path_bits, 12);
     /// assert_eq!(qrt_core::scene::Scene::from_yaml(&scene.to_yaml(), "printed.yaml")?, scene);
-    /// # Ok::<(), qrt_core::diagnostics::Report>(())
+    /// # Ok::<(), qrt_core::syntax::Report>(())
     /// ```
     ///
     /// # Errors
     /// Everything that keeps it from being read, with places.
     pub fn from_yaml(text: &str, name: &str) -> Result<Self, Report> {
         let source = Source::new(name, text);
-        let reading = yaml::read(&source, 0..source.text.len(), 0);
-        let Some(tree) = reading.tree else {
-            return Err(Report::of_placed(vec![source], reading.problems));
-        };
-        let mut decoder = Decoder::default();
-        let scene = Part::decode(&tree, &Place::ROOT, &mut decoder);
-        if reading.problems.is_empty() && decoder.problems.is_empty() {
-            return Ok(scene);
+        let mut problems = Problems::default();
+        let tree = yaml::read(&source, 0..source.text.len(), 0, &mut problems);
+        let scene = tree
+            .as_ref()
+            .map(|tree| Part::decode(tree, &Place::ROOT, &mut problems));
+        let problems = problems.all();
+        match scene {
+            Some(scene) if problems.is_empty() => Ok(scene),
+            _ => Err(Report::new(vec![source], tree.as_ref(), problems)),
         }
-        Err(Report::of_tree(
-            vec![source],
-            &tree,
-            reading.problems,
-            decoder.problems,
-        ))
     }
 
     /// FNV-1a, 128 bits, of the scene's canonical text with every default written out: equal for

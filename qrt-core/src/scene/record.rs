@@ -21,9 +21,9 @@ macro_rules! record {
 
         impl $crate::scene::shape::Part for $name {
             fn decode(
-                node: &$crate::front::tree::Node,
-                at: &$crate::scene::decode::Place<'_>,
-                decoder: &mut $crate::scene::decode::Decoder,
+                node: &$crate::syntax::tree::Node,
+                at: &$crate::syntax::Place<'_>,
+                problems: &mut $crate::syntax::Problems,
             ) -> Self {
                 use $crate::scene::decode::Field;
                 #[allow(unused_imports, reason = "a record of words alone needs one of them")]
@@ -32,17 +32,17 @@ macro_rules! record {
                     name: stringify!($field),
                     required: record!(@required $($default)?),
                 }),*];
-                if !decoder.record(node, at, $noun, FIELDS) {
+                if !problems.record(node, at, $noun, FIELDS) {
                     return Self::fallback();
                 }
                 let value = Self { $( $field: {
                     let at = at.key(stringify!($field));
                     match node.entry(stringify!($field)) {
-                        Some(entry) => $shape.decode(&entry.value, &at, decoder),
-                        None => record!(@absent $shape, at, decoder $(, $default)?),
+                        Some(entry) => $shape.decode(&entry.value, &at, problems),
+                        None => record!(@absent $shape, at, problems $(, $default)?),
                     }
                 } ),* };
-                $( let value = $settle(value, node, at, decoder); )?
+                $( let value = $settle(value, node, at, problems); )?
                 value
             }
 
@@ -53,8 +53,8 @@ macro_rules! record {
 
             fn check(
                 &self,
-                at: &$crate::scene::decode::Place<'_>,
-                problems: &mut Vec<$crate::report::Problem>,
+                at: &$crate::syntax::Place<'_>,
+                problems: &mut $crate::syntax::Problems,
             ) {
                 use $crate::scene::shape::Shape as _;
                 $( $shape.check(&self.$field, &at.key(stringify!($field)), problems); )*
@@ -85,11 +85,11 @@ macro_rules! record {
     (@required) => { true };
     (@required $default:expr) => { false };
 
-    (@absent $shape:expr, $at:ident, $decoder:ident) => {{
-        $decoder.replaced.push($at.path());
+    (@absent $shape:expr, $at:ident, $problems:ident) => {{
+        $problems.mark($at.path());
         $shape.fallback()
     }};
-    (@absent $shape:expr, $at:ident, $decoder:ident, $default:expr) => { $default };
+    (@absent $shape:expr, $at:ident, $problems:ident, $default:expr) => { $default };
 
     (@default $type:ty, $shape:expr) => { None };
     (@default $type:ty, $shape:expr, $default:expr) => {{
@@ -124,14 +124,14 @@ macro_rules! variant {
 
         impl $crate::scene::shape::Part for $name {
             fn decode(
-                node: &$crate::front::tree::Node,
-                at: &$crate::scene::decode::Place<'_>,
-                decoder: &mut $crate::scene::decode::Decoder,
+                node: &$crate::syntax::tree::Node,
+                at: &$crate::syntax::Place<'_>,
+                problems: &mut $crate::syntax::Problems,
             ) -> Self {
-                match decoder.variant(node, at, $noun, Self::NAMES) {
+                match problems.variant(node, at, $noun, Self::NAMES) {
                     $( Some(($key, node)) => {
                         let part = <$part as $crate::scene::shape::Part>::decode(
-                            node, &at.key($key), decoder,
+                            node, &at.key($key), problems,
                         );
                         Self::$kind(part)
                     } )*
@@ -147,8 +147,8 @@ macro_rules! variant {
 
             fn check(
                 &self,
-                at: &$crate::scene::decode::Place<'_>,
-                problems: &mut Vec<$crate::report::Problem>,
+                at: &$crate::syntax::Place<'_>,
+                problems: &mut $crate::syntax::Problems,
             ) {
                 match self {
                     $( Self::$kind(part) => {

@@ -2,10 +2,8 @@
 
 use super::shape::{Expression, Shape, is_auto};
 use super::{Data, Jacobian, Sampling, Scene, Sequence};
-use crate::codes;
-use crate::front::tree::Node;
-use crate::report::Problem;
-use crate::scene::decode::{Decoder, Place};
+use crate::syntax::tree::Node;
+use crate::syntax::{Path, Place, Problem, Problems};
 
 /// Under the product lattice, `path_bits` is the sum of all bits if it is not written. A sum
 /// beyond the range is reported for the bits, not for what nobody wrote.
@@ -13,7 +11,7 @@ pub(super) fn path_bits(
     mut sampling: Sampling,
     node: &Node,
     _: &Place<'_>,
-    _: &mut Decoder,
+    _: &mut Problems,
 ) -> Sampling {
     if sampling.sequence == Sequence::ProductLattice && node.entry("path_bits").is_none() {
         sampling.path_bits = sampling.lattice_bits().min(crate::sampling::MAX_PATH_BITS);
@@ -32,38 +30,28 @@ impl Sampling {
 }
 
 /// `accuracy` replaces knobs: none of them may be written beside it.
-pub(super) fn scene(scene: Scene, node: &Node, at: &Place<'_>, decoder: &mut Decoder) -> Scene {
-    if let Some(accuracy) = node.entry("accuracy") {
+pub(super) fn scene(scene: Scene, node: &Node, at: &Place<'_>, problems: &mut Problems) -> Scene {
+    if node.entry("accuracy").is_some() {
         for key in ["precision", "comparator", "counting"] {
             if node.entry(key).is_some() {
-                decoder
-                    .problems
-                    .push(conflict(at.path().name(key), key, &accuracy.key));
+                problems.push(conflict(&at.path(), key));
             }
         }
-        let sampling = at.key("sampling");
-        let written = node
-            .entry("sampling")
-            .and_then(|entry| entry.value.entry("path_bits"));
-        if written.is_some() {
-            let path = sampling.path().name("path_bits");
-            decoder
-                .problems
-                .push(conflict(path, "path_bits", &accuracy.key));
+        let sampling = node.entry("sampling");
+        if sampling.is_some_and(|entry| entry.value.entry("path_bits").is_some()) {
+            problems.push(conflict(&at.key("sampling").path(), "path_bits"));
         }
     }
     scene
 }
 
-/// The problem of `knob` beside `accuracy`.
-pub(crate) fn conflict(path: crate::report::Path, knob: &str, accuracy: &str) -> Problem {
-    let message = format!("`{accuracy}` chooses `{knob}`, so that both cannot be given");
-    Problem::new(codes::ACCURACY_CONFLICT, path, message)
-        .also(
-            crate::report::Path::root().name(accuracy),
-            "the accuracy asked for",
-        )
-        .help("keep one of the two")
+/// The problem of `key`, in the record at `path`, beside `accuracy`.
+pub(crate) fn conflict(path: &Path, key: &'static str) -> Problem {
+    let problem = Problem::new(
+        path.name(key),
+        crate::syntax::Sampling::BesideAccuracy { key },
+    );
+    problem.also(Path::root().name("accuracy"))
 }
 
 /// `auto`, or an expression.
@@ -71,16 +59,16 @@ pub(super) struct JacobianShape;
 
 impl Shape for JacobianShape {
     type Value = Jacobian;
-    fn decode(&self, node: &Node, at: &Place<'_>, decoder: &mut Decoder) -> Jacobian {
+    fn decode(&self, node: &Node, at: &Place<'_>, problems: &mut Problems) -> Jacobian {
         if is_auto(node) {
             return Jacobian::Auto;
         }
-        Jacobian::Stated(Expression.decode(node, at, decoder))
+        Jacobian::Stated(Expression.decode(node, at, problems))
     }
     fn fallback(&self) -> Jacobian {
         Jacobian::Auto
     }
-    fn check(&self, value: &Jacobian, at: &Place<'_>, problems: &mut Vec<Problem>) {
+    fn check(&self, value: &Jacobian, at: &Place<'_>, problems: &mut Problems) {
         if let Jacobian::Stated(text) = value {
             Expression.check(text, at, problems);
         }

@@ -7,11 +7,9 @@ mod described;
 pub(crate) use collections::{Array, AutoOr, Channels, List, Maybe, Named, is_auto, point};
 pub(crate) use described::{record_schema, variant_schema};
 
-use crate::codes;
-use crate::front::tree::{Kind, Node, Value};
-use crate::report::Problem;
-use crate::scene::decode::{Decoder, Place};
-use crate::scene::text::{Data, number as number_text};
+use crate::scene::text::Data;
+use crate::syntax::tree::{Kind, Node, Value};
+use crate::syntax::{Datum, Expected, Place, Problems, Range};
 use std::marker::PhantomData;
 
 /// How a value is read, checked, written and described.
@@ -19,11 +17,11 @@ pub(crate) trait Shape {
     /// The value's type.
     type Value;
     /// Reads it; a faulty one is reported and replaced.
-    fn decode(&self, node: &Node, at: &Place<'_>, decoder: &mut Decoder) -> Self::Value;
+    fn decode(&self, node: &Node, at: &Place<'_>, problems: &mut Problems) -> Self::Value;
     /// Stands for a faulty value; within its range.
     fn fallback(&self) -> Self::Value;
     /// Reports what is out of range.
-    fn check(&self, value: &Self::Value, at: &Place<'_>, problems: &mut Vec<Problem>);
+    fn check(&self, value: &Self::Value, at: &Place<'_>, problems: &mut Problems);
     /// Writes it; `None` leaves the key out.
     fn encode(&self, value: &Self::Value) -> Option<Data>;
     /// Draft-07.
@@ -32,9 +30,9 @@ pub(crate) trait Shape {
 
 /// What is defined by `record!` or `variant!`: a shape that its type alone determines.
 pub(crate) trait Part: Sized {
-    fn decode(node: &Node, at: &Place<'_>, decoder: &mut Decoder) -> Self;
+    fn decode(node: &Node, at: &Place<'_>, problems: &mut Problems) -> Self;
     fn fallback() -> Self;
-    fn check(&self, at: &Place<'_>, problems: &mut Vec<Problem>);
+    fn check(&self, at: &Place<'_>, problems: &mut Problems);
     fn encode(&self) -> Data;
     fn schema() -> Data;
 }
@@ -57,13 +55,13 @@ pub(crate) const fn part<T>() -> PartShape<T> {
 
 impl<T: Part> Shape for PartShape<T> {
     type Value = T;
-    fn decode(&self, node: &Node, at: &Place<'_>, decoder: &mut Decoder) -> T {
-        T::decode(node, at, decoder)
+    fn decode(&self, node: &Node, at: &Place<'_>, problems: &mut Problems) -> T {
+        T::decode(node, at, problems)
     }
     fn fallback(&self) -> T {
         T::fallback()
     }
-    fn check(&self, value: &T, at: &Place<'_>, problems: &mut Vec<Problem>) {
+    fn check(&self, value: &T, at: &Place<'_>, problems: &mut Problems) {
         value.check(at, problems);
     }
     fn encode(&self, value: &T) -> Option<Data> {
@@ -83,14 +81,14 @@ pub(crate) const fn word<T>() -> WordShape<T> {
 
 impl<T: Keyword> Shape for WordShape<T> {
     type Value = T;
-    fn decode(&self, node: &Node, at: &Place<'_>, decoder: &mut Decoder) -> T {
-        let index = decoder.word(node, at, T::NOUN, T::NAMES);
+    fn decode(&self, node: &Node, at: &Place<'_>, problems: &mut Problems) -> T {
+        let index = problems.word(node, at, T::NOUN, T::NAMES);
         index.map_or(T::VALUES[0], |index| T::VALUES[index])
     }
     fn fallback(&self) -> T {
         T::VALUES[0]
     }
-    fn check(&self, _: &T, _: &Place<'_>, _: &mut Vec<Problem>) {}
+    fn check(&self, _: &T, _: &Place<'_>, _: &mut Problems) {}
     fn encode(&self, value: &T) -> Option<Data> {
         let index = T::VALUES.iter().position(|other| other == value)?;
         Some(Data::text(T::NAMES[index]))
@@ -109,11 +107,9 @@ impl<T: Keyword> Shape for WordShape<T> {
 /// A number in an interval.
 #[derive(Clone, Copy)]
 pub(crate) struct Number {
-    low: f64,
-    low_open: bool,
-    high: f64,
-    high_open: bool,
-    code: &'static str,
+    range: Range,
+    /// What it is called that is out of range.
+    fault: fn(f64, Range) -> Datum,
 }
 
 /// The size that lengths, coordinates and radiances may have: their products and squares stay
@@ -123,238 +119,164 @@ pub(crate) const LARGEST: f64 = 1e30;
 /// A number from `low` to `high`, both included.
 pub(crate) const fn number(low: f64, high: f64) -> Number {
     Number {
-        low,
-        low_open: false,
-        high,
-        high_open: false,
-        code: codes::OUT_OF_RANGE,
+        range: Range {
+            low,
+            low_open: false,
+            high,
+            high_open: false,
+        },
+        fault: |value, range| Datum::OutOfRange { value, range },
     }
 }
 
 impl Number {
-    /// Without `low` itself.
-    pub(crate) const fn above(self) -> Self {
-        Self {
-            low_open: true,
-            ..self
-        }
+    /// Without the lowest itself.
+    pub(crate) const fn above(mut self) -> Self {
+        self.range.low_open = true;
+        self
     }
-    /// Without `high` itself.
-    pub(crate) const fn below(self) -> Self {
-        Self {
-            high_open: true,
-            ..self
-        }
+    /// Without the highest itself.
+    pub(crate) const fn below(mut self) -> Self {
+        self.range.high_open = true;
+        self
     }
-    /// With a code of its own for what is out of range.
-    pub(crate) const fn coded(self, code: &'static str) -> Self {
-        Self { code, ..self }
+    /// With a problem of its own for what is out of range.
+    pub(crate) const fn or(self, fault: fn(f64, Range) -> Datum) -> Self {
+        Self { fault, ..self }
     }
 
     fn holds(&self, value: f64) -> bool {
-        let low = if self.low_open {
-            value > self.low
-        } else {
-            value >= self.low
-        };
-        let high = if self.high_open {
-            value < self.high
-        } else {
-            value <= self.high
-        };
-        low && high
-    }
-
-    fn interval(&self) -> String {
-        let low = if self.low_open { "above" } else { "from" };
-        let high = if self.high_open { "below" } else { "to" };
-        let joint = if self.low_open || self.high_open {
-            " and "
-        } else {
-            " "
-        };
-        let (a, b) = (number_text(self.low), number_text(self.high));
-        if self.low_open && !self.high_open {
-            return format!("above {a} and at most {b}");
-        }
-        if self.high_open && !self.low_open {
-            return format!("at least {a} and below {b}");
-        }
-        format!("{low} {a}{joint}{high} {b}")
+        let Range {
+            low,
+            low_open,
+            high,
+            high_open,
+        } = self.range;
+        let open = low_open && value == low || high_open && value == high;
+        (low..=high).contains(&value) && !open
     }
 }
 
 /// A number's text as its value; reports anything else.
-fn read_number(node: &Node, at: &Place<'_>, decoder: &mut Decoder, expected: &str) -> Option<f64> {
-    if let Value::Scalar(scalar) = &node.value {
-        match scalar.kind() {
-            Kind::Number(value) => {
-                let lost = value.is_infinite() && scalar.has_digits()
-                    || value == 0.0 && scalar.has_digits();
-                if !lost {
-                    return Some(value);
-                }
-                let size = if value == 0.0 { "small" } else { "large" };
-                let message = format!("{} is too {size} for 64 bits", scalar.text);
-                let problem = Problem::new(codes::UNREPRESENTABLE, at.path(), message);
-                decoder.replace(at, problem);
-                return None;
-            }
-            Kind::Text if scalar.quoted => {
-                let bare = crate::front::tree::Scalar {
-                    quoted: false,
-                    ..scalar.clone()
-                };
-                if matches!(bare.kind(), Kind::Number(_)) {
-                    let help = Some("remove the quotes".to_owned());
-                    decoder.wrong_type(node, at, expected, help);
-                    return None;
-                }
-            }
-            _ => {}
+fn read_number(
+    node: &Node,
+    at: &Place<'_>,
+    problems: &mut Problems,
+    expected: Expected,
+) -> Option<f64> {
+    if let Value::Scalar(scalar) = &node.value
+        && let Kind::Number(value) = scalar.kind()
+    {
+        let is_small = value == 0.0;
+        if !(scalar.has_digits() && (value.is_infinite() || is_small)) {
+            return Some(value);
         }
+        let text = scalar.text.clone();
+        problems.refuse(at, Datum::Unrepresentable { text, is_small });
+        return None;
     }
-    decoder.wrong_type(node, at, expected, None);
+    problems.wrong_type(node, at, expected);
     None
 }
 
 impl Shape for Number {
     type Value = f64;
-    fn decode(&self, node: &Node, at: &Place<'_>, decoder: &mut Decoder) -> f64 {
-        read_number(node, at, decoder, "a number").unwrap_or_else(|| self.fallback())
+    fn decode(&self, node: &Node, at: &Place<'_>, problems: &mut Problems) -> f64 {
+        read_number(node, at, problems, Expected::Number).unwrap_or_else(|| self.fallback())
     }
     fn fallback(&self) -> f64 {
         if self.holds(1.0) {
             1.0
         } else {
-            f64::midpoint(self.low, self.high)
+            f64::midpoint(self.range.low, self.range.high)
         }
     }
-    fn check(&self, value: &f64, at: &Place<'_>, problems: &mut Vec<Problem>) {
+    fn check(&self, value: &f64, at: &Place<'_>, problems: &mut Problems) {
+        let value = *value;
         if !value.is_finite() {
-            let message = format!("{} is not a finite number", number_text(*value));
-            problems.push(Problem::new(codes::NOT_FINITE, at.path(), message));
-        } else if !self.holds(*value) {
-            let value = number_text(*value);
-            let what = match self.code {
-                codes::ALBEDO => format!("{value} is not an albedo or reflectance"),
-                codes::RADIANCE => format!("{value} is not a radiance"),
-                _ => format!("{value} is out of range"),
-            };
-            let problem = Problem::new(self.code, at.path(), what);
-            problems.push(problem.label(format!("must be {}", self.interval())));
+            problems.refuse(at, Datum::NotFinite { value });
+        } else if !self.holds(value) {
+            problems.refuse(at, (self.fault)(value, self.range));
         }
     }
     fn encode(&self, value: &f64) -> Option<Data> {
         Some(Data::Number(*value))
     }
     fn schema(&self) -> Data {
-        let low = if self.low_open {
+        let low = if self.range.low_open {
             "exclusiveMinimum"
         } else {
             "minimum"
         };
-        let high = if self.high_open {
+        let high = if self.range.high_open {
             "exclusiveMaximum"
         } else {
             "maximum"
         };
         Data::map([
             ("type", Data::text("number")),
-            (low, Data::Number(self.low)),
-            (high, Data::Number(self.high)),
+            (low, Data::Number(self.range.low)),
+            (high, Data::Number(self.range.high)),
         ])
-    }
-}
-
-/// Types of whole numbers in scenes.
-pub(crate) trait Natural: Copy {
-    fn from_u64(value: u64) -> Self;
-    fn to_u64(self) -> u64;
-}
-
-impl Natural for u32 {
-    fn from_u64(value: u64) -> Self {
-        Self::try_from(value).unwrap_or(Self::MAX)
-    }
-    fn to_u64(self) -> u64 {
-        u64::from(self)
-    }
-}
-
-impl Natural for u64 {
-    fn from_u64(value: u64) -> Self {
-        value
-    }
-    fn to_u64(self) -> u64 {
-        self
     }
 }
 
 /// A whole number in a range.
 #[derive(Clone, Copy)]
 pub(crate) struct Whole<T> {
-    low: u64,
-    high: u64,
-    kind: PhantomData<T>,
+    low: T,
+    high: T,
 }
 
 /// A whole number from `low` to `high`, both included; at most 2^53, where every f64 is one.
-pub(crate) const fn whole<T>(low: u64, high: u64) -> Whole<T> {
-    Whole {
-        low,
-        high,
-        kind: PhantomData,
+pub(crate) const fn whole<T>(low: T, high: T) -> Whole<T> {
+    Whole { low, high }
+}
+
+impl<T: Copy + Into<u64>> Whole<T> {
+    fn out_of_range(&self, value: f64) -> Datum {
+        let (low, high) = (self.low.into(), self.high.into());
+        Datum::WholeOutOfRange { value, low, high }
     }
 }
 
-impl<T: Natural> Whole<T> {
-    fn range_problem(&self, value: &str, at: &Place<'_>) -> Problem {
-        Problem::new(
-            codes::OUT_OF_RANGE,
-            at.path(),
-            format!("{value} is out of range"),
-        )
-        .label(format!(
-            "must be a whole number from {} to {}",
-            self.low, self.high
-        ))
-    }
-}
-
-impl<T: Natural> Shape for Whole<T> {
+impl<T: Copy + PartialOrd + Into<u64> + TryFrom<u64>> Shape for Whole<T> {
     type Value = T;
-    fn decode(&self, node: &Node, at: &Place<'_>, decoder: &mut Decoder) -> T {
-        let Some(value) = read_number(node, at, decoder, "a whole number") else {
-            return self.fallback();
+    fn decode(&self, node: &Node, at: &Place<'_>, problems: &mut Problems) -> T {
+        let Some(value) = read_number(node, at, problems, Expected::Whole) else {
+            return self.low;
         };
         if value.fract() != 0.0 && value.is_finite() {
-            decoder.wrong_type(node, at, "a whole number", None);
-            return self.fallback();
+            problems.wrong_type(node, at, Expected::Whole);
+            return self.low;
         }
-        if !(self.low as f64..=self.high as f64).contains(&value) {
-            decoder.replace(at, self.range_problem(&number_text(value), at));
-            return self.fallback();
-        }
-        T::from_u64(value as u64)
+        let whole = (value >= 0.0).then_some(value as u64);
+        let whole = whole.and_then(|whole| T::try_from(whole).ok());
+        let whole = whole.filter(|whole| (self.low..=self.high).contains(whole));
+        whole.unwrap_or_else(|| {
+            problems.refuse(at, self.out_of_range(value));
+            self.low
+        })
     }
     fn fallback(&self) -> T {
-        T::from_u64(self.low)
+        self.low
     }
-    fn check(&self, value: &T, at: &Place<'_>, problems: &mut Vec<Problem>) {
-        let value = value.to_u64();
-        if !(self.low..=self.high).contains(&value) {
-            problems.push(self.range_problem(&value.to_string(), at));
+    fn check(&self, value: &T, at: &Place<'_>, problems: &mut Problems) {
+        if !(self.low..=self.high).contains(value) {
+            let value: u64 = (*value).into();
+            problems.refuse(at, self.out_of_range(value as f64));
         }
     }
     fn encode(&self, value: &T) -> Option<Data> {
-        Some(Data::Number(value.to_u64() as f64))
+        let value: u64 = (*value).into();
+        Some(Data::Number(value as f64))
     }
     fn schema(&self) -> Data {
+        let (low, high): (u64, u64) = (self.low.into(), self.high.into());
         Data::map([
             ("type", Data::text("integer")),
-            ("minimum", Data::Number(self.low as f64)),
-            ("maximum", Data::Number(self.high as f64)),
+            ("minimum", Data::Number(low as f64)),
+            ("maximum", Data::Number(high as f64)),
         ])
     }
 }
@@ -364,28 +286,21 @@ pub(crate) struct Text;
 
 impl Shape for Text {
     type Value = String;
-    fn decode(&self, node: &Node, at: &Place<'_>, decoder: &mut Decoder) -> String {
-        if let Value::Scalar(scalar) = &node.value {
-            if scalar.kind() == Kind::Text {
-                return scalar.text.clone();
+    fn decode(&self, node: &Node, at: &Place<'_>, problems: &mut Problems) -> String {
+        match &node.value {
+            Value::Scalar(scalar) if scalar.kind() == Kind::Text => scalar.text.clone(),
+            _ => {
+                problems.wrong_type(node, at, Expected::Text);
+                self.fallback()
             }
-            let help = format!("put it in quotes: \"{}\"", scalar.text);
-            decoder.wrong_type(node, at, "a text", Some(help));
-        } else {
-            decoder.wrong_type(node, at, "a text", None);
         }
-        self.fallback()
     }
     fn fallback(&self) -> String {
         "unnamed".into()
     }
-    fn check(&self, value: &String, at: &Place<'_>, problems: &mut Vec<Problem>) {
+    fn check(&self, value: &String, at: &Place<'_>, problems: &mut Problems) {
         if value.is_empty() {
-            problems.push(Problem::new(
-                codes::EMPTY_NAME,
-                at.path(),
-                "this text is empty",
-            ));
+            problems.refuse(at, Datum::EmptyText);
         }
     }
     fn encode(&self, value: &String) -> Option<Data> {
@@ -404,19 +319,19 @@ pub(crate) struct Expression;
 
 impl Shape for Expression {
     type Value = String;
-    fn decode(&self, node: &Node, at: &Place<'_>, decoder: &mut Decoder) -> String {
+    fn decode(&self, node: &Node, at: &Place<'_>, problems: &mut Problems) -> String {
         if let Value::Scalar(scalar) = &node.value
             && !matches!(scalar.kind(), Kind::Bool(_))
         {
             return scalar.text.clone();
         }
-        decoder.wrong_type(node, at, "an expression", None);
+        problems.wrong_type(node, at, Expected::Expression);
         self.fallback()
     }
     fn fallback(&self) -> String {
         "0".into()
     }
-    fn check(&self, value: &String, at: &Place<'_>, problems: &mut Vec<Problem>) {
+    fn check(&self, value: &String, at: &Place<'_>, problems: &mut Problems) {
         Text.check(value, at, problems);
     }
     fn encode(&self, value: &String) -> Option<Data> {

@@ -11,16 +11,15 @@
 
 use super::CustomBsdf;
 use crate::expr::{Expr, Variable};
-use crate::report::{Path, Problem};
 use crate::sampling::maps;
 use crate::scene::{Bsdf, Jacobian, Rgb};
+use crate::syntax::{Bsdf as Fault, Path, Problem};
 
 mod bound;
 mod light;
 mod shape;
 #[cfg(test)]
 mod tests;
-mod text;
 
 /// Reads and checks a BSDF. Paths of problems are relative to it: `map[0]`, `jacobian`, `value[2]`.
 ///
@@ -36,10 +35,7 @@ pub fn compile(bsdf: &Bsdf) -> Result<CustomBsdf, Vec<Problem>> {
     let mut read = |text: &str, path: &Path, allowed: &[Variable]| {
         Expr::parse(text, allowed)
             .map_err(|found| {
-                problems.extend(found.into_iter().map(|p| Problem {
-                    path: path.clone(),
-                    ..p
-                }));
+                problems.extend(found.into_iter().map(|problem| problem.below(path)));
             })
             .ok()
     };
@@ -56,11 +52,8 @@ pub fn compile(bsdf: &Bsdf) -> Result<CustomBsdf, Vec<Problem>> {
         .map(|(i, text)| read(text, &root.key("value").item(i), &Variable::ALL))
         .collect();
     if !matches!(values.len(), 1 | 3) {
-        let message = format!(
-            "a BSDF has one value (grey) or three (RGB), not {}",
-            values.len()
-        );
-        problems.push(Problem::new("QRT0410", root.key("value"), message));
+        let count = values.len();
+        problems.push(Problem::new(root.key("value"), Fault::Channels { count }));
     }
     let (Some(x), Some(y), Some(z)) = (x, y, z) else {
         return Err(problems);
@@ -98,14 +91,8 @@ pub fn compile(bsdf: &Bsdf) -> Result<CustomBsdf, Vec<Problem>> {
     let weight_bound = weight_bound(&map, &projected_jacobian, &value);
     for (i, bound) in weight_bound.iter().enumerate().take(values.len()) {
         if !bound.is_finite() {
-            let message = "no bound of the weight value * |phi_z| * J can be shown";
-            problems.push(
-                Problem::new("QRT0418", root.key("value").item(i), message).help(
-                    "choose a map that sends more points where the value is large; a denominator \
-                     that vanishes at grazing angles needs a small number more, as in \
-                     1/(cos_i + cos_o + 1e-3)",
-                ),
-            );
+            let path = root.key("value").item(i);
+            problems.push(Problem::new(path, Fault::Unbounded));
         }
     }
     if problems.is_empty() {

@@ -3,13 +3,12 @@
 //! Sizes are relative to the primitive, so that a scene of 1e-6 units or one 1e9 units from the
 //! origin is judged as any other.
 
-use crate::codes;
-use crate::report::{Path, Problem};
-use crate::scene::decode::nearest;
 use crate::scene::meshes::Meshes;
 use crate::scene::shape::LARGEST;
-use crate::scene::text::number as number_text;
 use crate::scene::{Geometry, Mesh, Scene};
+use crate::syntax::{
+    self, Material, Mesh as Unplaced, Path, Problem, Problems, Shape as Fault, Triangles, nearest,
+};
 use crate::valid::{Polygon, Surface, matte};
 use glam::DVec3;
 use std::collections::{BTreeSet, HashMap};
@@ -33,7 +32,7 @@ pub(super) fn polygons(
     scene: &Scene,
     meshes: &Meshes,
     surfaces: &mut Vec<Surface>,
-    problems: &mut Vec<Problem>,
+    problems: &mut Problems,
 ) -> Shapes {
     let names = HashMap::new();
     let mut build = Build {
@@ -74,7 +73,7 @@ struct Build<'a> {
     scene: &'a Scene,
     meshes: &'a Meshes,
     surfaces: &'a mut Vec<Surface>,
-    problems: &'a mut Vec<Problem>,
+    problems: &'a mut Problems,
     names: HashMap<&'a str, u32>,
     out: Vec<Polygon>,
     /// Files that were read.
@@ -90,78 +89,55 @@ impl Build<'_> {
         if let Some(&surface) = self.names.get(name) {
             return surface;
         }
+        let materials = Path::root().key("materials");
+        if self.problems.covers(&materials) {
+            // Nobody knows which names there are.
+            return 0;
+        }
         // Where very much is wrong, only the first get advice: it takes time.
         self.unknown += 1;
-        let advised = if self.unknown <= 100 {
-            &self.scene.materials[..]
-        } else {
-            &[]
+        let advised = if self.unknown <= 100 { 1000 } else { 0 };
+        let names = self.scene.materials.iter().map(|(name, _)| name.as_str());
+        let what = Material::Unknown {
+            name: name.to_owned(),
+            near: nearest(name, names.clone().take(advised)).map(str::to_owned),
+            defined: names
+                .clone()
+                .take(advised.min(8))
+                .map(str::to_owned)
+                .collect(),
+            more: names.len() > 8,
         };
-        let names: Vec<&str> = advised
-            .iter()
-            .take(1000)
-            .map(|(name, _)| name.as_str())
-            .collect();
-        let short = crate::front::tree::shorten(name);
-        let message = format!("no material is called `{short}`");
-        let mut problem = Problem::new(codes::UNKNOWN_MATERIAL, path.key("material"), message);
-        problem.help = Some(match nearest(name, &names) {
-            Some(near) => format!("did you mean `{near}`?"),
-            None if self.scene.materials.is_empty() || names.is_empty() => {
-                "define it under `materials`".into()
-            }
-            None => {
-                let some = &names[..names.len().min(8)];
-                let more = if names.len() > 8 { " and more" } else { "" };
-                format!(
-                    "defined are {}{more}",
-                    crate::scene::decode::listed(some, "and")
-                )
-            }
-        });
-        self.problems.push(problem);
+        self.problems.add(path.key("material"), what);
         0
     }
 
-    fn fault(&mut self, path: &Path, fault: &Fault) {
+    /// Reports what is wrong with a primitive's shape, unless it may be due to a faulty vertex.
+    fn fault(&mut self, path: &Path, fault: Fault) {
         let path = path.key("vertices");
-        let problem = match *fault {
-            Fault::Coincident(a, b) => {
-                let message = format!("vertices {a} and {b} are one point");
-                Problem::new(codes::COINCIDENT, path.item(b), message)
-                    .label(format!("same as vertex {a}"))
-                    .also(path.item(a), "the other")
+        if self.problems.touches(&path) {
+            return;
+        }
+        let problem = match fault {
+            Fault::Coincident { first, second } => {
+                Problem::new(path.item(second), fault).also(path.item(first))
             }
-            Fault::Flat => Problem::new(codes::ZERO_AREA, path, "this primitive has no area")
-                .label("the vertices lie on a line"),
-            Fault::Straight(at) => {
-                let message = format!("the quad has no corner at vertex {at}");
-                Problem::new(codes::ZERO_AREA, path.item(at), message)
-                    .label("on a line with its neighbours")
-                    .help("write a triangle, or move this vertex")
-            }
-            Fault::Reflex(at) => {
-                let message =
-                    format!("the quad is not convex: its corner at vertex {at} is dented");
-                Problem::new(codes::NOT_CONVEX, path.item(at), message)
-                    .help("split it into two triangles")
-            }
-            Fault::Crossing => Problem::new(codes::CROSSING, path, "the quad's edges cross")
-                .help("list the vertices in order around the outline"),
+            Fault::Straight { at } | Fault::Reflex { at } => Problem::new(path.item(at), fault),
+            Fault::Flat | Fault::Crossing => Problem::new(path, fault),
         };
         self.problems.push(problem);
     }
 
     fn triangle(&mut self, vertices: &[DVec3; 3], surface: u32, path: &Path) {
         match triangle_fault(vertices) {
-            Some(fault) => self.fault(path, &fault),
+            Some(fault) => self.fault(path, fault),
             None => self.out.push(triangle(*vertices, surface)),
         }
     }
 
     fn quad(&mut self, vertices: &[DVec3; 4], surface: u32, path: &Path) {
         match quad_fault(vertices) {
-            Some(fault) => self.fault(path, &fault),
+            Some(fault) => self.fault(path, fault),
             None if is_planar(vertices) => {
                 self.out.push(Polygon {
                     vertices: *vertices,
@@ -182,12 +158,17 @@ impl Build<'_> {
         let read = match self.meshes.get(mesh) {
             Ok(read) => read,
             Err(error) => {
-                let mut problem = Problem::new(error.code, path.key("obj"), error.message);
-                if let Some(line) = error.line {
-                    problem.label = format!("{}:{line}", error.file.display());
-                }
-                problem.help = error.help;
-                self.problems.push(problem);
+                let told = syntax::Words {
+                    code: error.code,
+                    message: error.message,
+                    label: error.line.map_or_else(String::new, |line| {
+                        format!("{}:{line}", error.file.display())
+                    }),
+                    help: error.help,
+                    also: "",
+                };
+                let what = syntax::What::Told(Box::new(told));
+                self.problems.add(path.key("obj"), what);
                 return;
             }
         };
@@ -197,14 +178,12 @@ impl Build<'_> {
         if named.is_none() {
             for material in &read.materials {
                 if let Some(radiance) = material.radiance.iter().find(|value| **value > LARGEST) {
-                    let message = format!(
-                        "the radiance {} of `{}` is too large",
-                        number_text(*radiance),
-                        material.name
-                    );
-                    let problem = Problem::new(codes::RADIANCE, path.key("obj"), message);
-                    self.problems
-                        .push(problem.label(format!("must be at most {LARGEST:e}")));
+                    let what = Unplaced::TooBright {
+                        material: material.name.clone(),
+                        radiance: *radiance,
+                        most: LARGEST,
+                    };
+                    self.problems.add(path.key("obj"), what);
                 }
                 self.surfaces.push(Surface {
                     name: material.name.clone(),
@@ -235,38 +214,23 @@ impl Build<'_> {
             }
         }
         let all = read.faces.len();
-        let counts = [
-            (
-                &bare,
-                codes::OBJ_NO_MATERIAL,
-                "have no material",
-                "give the mesh a `material`",
-            ),
-            (
-                &flat,
-                codes::MESH_ZERO_AREA,
-                "have no area once scaled and moved",
-                "rounding takes it: use a larger scale or a smaller translation",
-            ),
-            (
-                &far,
-                codes::MESH_RANGE,
-                "are out of range once scaled and moved",
-                "use a smaller transform",
-            ),
+        let kinds: [(&[usize], Kind); 3] = [
+            (&bare, |triangles| Unplaced::NoMaterial { triangles }),
+            (&flat, |triangles| Unplaced::Flat { triangles }),
+            (&far, |triangles| Unplaced::Far { triangles }),
         ];
-        for (faces, code, what, help) in counts {
-            if let Some(first) = faces.first() {
-                let count = faces.len();
-                let number = first + 1;
-                let message =
-                    format!("{count} of {all} triangles {what}; the first is number {number}");
-                self.problems
-                    .push(Problem::new(code, path.key("obj"), message).help(help));
+        for (faces, what) in kinds {
+            if let Some(&first) = faces.first() {
+                let some = faces.len();
+                let what = what(Triangles { some, all, first });
+                self.problems.add(path.key("obj"), what);
             }
         }
     }
 }
+
+/// What is wrong with triangles of a mesh that cannot be placed.
+type Kind = fn(Triangles) -> Unplaced;
 
 fn triangle([a, b, c]: [DVec3; 3], surface: u32) -> Polygon {
     Polygon {
@@ -276,24 +240,11 @@ fn triangle([a, b, c]: [DVec3; 3], surface: u32) -> Polygon {
     }
 }
 
-enum Fault {
-    /// Two vertices at one point.
-    Coincident(usize, usize),
-    /// No area at all.
-    Flat,
-    /// A corner of 180 degrees.
-    Straight(usize),
-    /// A corner of more.
-    Reflex(usize),
-    /// An outline that crosses itself.
-    Crossing,
-}
-
 fn coincident(vertices: &[DVec3]) -> Option<Fault> {
     (0..vertices.len())
         .flat_map(|b| (0..b).map(move |a| (a, b)))
         .find(|&(a, b)| vertices[a] == vertices[b])
-        .map(|(a, b)| Fault::Coincident(a, b))
+        .map(|(first, second)| Fault::Coincident { first, second })
 }
 
 /// The vertices relative to the first, in units of the longest extent, so that nothing over- or
@@ -337,7 +288,7 @@ fn quad_fault(vertices: &[DVec3; 4]) -> Option<Fault> {
     let straight: Vec<usize> = (0..4).filter(|&at| turns[at].length() <= least).collect();
     match straight[..] {
         [] => {}
-        [at] => return Some(Fault::Straight(at)),
+        [at] => return Some(Fault::Straight { at }),
         _ => return Some(Fault::Flat),
     }
     // Twice the vector area; zero for a symmetric bow tie, where any corner will do.
@@ -350,7 +301,7 @@ fn quad_fault(vertices: &[DVec3; 4]) -> Option<Fault> {
     let against: Vec<usize> = (0..4).filter(|&at| turns[at].dot(normal) <= 0.0).collect();
     match against[..] {
         [] => None,
-        [at] => Some(Fault::Reflex(at)),
+        [at] => Some(Fault::Reflex { at }),
         _ => Some(Fault::Crossing),
     }
 }

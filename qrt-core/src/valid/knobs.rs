@@ -1,10 +1,9 @@
 //! One scene under other knobs.
 
 use super::{ValidScene, sampling};
-use crate::report::{Faulty, Problem};
-use crate::scene::decode::Place;
 use crate::scene::shape::Part;
 use crate::scene::{Circuit, Comparator, Counting, Precision, Sampling};
+use crate::syntax::{Place, Problem, Problems};
 
 /// What of a scene trades accuracy for cost: all that is not seen in its picture's limit, but for
 /// the number of [`Sampling::depths`].
@@ -52,7 +51,7 @@ impl ValidScene {
     /// assert_eq!(coarse.scene().comparator.bits, 6);
     /// knobs.comparator.bits = 31;
     /// let problems = scene.with_knobs(knobs).unwrap_err();
-    /// assert_eq!(problems[0].path.to_string(), "comparator.bits");
+    /// assert_eq!(problems[0].path().unwrap().to_string(), "comparator.bits");
     /// ```
     pub fn with_knobs(&self, knobs: Knobs) -> Result<Self, Vec<Problem>> {
         let mut changed = self.clone();
@@ -63,17 +62,10 @@ impl ValidScene {
         scene.counting = knobs.counting;
         scene.circuit = knobs.circuit;
         scene.accuracy = None;
-        let mut problems = Vec::new();
+        let mut problems = Problems::default();
         scene.check(&Place::ROOT, &mut problems);
-        let faulty = Faulty::of(problems.iter().map(|problem| &problem.path));
-        let mut more = Vec::new();
-        sampling::check(scene, &mut more);
-        more.retain(|problem| !faulty.touches(&problem.path));
-        problems.extend(more);
-        if problems.is_empty() {
-            Ok(changed)
-        } else {
-            Err(problems)
-        }
+        problems.settle();
+        sampling::check(scene, &mut problems);
+        problems.result(changed)
     }
 }

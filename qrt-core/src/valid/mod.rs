@@ -14,12 +14,11 @@ pub use knobs::Knobs;
 pub use sampling::{MAX_ID_BITS, MAX_NET_DEPTHS};
 
 use crate::expr::Expr;
-use crate::report::{Faulty, Path, Problem};
-use crate::scene::decode::Place;
 use crate::scene::meshes::Meshes;
 use crate::scene::shape::Part;
 use crate::scene::text::Fingerprint;
 use crate::scene::{Bsdf, Dielectric, Ggx, Lambertian, Material, Mirror, Phong, Rgb, Scene};
+use crate::syntax::{self, Path, Place, Problem, Problems};
 use glam::DVec3;
 use std::path::PathBuf;
 
@@ -153,34 +152,35 @@ impl ValidScene {
 ///     budget: None,
 /// };
 /// let problems = qrt_core::valid::validate(scene, &Default::default()).unwrap_err();
-/// assert_eq!(problems[0].path.to_string(), "film.height");
+/// assert_eq!(problems[0].path().unwrap().to_string(), "film.height");
 /// ```
 pub fn validate(scene: Scene, meshes: &Meshes) -> Result<ValidScene, Vec<Problem>> {
-    let mut problems = Vec::new();
-    scene.check(&Place::ROOT, &mut problems);
-    // What is out of range by itself is not measured against anything else.
-    let faulty = Faulty::of(problems.iter().map(|problem| &problem.path));
-    let mut more = Vec::new();
-    camera::check(&scene.camera, &mut more);
-    sampling::check(&scene, &mut more);
-    let mut materials = surfaces(&scene, &mut more);
-    let shapes = geometry::polygons(&scene, meshes, &mut materials, &mut more);
-    let geometry::Shapes { polygons, files } = shapes;
-    more.retain(|problem| !faulty.touches(&problem.path));
-    problems.extend(more);
-    if problems.is_empty() {
-        Ok(ValidScene {
-            scene,
-            materials,
-            polygons,
-            files,
-        })
-    } else {
-        Err(problems)
-    }
+    check(scene, meshes, Problems::default())
 }
 
-fn surfaces(scene: &Scene, problems: &mut Vec<Problem>) -> Vec<Surface> {
+/// As [`validate`], of a scene in which `problems` were found as it was read.
+pub(crate) fn check(
+    scene: Scene,
+    meshes: &Meshes,
+    mut problems: Problems,
+) -> Result<ValidScene, Vec<Problem>> {
+    scene.check(&Place::ROOT, &mut problems);
+    // What is out of range by itself is not measured against anything else.
+    problems.settle();
+    camera::check(&scene.camera, &mut problems);
+    sampling::check(&scene, &mut problems);
+    let mut materials = surfaces(&scene, &mut problems);
+    let shapes = geometry::polygons(&scene, meshes, &mut materials, &mut problems);
+    let geometry::Shapes { polygons, files } = shapes;
+    problems.result(ValidScene {
+        scene,
+        materials,
+        polygons,
+        files,
+    })
+}
+
+fn surfaces(scene: &Scene, problems: &mut Problems) -> Vec<Surface> {
     let materials = Path::root().key("materials");
     let surface = |(name, material): &(String, Material)| {
         let path = materials.key(name.as_str());
@@ -226,25 +226,17 @@ fn phong_energy(phong: &Phong, path: &Path) -> Option<Problem> {
     let (channel, sum) = sums
         .enumerate()
         .find(|(_, sum)| *sum > 1.0 + f64::EPSILON)?;
-    let name = ["red", "green", "blue"][channel];
-    let message = format!("diffuse + specular is {sum} in {name}: more than arrives");
+    let channel = ["red", "green", "blue"][channel];
     let path = path.key("phong");
-    let problem = Problem::new(crate::codes::PHONG_ENERGY, path.key("specular"), message)
-        .also(path.key("diffuse"), "the diffuse part")
-        .help("keep the sum at 1 or below in every channel");
-    Some(problem)
+    let what = syntax::Material::GainsEnergy { sum, channel };
+    Some(Problem::new(path.key("specular"), what).also(path.key("diffuse")))
 }
 
-fn custom(bsdf: &Bsdf, path: &Path, problems: &mut Vec<Problem>) -> Scatter {
+fn custom(bsdf: &Bsdf, path: &Path, problems: &mut Problems) -> Scatter {
     match bsdf::compile(bsdf) {
         Ok(compiled) => Scatter::Custom(Box::new(compiled)),
         Err(found) => {
-            let within = |inner: Path| Path(path.0.iter().cloned().chain(inner.0).collect());
-            problems.extend(found.into_iter().map(|mut problem| {
-                problem.path = within(problem.path);
-                problem.also = problem.also.map(|(inner, why)| (within(inner), why));
-                problem
-            }));
+            problems.extend(found.into_iter().map(|problem| problem.below(path)));
             Scatter::Black
         }
     }

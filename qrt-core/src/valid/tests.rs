@@ -1,6 +1,6 @@
 use super::*;
-use crate::codes;
 use crate::scene::{Accuracy, Camera, Estimator, Lambertian, Material};
+use crate::syntax::codes;
 
 fn scene() -> Scene {
     let text = "{ name: a, film: { width: 1, height: 1 }, materials: {}, geometry: [], \
@@ -11,7 +11,7 @@ fn scene() -> Scene {
 fn codes_of(scene: Scene) -> Vec<&'static str> {
     match validate(scene, &Meshes::default()) {
         Ok(_) => vec![],
-        Err(problems) => problems.iter().map(|problem| problem.code).collect(),
+        Err(problems) => problems.iter().map(Problem::code).collect(),
     }
 }
 

@@ -20,7 +20,7 @@ use crate::scene::Parsed;
 use names::Names;
 use proc_macro2::TokenStream;
 use qrt_core::oracle::{Oracle, Spent, check_budget, spent};
-use qrt_core::report::Problem;
+use qrt_core::syntax::Problem;
 use qrt_core::valid::ValidScene;
 use quote::ToTokens as _;
 use std::fmt::Write as _;

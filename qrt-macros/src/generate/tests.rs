@@ -100,6 +100,9 @@ fn a_budget_is_held_when_the_scene_is_compiled() {
         &small("budget: { toffoli: 10, qubits: 5 }"),
     );
     let problems = problems.unwrap_err();
-    let codes: Vec<_> = problems.iter().map(|problem| problem.code).collect();
+    let codes: Vec<_> = problems
+        .iter()
+        .map(qrt_core::syntax::Problem::code)
+        .collect();
     assert_eq!(codes, ["QRT0601", "QRT0602"]);
 }

@@ -3,7 +3,7 @@
 use super::dim::Linear;
 use super::ir::{Bit, Kind, Number, NumberKind, Place};
 use super::scope::Scope;
-use qrt_core::codes;
+use qrt_core::syntax::codes;
 use std::rc::Rc;
 use syn::{BinOp, Expr, Lit, UnOp};
 

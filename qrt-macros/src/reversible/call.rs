@@ -3,7 +3,7 @@
 use super::ir::{Place, Register, Statement, StatementKind as K};
 use super::scope::{Scope, text, type_text};
 use proc_macro2::TokenStream;
-use qrt_core::codes;
+use qrt_core::syntax::codes;
 use quote::ToTokens;
 use std::rc::Rc;
 use syn::{Expr, ExprCall, Ident};

@@ -17,7 +17,7 @@
 use super::dim::{Dim, Linear};
 use super::ir::{Bit, Kind, Number, NumberKind, Place, Size, Term, Update};
 use super::scope::{Scope, begin, text, type_text};
-use qrt_core::codes;
+use qrt_core::syntax::codes;
 use quote::{ToTokens, quote};
 use syn::{BinOp, Expr, UnOp};
 

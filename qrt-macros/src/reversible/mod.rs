@@ -25,7 +25,7 @@ mod value;
 use ir::Routine;
 use problem::Problems;
 use proc_macro2::{Delimiter, Group, Span, TokenStream, TokenTree};
-use qrt_core::codes;
+use qrt_core::syntax::codes;
 use scope::Scope;
 use track::Tracker;
 

@@ -46,27 +46,3 @@ impl Problems {
         self.found.iter().map(ToString::to_string).collect()
     }
 }
-
-/// Of `names`, the one that is nearest to `name`, if it is near at all.
-pub(super) fn nearest<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> Option<&'a str> {
-    let far = (name.chars().count() + 1) / 3;
-    let near = names.map(|other| (distance(name, other), other));
-    let best = near.min_by_key(|(distance, _)| *distance)?;
-    (best.0 <= far).then_some(best.1)
-}
-
-/// Letters to insert, remove or replace.
-fn distance(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.chars().collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, from) in a.chars().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, to) in b.iter().enumerate() {
-            let replaced = diagonal + usize::from(from != *to);
-            diagonal = row[j + 1];
-            row[j + 1] = replaced.min(row[j] + 1).min(diagonal + 1);
-        }
-    }
-    row.last().copied().unwrap_or(0)
-}

@@ -2,9 +2,9 @@
 
 use super::dim::Linear;
 use super::ir::{Demand, Place, Register};
-use super::problem::{Problems, nearest};
+use super::problem::Problems;
 use proc_macro2::{Span, TokenStream};
-use qrt_core::codes;
+use qrt_core::syntax::{codes, nearest};
 use quote::{ToTokens, quote};
 use std::rc::Rc;
 use syn::{BinOp, Expr, Ident, Lit, RangeLimits, UnOp};

@@ -4,7 +4,7 @@ use super::dim::Linear;
 use super::ir::{Format, Kind, Register, Signature};
 use super::problem::Problems;
 use super::scope::type_text;
-use qrt_core::codes;
+use qrt_core::syntax::codes;
 use std::rc::Rc;
 use syn::{FnArg, GenericArgument, GenericParam, Ident, ItemFn, Pat, PathArguments, Type};
 

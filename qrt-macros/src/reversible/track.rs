@@ -11,7 +11,7 @@ use super::ir::{Bit, Register, Statement, StatementKind as K, Term, Update};
 use super::problem::Problems;
 use super::scope::{text, type_text};
 use proc_macro2::TokenStream;
-use qrt_core::codes;
+use qrt_core::syntax::codes;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// Changes that may be taken back in any order have one class.

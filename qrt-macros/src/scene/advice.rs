@@ -1,8 +1,8 @@
 //! The right thing to write, in the macro's form.
 
-use qrt_core::codes;
-use qrt_core::report::Problem;
-use qrt_core::scene::{Estimator, Map, Sequence};
+use qrt_core::syntax::{
+    Expected, Material, Sampling, Structure, What, Words, codes, listed, nearest,
+};
 
 /// Keys and entries as they may be written.
 const EXAMPLES: &[(&str, &str)] = &[
@@ -90,100 +90,100 @@ pub(crate) fn record(name: &str) -> String {
     format!("`{}`", example(key).unwrap_or(key))
 }
 
-/// What a problem of the checker says, with the words of the macro.
-pub(crate) fn message(problem: &Problem) -> String {
-    spelled(&problem.message, problem.code == codes::UNKNOWN_WORD)
+/// A problem of the checker in the words of the macro.
+pub(crate) fn words(what: &What) -> Words {
+    let mut words = match what {
+        What::Structure(Structure::UnknownWord { word, noun, words }) => {
+            let word = spelled(word);
+            What::from(Structure::UnknownWord { word, noun, words }).words()
+        }
+        _ => what.words(),
+    };
+    words.help = help(what).or(words.help).or_else(|| {
+        let advice = codes::lookup(words.code)?.advice;
+        let (first, rest) = advice.split_at_checked(1)?;
+        Some(first.to_lowercase() + rest)
+    });
+    words
 }
 
-/// What to do about a problem of the checker.
-pub(crate) fn help(problem: &Problem) -> String {
-    let message = problem.message.as_str();
-    match problem.code {
-        codes::MISSING_KEY => {
-            let missing = message.rsplit(" lacks ").next().unwrap_or_default();
-            if missing == "`material`" {
-                return "write the material before the braces: `quad: white { ... }`".to_owned();
-            }
-            let keys = missing.split('`').skip(1).step_by(2);
-            let examples: Vec<&str> = keys.filter_map(example).collect();
-            if !examples.is_empty() {
-                return format!("write `{}`", examples.join(", "));
+/// What to do about a problem, where tokens are written otherwise than text.
+fn help(what: &What) -> Option<String> {
+    let help = match what {
+        What::Structure(Structure::MissingKeys { keys, .. }) => {
+            if keys[..] == ["material"] {
+                "write the material before the braces: `quad: white { ... }`"
+            } else {
+                let examples: Vec<&str> = keys.iter().filter_map(|key| example(key)).collect();
+                let written = !examples.is_empty();
+                return written.then(|| format!("write `{}`", examples.join(", ")));
             }
         }
-        codes::UNKNOWN_MATERIAL if problem.help.as_deref().is_some_and(|h| h.contains("under")) => {
-            let name = message.split('`').nth(1).unwrap_or_default();
+        What::Structure(Structure::WrongType { expected, .. }) => match expected {
+            Expected::Elements(count) => return of_length(*count),
+            Expected::Record { .. } | Expected::Variant { .. } => {
+                "write `key: value` pairs in braces"
+            }
+            Expected::List { .. } => "write `[...]`",
+            Expected::Word { words, .. } => return Some(one_of(words)),
+            _ => return None,
+        },
+        What::Structure(Structure::WrongLength { expected, .. }) => return of_length(*expected),
+        What::Structure(Structure::WrongChannels { .. }) => {
+            "write one expression for grey, or `rgb(r, g, b)`"
+        }
+        What::Structure(Structure::UnknownWord { word, words, .. }) => {
+            return Some(match nearest(word, words.iter().copied()) {
+                Some(near) => format!("did you mean `{}`?", spelled(near)),
+                None => one_of(words),
+            });
+        }
+        What::Material(Material::Unknown {
+            name,
+            near: None,
+            defined,
+            ..
+        }) if defined.is_empty() => {
             let is_word = syn::parse_str::<syn::Ident>(name).is_ok();
             let name = if is_word {
-                name.to_owned()
+                name.clone()
             } else {
                 format!("{name:?}")
             };
             let material = example("material").unwrap_or_default();
-            return format!("define it: `{}`", material.replace("white", &name));
+            return Some(format!("define it: `{}`", material.replace("white", &name)));
         }
-        codes::OBJ_UNREADABLE => {
-            return "relative paths start at the folder of Cargo.toml".to_owned();
+        What::Sampling(Sampling::TooManyDepths { most, .. }) => {
+            return Some(format!("use at most {most} depths, or `product_lattice`"));
         }
-        codes::WRONG_TYPE | codes::WRONG_LENGTH => {
-            let forms = [
-                ("a list of 2", "write `(a, b)`"),
-                (
-                    "a list of 3",
-                    "write `(x, y, z)`, or `rgb(r, g, b)` for a colour",
-                ),
-                ("a list of 4", "a quad has four points, a triangle three"),
-                (
-                    "one expression or three",
-                    "write one expression for grey, or `rgb(r, g, b)`",
-                ),
-                ("(a map)", "write `key: value` pairs in braces"),
-                ("a map", "write `key: value` pairs in braces"),
-                ("a list", "write `[...]`"),
-            ];
-            let expected = message.split(", found").next().unwrap_or_default();
-            if let Some((_, form)) = forms.iter().find(|(what, _)| expected.ends_with(what)) {
-                return (*form).to_owned();
-            }
+        What::Sampling(Sampling::NotTheSum { .. }) => {
+            "under `product_lattice` leave `path_bits` out, or change the bits"
         }
-        _ => {}
-    }
-    if let Some(help) = &problem.help {
-        return spelled(help, problem.code == codes::UNKNOWN_WORD);
-    }
-    let advice = codes::lookup(problem.code).map_or("", |row| row.advice);
-    let mut letters = advice.chars();
-    let first = letters.next().map(|first| first.to_lowercase().to_string());
-    spelled(&(first.unwrap_or_default() + letters.as_str()), false)
-}
-
-/// A text whose words of scenes, between backticks, are written with `_`; with `all`, whatever
-/// stands between backticks.
-fn spelled(text: &str, all: bool) -> String {
-    let is_word = |part: &str| {
-        all || [Sequence::NAMES, Map::NAMES, Estimator::NAMES]
-            .iter()
-            .any(|names| names.contains(&part))
+        What::Told(words) if words.code == codes::OBJ_UNREADABLE => {
+            "relative paths start at the folder of Cargo.toml"
+        }
+        _ => return None,
     };
-    let parts = text.split('`').enumerate().map(|(number, part)| {
-        if number % 2 == 1 && is_word(part) {
-            part.replace('-', "_")
-        } else {
-            part.to_owned()
-        }
-    });
-    parts.collect::<Vec<_>>().join("`")
+    Some(help.to_owned())
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
+/// How so many elements are written.
+fn of_length(count: usize) -> Option<String> {
+    let form = match count {
+        2 => "write `(a, b)`",
+        3 => "write `(x, y, z)`, or `rgb(r, g, b)` for a colour",
+        4 => "a quad has four points, a triangle three",
+        _ => return None,
+    };
+    Some(form.to_owned())
+}
 
-    #[test]
-    fn words_are_spelled_with_underscores() {
-        assert_eq!(
-            spelled("did you mean `monte-carlo` or `a-b`?", false),
-            "did you mean `monte_carlo` or `a-b`?"
-        );
-        assert_eq!(spelled("no `a-b`", true), "no `a_b`");
-    }
+fn one_of(words: &[&str]) -> String {
+    let words: Vec<String> = words.iter().map(|word| spelled(word)).collect();
+    format!("write {}", listed(&words, "or"))
+}
+
+/// A word of scenes as it is in tokens.
+fn spelled(word: &str) -> String {
+    word.replace('-', "_")
 }

@@ -4,9 +4,8 @@ use super::advice::example;
 use super::tokens::{Token, join, place_of};
 use super::values::{Reader, entry, faulty, text};
 use proc_macro2::Delimiter;
-use qrt_core::codes;
-use qrt_core::front::tree::{Entry, Node, Span, Value};
-use qrt_core::report::{listed, nearest};
+use qrt_core::syntax::tree::{Entry, Node, Span, Value};
+use qrt_core::syntax::{codes, listed, nearest};
 
 /// What begins an entry.
 pub(super) const ENTRIES: [&str; 17] = [
@@ -232,7 +231,7 @@ impl Body {
             }
             _ => {
                 let message = format!("no entry of a scene is called `{word}`");
-                let near = nearest(word, &ENTRIES);
+                let near = nearest(word, ENTRIES);
                 let faults = &mut self.reader.faults;
                 faults
                     .add(codes::MACRO_ENTRY, first.place(), message)

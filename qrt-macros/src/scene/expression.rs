@@ -5,11 +5,9 @@ use super::fault::Faults;
 use super::names::{Meaning, Names};
 use super::tokens::{Kind, Token, join, place_of};
 use proc_macro2::Delimiter;
-use qrt_core::codes;
 use qrt_core::expr::{Expr, Variables};
-use qrt_core::front::tree::Span;
-use qrt_core::report::Problem;
-use qrt_core::scene::text::number as number_text;
+use qrt_core::syntax::tree::Span;
+use qrt_core::syntax::{Expression as Fault, Problem, What, codes, number as number_text};
 use std::ops::Range;
 
 /// An expression's text, and where its parts stand.
@@ -99,17 +97,20 @@ impl Expression {
     }
 
     /// Adds a problem of this expression.
-    pub(crate) fn report(&self, problem: Problem, names: &Names, faults: &mut Faults) {
+    pub(crate) fn report(&self, problem: &Problem, names: &Names, faults: &mut Faults) {
         let bytes = problem.within.clone().unwrap_or(0..self.text.len());
         let Some(place) = self.place(&bytes) else {
             return;
         };
-        let near = self.text.get(bytes).and_then(|text| names.nearest(text));
-        let help = match near.filter(|_| problem.code == codes::EXPR_NAME) {
-            Some(near) => format!("did you mean `{near}`?"),
-            None => super::advice::help(&problem),
+        let near = match &problem.what {
+            What::Expression(
+                Fault::UnknownName { name, .. } | Fault::UnknownFunction { name, .. },
+            ) => names.nearest(name),
+            _ => None,
         };
-        faults.add(problem.code, place, problem.message).help(help);
+        let words = super::advice::words(&problem.what);
+        let near = near.map(|near| format!("did you mean `{near}`?"));
+        faults.add(words.code, place, words.message).help = near.or(words.help);
     }
 }
 
@@ -159,7 +160,7 @@ pub(crate) fn number(
         Ok(expr) => Some(number_text(expr.eval(&Variables::default()))),
         Err(problems) => {
             for problem in problems {
-                expression.report(problem, names, faults);
+                expression.report(&problem, names, faults);
             }
             None
         }

@@ -2,7 +2,7 @@
 
 use super::tokens::Table;
 use proc_macro2::{Delimiter, Group, Literal, Punct, Spacing, Span, TokenStream, TokenTree};
-use qrt_core::front::tree;
+use qrt_core::syntax::tree;
 use quote::quote_spanned;
 use std::fmt::Write as _;
 
@@ -16,7 +16,8 @@ pub(crate) struct Fault {
     notes: Vec<String>,
     /// Another place, and the words before it: "the first is".
     also: Option<(tree::Span, String)>,
-    help: Option<String>,
+    /// The right thing to write.
+    pub(crate) help: Option<String>,
     /// What another report says, codes and all.
     body: Option<String>,
     /// Whether it was found in a loop, whose every pass may find it again.

@@ -2,9 +2,8 @@
 
 use super::fault::Faults;
 use proc_macro2::{Ident, TokenStream};
-use qrt_core::codes;
-use qrt_core::diagnostics::Report;
-use qrt_core::front::tree::Span;
+use qrt_core::syntax::tree::Span;
+use qrt_core::syntax::{Report, codes};
 use syn::parse::Parser as _;
 
 /// What a scene is called, and what stands before that.

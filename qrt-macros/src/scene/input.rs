@@ -8,9 +8,9 @@ use super::tokens::{self, Kind, Table, Token, place_of};
 use super::values::{entry, scalar};
 use super::{Parsed, check, emit};
 use proc_macro2::{Delimiter, Ident, TokenStream, TokenTree};
-use qrt_core::codes;
 use qrt_core::front::load_below;
-use qrt_core::front::tree::{Entry, Node, Span, Value};
+use qrt_core::syntax::codes;
+use qrt_core::syntax::tree::{Entry, Node, Span, Value};
 use qrt_core::valid::ValidScene;
 use std::path::Path;
 

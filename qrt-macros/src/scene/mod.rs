@@ -28,10 +28,9 @@ pub(crate) use {input::Read, input::read, terms::Terms, tokens::Table};
 
 use body::Body;
 use header::Header;
-use qrt_core::codes;
-use qrt_core::front::tree::{Node, Span, Value};
 use qrt_core::front::{Files, Loaded, of_tree};
-use qrt_core::report::{Path, Problem, Step};
+use qrt_core::syntax::tree::{Node, Span};
+use qrt_core::syntax::{At, Problem, Step, Structure, What, codes};
 use qrt_core::valid::ValidScene;
 use std::path::Path as FilePath;
 
@@ -88,7 +87,7 @@ impl Parsed {
     pub(crate) fn report(&self, problems: Vec<Problem>, faults: &mut Faults) {
         match &self.source {
             Source::Tokens(written) => {
-                for problem in problems {
+                for problem in &problems {
                     self.place(written, problem, faults);
                 }
             }
@@ -100,15 +99,16 @@ impl Parsed {
         }
     }
 
-    /// Adds a problem at its tokens, unless it only follows from what could not be read.
-    fn place(&self, written: &Written, problem: Problem, faults: &mut Faults) {
+    /// Adds a problem at its tokens, unless it may only follow from a key that could not be read.
+    fn place(&self, written: &Written, problem: &Problem, faults: &mut Faults) {
         let Written { tree, body } = written;
-        let found = tree.resolve(&problem.path);
+        let Some(path) = problem.path() else {
+            return;
+        };
+        let found = tree.resolve(path);
         let reader = &body.reader;
-        let is_missing = problem.code == codes::MISSING_KEY;
-        if follows(tree, &problem.path)
-            || is_missing && reader.incomplete.contains(&found.node.span)
-        {
+        let is_missing = matches!(problem.what, What::Structure(Structure::MissingKeys { .. }));
+        if is_missing && reader.incomplete.contains(&found.node.span) {
             return;
         }
         let expression = (found.node.span.source as usize)
@@ -117,7 +117,7 @@ impl Parsed {
         if let Some(expression) = expression.filter(|_| problem.within.is_some()) {
             return expression.report(problem, &reader.names, faults);
         }
-        let origin = match &problem.path.0[..] {
+        let origin = match &path.0[..] {
             [Step::Key(key), Step::Item(index), ..] if key == "geometry" => {
                 self.primitives.get(*index)
             }
@@ -129,16 +129,17 @@ impl Parsed {
             ] if sampling == "sampling" && depths == "depths" => self.rays.get(*index),
             _ => None,
         };
-        let fault = faults.add(problem.code, found.span, advice::message(&problem));
+        let words = advice::words(&problem.what);
+        let fault = faults.add(words.code, found.span, words.message);
         // What is expected has been said.
-        let says_more =
-            !matches!(problem.code, codes::WRONG_TYPE | codes::WRONG_LENGTH) && !is_missing;
-        if !problem.label.is_empty() && says_more {
-            fault.note(problem.label.clone());
+        let is_said = [codes::WRONG_TYPE, codes::WRONG_LENGTH, codes::MISSING_KEY];
+        if !words.label.is_empty() && !is_said.contains(&words.code) {
+            fault.note(words.label);
         }
-        if let Some((path, why)) = &problem.also {
-            fault.also(tree.resolve(path).span, format!("{why} is"));
+        if let Some(At::Path(path)) = &problem.also {
+            fault.also(tree.resolve(path).span, format!("{} is", words.also));
         }
+        fault.help = words.help;
         if let Some(origin) = origin {
             if let Some(label) = &origin.label {
                 fault.note(format!("in the {} `{label}`", origin.kind));
@@ -147,31 +148,7 @@ impl Parsed {
                 fault.in_pass(&origin.pass);
             }
         }
-        fault.help(advice::help(&problem));
     }
-}
-
-/// Whether what is said of `path` follows from a value there, above or below, that was not read.
-fn follows(tree: &Node, path: &Path) -> bool {
-    let mut node = tree;
-    for step in &path.0 {
-        if matches!(node.value, Value::Null) && values::is_faulty(node) {
-            return true;
-        }
-        node = match (step, &node.value) {
-            (Step::Key(key) | Step::Name(key), Value::Map(_)) => match node.entry(key) {
-                Some(entry) => &entry.value,
-                None => return false,
-            },
-            (Step::Item(index), Value::List(items)) => match items.get(*index) {
-                Some(item) => item,
-                None => return false,
-            },
-            _ => return false,
-        };
-    }
-    let is_name = matches!(path.0.last(), Some(Step::Name(_)));
-    !is_name && !path.0.is_empty() && values::is_faulty(node)
 }
 
 /// The scene that `body` and `name` say, if it is one; everything that is wrong otherwise.

@@ -2,10 +2,9 @@
 
 use super::fault::Faults;
 use super::tokens::{Kind, Token, place_of};
-use qrt_core::codes;
 use qrt_core::expr::{Variable, function_names};
-use qrt_core::front::tree::Span;
-use qrt_core::report::nearest;
+use qrt_core::syntax::tree::Span;
+use qrt_core::syntax::{codes, nearest};
 
 /// What a name of the author's own stands for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,8 +36,7 @@ impl Names {
 
     /// The name that `text` was probably meant to be.
     pub(crate) fn nearest(&self, text: &str) -> Option<&str> {
-        let names: Vec<&str> = self.0.iter().map(|name| name.text.as_str()).collect();
-        nearest(text, &names)
+        nearest(text, self.0.iter().map(|name| name.text.as_str()))
     }
 
     /// How many there are: to [`Names::keep`] later.
@@ -56,7 +54,7 @@ impl Names {
         let variables = self.0.iter().filter(|name| name.is_variable);
         let shown = variables.filter_map(|name| match name.meaning {
             Meaning::Number(value) => {
-                let value = qrt_core::scene::text::number(value);
+                let value = qrt_core::syntax::number(value);
                 Some(format!("{} = {value}", name.text))
             }
             Meaning::Faulty => None,
@@ -132,13 +130,14 @@ impl Names {
             }
             sound = false;
             let variable = Variable::ALL.iter().any(|variable| variable.name() == text);
-            let functions: Vec<&str> = function_names().chain(["pi"]).collect();
             let message = format!("no constant is called `{text}`");
+            let functions = || nearest(text, function_names().chain(["pi"]));
+            let near = self.nearest(text).or_else(functions);
             let help = if later.contains(text) {
                 format!("`{text}` is defined further down: move it up")
             } else if variable {
                 format!("`{text}` has a value only in the expressions of a `bsdf`")
-            } else if let Some(near) = self.nearest(text).or_else(|| nearest(text, &functions)) {
+            } else if let Some(near) = near {
                 format!("did you mean `{near}`?")
             } else {
                 format!("define it before: `const {text}: f64 = 1.0;`")

@@ -3,8 +3,8 @@
 use super::body::{Body, Origin};
 use super::tokens::{Token, join};
 use super::values::{entry, faulty, text};
-use qrt_core::codes;
-use qrt_core::front::tree::{Node, Span, Value};
+use qrt_core::syntax::codes;
+use qrt_core::syntax::tree::{Node, Span, Value};
 
 impl Body {
     pub(super) fn material(&mut self, first: &Token, rest: &[Token], place: Span) {
@@ -121,9 +121,10 @@ impl Body {
         let (kind, pass) = ("depth", self.reader.names.passes());
         self.rays.push(Origin { kind, label, pass });
         // Where the ray itself is meant, its whole entry is.
-        let source = node.span.source;
-        let span = Span { source, ..place };
-        self.depths.push(Node { span, ..node });
+        self.depths.push(Node {
+            span: place,
+            ..node
+        });
     }
 
     /// The label in front of `rest`, which must be new.

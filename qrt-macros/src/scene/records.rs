@@ -3,8 +3,8 @@
 use super::fault::Faults;
 use super::tokens::{Kind, Token, join, place_of};
 use super::values::{Reader, entry, text};
-use qrt_core::codes;
-use qrt_core::front::tree::{Entry, Node, Span, Value};
+use qrt_core::syntax::codes;
+use qrt_core::syntax::tree::{Entry, Node, Span, Value};
 
 impl Reader {
     /// A map of keys; `place` is that of its braces.

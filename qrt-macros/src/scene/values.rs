@@ -6,11 +6,8 @@ use super::names::Names;
 use super::terms::Terms;
 use super::tokens::{Kind, Token, between_commas, join, place_of};
 use proc_macro2::Delimiter;
-use qrt_core::codes;
-use qrt_core::front::tree::{Entry, Node, Scalar, Span, Value};
-
-/// The source of a node that could not be read: what is said of it is already known.
-const FAULTY: u32 = u32::MAX;
+use qrt_core::syntax::codes;
+use qrt_core::syntax::tree::{Entry, Node, Scalar, Span, Value};
 
 /// Reads values; keeps what later readers and reports need.
 #[derive(Debug, Default)]
@@ -77,22 +74,8 @@ pub(crate) fn scalar(text: String, quoted: bool, span: Span) -> Node {
 
 /// In place of what could not be read.
 pub(crate) fn faulty(span: Span) -> Node {
-    let span = Span {
-        source: FAULTY,
-        ..span
-    };
-    let value = Value::Null;
+    let value = Value::Unread;
     Node { span, value }
-}
-
-/// Whether a node, or one within it, could not be read.
-pub(crate) fn is_faulty(node: &Node) -> bool {
-    node.span.source == FAULTY
-        || match &node.value {
-            Value::List(items) => items.iter().any(is_faulty),
-            Value::Map(entries) => entries.iter().any(|entry| is_faulty(&entry.value)),
-            _ => false,
-        }
 }
 
 /// An entry of a map.
@@ -254,7 +237,7 @@ impl Reader {
     fn text_of(&mut self, expression: Expression, place: Span) -> Node {
         let text = expression.text.clone();
         self.expressions.push(expression);
-        let source = u32::try_from(self.expressions.len()).unwrap_or(FAULTY);
+        let source = u32::try_from(self.expressions.len()).unwrap_or_default();
         scalar(text, false, Span { source, ..place })
     }
 

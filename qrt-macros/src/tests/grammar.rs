@@ -41,6 +41,18 @@ fn a_film_may_be_one_token_or_many() {
 }
 
 #[test]
+fn an_undefined_name_makes_one_error() {
+    let quad = |corner: &str| {
+        format!(
+            "film: 8x8, material white: mirror {{ reflectance: rgb(1, 1, 1) }},
+             quad: white {{ ({corner}, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0) }}"
+        )
+    };
+    assert_eq!(codes(&quad("1")), ["QRT0301"]);
+    assert_eq!(codes(&quad("SIZE")), ["QRT0712"]);
+}
+
+#[test]
 fn loops_repeat_primitives_and_rays() {
     let scene = scene(
         "film: 8x8, material white: mirror { reflectance: rgb(1, 1, 1) },

@@ -2,10 +2,9 @@
 
 use super::{code, read_text, writer};
 use proc_macro2::TokenStream;
-use qrt_core::codes;
-use qrt_core::diagnostics::Source;
 use qrt_core::front::{load, yaml};
 use qrt_core::scene::{Bsdf, Jacobian, Material, Scene};
+use qrt_core::syntax::{Problems, Source, codes};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
@@ -27,8 +26,9 @@ fn scenes(folder: &str) -> Vec<PathBuf> {
 /// The scene of a YAML file as the macro's text, if it has one.
 fn written(file: &Path) -> Option<String> {
     let source = Source::new("", std::fs::read_to_string(file).ok()?);
-    let reading = yaml::read(&source, 0..source.text.len(), 0);
-    let text = writer::scene(&reading.tree.filter(|_| reading.problems.is_empty())?)?;
+    let mut problems = Problems::default();
+    let tree = yaml::read(&source, 0..source.text.len(), 0, &mut problems);
+    let text = writer::scene(&problems.result(tree?).ok()?)?;
     // Brackets that do not match are the compiler's business.
     text.parse::<TokenStream>().is_ok().then_some(text)
 }

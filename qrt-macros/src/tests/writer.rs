@@ -1,6 +1,6 @@
 //! A YAML scene written as `qrt!` would have it, as far as it has a form there.
 
-use qrt_core::front::tree::{Entry, Kind, Node, Scalar, Value};
+use qrt_core::syntax::tree::{Entry, Kind, Node, Scalar, Value};
 
 /// The scene as tokens' text; nothing where YAML says what no token can.
 pub(super) fn scene(tree: &Node) -> Option<String> {
@@ -133,7 +133,7 @@ fn record(name: &str, node: &Node) -> Option<String> {
 fn value(record_name: &str, key: &str, node: &Node) -> Option<String> {
     let is_expression = record_name == "bsdf";
     Some(match &node.value {
-        Value::Null => return None,
+        Value::Null | Value::Unread => return None,
         Value::Map(_) => record(key, node)?,
         Value::Scalar(scalar) if is_expression => scalar.text.clone(),
         Value::Scalar(scalar) => self::scalar(key, scalar),

@@ -318,6 +318,6 @@ fn of_bits(scene: &ValidScene, bits: u32) -> Result<ValidScene, PlanError> {
 pub(super) fn valid(scene: &ValidScene, knobs: Knobs) -> Result<ValidScene, PlanError> {
     scene.with_knobs(knobs).map_err(|problems| {
         let first = problems.into_iter().next();
-        unreachable(first.map_or_else(String::new, |problem| problem.message))
+        unreachable(first.map_or_else(String::new, |problem| problem.words().message))
     })
 }

@@ -5,8 +5,8 @@ use crate::estimators::EstimatorError;
 use crate::sample::SampleError;
 use crate::workers::ThreadsError;
 use qrt_core::oracle::OracleError;
-use qrt_core::report::Problem;
 use qrt_core::sampling::SamplingError;
+use qrt_core::syntax::Problem;
 use std::io;
 use std::path::PathBuf;
 
@@ -78,8 +78,9 @@ pub enum TradeError {
     },
 }
 
-fn first(problems: &[Problem]) -> &str {
-    problems.first().map_or("", |problem| &problem.message)
+fn first(problems: &[Problem]) -> String {
+    let first = problems.first().map(|problem| problem.words().message);
+    first.unwrap_or_default()
 }
 
 impl TradeError {

@@ -1,11 +1,11 @@
 //! Reports of real faults, one for each code.
 
 use qrt::core::compile::BuildError;
-use qrt::core::diagnostics::Report;
 use qrt::core::front::{Loaded, obj, parse};
 use qrt::core::oracle::{MOST_FACES, Oracle, OracleError, check_budget, spent};
 use qrt::core::scene::meshes::Meshes;
 use qrt::core::scene::{Bsdf, Jacobian};
+use qrt::core::syntax::{Problem, Report};
 use qrt::core::valid::{bsdf, validate};
 use std::collections::BTreeMap;
 use std::fs;
@@ -123,7 +123,8 @@ fn elsewhere() -> Vec<String> {
         texts.push(tell(&fine, vec![error.problem()]));
     }
 
-    let whole = |problem| Report::of_file("a scene made in Rust", problem).render(false);
+    let whole =
+        |problem: Problem| Report::of_file("a scene made in Rust", problem.what).render(false);
     let mut scene = fine.valid.scene().clone();
     scene.materials.push(scene.materials[0].clone());
     let problems = validate(scene, &Meshes::default()).unwrap_err();

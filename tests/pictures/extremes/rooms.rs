@@ -6,9 +6,9 @@
 
 use super::Extreme;
 use crate::pictures::cube::{WALLS, corner};
-use qrt::core::diagnostics::Report;
 use qrt::core::front::parse;
 use qrt::core::scene::Estimator;
+use qrt::core::syntax::Report;
 use qrt::runtime::render::{Model, Options, render};
 use std::fmt::Write as _;
 

@@ -1,11 +1,11 @@
 //! The material libraries of a mesh: what their materials reflect and emit.
 
 use super::{Library, ObjError, name, numbers, split, statements, text_of, words};
-use crate::codes;
-use crate::expr::suggest::nearest;
-use crate::front::tree::shorten;
 use crate::scene::Rgb;
 use crate::scene::meshes::ObjMaterial;
+use crate::syntax::codes;
+use crate::syntax::nearest;
+use crate::syntax::tree::shorten;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 

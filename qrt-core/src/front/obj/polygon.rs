@@ -1,7 +1,7 @@
 //! From a polygon to triangles: a fan where it is convex, else ears cut off one by one.
 
-use crate::codes;
 use crate::scene::meshes::ObjError;
+use crate::syntax::codes;
 use glam::{DVec2, DVec3};
 
 /// More corners than a face that is not convex may have: cutting ears takes up to their cube.

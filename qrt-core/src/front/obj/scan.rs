@@ -1,9 +1,8 @@
 //! The check of an OBJ file, statement by statement, as `tobj` reads it.
 
 use super::{ObjError, name, numbers, split, statements, words};
-use crate::codes;
-use crate::expr::suggest::nearest;
-use crate::front::tree::shorten;
+use crate::syntax::tree::shorten;
+use crate::syntax::{codes, nearest};
 use glam::DVec3;
 use std::borrow::Cow;
 use std::collections::VecDeque;

@@ -507,13 +507,13 @@ fn entries_that_name_one_file_share_its_mesh() {
         } else {
             let problems = crate::valid::validate(scene.clone(), &meshes).unwrap_err();
             assert_eq!(problems.len(), 5000);
-            assert_eq!(problems[4999].label, "two.obj:11");
+            assert_eq!(problems[4999].words().label, "two.obj:11");
         }
     }
     // Nobody read it: validation does not either.
     let problems = crate::valid::validate(scene, &Meshes::default()).unwrap_err();
     assert_eq!(problems.len(), 5000);
-    assert_eq!(problems[0].code, codes::OBJ_UNREADABLE);
+    assert_eq!(problems[0].code(), codes::OBJ_UNREADABLE);
 }
 
 /// A text with some of its bytes or lines changed, lost or doubled.

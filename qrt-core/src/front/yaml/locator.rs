@@ -1,6 +1,6 @@
 //! Lines and columns of characters to bytes.
 
-use crate::front::tree::Span;
+use crate::syntax::tree::Span;
 use saphyr_parser::Marker;
 
 /// Turns the parser's lines and columns, which count characters, into bytes.

@@ -1,30 +1,27 @@
 //! Shapes made of other shapes: lists, maps from names, values that may be left out.
 
 use super::{Expression, LARGEST, Number, Shape, number};
-use crate::codes;
-use crate::front::tree::{Node, Value};
-use crate::report::Problem;
-use crate::scene::decode::{Decoder, Place};
 use crate::scene::text::Data;
+use crate::syntax::tree::{Entry, Found, Node, Value};
+use crate::syntax::{Datum, Expected, Material, Place, Problems, Structure, What};
 use glam::DVec3;
 
 /// A list of exactly N.
 pub(crate) struct Array<S, const N: usize>(pub(crate) S);
 
 impl<S: Shape, const N: usize> Array<S, N> {
-    fn items(&self, node: &Node, at: &Place<'_>, decoder: &mut Decoder) -> Option<[S::Value; N]> {
+    fn items(&self, node: &Node, at: &Place<'_>, problems: &mut Problems) -> Option<[S::Value; N]> {
         let Value::List(items) = &node.value else {
-            decoder.wrong_type(node, at, &format!("a list of {N}"), None);
+            problems.wrong_type(node, at, Expected::Elements(N));
             return None;
         };
-        if items.len() != N {
-            let message = format!("expected a list of {N}, found {}", node.found());
-            let problem = Problem::new(codes::WRONG_LENGTH, at.path(), message)
-                .label(format!("must have {N} elements"));
-            decoder.replace(at, problem);
+        let is_whole = items.iter().all(|item| item.value != Value::Unread);
+        if items.len() != N && is_whole {
+            let (expected, found) = (N, node.found());
+            problems.refuse(at, Structure::WrongLength { expected, found });
         }
         Some(std::array::from_fn(|i| match items.get(i) {
-            Some(item) => self.0.decode(item, &at.item(i), decoder),
+            Some(item) => self.0.decode(item, &at.item(i), problems),
             None => self.0.fallback(),
         }))
     }
@@ -32,14 +29,14 @@ impl<S: Shape, const N: usize> Array<S, N> {
 
 impl<S: Shape, const N: usize> Shape for Array<S, N> {
     type Value = [S::Value; N];
-    fn decode(&self, node: &Node, at: &Place<'_>, decoder: &mut Decoder) -> Self::Value {
-        self.items(node, at, decoder)
+    fn decode(&self, node: &Node, at: &Place<'_>, problems: &mut Problems) -> Self::Value {
+        self.items(node, at, problems)
             .unwrap_or_else(|| self.fallback())
     }
     fn fallback(&self) -> Self::Value {
         std::array::from_fn(|_| self.0.fallback())
     }
-    fn check(&self, value: &Self::Value, at: &Place<'_>, problems: &mut Vec<Problem>) {
+    fn check(&self, value: &Self::Value, at: &Place<'_>, problems: &mut Problems) {
         for (i, item) in value.iter().enumerate() {
             self.0.check(item, &at.item(i), problems);
         }
@@ -79,13 +76,13 @@ pub(crate) const fn point() -> Vector {
 
 impl Shape for Vector {
     type Value = DVec3;
-    fn decode(&self, node: &Node, at: &Place<'_>, decoder: &mut Decoder) -> DVec3 {
-        Array::<_, 3>(self.0).decode(node, at, decoder).into()
+    fn decode(&self, node: &Node, at: &Place<'_>, problems: &mut Problems) -> DVec3 {
+        Array::<_, 3>(self.0).decode(node, at, problems).into()
     }
     fn fallback(&self) -> DVec3 {
         DVec3::splat(self.0.fallback())
     }
-    fn check(&self, value: &DVec3, at: &Place<'_>, problems: &mut Vec<Problem>) {
+    fn check(&self, value: &DVec3, at: &Place<'_>, problems: &mut Problems) {
         Array::<_, 3>(self.0).check(&value.to_array(), at, problems);
     }
     fn encode(&self, value: &DVec3) -> Option<Data> {
@@ -100,29 +97,25 @@ impl Shape for Vector {
 pub(crate) struct List<S> {
     pub(crate) item: S,
     pub(crate) least: usize,
-    /// The code and the words for fewer.
-    pub(crate) fewer: (&'static str, &'static str),
 }
 
 impl<S: Shape> Shape for List<S> {
     type Value = Vec<S::Value>;
-    fn decode(&self, node: &Node, at: &Place<'_>, decoder: &mut Decoder) -> Self::Value {
+    fn decode(&self, node: &Node, at: &Place<'_>, problems: &mut Problems) -> Self::Value {
         let Value::List(items) = &node.value else {
-            let help = (node.value == Value::Null && self.least == 0)
-                .then(|| "write `[]` for an empty list".to_owned());
-            decoder.wrong_type(node, at, "a list", help);
+            let may_be_empty = self.least == 0;
+            problems.wrong_type(node, at, Expected::List { may_be_empty });
             return self.fallback();
         };
-        let decode = |(i, item)| self.item.decode(item, &at.item(i), decoder);
+        let decode = |(i, item)| self.item.decode(item, &at.item(i), problems);
         items.iter().enumerate().map(decode).collect()
     }
     fn fallback(&self) -> Self::Value {
         (0..self.least).map(|_| self.item.fallback()).collect()
     }
-    fn check(&self, value: &Self::Value, at: &Place<'_>, problems: &mut Vec<Problem>) {
+    fn check(&self, value: &Self::Value, at: &Place<'_>, problems: &mut Problems) {
         if value.len() < self.least {
-            let (code, message) = self.fewer;
-            problems.push(Problem::new(code, at.path(), message));
+            problems.refuse(at, Datum::NoRay);
         }
         for (i, item) in value.iter().enumerate() {
             self.item.check(item, &at.item(i), problems);
@@ -146,14 +139,13 @@ pub(crate) struct Named<S>(pub(crate) S);
 
 impl<S: Shape> Shape for Named<S> {
     type Value = Vec<(String, S::Value)>;
-    fn decode(&self, node: &Node, at: &Place<'_>, decoder: &mut Decoder) -> Self::Value {
+    fn decode(&self, node: &Node, at: &Place<'_>, problems: &mut Problems) -> Self::Value {
         let Value::Map(entries) = &node.value else {
-            let help = (node.value == Value::Null).then(|| "write `{}` for none".to_owned());
-            decoder.wrong_type(node, at, "a map from names", help);
+            problems.wrong_type(node, at, Expected::Named);
             return Vec::new();
         };
-        let decode = |entry: &crate::front::tree::Entry| {
-            let value = self.0.decode(&entry.value, &at.key(&entry.key), decoder);
+        let decode = |entry: &Entry| {
+            let value = self.0.decode(&entry.value, &at.key(&entry.key), problems);
             (entry.key.clone(), value)
         };
         entries.iter().map(decode).collect()
@@ -161,17 +153,16 @@ impl<S: Shape> Shape for Named<S> {
     fn fallback(&self) -> Self::Value {
         Vec::new()
     }
-    fn check(&self, value: &Self::Value, at: &Place<'_>, problems: &mut Vec<Problem>) {
+    fn check(&self, value: &Self::Value, at: &Place<'_>, problems: &mut Problems) {
         let mut seen = std::collections::HashSet::new();
         for (name, item) in value {
             if name.is_empty() {
-                let what = "this name is empty";
-                problems.push(Problem::new(codes::EMPTY_NAME, at.path().name(""), what));
+                problems.refuse(at.path().name(""), Datum::EmptyName);
             }
             if !seen.insert(name) {
-                let message = format!("the name `{name}` is given twice");
                 let path = at.path().name(name.as_str());
-                problems.push(Problem::new(codes::DUPLICATE_NAME, path, message));
+                let name = name.clone();
+                problems.refuse(path, Material::GivenTwice { name });
             }
             self.0.check(item, &at.key(name), problems);
         }
@@ -195,13 +186,13 @@ pub(crate) struct Maybe<S>(pub(crate) S);
 
 impl<S: Shape> Shape for Maybe<S> {
     type Value = Option<S::Value>;
-    fn decode(&self, node: &Node, at: &Place<'_>, decoder: &mut Decoder) -> Self::Value {
-        Some(self.0.decode(node, at, decoder))
+    fn decode(&self, node: &Node, at: &Place<'_>, problems: &mut Problems) -> Self::Value {
+        Some(self.0.decode(node, at, problems))
     }
     fn fallback(&self) -> Self::Value {
         None
     }
-    fn check(&self, value: &Self::Value, at: &Place<'_>, problems: &mut Vec<Problem>) {
+    fn check(&self, value: &Self::Value, at: &Place<'_>, problems: &mut Problems) {
         if let Some(value) = value {
             self.0.check(value, at, problems);
         }
@@ -224,23 +215,21 @@ pub(crate) fn is_auto(node: &Node) -> bool {
 
 impl<S: Shape> Shape for AutoOr<S> {
     type Value = Option<S::Value>;
-    fn decode(&self, node: &Node, at: &Place<'_>, decoder: &mut Decoder) -> Self::Value {
+    fn decode(&self, node: &Node, at: &Place<'_>, problems: &mut Problems) -> Self::Value {
         if is_auto(node) {
             return None;
         }
-        let problems = decoder.problems.len();
-        let value = self.0.decode(node, at, decoder);
-        for problem in &mut decoder.problems[problems..] {
-            problem
-                .help
-                .get_or_insert_with(|| "or write `auto`".to_owned());
+        let known = problems.count();
+        let value = self.0.decode(node, at, problems);
+        for problem in problems.since(known) {
+            problem.what = What::OrAuto(Box::new(problem.what.clone()));
         }
         Some(value)
     }
     fn fallback(&self) -> Self::Value {
         None
     }
-    fn check(&self, value: &Self::Value, at: &Place<'_>, problems: &mut Vec<Problem>) {
+    fn check(&self, value: &Self::Value, at: &Place<'_>, problems: &mut Problems) {
         if let Some(value) = value {
             self.0.check(value, at, problems);
         }
@@ -262,30 +251,27 @@ pub(crate) struct Channels;
 
 impl Shape for Channels {
     type Value = Vec<String>;
-    fn decode(&self, node: &Node, at: &Place<'_>, decoder: &mut Decoder) -> Vec<String> {
+    fn decode(&self, node: &Node, at: &Place<'_>, problems: &mut Problems) -> Vec<String> {
         match &node.value {
             Value::List(items) => {
                 if !matches!(items.len(), 1 | 3) {
-                    let message =
-                        format!("expected one expression or three, found {}", node.found());
-                    let problem = Problem::new(codes::WRONG_LENGTH, at.path(), message)
-                        .help("one expression means grey; three are red, green and blue");
-                    decoder.replace(at, problem);
+                    let found = node.found();
+                    problems.refuse(at, Structure::WrongChannels { found });
                     return self.fallback();
                 }
-                let decode = |(i, item)| Expression.decode(item, &at.item(i), decoder);
+                let decode = |(i, item)| Expression.decode(item, &at.item(i), problems);
                 items.iter().enumerate().map(decode).collect()
             }
-            _ => vec![Expression.decode(node, at, decoder)],
+            _ => vec![Expression.decode(node, at, problems)],
         }
     }
     fn fallback(&self) -> Vec<String> {
         vec![Expression.fallback()]
     }
-    fn check(&self, value: &Vec<String>, at: &Place<'_>, problems: &mut Vec<Problem>) {
+    fn check(&self, value: &Vec<String>, at: &Place<'_>, problems: &mut Problems) {
         if !matches!(value.len(), 1 | 3) {
-            let message = format!("expected one expression or three, found {}", value.len());
-            problems.push(Problem::new(codes::WRONG_LENGTH, at.path(), message));
+            let found = Found::List(value.len());
+            problems.refuse(at, Structure::WrongChannels { found });
         }
         for (i, item) in value.iter().enumerate() {
             Expression.check(item, &at.item(i), problems);

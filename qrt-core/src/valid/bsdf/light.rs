@@ -1,9 +1,8 @@
 //! What a value must be: finite, not negative, and without gain of energy.
 
 use super::shape::points;
-use super::text::short;
 use crate::expr::{Expr, Variable, VariableSet, Variables};
-use crate::report::{Path, Problem};
+use crate::syntax::{Bsdf, Path, Problem};
 use std::cell::OnceCell;
 
 /// Values of rounding's size below zero are zero.
@@ -60,42 +59,28 @@ pub(super) fn value(map: &[Expr; 3], f: &Expr, path: &Path) -> Option<Problem> {
             if value >= NEGATIVE && value.is_finite() {
                 continue;
             }
-            let place = situation(f, &at);
-            return Some(if value.is_finite() {
-                let message = format!("the value is negative: {} at {place}", short(value));
-                Problem::new("QRT0415", path.clone(), message)
-                    .help("`max(0, ...)` cuts the negative part off")
+            let at = situation(f, &at);
+            let what = if value.is_finite() {
+                Bsdf::Negative { value, at }
             } else {
-                let what = if value.is_nan() {
-                    "has no value"
-                } else {
-                    "is infinite"
-                };
-                Problem::new(
-                    "QRT0416",
-                    path.clone(),
-                    format!("the BSDF {what} at {place}"),
-                )
-                .help("it must be finite for every pair of directions above the surface")
-            });
+                let is_infinite = value.is_infinite();
+                Bsdf::Undefined { is_infinite, at }
+            };
+            return Some(Problem::new(path.clone(), what));
         }
     }
     None
 }
 
 /// The variables of `f` with their values.
-fn situation(f: &Expr, at: &Variables) -> String {
+fn situation(f: &Expr, at: &Variables) -> Vec<(&'static str, f64)> {
     let set = f.variables(f.root());
     let shown = if set.is_empty() {
         VariableSet::SQUARE
     } else {
         set
     };
-    let parts: Vec<String> = shown
-        .iter()
-        .map(|v| format!("{} = {}", v.name(), short(at.get(v))))
-        .collect();
-    parts.join(", ")
+    shown.iter().map(|v| (v.name(), at.get(v))).collect()
 }
 
 /// Sums over the square, as integrals over directions: midpoint rules of growing size, whose
@@ -177,20 +162,10 @@ impl<'a> Quadrature<'a> {
         let (albedo, (cos_o, _)) = worst?;
         let set = f.variables(f.root());
         let angles = set.contains(Variable::CosO) || set.contains(Variable::CosA);
-        let seen = if angles {
-            format!(", seen at cos_o = {}", short(cos_o))
-        } else {
-            String::new()
-        };
-        let message = format!(
-            "the BSDF gains energy: {} of the light that arrives leaves{seen}",
-            short(albedo)
-        );
-        let help = format!(
-            "the integral of value * |cos_i| over all directions must not pass 1: scale the value by \
-         {} or less",
-            short((1e4 / albedo).floor() / 1e4)
-        );
-        Some(Problem::new("QRT0417", path.clone(), message).help(help))
+        let seen = angles.then_some(cos_o);
+        Some(Problem::new(
+            path.clone(),
+            Bsdf::GainsEnergy { albedo, seen },
+        ))
     }
 }

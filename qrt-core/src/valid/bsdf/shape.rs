@@ -1,9 +1,8 @@
 //! What a map and its Jacobian must be, tried at points of the square.
 
-use super::text::{place, short};
 use crate::expr::{Expr, Variable, Variables};
-use crate::report::{Path, Problem};
 use crate::sampling::maps;
+use crate::syntax::{Bsdf, Mistake, Path, Problem};
 use glam::DVec3;
 
 /// How far from length 1 a direction may be.
@@ -62,31 +61,19 @@ pub(super) fn map(map: &[Expr; 3]) -> Option<Problem> {
     for at in points() {
         let direction = map.each_ref().map(|c| c.eval_in(&at, &mut room));
         if let Some(i) = direction.iter().position(|c| !c.is_finite()) {
-            let message = format!("this component of the map has no value at {}", place(&at));
-            let finite = "it must be finite for every u and v between 0 and 1";
-            return Some(Problem::new("QRT0412", root.item(i), message).help(finite));
+            let at = [at.u, at.v];
+            return Some(Problem::new(root.item(i), Bsdf::NoDirection { at }));
         }
         let off = DVec3::from(direction).length() - 1.0;
         if off.abs() > OFF_SPHERE {
-            let length = if off.abs() < 1e-4 {
-                format!("1 + {off:e}")
-            } else {
-                short(1.0 + off)
-            };
-            let message = format!(
-                "the map leaves the unit sphere: its length is {length} at {}",
-                place(&at)
-            );
-            let unit = "a direction has length 1: x^2 + y^2 + z^2 must be 1 for every u and v";
-            return Some(Problem::new("QRT0411", root, message).help(unit));
+            let at = [at.u, at.v];
+            return Some(Problem::new(root, Bsdf::OffSphere { off, at }));
         }
         let [along_u, along_v] = slopes.at(&at, &mut room);
         for i in 0..3 {
             if !(along_u[i].is_finite() && along_v[i].is_finite()) {
-                let place = place(&at);
-                let message = format!("this component of the map has no finite slope at {place}");
-                let smooth = "the Jacobian needs its derivatives between 0 and 1";
-                return Some(Problem::new("QRT0412", root.item(i), message).help(smooth));
+                let at = [at.u, at.v];
+                return Some(Problem::new(root.item(i), Bsdf::NoSlope { at }));
             }
         }
         let area = along_u.cross(along_v).length();
@@ -98,24 +85,15 @@ pub(super) fn map(map: &[Expr; 3]) -> Option<Problem> {
     for i in 1..CENTRES {
         for j in 1..CENTRES {
             if is_flat(i, j) && is_flat(i - 1, j) && is_flat(i, j - 1) && is_flat(i - 1, j - 1) {
-                let place = place(&flat[i * side + j].1);
-                let message = format!(
-                    "the map takes a whole area of the square to a line or a point, as around \
-                     {place}"
-                );
-                let both = "the direction must change with u and with v, along different ways";
-                return Some(Problem::new("QRT0413", root, message).help(both));
+                let at = flat[i * side + j].1;
+                let around = [at.u, at.v];
+                return Some(Problem::new(root, Bsdf::Flat { around }));
             }
         }
     }
-    twice(map, &slopes).map(|at| {
-        let message = format!(
-            "the map reaches the same directions more than once, as around {}",
-            place(&at)
-        );
-        let once = "their light would count as often: cover each direction at most once";
-        Problem::new("QRT0419", root, message).help(once)
-    })
+    let at = twice(map, &slopes)?;
+    let around = [at.u, at.v];
+    Some(Problem::new(root, Bsdf::CoversTwice { around }))
 }
 
 /// A point of the square around which directions are covered twice. The sphere is cut into parts of
@@ -172,12 +150,6 @@ pub(super) fn jacobian(map: &[Expr; 3], stated: &Expr) -> Option<Problem> {
         error.is_nan() || error > OFF_JACOBIAN * right.abs().max(f64::MIN_POSITIVE)
     };
     let at = points().find(|at| off(stated.eval(at), right(at)))?;
-    let message = format!(
-        "the stated Jacobian is {} at {}, but |dphi/du x dphi/dv| = {}",
-        short(stated.eval(&at)),
-        place(&at),
-        short(right(&at))
-    );
     // Only a mistake that explains every point is named.
     let explains = |wrong: &dyn Fn(f64, f64) -> f64| {
         points().all(|at| {
@@ -186,23 +158,31 @@ pub(super) fn jacobian(map: &[Expr; 3], stated: &Expr) -> Option<Problem> {
         })
     };
     let ratio = right(&at) / stated.eval(&at);
-    let help = if explains(&|j, _| 1.0 / j) {
-        "this is 1/J: a change of variables multiplies by J, it does not divide".to_owned()
+    let mistake = if explains(&|j, _| 1.0 / j) {
+        Mistake::Inverse
     } else if explains(&|j, cosine| j * cosine) {
-        "this is J |z|: the cosine is multiplied in already, J stands without it".to_owned()
+        Mistake::WithCosine
     } else if explains(&|j, cosine| 1.0 / (j * cosine)) {
-        "this is 1/(J |z|): write J, the solid angle per unit of the square".to_owned()
+        Mistake::InverseWithCosine
     } else if explains(&|j, _| -j) {
-        "this is -J: the Jacobian is a length, not a signed area".to_owned()
+        Mistake::Negative
     } else if ratio.is_finite() && explains(&|j, _| j / ratio) {
-        format!("multiply it by {}", short(ratio))
+        Mistake::Factor(ratio)
     } else {
         let right = maps::jacobian(map);
         if right.written_nodes() <= 60 {
-            format!("write `{right}`, or `auto`")
+            Mistake::Other {
+                right: right.to_string(),
+            }
         } else {
-            "`jacobian: auto` works it out".to_owned()
+            Mistake::Unlike
         }
     };
-    Some(Problem::new("QRT0414", Path::root().key("jacobian"), message).help(help))
+    let what = Bsdf::WrongJacobian {
+        stated: stated.eval(&at),
+        right: right(&at),
+        at: [at.u, at.v],
+        mistake,
+    };
+    Some(Problem::new(Path::root().key("jacobian"), what))
 }

@@ -36,9 +36,9 @@ fn refused(map: [&str; 3], jacobian: &str, value: &[&str], code: &str, path: &st
     let problems = compile(&bsdf(map, jacobian, value)).expect_err("a faulty BSDF");
     let found = problems
         .iter()
-        .find(|p| p.code == code && p.path.to_string() == path);
-    let p = found.unwrap_or_else(|| panic!("{problems:?}"));
-    let text = format!("{} | {}", p.message, p.help.as_deref().unwrap_or_default());
+        .find(|p| p.code() == code && p.path().unwrap().to_string() == path);
+    let what = &found.unwrap_or_else(|| panic!("{problems:?}")).what;
+    let text = what.to_string();
     assert!(text.contains(words), "{text}");
 }
 

@@ -23,7 +23,7 @@ fn built(vertices: &[DVec3; 4]) -> Vec<Polygon> {
         "built.yaml",
     )
     .unwrap();
-    let (mut surfaces, mut problems) = (Vec::new(), Vec::new());
+    let (mut surfaces, mut problems) = (Vec::new(), Problems::default());
     let mut build = Build {
         scene: &scene,
         meshes: &Meshes::default(),
@@ -36,7 +36,7 @@ fn built(vertices: &[DVec3; 4]) -> Vec<Polygon> {
     };
     build.quad(vertices, 0, &Path::root());
     let out = build.out;
-    assert!(problems.is_empty(), "{problems:?}");
+    assert_eq!(problems.count(), 0, "{problems:?}");
     out
 }
 
@@ -84,7 +84,10 @@ fn slivers_have_an_area_until_rounding_takes_it() {
     let same = [DVec3::X, DVec3::ZERO, DVec3::X];
     assert!(matches!(
         triangle_fault(&same),
-        Some(Fault::Coincident(0, 2))
+        Some(Fault::Coincident {
+            first: 0,
+            second: 2
+        })
     ));
 }
 
@@ -119,14 +122,16 @@ proptest! {
         let plus = signs.iter().filter(|&&s| s == 1).count();
         let minus = signs.iter().filter(|&&s| s == -1).count();
         match fault {
-            Some(Fault::Reflex(at)) => {
+            Some(Fault::Reflex { at }) => {
                 prop_assert_eq!(plus.min(minus), 1);
                 let odd = if plus == 1 { 1 } else { -1 };
                 prop_assert_eq!(signs[at], odd);
             }
             Some(Fault::Crossing) => prop_assert_eq!((plus, minus), (2, 2)),
-            Some(Fault::Straight(at)) => prop_assert_eq!(signs[at], 0),
-            Some(Fault::Coincident(a, b)) => prop_assert_eq!(grid[a], grid[b]),
+            Some(Fault::Straight { at }) => prop_assert_eq!(signs[at], 0),
+            Some(Fault::Coincident { first, second }) => {
+ prop_assert_eq!(grid[first], grid[second]);
+},
             _ => {}
         }
     }

@@ -3,11 +3,11 @@
 use super::bounds;
 use super::offer::variable;
 use crate::reversible::ir::{Register, Signature};
-use crate::reversible::problem::{Problems, nearest};
+use crate::reversible::problem::Problems;
 use crate::reversible::scope::type_text;
 use proc_macro2::TokenStream;
-use qrt_core::codes;
 use qrt_core::expr::{Domain, Interval, Variable};
+use qrt_core::syntax::{codes, nearest};
 use quote::ToTokens;
 use syn::Ident;
 

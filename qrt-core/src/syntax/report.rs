@@ -1,8 +1,9 @@
 //! Problems shown in their source, as a compiler shows them: file, line and column, the source
 //! line, a caret, the code, and the right thing to write.
 
-use crate::front::tree::{Node, Span};
-use crate::report::Problem;
+use super::kinds::{What, Words};
+use super::problem::{At, Problem};
+use super::tree::{Node, Span, Value};
 use annotate_snippets::renderer::DecorStyle;
 use annotate_snippets::{
     AnnotationKind, Group, Level, Origin, Renderer, Snippet, normalize_untrusted_str,
@@ -37,26 +38,25 @@ impl Source {
     }
 }
 
-/// A problem and where it is, if it is anywhere.
+/// A problem in words, and where it is, if it is anywhere.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Placed {
-    /// What is wrong.
-    pub problem: Problem,
-    /// Where; nowhere when a file cannot be read.
-    pub span: Option<Span>,
+struct Told {
+    words: Words,
+    /// Nowhere when a file cannot be read.
+    span: Option<Span>,
     /// The other place that matters.
-    pub also: Option<Span>,
+    also: Option<Span>,
 }
 
 /// Everything that is wrong with a scene.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Report {
     /// The scene's text first, then that of each override.
-    pub sources: Vec<Source>,
+    sources: Vec<Source>,
     /// In the order of their places; at most [`MOST`].
-    pub problems: Vec<Placed>,
+    problems: Vec<Told>,
     /// Further problems that were found and left out.
-    pub omitted: usize,
+    omitted: usize,
 }
 
 /// Problems that a report lists.
@@ -68,72 +68,41 @@ const LONGEST: usize = 4000;
 
 impl Report {
     /// A report of one problem about a file as a whole.
-    pub fn of_file(name: &str, problem: Problem) -> Self {
-        Self {
-            sources: vec![Source::new(name, "")],
-            problems: vec![Placed {
-                problem,
-                span: None,
-                also: None,
-            }],
-            omitted: 0,
-        }
+    pub fn of_file(name: &str, what: impl Into<What>) -> Self {
+        let problem = Problem::new(super::Path::root(), what);
+        Self::new(vec![Source::new(name, "")], None, vec![problem])
     }
 
-    /// Problems that already have their places, and problems placed by the scene's tree.
-    pub fn of_tree(
-        sources: Vec<Source>,
-        tree: &Node,
-        mut placed: Vec<Placed>,
-        mut problems: Vec<Problem>,
-    ) -> Self {
+    /// Problems at their places in the texts; paths are those of the tree that the first of them became.
+    pub fn new(sources: Vec<Source>, tree: Option<&Node>, mut problems: Vec<Problem>) -> Self {
         let omitted = problems.len().saturating_sub(MOST);
         problems.truncate(MOST);
-        placed.extend(
-            problems
-                .into_iter()
-                .map(|problem| place(&sources, tree, problem)),
-        );
-        let report = Self::of_placed(sources, placed);
-        Self {
-            omitted: report.omitted + omitted,
-            ..report
-        }
-    }
-
-    /// Problems that already have their places.
-    pub fn of_placed(sources: Vec<Source>, mut problems: Vec<Placed>) -> Self {
-        let omitted = problems.len().saturating_sub(MOST);
-        problems.truncate(MOST);
-        problems.sort_by_key(|placed| placed.span.map(|span| (span.source, span.start, span.end)));
-        let mut kept: Vec<Placed> = Vec::with_capacity(problems.len());
-        for placed in problems {
-            let same = |other: &&Placed| {
-                other.problem.code == placed.problem.code
-                    && other.problem.message == placed.problem.message
+        let told = problems.iter().map(|problem| tell(&sources, tree, problem));
+        let mut told: Vec<Told> = told.collect();
+        told.sort_by_key(|told| told.span.map(|span| (span.source, span.start, span.end)));
+        let mut problems: Vec<Told> = Vec::with_capacity(told.len());
+        for told in told {
+            let same = |other: &Told| {
+                (other.words.code, &other.words.message) == (told.words.code, &told.words.message)
             };
-            let twin = kept
+            let mut here = problems
                 .iter()
                 .rev()
-                .take_while(|o| o.span == placed.span)
-                .find(same);
-            if twin.is_none() {
-                kept.push(placed);
+                .take_while(|other| other.span == told.span);
+            if !here.any(same) {
+                problems.push(told);
             }
         }
         Self {
             sources,
-            problems: kept,
+            problems,
             omitted,
         }
     }
 
     /// The codes, in order.
     pub fn codes(&self) -> Vec<&'static str> {
-        self.problems
-            .iter()
-            .map(|placed| placed.problem.code)
-            .collect()
+        self.problems.iter().map(|told| told.words.code).collect()
     }
 
     /// All problems as text; with `colour`, in a terminal's escape codes.
@@ -150,8 +119,8 @@ impl Report {
             .iter()
             .map(|source| Lines::of(&source.text))
             .collect();
-        for placed in &self.problems {
-            out.push_str(&self.render_one(&renderer, &lines, placed));
+        for told in &self.problems {
+            out.push_str(&self.render_one(&renderer, &lines, told));
             out.push_str("\n\n");
         }
         let name = self
@@ -173,18 +142,17 @@ impl Report {
         out.replace(|c| matches!(c, '\u{80}'..='\u{9f}'), "\u{fffd}")
     }
 
-    fn render_one(&self, renderer: &Renderer, lines: &[Lines<'_>], placed: &Placed) -> String {
-        let problem = &placed.problem;
+    fn render_one(&self, renderer: &Renderer, lines: &[Lines<'_>], told: &Told) -> String {
+        let words = &told.words;
         let title = Level::ERROR
-            .primary_title(problem.message.as_str())
-            .id(problem.code);
+            .primary_title(words.message.as_str())
+            .id(words.code);
         let mut group = Group::with_title(title);
-        let primary = placed
+        let primary = told
             .span
             .and_then(|span| Some((lines.get(span.source as usize)?, span)));
         if let Some((lines_here, span)) = primary {
-            let other = placed.also.zip(problem.also.as_ref());
-            let other = other.map(|(also, (_, why))| (also, why.as_str()));
+            let other = told.also.map(|also| (also, words.also));
             let near = other.filter(|(also, _)| also.source == span.source);
             let both = near.map(|(also, _)| lines_here.excerpt(&[span, also]));
             let both = both.filter(|excerpt| excerpt.text.len() <= LONGEST);
@@ -193,7 +161,7 @@ impl Report {
             let mut marks = vec![(
                 AnnotationKind::Primary,
                 excerpt.within(span),
-                problem.label.as_str(),
+                words.label.as_str(),
             )];
             if let Some((also, why)) = near {
                 marks.push((AnnotationKind::Context, excerpt.within(also), why));
@@ -202,9 +170,9 @@ impl Report {
                 let (line, column) = lines_here.position(span);
                 let origin = Origin::path(self.name(span)).line(line).char_column(column);
                 group = group.element(origin);
-                if !problem.label.is_empty() {
+                if !words.label.is_empty() {
                     group =
-                        group.element(Level::NOTE.message(normalize_untrusted_str(&problem.label)));
+                        group.element(Level::NOTE.message(normalize_untrusted_str(&words.label)));
                 }
             } else {
                 group = group.element(excerpt.snippet(self.name(span), marks));
@@ -224,7 +192,7 @@ impl Report {
                 .map_or("", |source| source.name.as_str());
             group = group.element(Origin::path(name));
         }
-        if let Some(help) = &problem.help {
+        if let Some(help) = &words.help {
             group = group.element(Level::HELP.message(normalize_untrusted_str(help)));
         }
         renderer.render(&[group])
@@ -346,26 +314,26 @@ fn visible(text: &str, span: Span) -> Range<usize> {
     start..start + line.trim_end().len()
 }
 
-fn place(sources: &[Source], tree: &Node, problem: Problem) -> Placed {
-    let found = tree.resolve(&problem.path);
-    let mut span = found.span;
-    if let (Some(within), true) = (&problem.within, found.exact) {
-        span = inner(sources, found.node, within).unwrap_or(span);
-    }
-    let also = problem
-        .also
-        .as_ref()
-        .map(|(path, _)| tree.resolve(path).span);
-    Placed {
-        problem,
-        span: Some(span),
-        also,
+fn tell(sources: &[Source], tree: Option<&Node>, problem: &Problem) -> Told {
+    let span = |at: &At| match at {
+        At::Span(span) => Some(*span),
+        At::Path(path) => {
+            let found = tree?.resolve(path);
+            let part = problem.within.as_ref().filter(|_| found.exact);
+            let part = part.and_then(|within| inner(sources, found.node, within));
+            Some(part.unwrap_or(found.span))
+        }
+    };
+    Told {
+        words: problem.words(),
+        span: span(&problem.at),
+        also: problem.also.as_ref().and_then(span),
     }
 }
 
 /// Bytes within a scalar's text as bytes of its source, where the source has the text verbatim.
 fn inner(sources: &[Source], node: &Node, within: &Range<usize>) -> Option<Span> {
-    let crate::front::tree::Value::Scalar(scalar) = &node.value else {
+    let Value::Scalar(scalar) = &node.value else {
         return None;
     };
     let written = sources

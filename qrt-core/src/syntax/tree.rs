@@ -3,7 +3,8 @@
 //! YAML text and the tokens of the `qrt!` macro both become such a tree; everything after it (the
 //! decoder of [`crate::scene`], the checks of [`crate::valid`], the rendering of errors) is shared.
 
-use crate::report::{Path, Step};
+use super::path::{Path, Step};
+use std::fmt;
 
 /// A place in a source. Only the front end that made it knows what the numbers mean: for text they
 /// are byte offsets into source number `source`.
@@ -31,6 +32,8 @@ pub struct Node {
 pub enum Value {
     /// Nothing written, `~` or `null`.
     Null,
+    /// What could not be read, which has been reported.
+    Unread,
     /// A number, a word or a text; [`Scalar::kind`] tells which.
     Scalar(Scalar),
     /// Elements in order.
@@ -164,96 +167,61 @@ impl Node {
     }
 
     /// What this is, for "expected a number, found ...".
-    pub fn found(&self) -> String {
+    pub fn found(&self) -> Found {
         match &self.value {
-            Value::Null => "nothing".into(),
-            Value::List(items) if items.len() == 1 => "a list of one".into(),
-            Value::List(items) => format!("a list of {}", items.len()),
-            Value::Map(_) => "a map".into(),
-            Value::Scalar(scalar) => match scalar.kind() {
-                Kind::Number(_) => format!("the number {}", scalar.text),
-                Kind::Bool(_) => format!("the truth value {}", scalar.text),
-                Kind::Text => format!("the text \"{}\"", shorten(&scalar.text)),
-            },
+            Value::Null | Value::Unread => Found::Nothing,
+            Value::List(items) => Found::List(items.len()),
+            Value::Map(_) => Found::Map,
+            Value::Scalar(scalar) => Found::Scalar(scalar.clone()),
         }
     }
 
     /// The node at `path`, or the nearest one above it that is written (a default is written
     /// nowhere), with the span to show: that of the key where the path ends in a name.
-    pub fn resolve(&self, path: &Path) -> Found<'_> {
-        let mut found = Found {
+    pub fn resolve(&self, path: &Path) -> Resolved<'_> {
+        let mut found = Resolved {
             node: self,
             span: self.span,
             exact: true,
         };
         for step in &path.0 {
-            let node = found.node;
-            match (step, &node.value) {
-                (Step::Key(key), Value::Map(_)) => match node.entry(key) {
-                    Some(entry) => {
-                        found = Found {
-                            node: &entry.value,
-                            span: entry.value.span,
-                            exact: true,
-                        };
-                        if matches!(entry.value.value, Value::Null) {
-                            found.span = entry.key_span;
-                        }
-                    }
-                    None => {
-                        return Found {
-                            exact: false,
-                            ..found
-                        };
-                    }
-                },
-                (Step::Name(key), Value::Map(_)) => match node.entry(key) {
-                    Some(entry) => {
-                        found = Found {
-                            node: &entry.value,
-                            span: entry.key_span,
-                            exact: true,
-                        };
-                    }
-                    None => {
-                        return Found {
-                            exact: false,
-                            ..found
-                        };
-                    }
-                },
-                (Step::Item(index), Value::List(items)) => match items.get(*index) {
-                    Some(item) => {
-                        found = Found {
-                            node: item,
-                            span: item.span,
-                            exact: true,
-                        }
-                    }
-                    None => {
-                        return Found {
-                            exact: false,
-                            ..found
-                        };
-                    }
-                },
-                // A list of one may be written without its brackets.
-                (Step::Item(0), Value::Scalar(_)) => {}
-                _ => {
-                    return Found {
-                        exact: false,
-                        ..found
-                    };
-                }
-            }
+            let Some((node, span)) = found.node.below(step) else {
+                found.exact = false;
+                break;
+            };
+            (found.node, found.span) = (node, span);
         }
         found
+    }
+
+    /// The node one step below, and its place.
+    fn below(&self, step: &Step) -> Option<(&Node, Span)> {
+        match (step, &self.value) {
+            (Step::Key(key), Value::Map(_)) => {
+                let Entry {
+                    key_span, value, ..
+                } = self.entry(key)?;
+                let is_written = value.value != Value::Null;
+                Some((value, if is_written { value.span } else { *key_span }))
+            }
+            (Step::Name(key), Value::Map(_)) => {
+                let entry = self.entry(key)?;
+                Some((&entry.value, entry.key_span))
+            }
+            (Step::Item(index), Value::List(items)) => {
+                let item = items.get(*index)?;
+                Some((item, item.span))
+            }
+            // A list of one may be written without its brackets.
+            (Step::Item(0), Value::Scalar(_)) => Some((self, self.span)),
+            _ => None,
+        }
     }
 
     /// Nodes in this tree, itself included.
     pub fn count(&self) -> usize {
         1 + match &self.value {
-            Value::Null | Value::Scalar(_) => 0,
+            Value::Null | Value::Unread | Value::Scalar(_) => 0,
             Value::List(items) => items.iter().map(Node::count).sum(),
             Value::Map(entries) => entries.iter().map(|entry| entry.value.count()).sum(),
         }
@@ -262,7 +230,7 @@ impl Node {
     /// Levels of lists and maps in this tree.
     pub fn height(&self) -> usize {
         match &self.value {
-            Value::Null | Value::Scalar(_) => 0,
+            Value::Null | Value::Unread | Value::Scalar(_) => 0,
             Value::List(items) => 1 + items.iter().map(Node::height).max().unwrap_or(0),
             Value::Map(entries) => {
                 1 + entries
@@ -277,13 +245,39 @@ impl Node {
 
 /// Where a path leads.
 #[derive(Clone, Copy, Debug)]
-pub struct Found<'a> {
+pub struct Resolved<'a> {
     /// The node, or the nearest above.
     pub node: &'a Node,
     /// The place to show.
     pub span: Span,
     /// Whether the whole path is written.
     pub exact: bool,
+}
+
+/// What stands at a place, whatever was expected there.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum Found {
+    Nothing,
+    List(usize),
+    Map,
+    Scalar(Scalar),
+}
+
+impl fmt::Display for Found {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Nothing => f.write_str("nothing"),
+            Self::List(1) => f.write_str("a list of one"),
+            Self::List(count) => write!(f, "a list of {count}"),
+            Self::Map => f.write_str("a map"),
+            Self::Scalar(scalar) => match scalar.kind() {
+                Kind::Number(_) => write!(f, "the number {}", scalar.text),
+                Kind::Bool(_) => write!(f, "the truth value {}", scalar.text),
+                Kind::Text => write!(f, "the text \"{}\"", shorten(&scalar.text)),
+            },
+        }
+    }
 }
 
 /// At most 40 characters of `text`.

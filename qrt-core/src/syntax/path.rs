@@ -1,0 +1,119 @@
+//! Places in a scene: `materials.cloth.bsdf.value[0]`.
+
+use std::fmt;
+
+/// One step into a scene.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Step {
+    /// The value of a key.
+    Key(String),
+    /// The key itself, where the problem is the name.
+    Name(String),
+    /// An element of a list, from 0.
+    Item(usize),
+}
+
+/// Where in a scene: `materials.cloth.bsdf.value[0]`.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Path(pub Vec<Step>);
+
+impl Path {
+    /// The scene itself.
+    pub fn root() -> Self {
+        Self::default()
+    }
+    /// The value of `key` below this.
+    pub fn key(&self, key: impl Into<String>) -> Self {
+        self.with(Step::Key(key.into()))
+    }
+    /// The key `key` itself below this.
+    pub fn name(&self, key: impl Into<String>) -> Self {
+        self.with(Step::Name(key.into()))
+    }
+    /// Element `index` below this.
+    pub fn item(&self, index: usize) -> Self {
+        self.with(Step::Item(index))
+    }
+    fn with(&self, step: Step) -> Self {
+        let mut steps = self.0.clone();
+        steps.push(step);
+        Self(steps)
+    }
+}
+
+impl fmt::Display for Path {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (i, step) in self.0.iter().enumerate() {
+            match step {
+                Step::Key(key) | Step::Name(key) if i == 0 => write!(f, "{key}")?,
+                Step::Key(key) | Step::Name(key) => write!(f, ".{key}")?,
+                Step::Item(index) => write!(f, "[{index}]")?,
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A path under construction, without allocation on the way.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Place<'a> {
+    parent: Option<&'a Place<'a>>,
+    step: At<'a>,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum At<'a> {
+    Root,
+    Key(&'a str),
+    Item(usize),
+}
+
+impl<'a> Place<'a> {
+    /// The scene itself.
+    pub(crate) const ROOT: Place<'static> = Place {
+        parent: None,
+        step: At::Root,
+    };
+
+    /// The value of `key` below this.
+    pub(crate) fn key(&'a self, key: &'a str) -> Place<'a> {
+        self.with(At::Key(key))
+    }
+
+    /// Element `index` below this.
+    pub(crate) fn item(&'a self, index: usize) -> Place<'a> {
+        self.with(At::Item(index))
+    }
+
+    fn with(&'a self, step: At<'a>) -> Place<'a> {
+        let parent = Some(self);
+        Place { parent, step }
+    }
+
+    /// As a path.
+    pub(crate) fn path(&self) -> Path {
+        let mut steps = Vec::new();
+        let mut place = Some(self);
+        while let Some(Place { parent, step }) = place {
+            match step {
+                At::Root => {}
+                At::Key(key) => steps.push(Step::Key((*key).to_owned())),
+                At::Item(index) => steps.push(Step::Item(*index)),
+            }
+            place = *parent;
+        }
+        steps.reverse();
+        Path(steps)
+    }
+
+    /// The key at the end of this, or else the value: where to show what a map lacks.
+    pub(crate) fn name(&self) -> Path {
+        let mut path = self.path();
+        if let Some(Step::Key(key)) = path.0.last() {
+            let name = Step::Name(key.clone());
+            path.0.pop();
+            path.0.push(name);
+        }
+        path
+    }
+}
