@@ -2,7 +2,7 @@
 //!
 //! `cargo bench --bench accuracy` asks four scenes for three errors each, renders what the plan says
 //! on the circuit's numbers, and compares with 2^20 paths of another seed. It fails unless the asked
-//! share of channels is within the asked error, at no more than twice the queries of the best knobs
+//! share of channels is within the asked error, at no more than twice the queries of the best parameters
 //! that a sweep by hand finds: every register and number of repetitions, over any number of paths.
 //! A name alone asks the scenes whose names hold it.
 
@@ -77,7 +77,7 @@ fn share(values: &[[f64; 3]], truth: &[[f64; 3]], error: f64) -> f64 {
     within as f64 / (3 * truth.len()) as f64
 }
 
-/// The fewest queries a pixel with which counting over one of `means` keeps the error, and the knobs.
+/// The fewest queries a pixel with which counting over one of `means` keeps the error, and the parameters.
 fn by_hand(
     means: &[Means],
     truth: &Means,
@@ -160,9 +160,9 @@ fn main() -> ExitCode {
             continue;
         }
         let any = scene(name, ERRORS[0]);
-        let mut knobs = any.knobs();
-        knobs.sampling.path_bits = TRUTH.0;
-        let wide = any.with_knobs(knobs).unwrap();
+        let mut parameters = any.parameters();
+        parameters.sampling.path_bits = TRUTH.0;
+        let wide = any.with_parameters(parameters).unwrap();
         let pixels = spread([SIDE; 2], u64::MAX);
         let truth = Real::new(&wide, TRUTH.1).unwrap();
         let truth = prefix_means(&truth, &pixels, &[TRUTH.0], &Workers::default())
@@ -215,7 +215,7 @@ fn main() -> ExitCode {
                 fine = false;
             }
             if hand.is_some_and(|(best, _)| queries > 2.0 * best) {
-                println!("  more than twice the queries of the best knobs");
+                println!("  more than twice the queries of the best parameters");
                 fine = false;
             }
         }

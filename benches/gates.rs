@@ -62,8 +62,8 @@ fn main() -> ExitCode {
     let wide = InstructionSet::widest() != InstructionSet::Portable;
     let mut slowest = f64::INFINITY;
     let lists = [
-        ("product, wide", product(Style::Wide)),
-        ("product, lean", product(Style::Lean)),
+        ("product, wide", product(Style::OutOfPlace)),
+        ("product, lean", product(Style::InPlace)),
         ("box, keep", cornell_box("keep")),
         ("box, scoped", cornell_box("scoped")),
     ];

@@ -1,4 +1,4 @@
-//! What finding first hits by quantum search takes: queries over the number of faces P.
+//! What finding primary hits by quantum search takes: queries over the number of faces P.
 //!
 //! `cargo bench --bench nearest` prints, for scenes of 4 to 1,024 faces (parallelograms askew
 //! before a perspective camera; rectangles along the axes before an orthographic one, as in Alves
@@ -26,7 +26,7 @@ use promises::Promises;
 use qrt::core::front;
 use qrt::core::oracle::NearestOracle;
 use qrt::core::valid::ValidScene;
-use qrt::runtime::machines::{FirstHits, NearestMachine, PathRun};
+use qrt::runtime::machines::{NearestMachine, PathRun, PrimaryHits};
 use qrt::runtime::search::{FoundHits, Guess, Method, Rounds};
 use std::fmt::Write;
 use std::path::Path;

@@ -1,7 +1,7 @@
 //! What counting costs beside tracing, at an error of one percent.
 //!
 //! `cargo bench --bench one_percent` asks the Cornell box for an error of 1 % of its mean with
-//! probability 95 %, takes the knobs that are chosen for it, and renders a film of 8 x 8 pixels with
+//! probability 95 %, takes the parameters that are chosen for it, and renders a film of 8 x 8 pixels with
 //! and without counting; `-- 64` renders all 64 x 64, which takes ten minutes. Times are those of the
 //! processor, where the system tells. Fails if drawing measurements and estimating from them
 //! take longer than tracing the paths.

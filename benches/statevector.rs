@@ -222,7 +222,7 @@ fn row(
     seconds
 }
 
-/// Seconds that another simulator takes for a problem's gates, and the counter's outcomes.
+/// Seconds that another simulator takes for a problem's gates, and the phase register's outcomes.
 fn peer(tool: &str, problem: &Problem) -> Result<(f64, Vec<f64>), String> {
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("benches/peers/counting.py");
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("peers");
@@ -275,11 +275,11 @@ fn circuit(counting: &Counting<'_>) -> Value {
         drop(push);
         Value::Array(gates)
     };
-    let bits = counting.counter().len() as u32;
+    let bits = counting.phase_register().len() as u32;
     let queries = (0..bits).map(|bit| list(&|sink| counting.query(bit, sink)));
     json!({
         "qubits": counting.qubits(),
-        "counter": counting.counter(),
+        "counter": counting.phase_register(),
         "prepare": list(&|sink| counting.prepare(sink)),
         "queries": queries.collect::<Vec<_>>(),
         "fourier": list(&|sink| counting.inverse_fourier(sink)),

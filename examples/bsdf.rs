@@ -75,7 +75,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     );
 
     // The function on its own: its own gates, on every machine.
-    let program = cloth_program(Style::Lean);
+    let program = cloth_program(Style::InPlace);
     let inputs = [(1.0, 1.0), (0.5, 0.5), (0.25, 0.125), (0.0, 0.0)];
     let states: Option<Vec<[u64; 3]>> = inputs
         .iter()

@@ -19,7 +19,7 @@ fn exponential(x: &Fixed<1, 12>, value: &mut Fixed<4, 12>) {
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let program = exponential_program(Style::Lean);
+    let program = exponential_program(Style::InPlace);
     let circuit = lower::circuit(&program);
     let toffoli: u64 = lower::tally(&program).iter().map(|cost| cost.toffoli).sum();
     println!(

@@ -144,7 +144,7 @@ impl Maker {
             ..word
         };
         let (number, other) = (Operand::Word(a), Operand::Word(b));
-        let (style, drop) = (Style::Wide, self.width - 3);
+        let (style, drop) = (Style::OutOfPlace, self.width - 3);
         let scratch = x;
         let subtract = kind == 'k';
         let op = match kind {
@@ -219,7 +219,7 @@ impl Maker {
                 let column: Box<[i64]> = entries.collect();
                 let columns = vec![column];
                 Op::Table {
-                    style: Style::Wide,
+                    style: Style::OutOfPlace,
                     address: bits.collect(),
                     columns: columns.into(),
                     low: 0,

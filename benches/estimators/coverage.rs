@@ -16,7 +16,7 @@ const AMPLITUDES: [Option<f64>; 6] = [
     Some(1.0),
 ];
 
-/// Bits of the ids, and of the counting registers whose queries may be spent.
+/// Bits of the ids, and of the phase registers whose queries may be spent.
 const SIZES: [(u32, u32); 4] = [(4, 5), (40, 5), (40, 8), (40, 12)];
 
 /// Prints how often the intervals of each estimator hold the amplitude, at least, over all sizes.

@@ -144,7 +144,7 @@ mod tests {
 
     /// What `b` is after a program of two conditions and two numbers, of all contents of these.
     fn all(code: impl Fn(&mut Recorder, [Bit<&Recorded>; 2], &mut Number)) -> Vec<u64> {
-        let mut m = Recorder::new(Style::Lean);
+        let mut m = Recorder::new(Style::InPlace);
         let [p, q]: [Reg<_, Bool>; 2] = ["p", "q"].map(|name| Reg::input(&mut m, name));
         let mut b = Reg::input(&mut m, "b");
         code(
@@ -208,7 +208,7 @@ mod tests {
                 (true, false) => (inner(b) % 8) ^ 4,
             })
         );
-        let mut m = Recorder::new(Style::Lean);
+        let mut m = Recorder::new(Style::InPlace);
         let [p, q]: [Reg<_, Bool>; 2] = ["p", "q"].map(|name| Reg::input(&mut m, name));
         let mut b: Reg<_, UInt<3>> = Reg::input(&mut m, "b");
         let [p, q] = [&p, &q].map(|flag| Bit::at(flag.register(), 0));

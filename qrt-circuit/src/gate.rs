@@ -15,7 +15,7 @@ pub enum Gate {
     Cx(Qubit, Qubit),
     /// Flips the third where the first and the second hold: a Toffoli.
     Ccx(Qubit, Qubit, Qubit),
-    /// Flips the qubit where bit `bit` of classical word `parameter` is set: an X, or nothing, in
+    /// Flips the qubit where bit `bit` of classical parameter `parameter` is set: an X, or nothing, in
     /// the circuit of a pixel.
     Load {
         /// The word's place in [`Circuit::parameters`].
@@ -71,6 +71,6 @@ pub struct Circuit {
     /// Registers that hold something after the last gate, and their qubits. All other qubits are
     /// zero then.
     pub outputs: Vec<(RegisterId, Vec<Qubit>)>,
-    /// Classical words.
+    /// Classical parameters.
     pub parameters: Vec<Parameter>,
 }

@@ -15,7 +15,7 @@
 //! use qrt_circuit::{Declaration, Machine, Program, Recorder, Style, Type, Word};
 //!
 //! fn squarer() -> Program {
-//!     let mut m = Recorder::new(Style::Lean);
+//!     let mut m = Recorder::new(Style::InPlace);
 //!     let x = m.input(&Declaration::work("x", Type::UInt, 3));
 //!     // All three bits of x, as an unsigned number; no bit of the square is dropped.
 //!     m.square(&Declaration::work("square", Type::UInt, 6), Word::unsigned(&x, 0, 3), 0);
@@ -35,7 +35,7 @@
 //! ```
 //! # use qrt_circuit::{Declaration, Machine, Program, Recorder, Style, Type, Word};
 //! # fn squarer() -> Program {
-//! #     let mut m = Recorder::new(Style::Lean);
+//! #     let mut m = Recorder::new(Style::InPlace);
 //! #     let x = m.input(&Declaration::work("x", Type::UInt, 3));
 //! #     m.square(&Declaration::work("square", Type::UInt, 6), Word::unsigned(&x, 0, 3), 0);
 //! #     m.finish()
@@ -58,7 +58,7 @@
 //! ```
 //! # use qrt_circuit::{Declaration, Machine, Program, Recorder, Style, Type, Word};
 //! # fn squarer() -> Program {
-//! #     let mut m = Recorder::new(Style::Lean);
+//! #     let mut m = Recorder::new(Style::InPlace);
 //! #     let x = m.input(&Declaration::work("x", Type::UInt, 3));
 //! #     m.square(&Declaration::work("square", Type::UInt, 6), Word::unsigned(&x, 0, 3), 0);
 //! #     m.finish()
@@ -95,7 +95,7 @@
 //! ```
 //! # use qrt_circuit::{Declaration, Machine, Program, Recorder, Style, Type, Word};
 //! # fn squarer() -> Program {
-//! #     let mut m = Recorder::new(Style::Lean);
+//! #     let mut m = Recorder::new(Style::InPlace);
 //! #     let x = m.input(&Declaration::work("x", Type::UInt, 3));
 //! #     m.square(&Declaration::work("square", Type::UInt, 6), Word::unsigned(&x, 0, 3), 0);
 //! #     m.finish()
@@ -111,7 +111,7 @@
 //! ```
 //! # use qrt_circuit::{Declaration, Machine, Program, Recorder, Style, Type, Word};
 //! # fn squarer() -> Program {
-//! #     let mut m = Recorder::new(Style::Lean);
+//! #     let mut m = Recorder::new(Style::InPlace);
 //! #     let x = m.input(&Declaration::work("x", Type::UInt, 3));
 //! #     m.square(&Declaration::work("square", Type::UInt, 6), Word::unsigned(&x, 0, 3), 0);
 //! #     m.finish()

@@ -415,7 +415,7 @@ pub trait Machine {
 
 /// What stands for an operation's garbage, and for its style, until a machine decides on them.
 const GARBAGE: Declaration = Declaration::work("scratch", Type::Scratch, 0);
-const STYLE: Style = Style::Wide;
+const STYLE: Style = Style::OutOfPlace;
 
 fn compute<M: Machine + ?Sized>(
     machine: &mut M,

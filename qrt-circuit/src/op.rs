@@ -52,9 +52,9 @@ pub enum When<R = RegisterId> {
 pub enum Style {
     /// Partial sums out of place: fewest gates, most scratch.
     #[default]
-    Wide,
+    OutOfPlace,
     /// Partial sums in place: least scratch, up to twice the gates.
-    Lean,
+    InPlace,
 }
 
 impl<R> Reads<R> for Word<R> {
@@ -359,7 +359,7 @@ operations! {
         target target: T,
     }
     {
-        /// `t = parameter`: a classical word that the pixel decides.
+        /// `t = parameter`: a classical parameter that the pixel decides.
         Load = "load"
         /// Its place in the program's list.
         constant parameter: u32,
@@ -527,7 +527,7 @@ operations! {
         /// Entries by column.
         constant columns: Arc<[Box<[i64]>]>,
         /// Of the address bits, how many of the lowest select among words read together, under
-        /// [`Style::Wide`].
+        /// [`Style::OutOfPlace`].
         constant low: u32,
         /// How it is lowered.
         style style: Style,

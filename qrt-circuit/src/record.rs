@@ -11,7 +11,7 @@ use std::collections::HashMap;
 /// ```
 /// use qrt_circuit::{Declaration, Machine, Recorder, Style, Type, Word, When};
 ///
-/// let mut m = Recorder::new(Style::Lean);
+/// let mut m = Recorder::new(Style::InPlace);
 /// let a = m.input(&Declaration::work("a", Type::UInt, 4));
 /// let mut b = m.input(&Declaration::work("b", Type::UInt, 4));
 /// m.add_into(&mut b, Word::unsigned(&a, 0, 4).into(), false, When::Always);

@@ -15,7 +15,7 @@
 //! `midpoints`, up under `edges`), which makes the comparison one of integers:
 //! `#{y < 2^c : y < colour'} = min(colour', 2^c)` of a path's ids are good.
 //!
-//! One program serves all pixels of a film: what differs between them are classical words
+//! One program serves all pixels of a film: what differs between them are classical parameters
 //! ([`crate::compile::PixelWord`]), loaded by Xs.
 
 mod budget;
@@ -24,7 +24,7 @@ mod nearest;
 mod phase;
 mod recording;
 
-pub use budget::{Spent, check_budget, spent};
+pub use budget::{CallCost, call_cost, check_budget};
 pub use nearest::{MOST_FACES, NearestOracle};
 
 use crate::compile::{BuildError, Builder, Label, NamedPlace, Passes, PixelWord, Real, StageName};
@@ -33,7 +33,7 @@ use crate::scene::ComparatorAt;
 use crate::tracer::{Arith, Stage};
 use crate::valid::ValidScene;
 use qrt_circuit::{Bit, BlockId, Instruction, Op, Operand, Program, RegisterId, Style, Word};
-use recording::{FirstHit, Recording};
+use recording::{PrimaryHit, Recording};
 use std::fmt;
 
 /// Fraction bits under `precision: { fraction: auto }`.
@@ -130,7 +130,7 @@ pub struct Oracle {
     pub id: RegisterId,
     /// The comparator.
     pub comparator: RegisterId,
-    /// What the first ray meets, if that is given: see [`Oracle::given_first_hit`].
+    /// What the first ray meets, if that is given: see [`Oracle::given_primary_hit`].
     pub nearest: Option<RegisterId>,
     /// The outcome of the comparison.
     pub flag: RegisterId,
@@ -164,15 +164,15 @@ impl Oracle {
         Self::compile(scene, [0, 1, 2], options)
     }
 
-    /// [`Oracle::rgb`] of paths whose first hits were found before: the number of the face in the
+    /// [`Oracle::rgb`] of paths whose primary hits were found before: the number of the face in the
     /// scene's [`NearestOracle`], or the number of its faces for none, is an input. Everything
-    /// after the first hit is traced as ever. A scene without faces has no such input.
+    /// after the primary hit is traced as ever. A scene without faces has no such input.
     ///
     /// # Errors
     /// As [`Oracle::new`], and if there are more than [`MOST_FACES`] faces.
-    pub fn given_first_hit(scene: &ValidScene) -> Result<Self, OracleError> {
+    pub fn given_primary_hit(scene: &ValidScene) -> Result<Self, OracleError> {
         let options = Options::default();
-        let mut recording = Recording::new(scene, [0, 1, 2], options, FirstHit::Given)?;
+        let mut recording = Recording::new(scene, [0, 1, 2], options, PrimaryHit::Given)?;
         Ok(recording.oracle(&[0, 1, 2]))
     }
 
@@ -183,7 +183,8 @@ impl Oracle {
     /// # Errors
     /// As [`Oracle::new`].
     pub fn all(scene: &ValidScene) -> Result<([Self; 3], Self), OracleError> {
-        let mut recording = Recording::new(scene, [0, 1, 2], Options::default(), FirstHit::Traced)?;
+        let mut recording =
+            Recording::new(scene, [0, 1, 2], Options::default(), PrimaryHit::Traced)?;
         let channels = [0, 1, 2].map(|channel| recording.oracle(&[channel]));
         Ok((channels, recording.oracle(&[0, 1, 2])))
     }
@@ -210,7 +211,7 @@ impl Oracle {
         channels: [usize; C],
         options: Options,
     ) -> Result<Self, OracleError> {
-        let mut recording = Recording::new(scene, channels, options, FirstHit::Traced)?;
+        let mut recording = Recording::new(scene, channels, options, PrimaryHit::Traced)?;
         Ok(recording.oracle(&std::array::from_fn::<_, C, _>(|place| place)))
     }
 

@@ -11,8 +11,8 @@
 //!
 //! The generator is Philox4x32-10 (Salmon, Moraes, Dror & Shaw, *Parallel random numbers: as easy
 //! as 1, 2, 3*, SC 2011): a keyed bijection of 128-bit counters that passes `BigCrush`. The key is
-//! the seed; the counter is `[block (low), y, x, channel + 256 * block (high)]`, so that no two
-//! streams of one seed ever share a counter. What is drawn for a path reads the part of its pixel's
+//! the seed; the phase register is `[block (low), y, x, channel + 256 * block (high)]`, so that no two
+//! streams of one seed ever share a phase register. What is drawn for a path reads the part of its pixel's
 //! stream that begins at block `path 2^16`.
 
 const MULTIPLIERS: [u32; 2] = [0xD251_1F53, 0xCD9E_8D57];

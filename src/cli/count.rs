@@ -1,4 +1,4 @@
-//! `qrt count`: what the counting register would read, without a scene.
+//! `qrt count`: what the phase register would read, without a scene.
 
 use std::collections::BTreeMap;
 use std::io::{self, Write};
@@ -33,7 +33,7 @@ const LIKELIEST: usize = 10;
 
 /// The distribution of quantum counting's outcomes, and draws from it
 ///
-/// S of N ids are good. A counting register of T = 2^t phases reads y in 0..=T/2 (y and T - y are
+/// S of N ids are good. A phase register of T = 2^t phases reads y in 0..=T/2 (y and T - y are
 /// one outcome), which estimates theta = asin(sqrt(S/N))/pi by y/T, and S by N sin^2(pi y/T).
 #[derive(Clone, Debug, Args)]
 #[command(after_help = "\
@@ -51,7 +51,7 @@ pub(crate) struct CountArgs {
     /// t, of T = 2^t, in 1..=40
     #[arg(long, value_name = "BITS", value_parser = clap::value_parser!(u32).range(1..=40))]
     phase_bits: u32,
-    /// The window on the counting register
+    /// The window on the phase register
     #[arg(long, value_parser = choice(WINDOWS, Window::name), default_value = "rect")]
     window: Window,
     /// Only these outcomes; otherwise all of them, or above 16 phase bits those about the peak

@@ -45,7 +45,7 @@ const BYTES_A_GATE: u64 = 28;
 /// The oracle flips the signs of the pixel's good ids. It computes the colours of all paths,
 /// compares, flips and uncomputes, with X, CNOT, Toffoli and Z gates. The pixel's position is built
 /// in. The Grover iterate is the oracle and a reflection. Counting is all of it: the window on the
-/// counting register, 2^t - 1 controlled iterates, the inverse Fourier transform, and the
+/// phase register, 2^t - 1 controlled iterates, the inverse Fourier transform, and the
 /// measurement of y, which estimates S/N by sin(pi y / 2^t)^2.
 ///
 /// The text is flat: registers, gates, measurements, a line each. Qiskit, Q#, Cirq and MQT Core
@@ -260,7 +260,9 @@ fn longest(counting: &Counting<'_>, window: Window, gates: u64) -> Option<u32> {
         Counting::with(oracle, *bits, window, Conjunction::Toffolis)
             .is_ok_and(|shorter| shorter.gates(Part::Counting) <= gates)
     };
-    (1..=counting.counter().len() as u32).rev().find(fits)
+    (1..=counting.phase_register().len() as u32)
+        .rev()
+        .find(fits)
 }
 
 /// Bytes, in the largest unit that they fill.

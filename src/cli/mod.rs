@@ -39,7 +39,7 @@ Examples:
   qrt render box.yaml       render it to box.png
   qrt render --help         all about rendering
   qrt inspect box.yaml      what its circuit costs, and where
-  qrt trade box.yaml -o out what its accuracy costs, knob by knob
+  qrt trade box.yaml -o out what its accuracy costs, parameter by parameter
   qrt export box.yaml       its circuit as OpenQASM, box.qasm
 
 Exit codes: 0; 1 the job failed or was interrupted; 2 the command line or the scene is at fault."

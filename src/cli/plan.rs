@@ -1,4 +1,4 @@
-//! The knobs of a scene that asks for an accuracy.
+//! The parameters of a scene that asks for an accuracy.
 
 use super::failure::Failure;
 use super::terminal;
@@ -6,7 +6,7 @@ use qrt_core::valid::ValidScene;
 use qrt_runtime::plan::{Figures, Options, Plan, plan};
 use serde_json::{Value, json};
 
-/// Chooses the knobs of a scene that asks for an accuracy, and says on standard error which, unless
+/// Chooses the parameters of a scene that asks for an accuracy, and says on standard error which, unless
 /// all is to be `quiet`.
 ///
 /// # Errors

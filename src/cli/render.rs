@@ -68,7 +68,7 @@ const GUESSES: [(Guess, &str); 2] = [
 /// picture. The same scene, seed and estimator give the same bytes, on any machine and any number
 /// of threads.
 ///
-/// For a scene that asks for an `accuracy`, the cheapest knobs that keep it are chosen first, and the
+/// For a scene that asks for an `accuracy`, the cheapest parameters that keep it are chosen first, and the
 /// plan is shown.
 ///
 /// Ctrl-C stops and keeps what is finished in FILE.qrt-partial, beside the picture; the exit code
@@ -81,7 +81,7 @@ Examples:
   qrt render box.yaml --set sampling.path_bits=16       more paths
   qrt render box.yaml --set 'film={ width: 8, height: 8 }' --counts box.csv
   qrt render box.yaml --crop 10,20,4,4 --stats box.json
-  qrt render box.yaml --model fixed --visibility grover first hits by quantum search")]
+  qrt render box.yaml --model fixed --visibility grover primary hits by quantum search")]
 pub(crate) struct RenderArgs {
     /// The picture: .png (8-bit sRGB) or .exr (linear 32-bit float) [default: SCENE's name with
     /// .png, in the current folder]
@@ -100,7 +100,7 @@ pub(crate) struct RenderArgs {
     /// measured bit is wrong; either may be left out
     #[arg(long, value_name = "depolarising=P,readout=P", value_parser = noise)]
     noise: Option<Noise>,
-    /// How a path's first hit is found
+    /// How a path's primary hit is found
     #[arg(
         long,
         value_parser = choice(VISIBILITIES, Visibility::name),
@@ -310,7 +310,7 @@ fn summary(output: &Path, rendered: &Rendered, clipped: u64) -> String {
     ) + &search_summary(rendered)
 }
 
-/// What the search for first hits took; nothing if there was none.
+/// What the search for primary hits took; nothing if there was none.
 fn search_summary(rendered: &Rendered) -> String {
     let Some(searched) = rendered.searched else {
         return String::new();
@@ -322,7 +322,7 @@ fn search_summary(rendered: &Rendered) -> String {
         failure => format!(", a miss at most {failure:.1e} likely"),
     };
     format!(
-        "first hits by {}: P = {} faces, {mean:.2} queries a ray = {:.2} sqrt(P) = {:.3} P, each of \
+        "primary hits by {}: P = {} faces, {mean:.2} queries a ray = {:.2} sqrt(P) = {:.3} P, each of \
          {} Toffolis on {} qubits{promise}\n",
         rendered.visibility.name(),
         searched.faces,

@@ -42,13 +42,13 @@ fn stats(scene: &ValidScene, rendered: &Rendered, clipped: u64) -> Value {
         "height": written.film.height,
         "crop": rendered.crop,
         "depths": written.sampling.depths.len(),
-        "path_bits": rendered.knobs.sampling.path_bits,
-        "knobs": {
-            "path_bits": rendered.knobs.sampling.path_bits,
-            "fraction": rendered.knobs.precision.fraction,
-            "comparator_bits": rendered.knobs.comparator.bits,
-            "phase_bits": rendered.knobs.counting.phase_bits,
-            "repetitions": rendered.knobs.counting.repetitions,
+        "path_bits": rendered.parameters.sampling.path_bits,
+        "parameters": {
+            "path_bits": rendered.parameters.sampling.path_bits,
+            "fraction": rendered.parameters.precision.fraction,
+            "comparator_bits": rendered.parameters.comparator.bits,
+            "phase_bits": rendered.parameters.counting.phase_bits,
+            "repetitions": rendered.parameters.counting.repetitions,
         },
         "plan": rendered.plan.as_ref().map(super::plan::json),
         "paths": rendered.paths,
@@ -64,7 +64,7 @@ fn stats(scene: &ValidScene, rendered: &Rendered, clipped: u64) -> Value {
     })
 }
 
-/// What the search for first hits took; null if there was none.
+/// What the search for primary hits took; null if there was none.
 fn search(rendered: &Rendered) -> Value {
     let Some(searched) = rendered.searched else {
         return Value::Null;

@@ -11,9 +11,9 @@ use qrt_runtime::trade::{Options, TradeError, trade};
 use qrt_runtime::workers::Workers;
 use std::path::PathBuf;
 
-/// Measure what a scene's accuracy costs, knob by knob
+/// Measure what a scene's accuracy costs, parameter by parameter
 ///
-/// Turns the scene's knobs around their values, one at a time, and every estimator with every number
+/// Turns the scene's parameters around their values, one at a time, and every estimator with every number
 /// of queries; renders a sample of its pixels under each setting; and writes to DIR: trade.csv, one
 /// row a setting, plots (.svg), and index.html, which shows tables and plots together.
 ///

@@ -25,7 +25,7 @@ const CHANNELS: [&str; 3] = ["red", "green", "blue"];
 /// comparators below the colour. How far floating point (real) is from the integers is measured:
 /// E_W, the error that the registers' width leaves in a pixel.
 ///
-/// A scene that asks for an `accuracy` is checked with the knobs that are chosen for it.
+/// A scene that asks for an `accuracy` is checked with the parameters that are chosen for it.
 ///
 /// Exits with 0 if all of it holds, and with 1 if not, naming the path, its pixel and the register.
 #[derive(Clone, Debug, Args)]

@@ -266,7 +266,7 @@ fn the_window_is_the_estimators() {
     }
 }
 
-/// The circuit is that of the chosen knobs, and the plan is told beside it.
+/// The circuit is that of the chosen parameters, and the plan is told beside it.
 #[test]
 fn an_asked_accuracy_chooses_the_circuit() {
     let scene = include_str!("../../examples/lit-wall.yaml").replace("path_bits: 5, ", "");

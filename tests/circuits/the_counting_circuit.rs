@@ -136,17 +136,19 @@ fn counts_the_others_where_the_reflection_has_the_other_sign() {
     counting
         .part(Part::Counting, &mut |gate| match gate {
             // What makes the sign right, and no other gate of the circuit, is such a Z.
-            QuantumGate::Phase { on: [qubit], .. } if counting.counter().contains(qubit) => Ok(()),
+            QuantumGate::Phase { on: [qubit], .. } if counting.phase_register().contains(qubit) => {
+                Ok(())
+            }
             gate => machine.gate(gate),
         })
         .unwrap();
-    let found = fold(&machine.distribution(counting.counter()).unwrap());
+    let found = fold(&machine.distribution(counting.phase_register()).unwrap());
     assert!(off(&found, &closed(good, total, phase_bits, Window::Rect)) > 0.05);
     let others = closed(total - good, total, phase_bits, Window::Rect);
     assert!(off(&found, &others) < 1e-12);
 }
 
-/// The logarithm of the size, not the size, is what a counter adds to an oracle.
+/// The logarithm of the size, not the size, is what a phase register adds to an oracle.
 #[test]
 fn has_a_qubit_more_for_twice_the_size() {
     let oracle = Oracle::new(&written(WALL, &[]), 0, Options::default()).unwrap();

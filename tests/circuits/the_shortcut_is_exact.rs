@@ -59,7 +59,7 @@ fn whole(scene: &ValidScene, oracle: &Oracle, pixels: &[[u32; 2]]) -> Vec<[u64; 
                 let held = contents(&oracle.program, &inputs(oracle, *id), &words);
                 let colour = number(oracle.channels[c].colour, &held.registers);
                 let count = number(oracle.channels[c].count, &held.registers);
-                // Turned where y < count, ...
+                // AxisPermuted where y < count, ...
                 assert_eq!(
                     turned,
                     i128::from(*y) < i128::from(count),

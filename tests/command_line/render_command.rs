@@ -319,7 +319,7 @@ fn wrong_requests_exit_with_2_and_leave_nothing() {
     );
 }
 
-/// The box without the knobs that an accuracy replaces.
+/// The box without the parameters that an accuracy replaces.
 fn accurate(error: f64, confidence: f64) -> Folder {
     let text = BOX.replace("  path_bits: 10\n", "");
     let text = text.lines().filter(|line| !line.starts_with("counting"));
@@ -340,25 +340,29 @@ fn an_accuracy_takes_the_knobs_that_keep_it_and_says_which() {
         "{said}"
     );
     let stats = stats(&folder, "s.json");
-    let (knobs, plan) = (&stats["knobs"], &stats["plan"]);
-    for knob in [
+    let (parameters, plan) = (&stats["parameters"], &stats["plan"]);
+    for parameter in [
         "path_bits",
         "fraction",
         "comparator_bits",
         "phase_bits",
         "repetitions",
     ] {
-        assert_eq!(knobs[knob], plan[knob], "{knob}");
-        assert!(knobs[knob].as_u64().unwrap() > 0, "{knob}");
+        assert_eq!(parameters[parameter], plan[parameter], "{parameter}");
+        assert!(parameters[parameter].as_u64().unwrap() > 0, "{parameter}");
     }
     assert!(plan["errors"]["total"].as_f64().unwrap() <= 0.3);
     assert!(plan["within"].as_f64().unwrap() >= 0.9);
     let (_, _, metadata) = read_exr(&folder.path("p.exr"));
     assert_eq!(metadata["accuracy_error"], "0.3");
-    for knob in ["path_bits", "comparator_bits", "phase_bits", "fraction"] {
-        assert_eq!(metadata[knob], knobs[knob].to_string(), "{knob}");
+    for parameter in ["path_bits", "comparator_bits", "phase_bits", "fraction"] {
+        assert_eq!(
+            metadata[parameter],
+            parameters[parameter].to_string(),
+            "{parameter}"
+        );
     }
-    // The same knobs whatever the seed and the threads; the same picture as of the knobs alone.
+    // The same parameters whatever the seed and the threads; the same picture as of the parameters alone.
     let other = [
         "--seed",
         "5",
@@ -372,15 +376,15 @@ fn an_accuracy_takes_the_knobs_that_keep_it_and_says_which() {
     ];
     folder.works(&[&["render", "box.yaml"], &other[..]].concat());
     assert_eq!(self::stats(&folder, "t.json")["plan"], *plan);
-    let knob = |key: &str, name: &str| format!("{key}={}", knobs[name]);
+    let parameter = |key: &str, name: &str| format!("{key}={}", parameters[name]);
     let estimator = format!("counting.estimator={}", plan["estimator"].as_str().unwrap());
     let sets = [
         estimator,
-        knob("sampling.path_bits", "path_bits"),
-        knob("precision.fraction", "fraction"),
-        knob("comparator.bits", "comparator_bits"),
-        knob("counting.phase_bits", "phase_bits"),
-        knob("counting.repetitions", "repetitions"),
+        parameter("sampling.path_bits", "path_bits"),
+        parameter("precision.fraction", "fraction"),
+        parameter("comparator.bits", "comparator_bits"),
+        parameter("counting.phase_bits", "phase_bits"),
+        parameter("counting.repetitions", "repetitions"),
     ];
     std::fs::write(folder.path("box.yaml"), BOX).unwrap();
     let sets = sets.iter().flat_map(|set| ["--set", set.as_str()]);

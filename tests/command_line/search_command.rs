@@ -33,11 +33,12 @@ fn first_hits_are_searched_for_and_the_picture_is_the_same() {
     assert!(folder.read("classical.csv") == folder.read("exhaustive.csv"));
     assert!(folder.read("classical.csv") == folder.read("grover.csv"));
 
-    assert!(!said[0].contains("first hits"), "{}", said[0]);
-    let all = "first hits by exhaustive: P = 8 faces, 8.00 queries a ray = 2.83 sqrt(P) = 1.000 P";
+    assert!(!said[0].contains("primary hits"), "{}", said[0]);
+    let all =
+        "primary hits by exhaustive: P = 8 faces, 8.00 queries a ray = 2.83 sqrt(P) = 1.000 P";
     assert!(said[1].contains(all), "{}", said[1]);
     assert!(
-        said[2].contains("first hits by grover: P = 8 faces, "),
+        said[2].contains("primary hits by grover: P = 8 faces, "),
         "{}",
         said[2]
     );

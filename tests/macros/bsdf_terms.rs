@@ -161,7 +161,7 @@ fn check<const N: usize>(
 ) {
     let expressions = expressions(material);
     let states: Vec<Vec<u64>> = grid.iter().map(|point| state(*point)).collect();
-    for style in [Style::Lean, Style::Wide] {
+    for style in [Style::InPlace, Style::OutOfPlace] {
         let program = program(style);
         let ends = run::on_definition(&program, &states).unwrap();
         assert_eq!(run::on_fixed(&program, &states).unwrap(), ends);

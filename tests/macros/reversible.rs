@@ -37,7 +37,7 @@ fn check(
     states: &[Vec<u64>],
     expected: impl Fn(&[u64]) -> Vec<u64>,
 ) {
-    for style in [Style::Lean, Style::Wide] {
+    for style in [Style::InPlace, Style::OutOfPlace] {
         let result = run_all(&forward(style), states);
         for (state, result) in states.iter().zip(&result) {
             assert_eq!(*result, expected(state), "from {state:?}");
@@ -161,7 +161,10 @@ fn a_multiplier_and_the_same_by_hand() {
         .collect();
     let signed = |bits: u64| (bits << 60).cast_signed() >> 60;
     for program in [multiply_add_program, shift_and_add_program] {
-        for (s, result) in states.iter().zip(run_all(&program(Style::Lean), &states)) {
+        for (s, result) in states
+            .iter()
+            .zip(run_all(&program(Style::InPlace), &states))
+        {
             let sum = 200 + s[0].cast_signed() * signed(s[1]);
             assert_eq!(result[2], sum.cast_unsigned() & 255, "from {s:?}");
         }

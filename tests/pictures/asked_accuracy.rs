@@ -44,9 +44,9 @@ fn the_asked_share_of_channels_is_within_the_asked_error() {
             "",
         );
         let plan = planned(&scene);
-        let mut knobs = plan.scene.knobs();
-        knobs.sampling.path_bits = 17;
-        let limit = scene.with_knobs(knobs).unwrap();
+        let mut parameters = plan.scene.parameters();
+        parameters.sampling.path_bits = 17;
+        let limit = scene.with_parameters(parameters).unwrap();
         let pixels = spread([16, 12], u64::MAX);
         let truth = prefix_means(
             &Real::new(&limit, 9).unwrap(),
@@ -79,10 +79,10 @@ fn the_asked_share_of_channels_is_within_the_asked_error() {
 
 #[test]
 fn a_scene_without_an_accuracy_needs_no_plan() {
-    let mut knobs = lit("{ error: 0.2, confidence: 0.9 }", "").knobs();
-    knobs.sampling.path_bits = 5;
+    let mut parameters = lit("{ error: 0.2, confidence: 0.9 }", "").parameters();
+    parameters.sampling.path_bits = 5;
     let scene = lit("{ error: 0.2, confidence: 0.9 }", "")
-        .with_knobs(knobs)
+        .with_parameters(parameters)
         .unwrap();
     assert!(plan(&scene, &Options::default()).unwrap().is_none());
 }

@@ -146,7 +146,7 @@ fn one_run_takes_a_third_of_the_queries() {
     let [three, one] = [Colour::ThreeRuns, Colour::OneRun]
         .map(|colour| picture(&scene, Model::Real, Estimator::Paper, colour, 0));
     assert_eq!(three.total_queries(), 3 * one.total_queries());
-    let toffoli = |oracle: Oracle| oracle::spent(&[oracle]).toffoli;
+    let toffoli = |oracle: Oracle| oracle::call_cost(&[oracle]).toffoli;
     let options = oracle::Options::default();
     let red = toffoli(Oracle::new(&scene, 0, options).unwrap());
     let all = toffoli(Oracle::luminance(&scene, options).unwrap());

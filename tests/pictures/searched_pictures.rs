@@ -1,4 +1,4 @@
-//! Pictures whose first hits are searched for: the same picture where the search does not fail, a
+//! Pictures whose primary hits are searched for: the same picture where the search does not fail, a
 //! wrong one where it does, and a refusal where there is nothing to search with.
 
 use crate::common::scene::{from_file, written};

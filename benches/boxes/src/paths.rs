@@ -139,7 +139,7 @@ impl Arith for Path<'_> {
     fn not(&mut self, a: bool) -> bool {
         !a
     }
-    fn possible(&mut self, a: bool) -> bool {
+    fn any(&mut self, a: bool) -> bool {
         a
     }
     fn select(&mut self, c: bool, a: f64, b: f64) -> f64 {

@@ -1,4 +1,4 @@
-//! The figure `counting`: what the counting register reads, draws from it, and what they tell.
+//! The figure `counting`: what the phase register reads, draws from it, and what they tell.
 //!
 //! The same as `qrt count` with `--total 4096`, number by number.
 

@@ -4,7 +4,7 @@
 //! to WebAssembly: nothing is computed a second time in a script. [`boundary`] is what scripts call;
 //! `book/interactive/figures.js` draws.
 //!
-//! * [`counting`]: the counting register's distribution, draws from it, and the posterior;
+//! * [`counting`]: the phase register's distribution, draws from it, and the posterior;
 //! * [`map`]: a lattice in the unit square and on the sphere, and its Jacobian;
 //! * [`circuit`]: the oracle of a tiny scene, operation by operation;
 //! * [`picture`]: a picture that sharpens as queries are spent.

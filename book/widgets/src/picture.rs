@@ -211,7 +211,7 @@ struct Paths(u64);
 
 impl AmplitudeEstimator for Paths {
     fn estimate(&self, device: &mut Device<'_>) -> Result<Estimate, EstimatorError> {
-        let start = device.spent();
+        let start = device.usage();
         let amplitude = device.paths(self.0) as f64 / self.0 as f64;
         Ok(device.estimate(start, amplitude, (0.0, 1.0), 1.0))
     }

@@ -17,7 +17,7 @@ fn third(window: Window) -> PhaseDistribution {
 
 /// The distribution around theta.
 pub(super) fn distribution() -> Figure {
-    let title = "What a counting register of T = 1024 reads at θ = 1/3";
+    let title = "What a phase register of T = 1024 reads at θ = 1/3";
     let mut canvas = Canvas::new(title, 580.0, 360.0);
     let panel = Panel {
         edges: [76.0, 40.0, 560.0, 290.0],

@@ -103,17 +103,19 @@ pub(super) fn plane() -> Figure {
     Figure::drawn(canvas, says)
 }
 
-/// The counting register's distribution; with the Z that makes O_0's sign right under a control, or
+/// The phase register's distribution; with the Z that makes O_0's sign right under a control, or
 /// without.
 fn counted(counting: &Counting<'_>, right: bool) -> Result<Vec<f64>, StateVectorError> {
     let mut machine = Dense::new(counting.qubits())?;
     counting.part(Part::Counting, &mut |gate| match gate {
-        QuantumGate::Phase { on: [qubit], .. } if !right && counting.counter().contains(qubit) => {
+        QuantumGate::Phase { on: [qubit], .. }
+            if !right && counting.phase_register().contains(qubit) =>
+        {
             Ok(())
         }
         _ => machine.gate(gate),
     })?;
-    Ok(fold(&machine.distribution(counting.counter())?))
+    Ok(fold(&machine.distribution(counting.phase_register())?))
 }
 
 /// What the sign of O_0 does.
@@ -133,8 +135,11 @@ pub(super) fn sign() -> Figure {
     let mut canvas = Canvas::new(title, 580.0, 480.0);
     let mut likeliest = Vec::new();
     let both = [
-        (true, "O₀ flips all but |0…0⟩: the counter reads S"),
-        (false, "O₀ flips |0…0⟩ alone: the counter reads N − S"),
+        (true, "O₀ flips all but |0…0⟩: the phase register reads S"),
+        (
+            false,
+            "O₀ flips |0…0⟩ alone: the phase register reads N − S",
+        ),
     ];
     for (k, (right, name)) in both.into_iter().enumerate() {
         let found = counted(&counting, right).expect("a state");
@@ -172,7 +177,7 @@ pub(super) fn sign() -> Figure {
     }
     let [right, wrong] = [likeliest[0], likeliest[1]];
     let says = format!(
-        "Probability of a counting register's outcomes by a state vector of 11 qubits, gate by \
+        "Probability of a phase register's outcomes by a state vector of 11 qubits, gate by \
          gate. With O_0 right the likeliest outcome is y = {} ({:.3}), which says {:.1} of 64 ids; \
          S is 13. With the other sign it is y = {} ({:.3}), which says {:.1}; N - S is 51.",
         right.0, right.1, right.2, wrong.0, wrong.1, wrong.2

@@ -177,7 +177,7 @@ impl<'a, W: Write> Writer<'a, W> {
         Ok(())
     }
 
-    /// Measures the counting register, bit 0 first.
+    /// Measures the phase register, bit 0 first.
     pub(super) fn measure(&mut self, bits: usize) -> io::Result<()> {
         for bit in 0..bits {
             let [qubit, bit] = ["counter", "outcome"].map(|name| format!("{name}[{bit}]"));

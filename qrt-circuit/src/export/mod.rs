@@ -127,12 +127,12 @@ impl<'a> Export<'a> {
                 vec![("path", path.to_vec()), ("comparator", comparator.to_vec())]
             }
         };
-        // Beyond the iterate's qubits are the counting register's, and the window's bond.
+        // Beyond the iterate's qubits are the phase register's, and the window's bond.
         let iterate = counting.iterate().qubits().min(counting.qubits_of(part));
         let work = (0..iterate).filter(|qubit| !id.contains(qubit)).collect();
         registers.push(("work", work));
         if part == Part::Counting {
-            let counter = counting.counter();
+            let counter = counting.phase_register();
             registers.push(("counter", counter.to_vec()));
             let bond = counter.last().map_or(iterate, |last| last + 1);
             registers.push(("bond", (bond..counting.qubits()).collect()));
@@ -209,7 +209,7 @@ impl<'a> Export<'a> {
             Ok::<(), ExportError>(())
         })?;
         if self.part == Part::Counting {
-            out.measure(self.counting.counter().len())?;
+            out.measure(self.counting.phase_register().len())?;
         }
         Ok(out.end()?)
     }

@@ -103,7 +103,7 @@ fn the_last_line_is_grammatical() {
 #[test]
 fn a_programs_registers_keep_their_names() {
     use crate::{Declaration, Machine, Recorder, Style, Type, Word};
-    let mut m = Recorder::new(Style::Lean);
+    let mut m = Recorder::new(Style::InPlace);
     let of = |name| Declaration::work(name, Type::UInt, 2);
     let a = m.input(&of("ray1.x"));
     let b = m.input(&of("x"));
@@ -134,7 +134,7 @@ fn a_parameter_without_a_word_is_refused() {
         &[],
         vec![crate::Block::default()],
         vec![parameter],
-        Style::Lean,
+        Style::InPlace,
     );
     m.load(&Declaration::work("t", Type::UInt, 2), 0);
     let program = m.finish();

@@ -200,7 +200,7 @@ impl Lowering {
                     (Wire::qubit(addend), Step::Replaced { carry, addend })
                 }
                 (None, None) => {
-                    let at = self.pool.take();
+                    let at = self.pool.allocate();
                     let start = self.gates.len();
                     self.majority(Wire::qubit(t), addend, carry, at);
                     let gates = [start, self.gates.len()];
@@ -226,7 +226,7 @@ impl Lowering {
                 }
                 Step::Borrowed { at, gates } => {
                     self.undo(gates[0], gates[1]);
-                    self.pool.give(at);
+                    self.pool.free(at);
                 }
             }
             self.sum_when(a[place], carries[place], when, t);
@@ -265,7 +265,11 @@ impl Lowering {
         for place in 0..top {
             let (x, y) = (a[place].xor(true), b[place]);
             carry = Wire::majority(x, y, carry).unwrap_or_else(|| {
-                let at = if keep { self.draw() } else { self.pool.take() };
+                let at = if keep {
+                    self.garbage_bit()
+                } else {
+                    self.pool.allocate()
+                };
                 let start = self.gates.len();
                 self.majority(x, y, carry, at);
                 ladder.push((at, start, self.gates.len()));
@@ -276,7 +280,7 @@ impl Lowering {
         if !keep {
             for (at, start, end) in ladder.into_iter().rev() {
                 self.undo(start, end);
-                self.pool.give(at);
+                self.pool.free(at);
             }
         }
     }

@@ -15,7 +15,7 @@ pub struct Cost {
     pub and_measured: u64,
     /// CNOTs.
     pub cnot: u64,
-    /// Xs, those that a pixel's classical words may ask for included.
+    /// Xs, those that a pixel's classical parameters may ask for included.
     pub x: u64,
 }
 
@@ -53,7 +53,7 @@ pub fn costs(op: &Op, width: impl Fn(RegisterId) -> u32) -> [Cost; 2] {
     }
     lowering.lower(&op);
     clean.resize(lowering.pool.made() as usize, Clean::Borrowed);
-    for qubit in &lowering.drawn {
+    for qubit in &lowering.garbage {
         clean[*qubit as usize] = Clean::Kept;
     }
     let mut carried = lowering.carried.iter().peekable();

@@ -21,7 +21,7 @@ impl Lowering {
         quotient: &[Qubit],
         fits: Qubit,
     ) {
-        let keep = style == Style::Wide;
+        let keep = style == Style::OutOfPlace;
         let n = quotient.len();
         let bits = b.bits() as usize;
         let number = self.word(a, (a.bits() as usize).max(n));
@@ -37,17 +37,17 @@ impl Lowering {
             .iter_mut()
             .filter(|wire| keep && wire.source().is_some())
         {
-            let t = self.draw();
+            let t = self.garbage_bit();
             self.and(Wire::qubit(fits), *wire, t);
             *wire = Wire::qubit(t);
         }
         let cut = if number.len() > n { 0 } else { bits };
         match style {
-            Style::Wide => {
+            Style::OutOfPlace => {
                 let mut low = number[..n].to_vec();
                 for wire in low.iter_mut().skip(cut) {
                     if wire.source().is_some() {
-                        let t = self.draw();
+                        let t = self.garbage_bit();
                         self.and(Wire::qubit(fits), *wire, t);
                         *wire = Wire::qubit(t);
                     }
@@ -56,8 +56,8 @@ impl Lowering {
                 self.remainders(&low, high, &b, quotient);
                 self.attach(copies);
             }
-            Style::Lean => {
-                let mut all = self.draws(bits);
+            Style::InPlace => {
+                let mut all = self.allocate_garbage(bits);
                 all.extend_from_slice(quotient);
                 for (place, wire) in number[..n].iter().enumerate() {
                     let fits = if place < cut {
@@ -83,7 +83,7 @@ impl Lowering {
             number.append(&mut remainder);
             let row = self.complement(subtract, b);
             let row = extended(&row, subtract, number.len());
-            let mut t = self.draws(b.len());
+            let mut t = self.allocate_garbage(b.len());
             t.push(*q);
             self.add(&number, &row, subtract, &t);
             self.complement(subtract, b);

@@ -10,7 +10,7 @@
 //!
 //! # Ancillas
 //!
-//! Bits that stay behind are drawn from the operation's scratch register in the order in which the
+//! Garbage bits come from the operation's scratch register in the order in which the
 //! lowering asks for them; the same lowering, run on an unlimited supply, says how wide that
 //! register must be. Bits that are returned to zero within the operation are borrowed from those
 //! that nobody owns.
@@ -55,8 +55,8 @@ struct Lowering {
     pool: Pool,
     /// By register: its qubits; empty where it has none.
     registers: Vec<Vec<Qubit>>,
-    /// What of the current operation's scratch register has been drawn.
-    drawn: Vec<Qubit>,
+    /// The bits of the current operation's scratch register that are allocated.
+    garbage: Vec<Qubit>,
     /// Gates that compute a carry in the place of a qubit that holds something, and, each after its
     /// own, those that take it back.
     carried: Vec<usize>,
@@ -106,16 +106,16 @@ impl Lowering {
     }
 
     /// The next bit that stays behind.
-    fn draw(&mut self) -> Qubit {
+    fn garbage_bit(&mut self) -> Qubit {
         let scratch = self.scratch.as_ref();
-        let own = scratch.and_then(|scratch| scratch.get(self.drawn.len()));
+        let own = scratch.and_then(|scratch| scratch.get(self.garbage.len()));
         let qubit = own.copied().unwrap_or_else(|| self.pool.make());
-        self.drawn.push(qubit);
+        self.garbage.push(qubit);
         qubit
     }
 
-    fn draws(&mut self, bits: usize) -> Vec<Qubit> {
-        (0..bits).map(|_| self.draw()).collect()
+    fn allocate_garbage(&mut self, bits: usize) -> Vec<Qubit> {
+        (0..bits).map(|_| self.garbage_bit()).collect()
     }
 
     /// Runs backwards what was emitted from `start` to `end`.
@@ -135,7 +135,7 @@ impl Lowering {
             let wire = wires[place];
             let mut taken = others.iter().chain(&wires[..place]);
             if wire.source().is_some() && taken.any(|other| other.source() == wire.source()) {
-                let copy = self.pool.take();
+                let copy = self.pool.allocate();
                 self.copy(wire, copy);
                 wires[place] = Wire::qubit(copy);
                 copies.push((wire, copy));
@@ -147,13 +147,13 @@ impl Lowering {
     fn attach(&mut self, copies: Vec<(Wire, Qubit)>) {
         for (wire, copy) in copies.into_iter().rev() {
             self.copy(wire, copy);
-            self.pool.give(copy);
+            self.pool.free(copy);
         }
     }
 
     /// Emits an operation. Registers of what it computes have been placed.
     fn lower(&mut self, op: &Op) {
-        self.drawn.clear();
+        self.garbage.clear();
         self.carried.clear();
         match op {
             Op::Copy { a, target } => {
@@ -265,8 +265,8 @@ impl Lowering {
                 let targets: Vec<_> = targets.iter().map(|id| self.register(*id)).collect();
                 let address: Vec<_> = address.iter().map(|bit| self.bit(*bit)).collect();
                 match style {
-                    Style::Wide => self.table(address, columns, *low, &targets),
-                    Style::Lean => self.walk(address, columns, &targets),
+                    Style::OutOfPlace => self.table(address, columns, *low, &targets),
+                    Style::InPlace => self.walk(address, columns, &targets),
                 }
             }
             Op::XorInto { a, when, target } => {

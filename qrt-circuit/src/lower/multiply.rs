@@ -98,9 +98,9 @@ impl Product {
             let bits = (row + 1).min(needed - place);
             let carries = bits - 1;
             match style {
-                Style::Wide if row == 1 && place == 1 && !self.b_signed => 1,
-                Style::Wide => row.min(bits) + carries,
-                Style::Lean => 2 * carries + bits,
+                Style::OutOfPlace if row == 1 && place == 1 && !self.b_signed => 1,
+                Style::OutOfPlace => row.min(bits) + carries,
+                Style::InPlace => 2 * carries + bits,
             }
         });
         let negated = carried(negated, style);
@@ -129,15 +129,15 @@ fn negation(bits: usize) -> usize {
 /// Toffolis of carries that stay, or that a sum in place takes back.
 fn carried(carries: usize, style: Style) -> usize {
     match style {
-        Style::Wide => carries,
-        Style::Lean => 2 * carries,
+        Style::OutOfPlace => carries,
+        Style::InPlace => 2 * carries,
     }
 }
 
 impl Lowering {
     /// A bit for bit `place` of a result.
     pub(super) fn land(&mut self, landing: &Landing, place: usize) -> Qubit {
-        landing.at(place).unwrap_or_else(|| self.draw())
+        landing.at(place).unwrap_or_else(|| self.garbage_bit())
     }
 
     pub(super) fn lands(&mut self, landing: &Landing, from: usize, bits: usize) -> Vec<Qubit> {
@@ -155,7 +155,7 @@ impl Lowering {
     ) -> Vec<Qubit> {
         let last = last.min(bits);
         let mut partial = self.lands(landing, from, last);
-        partial.extend(self.draws(bits - last));
+        partial.extend(self.allocate_garbage(bits - last));
         partial
     }
 
@@ -179,10 +179,10 @@ impl Lowering {
         let b = self.word(Word { shift: 0, ..b }, product.row);
         let copies = self.detach(&mut a, &b);
         let result = match (style, plain) {
-            (Style::Wide, true) => self.plain_rows(&product, &a, &b, &landing),
-            (Style::Wide, false) => self.digit_rows(&product, &a, &b, &landing),
-            (Style::Lean, true) => self.plain_rows_into(&product, &a, &b, &landing),
-            (Style::Lean, false) => self.digit_rows_into(&product, &a, &b, &landing),
+            (Style::OutOfPlace, true) => self.plain_rows(&product, &a, &b, &landing),
+            (Style::OutOfPlace, false) => self.digit_rows(&product, &a, &b, &landing),
+            (Style::InPlace, true) => self.plain_rows_into(&product, &a, &b, &landing),
+            (Style::InPlace, false) => self.digit_rows_into(&product, &a, &b, &landing),
         };
         if (product.a_signed || product.b_signed) && product.needed == product.bits {
             self.extend_sign(&landing, result, product.needed);
@@ -250,7 +250,7 @@ impl Lowering {
             let last = place + 1 == p.rows;
             let turned = last && p.a_signed;
             let bits = (p.row + 1).min(p.needed - place);
-            let row = self.draws(p.row.min(bits));
+            let row = self.allocate_garbage(p.row.min(bits));
             self.row(*bit, b, &row);
             let row_top = above(&row, p.b_signed);
             let mut row = extended(&qubits(&row), row_top, bits);
@@ -264,7 +264,7 @@ impl Lowering {
     }
 
     fn digit_rows(&mut self, p: &Product, a: &[Wire], b: &[Wire], landing: &Landing) -> Wire {
-        let y = self.draws(p.row.min(p.needed));
+        let y = self.allocate_garbage(p.row.min(p.needed));
         self.row(a[0].xor(true), b, &y);
         let y = qubits(&y);
         let above = if p.b_signed {
@@ -272,7 +272,7 @@ impl Lowering {
         } else {
             Wire::ZERO
         };
-        let mut sum = self.draws((p.row + 1).min(p.needed));
+        let mut sum = self.allocate_garbage((p.row + 1).min(p.needed));
         self.negative(&y, above, &sum);
         for place in 1..p.digits().min(p.needed + 1) {
             let (last, sign) = digit(a, p, place);

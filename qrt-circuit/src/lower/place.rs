@@ -6,7 +6,7 @@ use super::Lowering;
 /// Qubits that nobody owns.
 #[derive(Default)]
 pub(super) struct Pool {
-    free: Vec<Qubit>,
+    idle: Vec<Qubit>,
     made: u32,
     /// The most that have been in use since it was last set.
     pub(super) peak: u32,
@@ -14,8 +14,8 @@ pub(super) struct Pool {
 
 impl Pool {
     /// A qubit that is zero.
-    pub(super) fn take(&mut self) -> Qubit {
-        let qubit = self.free.pop().unwrap_or_else(|| self.make());
+    pub(super) fn allocate(&mut self) -> Qubit {
+        let qubit = self.idle.pop().unwrap_or_else(|| self.make());
         self.peak = self.peak.max(self.in_use());
         qubit
     }
@@ -28,8 +28,8 @@ impl Pool {
     }
 
     /// Takes back a qubit, which is zero.
-    pub(super) fn give(&mut self, qubit: Qubit) {
-        self.free.push(qubit);
+    pub(super) fn free(&mut self, qubit: Qubit) {
+        self.idle.push(qubit);
     }
 
     /// Qubits that there are.
@@ -38,7 +38,7 @@ impl Pool {
     }
 
     pub(super) fn in_use(&self) -> u32 {
-        self.made - self.free.len() as u32
+        self.made - self.idle.len() as u32
     }
 }
 
@@ -58,7 +58,7 @@ impl Lowering {
     /// Gives a register qubits.
     pub(super) fn place(&mut self, register: RegisterId, width: u32) {
         if self.registers[register.index()].is_empty() {
-            let qubits = (0..width).map(|_| self.pool.take()).collect();
+            let qubits = (0..width).map(|_| self.pool.allocate()).collect();
             self.registers[register.index()] = qubits;
         }
     }
@@ -66,7 +66,7 @@ impl Lowering {
     fn displace(&mut self, register: RegisterId) {
         let qubits = std::mem::take(&mut self.registers[register.index()]);
         for qubit in qubits.into_iter().rev() {
-            self.pool.give(qubit);
+            self.pool.free(qubit);
         }
     }
 
@@ -106,7 +106,7 @@ pub fn scratch_width(op: &Op, width: impl Fn(RegisterId) -> u32) -> u32 {
     }
     let (op, mut lowering) = alone(op, width);
     lowering.lower(&op);
-    lowering.drawn.len() as u32
+    lowering.garbage.len() as u32
 }
 
 /// An operation with its registers, other than its scratch, placed on qubits of its own.

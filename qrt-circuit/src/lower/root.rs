@@ -15,15 +15,15 @@ impl Lowering {
         let k = a.bits().div_ceil(2) as usize;
         let a = self.word(a, 2 * k);
         match style {
-            Style::Wide => {
+            Style::OutOfPlace => {
                 let mut root = target[..k.min(target.len())].to_vec();
-                root.extend(self.draws(k - root.len()));
+                root.extend(self.allocate_garbage(k - root.len()));
                 let mut rest = vec![Wire::ZERO];
                 for step in 0..k {
                     let place = k - 1 - step;
                     let mut number = vec![a[2 * place], a[2 * place + 1]];
                     number.append(&mut rest);
-                    let mut t = self.draws(step + 2);
+                    let mut t = self.allocate_garbage(step + 2);
                     t.push(root[place]);
                     let row = self.turn(&root, step);
                     self.add(&number, &row, Wire::ZERO, &t);
@@ -33,11 +33,11 @@ impl Lowering {
                     rest = qubits(&t);
                 }
             }
-            Style::Lean => {
-                let mut all = self.draws(k + 1);
+            Style::InPlace => {
+                let mut all = self.allocate_garbage(k + 1);
                 all.extend_from_slice(&target[..k.min(target.len())]);
                 let missing = 2 * k + 1 - all.len();
-                all.extend(self.draws(missing));
+                all.extend(self.allocate_garbage(missing));
                 for (wire, t) in a.iter().zip(&all) {
                     self.copy(*wire, *t);
                 }

@@ -124,8 +124,8 @@ impl Lowering {
         }
         let own = self.word(Word { shift: 0, ..a }, a.width as usize);
         let product = match style {
-            Style::Wide => self.scale_rows(a, &own, &rows, needed, &landing),
-            Style::Lean => self.scale_rows_into(a, &own, &rows, needed, &landing),
+            Style::OutOfPlace => self.scale_rows(a, &own, &rows, needed, &landing),
+            Style::InPlace => self.scale_rows_into(a, &own, &rows, needed, &landing),
         };
         if signed && needed == bits {
             self.extend_sign(&landing, product, needed);

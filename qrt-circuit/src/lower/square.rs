@@ -38,8 +38,8 @@ impl Lowering {
             return;
         }
         match style {
-            Style::Wide => self.square_rows(&own, needed, &landing),
-            Style::Lean => self.square_rows_into(&own, needed, &landing),
+            Style::OutOfPlace => self.square_rows(&own, needed, &landing),
+            Style::InPlace => self.square_rows_into(&own, needed, &landing),
         }
     }
 
@@ -50,7 +50,7 @@ impl Lowering {
             let (known, turn) = row(a, place);
             let mut rest: Vec<Wire> = sum[place - 1..].iter().copied().take(place - 1).collect();
             rest.extend([Wire::ONE, Wire::ZERO]);
-            let t = self.draws(bits);
+            let t = self.allocate_garbage(bits);
             let turned = self.complement(turn, &known);
             self.add(&rest[..bits], &turned[..bits], turn, &t);
             self.complement(turn, &known);

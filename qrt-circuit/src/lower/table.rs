@@ -315,7 +315,7 @@ impl Lowering {
         }
         let mut wires: Vec<Wire> = Vec::with_capacity(plan.nodes.len());
         for (node, at) in plan.nodes.iter().zip(&at) {
-            let (t, inverted) = at.unwrap_or_else(|| (self.draw(), false));
+            let (t, inverted) = at.unwrap_or_else(|| (self.garbage_bit(), false));
             match node {
                 Node::Leaf(ones) => {
                     let count: u32 = ones.iter().map(|word| word.count_ones()).sum();
@@ -353,7 +353,7 @@ impl Lowering {
         if plan.groups == 1 {
             return Vec::new();
         }
-        let hot = self.draws(plan.groups);
+        let hot = self.allocate_garbage(plan.groups);
         self.x(hot[0]);
         for (place, new) in news(plan.groups).enumerate() {
             let bit = address[place];

@@ -103,7 +103,7 @@ impl Lowering {
         };
         let at = match held {
             None => source,
-            Some(_) => self.pool.take(),
+            Some(_) => self.pool.allocate(),
         };
         // In `at`: the path is in the upper half.
         self.flip(bit, source);
@@ -121,7 +121,7 @@ impl Lowering {
             Some(held) => {
                 self.cx(held, at);
                 self.ccx(held, source, at);
-                self.pool.give(at);
+                self.pool.free(at);
             }
             None => self.x(at),
         }

@@ -21,8 +21,8 @@ pub enum Part {
 
 /// The counting circuit of an oracle: phase estimation of its Grover iterate.
 ///
-/// Its qubits are the iterate's, then the counting register's, then the sine window's bond. All are
-/// zero before; after it all but the ids and the counting register are zero again.
+/// Its qubits are the iterate's, then the phase register's, then the sine window's bond. All are
+/// zero before; after it all but the ids and the phase register are zero again.
 #[derive(Clone, Debug)]
 pub struct Counting<'a> {
     iterate: GroverIterate<'a>,
@@ -70,8 +70,8 @@ impl<'a> Counting<'a> {
         &self.iterate
     }
 
-    /// The counting register, bit 0 first.
-    pub fn counter(&self) -> &[Qubit] {
+    /// The phase register, bit 0 first.
+    pub fn phase_register(&self) -> &[Qubit] {
         &self.counter
     }
 
@@ -81,7 +81,7 @@ impl<'a> Counting<'a> {
         self.iterate.qubits() + self.counter.len() as u32 + bond
     }
 
-    /// The qubits that are zero after each iterate and at the end, ids and counting register apart.
+    /// The qubits that are zero after each iterate and at the end, ids and phase register apart.
     pub fn ancillas(&self) -> Vec<Qubit> {
         let ids = self.iterate.oracle().superposed();
         let all = 0..self.qubits();
@@ -157,7 +157,7 @@ impl<'a> Counting<'a> {
         ids.iter().try_for_each(|id| sink(H(*id)))
     }
 
-    /// One G under the control of bit `bit` of the counting register, which asks for `2^bit` of
+    /// One G under the control of bit `bit` of the phase register, which asks for `2^bit` of
     /// them.
     ///
     /// # Errors
@@ -173,7 +173,7 @@ impl<'a> Counting<'a> {
         self.iterate.apply(Some(self.counter[bit as usize]), sink)
     }
 
-    /// The inverse Fourier transform of the counting register.
+    /// The inverse Fourier transform of the phase register.
     ///
     /// # Errors
     /// The sink's.

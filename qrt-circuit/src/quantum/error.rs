@@ -17,7 +17,7 @@ pub enum QuantumError {
         /// The most.
         most: u32,
     },
-    /// A gate reads a bit that the pixel's classical words do not have.
+    /// A gate reads a bit that the pixel's classical parameters do not have.
     MissingWord {
         /// The word.
         parameter: u32,
@@ -30,7 +30,7 @@ pub enum QuantumError {
     SignOutsideFlip(Qubit),
     /// The oracle has no such channel.
     NoChannel(usize),
-    /// The counting register has no size in `1..=40` bits.
+    /// The phase register has no size in `1..=40` bits.
     PhaseBitsOutOfRange(u32),
 }
 
@@ -43,7 +43,7 @@ impl fmt::Display for QuantumError {
             }
             Self::MissingWord { parameter, bit } => write!(
                 f,
-                "bit {bit} of classical word {parameter} is loaded, and the pixel has no such bit"
+                "bit {bit} of classical parameter {parameter} is loaded, and the pixel has no such bit"
             ),
             Self::InvalidQubit(qubit) => write!(
                 f,
@@ -56,7 +56,7 @@ impl fmt::Display for QuantumError {
             Self::NoChannel(channel) => write!(f, "the oracle has no channel {channel}"),
             Self::PhaseBitsOutOfRange(bits) => write!(
                 f,
-                "a counting register of {bits} bits; it has 1 to {MAX_PHASE_BITS}"
+                "a phase register of {bits} bits; it has 1 to {MAX_PHASE_BITS}"
             ),
         }
     }

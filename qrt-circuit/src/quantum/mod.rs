@@ -5,7 +5,7 @@
 //!
 //! * [`PhaseOracle`]: O_f of one pixel and channel, as gates;
 //! * [`GroverIterate`]: `G = H O_0 H O_f`, alone or under a control;
-//! * [`Counting`]: Hadamards on the ids, the counting register's window, controlled powers of G and
+//! * [`Counting`]: Hadamards on the ids, the phase register's window, controlled powers of G and
 //!   the inverse Fourier transform.
 //!
 //! Circuits are handed over gate by gate and never held: the controlled powers of G repeat the
@@ -53,5 +53,5 @@ pub use grover::GroverIterate;
 pub use oracle::{Flip, PhaseOracle};
 pub use window::Window;
 
-/// The largest counting register.
+/// The largest phase register.
 pub const MAX_PHASE_BITS: u32 = 40;

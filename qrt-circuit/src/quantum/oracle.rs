@@ -22,7 +22,7 @@ pub enum Flip {
 /// An oracle that turns the signs of good ids: compute, flip, uncompute.
 ///
 /// Its qubits are `0..qubits`. Those in superposition hold the id (path and comparator); all others
-/// are zero before and after. The circuit of a pixel has its classical words built in.
+/// are zero before and after. The circuit of a pixel has its classical parameters built in.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PhaseOracle {
     /// X, CNOT and Toffoli.
@@ -249,7 +249,7 @@ fn table(bits: u32, good: impl Fn(u64) -> bool) -> Program {
         address: (0..bits).map(|index| bit(id, index)).collect(),
         columns: vec![entries].into(),
         low: 0,
-        style: Style::Lean,
+        style: Style::InPlace,
         targets: Box::new([flag]),
         scratch,
     };

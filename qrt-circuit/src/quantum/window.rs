@@ -1,4 +1,4 @@
-//! Preparing the counting register in a window.
+//! Preparing the phase register in a window.
 //!
 //! *Rectangular*: Hadamards.
 //!

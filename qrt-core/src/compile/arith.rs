@@ -45,7 +45,7 @@ impl Arith for Builder<'_> {
     fn known(&mut self, a: Real, low: f64, high: f64) -> Real {
         self.bounded(a, low, high)
     }
-    fn nowhere(&mut self, most: f64) -> Real {
+    fn t_max(&mut self, most: f64) -> Real {
         Real::constant(self.farthest(most))
     }
     fn inside(&mut self, low: f64, value: Real, high: f64) -> Bool {
@@ -120,7 +120,7 @@ impl Arith for Builder<'_> {
     fn not(&mut self, a: Bool) -> Bool {
         a.negated()
     }
-    fn possible(&mut self, a: Bool) -> bool {
+    fn any(&mut self, a: Bool) -> bool {
         a != Bool::Constant(false)
     }
     fn select(&mut self, c: Bool, a: Real, b: Real) -> Real {

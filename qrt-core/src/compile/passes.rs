@@ -98,7 +98,7 @@ pub(super) fn merge_tables(draft: &mut Draft, known_of: &mut Known) {
         if let Op::Table { address, style, .. } = op {
             // Without scratch a table is there for its block alone: what another one needs of it
             // would have to be kept in between.
-            let block = (*style == Style::Lean).then_some(*block);
+            let block = (*style == Style::InPlace).then_some(*block);
             let key = (address.to_vec(), block);
             groups.entry(key).or_default().push(place);
         }
@@ -135,7 +135,7 @@ pub(super) fn merge_tables(draft: &mut Draft, known_of: &mut Known) {
         let mut columns = Vec::new();
         let mut targets = Vec::new();
         let mut leavings = None;
-        let mut how = Style::Wide;
+        let mut how = Style::OutOfPlace;
         for &place in &places {
             if let Op::Table {
                 columns: c,
@@ -159,11 +159,11 @@ pub(super) fn merge_tables(draft: &mut Draft, known_of: &mut Known) {
         let targets: Box<[RegisterId]> = targets.into();
         let op = Op::Table {
             low: match how {
-                Style::Wide => *known_of
+                Style::OutOfPlace => *known_of
                     .lows
                     .entry(targets.clone())
                     .or_insert_with(|| lower::best_low(address.len() as u32, &columns)),
-                Style::Lean => 0,
+                Style::InPlace => 0,
             },
             style: how,
             address: address.into(),

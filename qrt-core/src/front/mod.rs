@@ -163,3 +163,39 @@ fn read_file(files: Files<'_>, path: &std::path::Path) -> Result<Source, Report>
     })?;
     Ok(Source::new(name, text))
 }
+
+impl Scene {
+    /// The scene of a YAML text called `name`, read but not checked.
+    ///
+    /// ```
+    /// let scene = qrt_core::scene::Scene::from_yaml(
+    ///     "
+    /// name: dark
+    /// camera: { perspective: { eye: [0, 0, 5], target: [0, 0, 0], vfov: 40 } }
+    /// film: { width: 8, height: 8 }
+    /// materials: {}
+    /// geometry: []
+    /// ",
+    ///     "dark.yaml",
+    /// )?;
+    /// assert_eq!(scene.sampling.path_bits, 12);
+    /// assert_eq!(qrt_core::scene::Scene::from_yaml(&scene.to_yaml(), "printed.yaml")?, scene);
+    /// # Ok::<(), qrt_core::syntax::Report>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Everything that keeps it from being read, with places.
+    pub fn from_yaml(text: &str, name: &str) -> Result<Self, Report> {
+        let source = Source::new(name, text);
+        let mut problems = Problems::default();
+        let tree = yaml::read(&source, 0..source.text.len(), 0, &mut problems);
+        let scene = tree
+            .as_ref()
+            .map(|tree| Scene::decode(tree, &Place::ROOT, &mut problems));
+        let problems = problems.all();
+        match scene {
+            Some(scene) if problems.is_empty() => Ok(scene),
+            _ => Err(Report::new(vec![source], tree.as_ref(), problems)),
+        }
+    }
+}

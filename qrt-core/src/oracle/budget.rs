@@ -10,7 +10,7 @@ use std::collections::HashMap;
 
 /// What one call of an oracle takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Spent {
+pub struct CallCost {
     /// Qubits: the most in use at any time.
     pub qubits: u64,
     /// Toffoli gates.
@@ -18,7 +18,7 @@ pub struct Spent {
 }
 
 /// What a call of the dearest of these oracles takes, all of them of one channel.
-pub fn spent(channels: &[Oracle]) -> Spent {
+pub fn call_cost(channels: &[Oracle]) -> CallCost {
     // Oracles of one scene share most of their operations.
     let mut known: HashMap<RegisterId, (Op, u64)> = HashMap::new();
     let mut dearest = None;
@@ -49,7 +49,7 @@ pub fn spent(channels: &[Oracle]) -> Spent {
         upto.inputs.clone_from(&oracle.program.inputs);
         lower::most_qubits(&upto)
     };
-    Spent {
+    CallCost {
         qubits: dearest.map_or(0, |(_, oracle)| u64::from(qubits(oracle))),
         toffoli: dearest.map_or(0, |(toffoli, _)| toffoli),
     }
@@ -60,7 +60,7 @@ pub fn spent(channels: &[Oracle]) -> Spent {
 ///
 /// # Errors
 /// At least one limit is exceeded.
-pub fn check_budget(scene: &ValidScene, spent: Spent) -> Result<(), Vec<Problem>> {
+pub fn check_budget(scene: &ValidScene, spent: CallCost) -> Result<(), Vec<Problem>> {
     let written = scene.scene();
     let Some(budget) = written.budget else {
         return Ok(());
@@ -130,7 +130,7 @@ geometry: [quad: {{ vertices: [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], mate
         parse(&text, "furnace.yaml", &[], "".as_ref()).unwrap()
     }
 
-    const SPENT: Spent = Spent {
+    const SPENT: CallCost = CallCost {
         qubits: 1000,
         toffoli: 12_345,
     };

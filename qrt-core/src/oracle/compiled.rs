@@ -122,7 +122,7 @@ impl Outline {
         blocks: &[],
         order: &[],
         parameters: &[],
-        style: Style::Wide,
+        style: Style::OutOfPlace,
         channels: &[],
         id: RegisterId(0),
         comparator: RegisterId(0),

@@ -5,7 +5,7 @@ use super::{Options, OracleError, register_of};
 use crate::compile::{self, Builder, Label, PixelWord, Role, StageName};
 use crate::sampling::PathPoints;
 use crate::scene::Uncompute;
-use crate::tracer::{Arith, Listing, Named, Part, Stage};
+use crate::tracer::{Arith, FaceTable, Named, Part, Stage};
 use crate::valid::ValidScene;
 use qrt_circuit::lower::{self, Cost};
 use qrt_circuit::{Bit, BlockId, Instruction, Op, Operand, Program, RegisterId, Word};
@@ -33,7 +33,7 @@ pub const MOST_FACES: usize = (1 << 16) - 1;
 ///
 /// Grover's iterate over `primitive` finds a marked one (Lanzagorta & Uhlmann, *Quantum rendering*,
 /// 2005); searched again with what was found as `best`, the minimum (Durr & Hoyer 1996). The ray,
-/// the plane and the edges are those of the tracer (see [`crate::tracer::Listing`]), in fixed
+/// the plane and the edges are those of the tracer (see [`crate::tracer::FaceTable`]), in fixed
 /// point. A face's data are rounded to the scene's fraction bits, where a circuit with a constant
 /// for each face can round products with it as a whole: the two may differ in a distance's last
 /// bits, and so at faces' edges.
@@ -48,7 +48,7 @@ pub struct NearestOracle {
     pub parameters: Vec<PixelWord>,
     /// The path's id.
     pub id: RegisterId,
-    /// The face's number: its place in [`Listing::labels`], which is the order in which a running
+    /// The face's number: its place in [`FaceTable::labels`], which is the order in which a running
     /// nearest asks about them.
     pub primitive: RegisterId,
     /// The distance of the nearest so far, in ulps.
@@ -61,7 +61,7 @@ pub struct NearestOracle {
     /// Is the face nearer than the nearest so far? None if no ray can meet any.
     pub nearer: Option<Bit>,
     /// What [`NearestOracle::best_distance`] holds where there is none; the number then is 0.
-    pub nowhere: u64,
+    pub t_max: u64,
     /// By face, its label in the scene; and then that of none.
     pub labels: Vec<u32>,
     /// Fraction bits of every number.
@@ -77,11 +77,11 @@ impl NearestOracle {
     /// A scene whose numbers no register can hold, or with more than [`MOST_FACES`] faces.
     pub fn new(scene: &ValidScene) -> Result<Option<Self>, OracleError> {
         let stage = Stage::<1>::new(scene, [0]);
-        let list = Listing::new(&stage);
+        let list = FaceTable::new(&stage);
         if list.is_empty() {
             return Ok(None);
         }
-        listable(&list)?;
+        fits_table(&list)?;
         let points = PathPoints::new(&scene.scene().sampling)?;
         let options = Options::default();
         let target = target(scene, &stage, &points, options);
@@ -91,8 +91,8 @@ impl NearestOracle {
         let width = index_bits(list.len());
         let (primitive, face) = cx.given_index("primitive", Role::Id, width);
         let reach = stage.camera.reach;
-        let nowhere = cx.nowhere(reach);
-        let most = cx.operand_of(nowhere).1[1];
+        let t_max = cx.t_max(reach);
+        let most = cx.operand_of(t_max).1[1];
         let units = (1_u64 << fraction) as f64;
         let (best_distance, least) =
             cx.given_number("best.distance", Role::Comparator, most as f64 / units);
@@ -144,7 +144,7 @@ impl NearestOracle {
             best_primitive,
             distance: distance.of(rename),
             nearer: nearer.map(|bit| bit.of(rename)),
-            nowhere: most.cast_unsigned(),
+            t_max: most.cast_unsigned(),
             labels: list.labels().to_vec(),
             fraction,
             points,
@@ -234,7 +234,7 @@ fn index_bits(faces: usize) -> u32 {
 }
 
 /// Refuses what no table holds.
-pub(super) fn listable(list: &Listing) -> Result<(), OracleError> {
+pub(super) fn fits_table(list: &FaceTable) -> Result<(), OracleError> {
     if list.len() > MOST_FACES {
         return Err(OracleError::TooManyFaces { faces: list.len() });
     }

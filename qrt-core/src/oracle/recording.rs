@@ -1,6 +1,6 @@
 //! A scene's program as the builder recorded it, from which the oracles of channels are assembled.
 
-use super::nearest::listable;
+use super::nearest::fits_table;
 use super::{
     Channel, DEFAULT_FRACTION, LUMINANCE, LUMINANCE_CHANNEL, Options, Oracle, OracleError, faces,
     luminance, register_of,
@@ -8,7 +8,7 @@ use super::{
 use crate::compile::{self, Builder, NamedPlace, Real, Recorded, Role, Target};
 use crate::sampling::PathPoints;
 use crate::scene::{Nearest, Uncompute};
-use crate::tracer::{self, Arith, FirstGiven, Listing, Records, Stage, trace};
+use crate::tracer::{self, Arith, FaceTable, PrimaryHitGiven, Records, Stage, trace};
 use crate::valid::ValidScene;
 use qrt_circuit::{Operand, Program, RegisterId, Style, Type, Word};
 
@@ -17,7 +17,7 @@ const CHANNELS: [&str; 4] = ["r", "g", "b", "luminance"];
 
 /// How the first ray's hit comes about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum FirstHit {
+pub(super) enum PrimaryHit {
     /// The tracer finds it.
     Traced,
     /// It is given in a register.
@@ -33,7 +33,11 @@ pub(super) fn target<'a, const C: usize>(
 ) -> Target<'a> {
     let written = scene.scene();
     let scoped = written.circuit.uncompute == Uncompute::Scoped;
-    let own = if scoped { Style::Lean } else { Style::Wide };
+    let own = if scoped {
+        Style::InPlace
+    } else {
+        Style::OutOfPlace
+    };
     Target {
         fraction: written.precision.fraction.unwrap_or(DEFAULT_FRACTION),
         style: options.style.unwrap_or(own),
@@ -44,22 +48,22 @@ pub(super) fn target<'a, const C: usize>(
     }
 }
 
-/// The colours of a path, and the register of its first hit if that is given.
+/// The colours of a path, and the register of its primary hit if that is given.
 fn record<'a, N: tracer::Nearest<Builder<'a>>, const C: usize>(
     builder: &mut Builder<'a>,
     stage: &Stage<C>,
     nearest: &N,
-    first: FirstHit,
+    first: PrimaryHit,
 ) -> Result<([Real; C], Option<RegisterId>), OracleError> {
-    let list = Listing::new(stage);
-    if first == FirstHit::Traced || list.is_empty() {
+    let list = FaceTable::new(stage);
+    if first == PrimaryHit::Traced || list.is_empty() {
         return Ok((trace(builder, stage, nearest), None));
     }
-    listable(&list)?;
+    fits_table(&list)?;
     // One number more than faces: that of none.
     let width = list.len().ilog2() + 1;
     let (register, face) = builder.given_index("nearest", Role::Id, width);
-    let nearest = FirstGiven::new(&list, face, nearest);
+    let nearest = PrimaryHitGiven::new(&list, face, nearest);
     Ok((trace(builder, stage, &nearest), Some(register)))
 }
 
@@ -77,7 +81,7 @@ impl Recording {
         scene: &ValidScene,
         channels: [usize; C],
         options: Options,
-        first: FirstHit,
+        first: PrimaryHit,
     ) -> Result<Self, OracleError> {
         Self::with(scene, channels, options, first, |_, _, _| Vec::new())
     }
@@ -91,7 +95,7 @@ impl Recording {
             scene,
             [0, 1, 2],
             options,
-            FirstHit::Traced,
+            PrimaryHit::Traced,
             |builder, colours, bounds| {
                 let scale = luminance(bounds);
                 let shares = [0, 1, 2].map(|c| {
@@ -118,7 +122,7 @@ impl Recording {
         scene: &ValidScene,
         channels: [usize; C],
         options: Options,
-        first: FirstHit,
+        first: PrimaryHit,
         more: impl FnOnce(&mut Builder<'_>, &[Real; C], &[f64; C]) -> Vec<(usize, Real, f64)>,
     ) -> Result<Self, OracleError> {
         let written = scene.scene();

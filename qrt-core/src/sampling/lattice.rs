@@ -6,7 +6,7 @@
 //! error of order `R^(-1/(2 D))` for discontinuous integrands of D rays.
 
 use super::SamplingError;
-use super::net::MAX_PATH_BITS;
+use crate::scene::MAX_PATH_BITS;
 
 /// The lattice of a path's coordinates.
 ///

@@ -22,8 +22,9 @@ mod net;
 #[cfg(test)]
 mod tests;
 
+pub use crate::scene::MAX_PATH_BITS;
 pub use lattice::ProductLattice;
-pub use net::{DigitalNet, MAX_DIMENSIONS, MAX_PATH_BITS, pixel_shift};
+pub use net::{DigitalNet, MAX_DIMENSIONS, pixel_shift};
 
 use crate::scene::{Sampling, Sequence};
 use linear::LinearMap;

@@ -15,12 +15,10 @@
 
 use super::SamplingError;
 use super::joe_kuo::INITIAL;
+use crate::scene::MAX_PATH_BITS;
 
 /// Most dimensions of a net: two per ray, so paths of up to 64 rays.
 pub const MAX_DIMENSIONS: usize = INITIAL.len() + 1;
-
-/// Most bits of a path id. Path counts up to `2^52` and their sums stay exact in f64.
-pub const MAX_PATH_BITS: u32 = 52;
 
 /// A Sobol' net of `2^path_bits` points.
 ///

@@ -6,16 +6,14 @@
 //! [`crate::valid::ValidScene`] that everything downstream demands.
 
 pub(crate) mod decode;
+pub(crate) mod finalize;
 pub mod meshes;
 mod record;
-pub(crate) mod settle;
 pub(crate) mod shape;
 pub mod text;
 
-use crate::front::yaml;
-use crate::sampling::MAX_PATH_BITS;
 use crate::syntax::tree::{Node, Span, Value};
-use crate::syntax::{Datum, Place, Problems, Report, Source};
+use crate::syntax::{Datum, Place, Problems};
 use glam::DVec3;
 pub use qrt_circuit::quantum::Window;
 use record::{keyword, record, variant};
@@ -24,6 +22,9 @@ use shape::{
     part, point, whole, word,
 };
 use text::{Data, Fingerprint};
+
+/// Most bits of a path index. Path counts up to `2^52` and their sums stay exact in f64.
+pub const MAX_PATH_BITS: u32 = 52;
 
 /// Linear RGB.
 pub type Rgb = [f64; 3];
@@ -37,7 +38,7 @@ const LENGTH: Number = number(0.0, LARGEST).above();
 record! {
     /// A scene of qrt: what is seen, and how its circuit traces and counts it.
     #[derive(Clone, Debug, PartialEq)]
-    pub struct Scene = "the scene", settle = settle::scene;
+    pub struct Scene = "the scene", finalize = finalize::scene;
     /// What the scene is called. A picture's metadata repeat it.
     pub name: String = Text;
     /// Where the scene is seen from. Right-handed: right is forward x up, film rows go from the
@@ -201,7 +202,7 @@ record! {
     /// The map phi(u, v), from the unit square to unit vectors x, y, z with z along the normal.
     pub map: [String; 3] = Array::<_, 3>(Expression);
     /// `auto` (differentiated), or an expression in u, v that is then checked.
-    pub jacobian: Jacobian = settle::JacobianShape, or Jacobian::Auto;
+    pub jacobian: Jacobian = finalize::JacobianShape, or Jacobian::Auto;
     /// The value f, per steradian, in cos_i, cos_o, cos_a, u, v: one expression (grey) or three
     /// (red, green, blue).
     pub value: Vec<String> = Channels;
@@ -267,7 +268,7 @@ record! {
 record! {
     /// The paths of a pixel.
     #[derive(Clone, Debug, PartialEq)]
-    pub struct Sampling = "sampling", settle = settle::path_bits;
+    pub struct Sampling = "sampling", finalize = finalize::path_bits;
     /// How path ids become points.
     pub sequence: Sequence = word::<Sequence>(), or Sequence::DigitalNet;
     /// R = 2^path_bits paths; default 12. Under product-lattice it is the sum of all bits, and
@@ -341,11 +342,11 @@ record! {
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub struct Counting = "counting";
     /// T = 2^phase_bits; default 8. A run of the counting circuit takes T - 1 queries; estimators
-    /// without a counting register may spend as many as B runs.
+    /// without a phase register may spend as many as B runs.
     pub phase_bits: u32 = whole::<u32>(1, 40), or 8;
     /// B, the number of runs; default 1.
     pub repetitions: u32 = whole::<u32>(1, 1_000_000), or 1;
-    /// The window on the counting register of `posterior-mean`; `paper` and `qss` count with the
+    /// The window on the phase register of `posterior-mean`; `paper` and `qss` count with the
     /// rectangular one and `sine` with the sine window, whatever stands here.
     pub window: Window = word::<Window>(), or Window::Sine;
     /// How measurements become an amplitude.
@@ -353,7 +354,7 @@ record! {
 }
 
 impl Estimator {
-    /// The window in which the counting register is prepared: that of `paper`, `qss` and `sine`, which
+    /// The window in which the phase register is prepared: that of `paper`, `qss` and `sine`, which
     /// have one of their own, and `asked`, the scene's `counting.window`, for all others.
     pub fn register_window(self, asked: Window) -> Window {
         match self {
@@ -436,7 +437,7 @@ keyword! {
 }
 
 record! {
-    /// Asked accuracy; qrt chooses the knobs.
+    /// Asked accuracy; qrt chooses the parameters.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Accuracy = "accuracy";
     /// Of a channel of a pixel, relative to the picture's mean radiance over pixels and channels.
@@ -480,7 +481,7 @@ impl Scene {
     pub fn encode(&self) -> Data {
         let mut data = Part::encode(self);
         if self.accuracy.is_some() {
-            // The knobs that an accuracy replaces must not be written beside it.
+            // The parameters that an accuracy replaces must not be written beside it.
             if let Data::Map(entries) = &mut data {
                 entries.retain(|(key, _)| {
                     !["precision", "comparator", "counting"].contains(&key.as_str())
@@ -498,40 +499,6 @@ impl Scene {
     /// The scene as YAML, every default written out. Read back, a valid scene is the same scene.
     pub fn to_yaml(&self) -> String {
         self.encode().to_yaml()
-    }
-
-    /// The scene of a YAML text called `name`, read but not checked.
-    ///
-    /// ```
-    /// let scene = qrt_core::scene::Scene::from_yaml(
-    ///     "
-    /// name: dark
-    /// camera: { perspective: { eye: [0, 0, 5], target: [0, 0, 0], vfov: 40 } }
-    /// film: { width: 8, height: 8 }
-    /// materials: {}
-    /// geometry: []
-    /// ",
-    ///     "dark.yaml",
-    /// )?;
-    /// assert_eq!(scene.sampling.path_bits, 12);
-    /// assert_eq!(qrt_core::scene::Scene::from_yaml(&scene.to_yaml(), "printed.yaml")?, scene);
-    /// # Ok::<(), qrt_core::syntax::Report>(())
-    /// ```
-    ///
-    /// # Errors
-    /// Everything that keeps it from being read, with places.
-    pub fn from_yaml(text: &str, name: &str) -> Result<Self, Report> {
-        let source = Source::new(name, text);
-        let mut problems = Problems::default();
-        let tree = yaml::read(&source, 0..source.text.len(), 0, &mut problems);
-        let scene = tree
-            .as_ref()
-            .map(|tree| Part::decode(tree, &Place::ROOT, &mut problems));
-        let problems = problems.all();
-        match scene {
-            Some(scene) if problems.is_empty() => Ok(scene),
-            _ => Err(Report::new(vec![source], tree.as_ref(), problems)),
-        }
     }
 
     /// FNV-1a, 128 bits, of the scene's canonical text with every default written out: equal for

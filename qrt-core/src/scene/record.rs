@@ -2,12 +2,12 @@
 //! how it is written back and what the JSON Schema says of it.
 
 /// A map of known keys. `field: Type = shape;` must be written; `field: Type = shape, or default;`
-/// may be left out. `settle = f` names a last step after reading, with the node at hand.
+/// may be left out. `finalize = f` names a last step after reading, with the node at hand.
 macro_rules! record {
     (
         $(#[doc = $doc:literal])*
         #[derive($($derive:ident),*)]
-        pub struct $name:ident = $noun:literal $(, settle = $settle:path)? ;
+        pub struct $name:ident = $noun:literal $(, finalize = $finalize:path)? ;
         $(
             $(#[doc = $field_doc:literal])*
             pub $field:ident : $type:ty = $shape:expr $(, or $default:expr)? ;
@@ -42,7 +42,7 @@ macro_rules! record {
                         None => record!(@absent $shape, at, problems $(, $default)?),
                     }
                 } ),* };
-                $( let value = $settle(value, node, at, problems); )?
+                $( let value = $finalize(value, node, at, problems); )?
                 value
             }
 

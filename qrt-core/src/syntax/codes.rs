@@ -196,7 +196,7 @@ codes! {
         "Use fewer depths, or `product-lattice`";
     PRIMARY_MAP = "QRT0505", "a map of directions for the primary ray",
         "Remove it: the primary ray samples the pixel square";
-    ACCURACY_CONFLICT = "QRT0506", "an accuracy beside a knob that it replaces",
+    ACCURACY_CONFLICT = "QRT0506", "an accuracy beside a parameter that it replaces",
         "Keep one of the two";
     BUDGET_QUBITS = "QRT0601", "a circuit with more qubits than the budget allows",
         "Uncompute earlier, or use fewer path bits, depths or fraction bits; or raise the limit";
@@ -207,7 +207,7 @@ codes! {
     NUMBER_TOO_WIDE = "QRT0611", "a number that no register can hold",
         "Use fewer fraction bits, or a smaller scene";
     TOO_MANY_FACES = "QRT0612", "more faces than a table holds",
-        "Use a coarser mesh, or find first hits classically";
+        "Use a coarser mesh, or find primary hits classically";
     MACRO_SCENE = "QRT0701", "what stands in `qrt!` is not a scene",
         "Write `pub scene Name { ... }` or `pub scene Name from \"scene.yaml\"`";
     MACRO_FORMAT = "QRT0702", "a number format that is not `<Fixed<2, F>>`",

@@ -109,7 +109,7 @@ pub struct Problems {
     found: Vec<Problem>,
     /// Values that are replaced, or out of their range.
     marked: Vec<Path>,
-    /// These, and all that holds one of them; both empty until [`Problems::settle`].
+    /// These, and all that holds one of them; both empty until [`Problems::finalize`].
     places: HashSet<Path>,
     above: HashSet<Path>,
 }
@@ -141,7 +141,7 @@ impl Problems {
     }
 
     /// From here on, nothing is said of what is marked.
-    pub(crate) fn settle(&mut self) {
+    pub(crate) fn finalize(&mut self) {
         for path in std::mem::take(&mut self.marked) {
             let path = path.values();
             for length in 0..path.0.len() {

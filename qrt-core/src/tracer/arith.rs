@@ -75,7 +75,7 @@ pub struct Named {
 /// A value stands for one number *per path*: a lane of `f64`, or a register in superposition.
 /// Plain Rust values (`f64`, `u32`, slices) are constants that every path shares, which a circuit
 /// folds. Implementations must not depend on the values of paths for control flow, except through
-/// [`Arith::possible`].
+/// [`Arith::any`].
 pub trait Arith: Sized {
     /// A real number.
     type Real: Copy;
@@ -132,7 +132,7 @@ pub trait Arith: Sized {
     }
     /// A distance beyond everything: that of no hit.
     #[inline(always)]
-    fn nowhere(&mut self, _most: f64) -> Self::Real {
+    fn t_max(&mut self, _most: f64) -> Self::Real {
         self.real(f64::MAX)
     }
     /// `low <= value <= high`, with bounds that may be infinite; a machine whose numbers are coarse
@@ -200,7 +200,7 @@ pub trait Arith: Sized {
     fn not(&mut self, a: Self::Bool) -> Self::Bool;
     /// May `a` hold for some path? A machine that knows the values may answer "no" and so spare
     /// work that could change nothing; a circuit always answers "yes".
-    fn possible(&mut self, a: Self::Bool) -> bool;
+    fn any(&mut self, a: Self::Bool) -> bool;
     /// `if c { a } else { b }`
     fn select(&mut self, c: Self::Bool, a: Self::Real, b: Self::Real) -> Self::Real;
 

@@ -17,7 +17,7 @@ pub fn weighted<A: Arith>(cx: &mut A, form: [A::Real; 2], at: [A::Real; 2]) -> A
 }
 
 /// A ray as the planes of one main axis see it: its parts along that axis and across.
-pub struct Turned<A: Arith> {
+pub struct AxisPermuted<A: Arith> {
     /// Along the axis.
     pub origin: A::Real,
     /// Along the axis.
@@ -30,7 +30,7 @@ pub struct Turned<A: Arith> {
     pub reach: f64,
 }
 
-impl<A: Arith> Turned<A> {
+impl<A: Arith> AxisPermuted<A> {
     #[inline(always)]
     pub(super) fn new<const AXIS: usize>(ray: &Ray<A>) -> Self {
         let across = |v: &Vector<A>| [v[(AXIS + 1) % 3], v[(AXIS + 2) % 3]];
@@ -83,7 +83,7 @@ pub fn cross<A: Arith>(
     cx: &mut A,
     form: [A::Real; 2],
     offset: A::Real,
-    ray: &Turned<A>,
+    ray: &AxisPermuted<A>,
 ) -> Crossing<A> {
     let slope = weighted(cx, form, ray.direction_across);
     let slope = math!(cx, ray.direction + slope);

@@ -44,7 +44,7 @@ pub fn trace<A: Arith, N: Nearest<A>, const C: usize>(
         cx.named_truth(named("found"), alive);
         cx.named(named("distance"), &[hit.distance]);
         cx.named_index(named("face"), hit.face);
-        if !cx.possible(alive) {
+        if !cx.any(alive) {
             break;
         }
         let surface = cx.entry(&stage.surface_of, hit.face);
@@ -79,7 +79,7 @@ pub fn trace<A: Arith, N: Nearest<A>, const C: usize>(
         if stage.black > 0 {
             alive = math!(cx, alive && !cx.below(surface, stage.black));
         }
-        if !cx.possible(alive) {
+        if !cx.any(alive) {
             break;
         }
         vertex.alive = alive;

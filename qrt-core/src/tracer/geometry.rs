@@ -4,7 +4,7 @@
 //! by a power of two so that its largest half extent lies in `(1/2, 1]`. A scene a million units
 //! across or at a billion from the origin is traced with the same precision as one at home.
 
-use super::polygon::{frame, plane_of, slabs, stage_units};
+use super::polygon::{edge_tests, frame, plane_of, stage_units};
 use crate::valid::Polygon;
 use glam::DVec3;
 use std::collections::HashMap;
@@ -34,7 +34,7 @@ const ON_PLANE: f64 = 1.0 / (1_u64 << 46) as f64;
 /// `low <= a p[axis + 1] + b p[axis + 2] <= high`, for a point of a plane with main axis `axis`
 /// (axes are counted cyclically). The greater of `|a|`, `|b|` is 1; a bound may be infinite.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Slab {
+pub struct EdgeTest {
     /// `a` and `b`.
     pub form: [f64; 2],
     /// The least value inside.
@@ -58,7 +58,7 @@ pub struct Plane {
     pub faces: Range<usize>,
 }
 
-/// A convex polygon on a plane: the intersection of slabs.
+/// A convex polygon on a plane: the intersection of edge_tests.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Face {
     /// Its number in the order of the scene.
@@ -67,8 +67,8 @@ pub struct Face {
     pub emits: bool,
     /// Does a later face of its plane emit? Then this one hides it where they overlap.
     pub hides_emitter: bool,
-    /// Pairs of parallel edges share a slab: two for a parallelogram, three for a triangle.
-    pub slabs: Vec<Slab>,
+    /// Pairs of parallel edges share a edge_test: two for a parallelogram, three for a triangle.
+    pub edge_tests: Vec<EdgeTest>,
 }
 
 /// A face's frame: tangents, normal (the front) and centre.
@@ -143,14 +143,14 @@ impl Geometry {
                 .collect();
             let frame = frame(&corners);
             let plane = plane_of(&corners, &frame);
-            let slabs = slabs(&corners, plane.axis, frame.centre, tolerance);
+            let edge_tests = edge_tests(&corners, plane.axis, frame.centre, tolerance);
             let plane = geometry.find_plane(plane, &mut known, &mut on_plane);
             geometry.frames.push(frame);
             geometry.plane_of.push(plane);
             geometry.corners.push(corners);
             let faces = &mut on_plane[plane as usize];
             // A second copy of a face is hidden by the first.
-            if !faces.iter().any(|face| face.slabs == slabs) {
+            if !faces.iter().any(|face| face.edge_tests == edge_tests) {
                 let emits = emits(polygon);
                 if emits {
                     for face in faces.iter_mut() {
@@ -161,7 +161,7 @@ impl Geometry {
                     label: label as u32,
                     emits,
                     hides_emitter: false,
-                    slabs,
+                    edge_tests,
                 });
             }
         }

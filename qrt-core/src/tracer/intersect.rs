@@ -4,8 +4,8 @@
 //! that it leaves and cannot meet that plane again: two distinct points of a line on a plane put
 //! the whole line there. So no epsilon is needed to leave a surface.
 
-use super::crossing::{Crossing, Turned, cross, weighted};
-use super::geometry::{Face, Geometry, NO_FACE, Slab};
+use super::crossing::{AxisPermuted, Crossing, cross, weighted};
+use super::geometry::{EdgeTest, Face, Geometry, NO_FACE};
 use super::ray::{Hit, Nearest, Ray};
 use super::{Arith, Part};
 
@@ -14,7 +14,7 @@ fn constants<A: Arith>(cx: &mut A, [a, b]: [f64; 2]) -> [A::Real; 2] {
     [cx.real(a), cx.real(b)]
 }
 
-impl Slab {
+impl EdgeTest {
     #[inline(always)]
     fn holds<A: Arith>(&self, cx: &mut A, point: [A::Real; 2]) -> A::Bool {
         let form = constants(cx, self.form);
@@ -23,11 +23,11 @@ impl Slab {
     }
 }
 
-/// Does `point` pass every slab?
+/// Does `point` pass every edge_test?
 #[inline(always)]
-fn within<A: Arith>(cx: &mut A, slabs: &[Slab], point: [A::Real; 2]) -> A::Bool {
+fn within<A: Arith>(cx: &mut A, edge_tests: &[EdgeTest], point: [A::Real; 2]) -> A::Bool {
     // The usual cases without a loop: truth values then stay in mask registers.
-    match slabs {
+    match edge_tests {
         [a, b] => {
             math!(cx, a.holds(cx, point) && b.holds(cx, point))
         }
@@ -42,8 +42,8 @@ fn within<A: Arith>(cx: &mut A, slabs: &[Slab], point: [A::Real; 2]) -> A::Bool 
         }
         _ => {
             let mut inside = cx.truth(true);
-            for slab in slabs {
-                let holds = slab.holds(cx, point);
+            for edge_test in edge_tests {
+                let holds = edge_test.holds(cx, point);
                 inside = cx.and(inside, holds);
             }
             inside
@@ -57,7 +57,7 @@ pub(crate) trait Edges<A: Arith> {
     fn hold(&self, cx: &mut A, point: [A::Real; 2]) -> A::Bool;
 }
 
-impl<A: Arith> Edges<A> for [Slab] {
+impl<A: Arith> Edges<A> for [EdgeTest] {
     #[inline(always)]
     fn hold(&self, cx: &mut A, point: [A::Real; 2]) -> A::Bool {
         within(cx, self, point)
@@ -82,7 +82,7 @@ impl Geometry {
         &self,
         cx: &mut A,
         number: usize,
-        ray: &Turned<A>,
+        ray: &AxisPermuted<A>,
         from: A::Index,
     ) -> Crossing<A> {
         let plane = &self.planes[number];
@@ -107,12 +107,12 @@ impl Geometry {
         let face = &self.faces[number];
         let plane = self.plane_of[face.label as usize] as usize;
         let turned = match self.planes[plane].axis {
-            0 => Turned::new::<0>(ray),
-            1 => Turned::new::<1>(ray),
-            _ => Turned::new::<2>(ray),
+            0 => AxisPermuted::new::<0>(ray),
+            1 => AxisPermuted::new::<1>(ray),
+            _ => AxisPermuted::new::<2>(ray),
         };
         let crossing = self.cross(cx, plane, &turned, ray.from);
-        (meets(cx, &crossing, &*face.slabs), crossing.distance)
+        (meets(cx, &crossing, &*face.edge_tests), crossing.distance)
     }
 
     /// The faces on planes with main axis `AXIS`, in turn, with a running nearest.
@@ -123,7 +123,7 @@ impl Geometry {
         ray: &Ray<A>,
         nearest: &mut Running<A>,
     ) {
-        let (ray, from) = (Turned::new::<AXIS>(ray), ray.from);
+        let (ray, from) = (AxisPermuted::new::<AXIS>(ray), ray.from);
         for number in self.by_axis[AXIS].clone() {
             cx.enter(Part::Plane(number));
             let crossing = self.cross(cx, number, &ray, from);
@@ -142,7 +142,7 @@ impl Geometry {
         ray: &Ray<A>,
         nearest: &mut Running<A>,
     ) {
-        let (ray, from) = (Turned::new::<AXIS>(ray), ray.from);
+        let (ray, from) = (AxisPermuted::new::<AXIS>(ray), ray.from);
         for &number in &self.emitting[AXIS] {
             cx.enter(Part::Plane(number));
             let crossing = self.cross(cx, number, &ray, from);
@@ -162,12 +162,12 @@ impl Geometry {
         emitter: A::Real,
         mut hidden: A::Bool,
     ) -> A::Bool {
-        let (ray, from) = (Turned::new::<AXIS>(ray), ray.from);
+        let (ray, from) = (AxisPermuted::new::<AXIS>(ray), ray.from);
         for number in self.by_axis[AXIS].clone() {
             cx.enter(Part::Plane(number));
             let crossing = self.cross(cx, number, &ray, from);
             for face in self.faces_of(number).iter().filter(|face| !face.emits) {
-                let meets = meets(cx, &crossing, &*face.slabs);
+                let meets = meets(cx, &crossing, &*face.edge_tests);
                 let nearer = if face.hides_emitter {
                     math!(cx, crossing.distance <= emitter)
                 } else {
@@ -191,7 +191,7 @@ impl<A: Arith> Running<A> {
     #[inline(always)]
     fn new(cx: &mut A, reach: f64) -> Self {
         Self {
-            distance: cx.nowhere(reach),
+            distance: cx.t_max(reach),
             face: cx.index(NO_FACE),
         }
     }
@@ -199,7 +199,7 @@ impl<A: Arith> Running<A> {
     /// The ray crosses the plane of `face`.
     #[inline(always)]
     fn meet(&mut self, cx: &mut A, face: &Face, crossing: &Crossing<A>) {
-        let meets = meets(cx, crossing, &*face.slabs);
+        let meets = meets(cx, crossing, &*face.edge_tests);
         let hit = math!(cx, meets && crossing.distance < self.distance);
         let label = cx.index(face.label);
         self.distance = cx.select(hit, crossing.distance, self.distance);
@@ -235,7 +235,7 @@ impl<A: Arith> Nearest<A> for Geometry {
     #[inline(always)]
     fn emitter(&self, cx: &mut A, ray: &Ray<A>, wanted: A::Bool) -> Hit<A> {
         let mut hit = self.nearest_emitter(cx, ray, wanted);
-        if !cx.possible(hit.found) {
+        if !cx.any(hit.found) {
             return hit;
         }
         let mut hidden = cx.truth(false);

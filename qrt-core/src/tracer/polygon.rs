@@ -1,6 +1,6 @@
 //! One polygon made ready: its plane, its shading frame and its edges as half-plane tests.
 
-use super::geometry::{Frame, Plane, Slab};
+use super::geometry::{EdgeTest, Frame, Plane};
 use crate::valid::Polygon;
 use glam::{DVec2, DVec3};
 
@@ -77,10 +77,15 @@ fn largest(v: DVec3) -> usize {
     }
 }
 
-/// The edges as slabs. Edges are tested in the plane's projection along its main axis.
-pub(super) fn slabs(corners: &[DVec3], axis: usize, centre: DVec3, tolerance: f64) -> Vec<Slab> {
+/// The edges as edge_tests. Edges are tested in the plane's projection along its main axis.
+pub(super) fn edge_tests(
+    corners: &[DVec3],
+    axis: usize,
+    centre: DVec3,
+    tolerance: f64,
+) -> Vec<EdgeTest> {
     let flat = |p: DVec3| DVec2::new(p[(axis + 1) % 3], p[(axis + 2) % 3]);
-    let mut slabs: Vec<Slab> = Vec::with_capacity(3);
+    let mut edge_tests: Vec<EdgeTest> = Vec::with_capacity(3);
     for (i, &start) in corners.iter().enumerate() {
         let (start, end) = (flat(start), flat(corners[(i + 1) % corners.len()]));
         let across = (end - start).perp();
@@ -98,20 +103,23 @@ pub(super) fn slabs(corners: &[DVec3], axis: usize, centre: DVec3, tolerance: f6
         } else {
             (f64::NEG_INFINITY, edge + reach)
         };
-        let parallel = |slab: &&mut Slab| {
-            (DVec2::from_array(slab.form) - form).abs().max_element() <= tolerance
+        let parallel = |edge_test: &&mut EdgeTest| {
+            (DVec2::from_array(edge_test.form) - form)
+                .abs()
+                .max_element()
+                <= tolerance
         };
-        match slabs.iter_mut().find(parallel) {
-            Some(slab) => {
-                slab.low = slab.low.max(low);
-                slab.high = slab.high.min(high);
+        match edge_tests.iter_mut().find(parallel) {
+            Some(edge_test) => {
+                edge_test.low = edge_test.low.max(low);
+                edge_test.high = edge_test.high.min(high);
             }
-            None => slabs.push(Slab {
+            None => edge_tests.push(EdgeTest {
                 form: form.to_array(),
                 low,
                 high,
             }),
         }
     }
-    slabs
+    edge_tests
 }

@@ -268,8 +268,8 @@ fn triangle_fault(vertices: &[DVec3; 3]) -> Option<Fault> {
         .length_squared()
         .max(c.length_squared())
         .max((c - b).length_squared());
-    let sound = area > LEAST_AREA * longest;
-    (!sound).then_some(Fault::Flat)
+    let ok = area > LEAST_AREA * longest;
+    (!ok).then_some(Fault::Flat)
 }
 
 fn quad_fault(vertices: &[DVec3; 4]) -> Option<Fault> {

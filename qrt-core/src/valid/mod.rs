@@ -7,10 +7,10 @@
 pub mod bsdf;
 mod camera;
 mod geometry;
-mod knobs;
+mod parameters;
 mod sampling;
 
-pub use knobs::Knobs;
+pub use parameters::Parameters;
 pub use sampling::{MAX_ID_BITS, MAX_NET_DEPTHS};
 
 use crate::expr::Expr;
@@ -166,7 +166,7 @@ pub(crate) fn check(
 ) -> Result<ValidScene, Vec<Problem>> {
     scene.check(&Place::ROOT, &mut problems);
     // What is out of range by itself is not measured against anything else.
-    problems.settle();
+    problems.finalize();
     camera::check(&scene.camera, &mut problems);
     sampling::check(&scene, &mut problems);
     let mut materials = surfaces(&scene, &mut problems);

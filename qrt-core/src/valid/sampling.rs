@@ -1,7 +1,7 @@
-//! Ids must fit into words, the net must have its dimensions, and knobs must not contradict.
+//! Ids must fit into words, the net must have its dimensions, and parameters must not contradict.
 
 use crate::sampling::{MAX_DIMENSIONS, MAX_PATH_BITS};
-use crate::scene::{Comparator, Counting, Map, Precision, Sampling, Scene, Sequence, settle};
+use crate::scene::{Comparator, Counting, Map, Precision, Sampling, Scene, Sequence, finalize};
 use crate::syntax::{Path, Problem, Problems, Sampling as Fault};
 
 /// Bits of path id and comparator together: counts of their ids stay within 64-bit words.
@@ -39,20 +39,20 @@ pub(super) fn check(scene: &Scene, problems: &mut Problems) {
         problems.push(problem.also(Path::root().key("comparator").key("bits")));
     }
     if scene.accuracy.is_some() {
-        let knobs = [
+        let parameters = [
             ("precision", scene.precision != Precision::default()),
             ("comparator", scene.comparator != Comparator::default()),
             ("counting", scene.counting != Counting::default()),
         ];
-        for (knob, _) in knobs.into_iter().filter(|(_, changed)| *changed) {
-            problems.push(settle::conflict(&Path::root(), knob));
+        for (parameter, _) in parameters.into_iter().filter(|(_, changed)| *changed) {
+            problems.push(finalize::conflict(&Path::root(), parameter));
         }
         let default = match sampling.sequence {
             Sequence::DigitalNet => Sampling::default().path_bits,
             Sequence::ProductLattice => sampling.lattice_bits(),
         };
         if sampling.path_bits != default {
-            problems.push(settle::conflict(&path, "path_bits"));
+            problems.push(finalize::conflict(&path, "path_bits"));
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Registers, blocks, tables and classical words as constants.
+//! Registers, blocks, tables and classical parameters as constants.
 
 use qrt_circuit::{Bit, Op, Operand, Style, Type, Word};
 use qrt_core::compile::Place;
@@ -188,7 +188,7 @@ fn outline(out: &mut String, oracle: &Oracle) {
             sharing: {:?},
             places: PLACES,
         }};",
-        style.unwrap_or(Style::Wide),
+        style.unwrap_or(Style::OutOfPlace),
         oracle.id,
         oracle.comparator,
         oracle.flag,

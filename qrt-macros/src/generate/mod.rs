@@ -4,22 +4,22 @@
 //! The code is written as text and read back as tokens: it is long, and making it token by token
 //! takes a macro that nobody has optimised many times as long.
 
-mod broken;
 mod code;
 mod data;
 mod fields;
 mod lines;
 mod names;
 mod native;
+mod stub;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use broken::broken;
+pub(crate) use stub::stub;
 
 use crate::scene::Parsed;
 use names::Names;
 use proc_macro2::TokenStream;
-use qrt_core::oracle::{Oracle, Spent, check_budget, spent};
+use qrt_core::oracle::{CallCost, Oracle, call_cost, check_budget};
 use qrt_core::syntax::Problem;
 use qrt_core::valid::ValidScene;
 use quote::ToTokens as _;
@@ -59,10 +59,10 @@ fn text(
     valid: &ValidScene,
 ) -> Result<String, Vec<Problem>> {
     let (channels, oracle) = Oracle::all(valid).map_err(|error| vec![error.problem()])?;
-    let spent = spent(&channels);
-    check_budget(valid, spent)?;
+    let cost = call_cost(&channels);
+    check_budget(valid, cost)?;
     let mut out = format!("{conditions}\n");
-    out.push_str(&figures(scene, public, valid, &oracle, spent));
+    out.push_str(&figures(scene, public, valid, &oracle, cost));
     if oracle.program.ops.len() <= MOST {
         let names = Names::new(&oracle);
         let layout = fields::write(&mut out, scene, public, conditions, &oracle);
@@ -105,8 +105,14 @@ fn text(
 }
 
 /// What the circuit is and costs.
-fn figures(scene: &str, public: &str, valid: &ValidScene, oracle: &Oracle, spent: Spent) -> String {
-    let Spent { qubits, toffoli } = spent;
+fn figures(
+    scene: &str,
+    public: &str,
+    valid: &ValidScene,
+    oracle: &Oracle,
+    cost: CallCost,
+) -> String {
+    let CallCost { qubits, toffoli } = cost;
     let film = oracle.film;
     let path_bits = oracle.points.path_bits();
     let comparator_bits = oracle.comparator_bits();

@@ -21,7 +21,7 @@ pub(super) struct Signature {
     pub(super) constants: Vec<Ident>,
     pub(super) parameters: Vec<Rc<Register>>,
     /// Names of parameters that are not registers.
-    pub(super) broken: Vec<Ident>,
+    pub(super) unusable: Vec<Ident>,
 }
 
 /// What must hold of the constants that a routine is generic over.

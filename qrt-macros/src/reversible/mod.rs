@@ -70,7 +70,7 @@ fn understood(function: &syn::ItemFn, problems: &mut Problems) -> Option<Routine
     let mut scope = Scope {
         routine: signature.name.clone(),
         registers: signature.parameters.clone(),
-        broken: signature.broken.clone(),
+        unusable: signature.unusable.clone(),
         constants: signature.constants.clone(),
         loops: Vec::new(),
         demands: Vec::new(),

@@ -14,7 +14,7 @@ pub(super) struct Scope {
     pub(super) routine: Ident,
     pub(super) registers: Vec<Rc<Register>>,
     /// Names whose declarations are wrong, which is enough to be said once.
-    pub(super) broken: Vec<Ident>,
+    pub(super) unusable: Vec<Ident>,
     pub(super) constants: Vec<Ident>,
     /// Variables of the loops around, and from where to where they run.
     pub(super) loops: Vec<(Ident, [Linear; 2])>,
@@ -36,7 +36,7 @@ impl Scope {
         if let Some(register) = found {
             return Some(register.clone());
         }
-        if self.broken.contains(name) {
+        if self.unusable.contains(name) {
             return None;
         }
         let message;

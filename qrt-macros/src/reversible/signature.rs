@@ -53,13 +53,13 @@ pub(super) fn read(function: &ItemFn, problems: &mut Problems) -> Signature {
     }
     let constants = constants(function, problems);
     let mut parameters: Vec<Rc<Register>> = Vec::new();
-    let mut broken = Vec::new();
+    let mut unusable = Vec::new();
     for input in &signature.inputs {
         let Some(register) = parameter(input, &constants, problems) else {
             if let FnArg::Typed(input) = input
                 && let Pat::Ident(name) = &*input.pat
             {
-                broken.push(name.ident.clone());
+                unusable.push(name.ident.clone());
             }
             continue;
         };
@@ -71,7 +71,7 @@ pub(super) fn read(function: &ItemFn, problems: &mut Problems) -> Signature {
                 &message,
                 "choose another name",
             );
-            broken.push(register.name);
+            unusable.push(register.name);
             continue;
         }
         // Two parameters of one name are rustc's to report.
@@ -83,7 +83,7 @@ pub(super) fn read(function: &ItemFn, problems: &mut Problems) -> Signature {
         name: signature.ident.clone(),
         constants,
         parameters,
-        broken,
+        unusable,
     }
 }
 

@@ -25,7 +25,7 @@ impl Scope {
             match first {
                 Stmt::Local(local) => {
                     let Some(register) = self.scratch(local) else {
-                        self.broken.extend(declared(&local.pat));
+                        self.unusable.extend(declared(&local.pat));
                         continue;
                     };
                     let register = Rc::new(register);

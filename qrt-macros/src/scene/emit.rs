@@ -7,7 +7,7 @@ use quote::quote;
 use std::path::{Path, PathBuf};
 
 /// A scene with nothing wrong, and what `generated` adds to it.
-pub(crate) fn sound(
+pub(crate) fn expansion(
     parsed: &Parsed,
     valid: &ValidScene,
     root: &Path,
@@ -73,7 +73,7 @@ pub(crate) fn sound(
 }
 
 /// What can be said of a scene with errors: enough for the rest of a program to be understood.
-pub(crate) fn broken(header: &Header) -> TokenStream {
+pub(crate) fn stub(header: &Header) -> TokenStream {
     let Header {
         attributes,
         visibility,
@@ -81,7 +81,7 @@ pub(crate) fn broken(header: &Header) -> TokenStream {
         ..
     } = header;
     let conditions = header.conditions();
-    let figures = crate::generate::broken(
+    let figures = crate::generate::stub(
         &name.to_string(),
         &quote!(#visibility).to_string(),
         &conditions.to_string(),

@@ -31,7 +31,7 @@ impl Expression {
     }
 
     fn add(&mut self, tokens: &[Token], names: &Names, faults: &mut Faults) -> bool {
-        let mut sound = true;
+        let mut ok = true;
         for token in tokens {
             match &token.kind {
                 Kind::Word(word) => match names.value(word) {
@@ -48,18 +48,18 @@ impl Expression {
                     }
                 },
                 Kind::Number(digits, suffix) => {
-                    sound &= is_bare(token, digits, suffix, faults);
+                    ok &= is_bare(token, digits, suffix, faults);
                     self.piece(digits, token.place());
                 }
                 Kind::Sign(sign, _) => self.piece(&sign.to_string(), token.place()),
                 Kind::Group(Delimiter::Parenthesis, inner) => {
                     let (first, last) = (token.first, token.last);
                     self.piece("(", super::tokens::place(first, first));
-                    sound &= self.add(inner, names, faults);
+                    ok &= self.add(inner, names, faults);
                     self.piece(")", super::tokens::place(last, last));
                 }
                 Kind::Text(_) | Kind::Other(_) | Kind::Group(..) => {
-                    sound = false;
+                    ok = false;
                     let message = format!("{} cannot be part of an expression", token.found());
                     let fault = faults.add(codes::MACRO_VALUE, token.place(), message);
                     if matches!(token.kind, Kind::Text(_)) {
@@ -72,7 +72,7 @@ impl Expression {
                 }
             }
         }
-        sound
+        ok
     }
 
     fn piece(&mut self, text: &str, place: Span) {

@@ -123,7 +123,7 @@ impl Faults {
     }
 
     /// In the order of their places; of what loops repeat, the first.
-    pub(crate) fn settle(mut self) -> Vec<Fault> {
+    pub(crate) fn finalize(mut self) -> Vec<Fault> {
         self.0
             .sort_by_key(|fault| (fault.place.start, fault.place.end, fault.code));
         self.0.dedup_by(|next, kept| {

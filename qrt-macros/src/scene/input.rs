@@ -28,15 +28,15 @@ pub(crate) fn expand(asked: Asked, root: &Path) -> TokenStream {
     let (terms, mut out) = asked.terms();
     for (parsed, valid) in read(asked.input, &terms, root, &mut table, &mut faults) {
         let generated = valid.and_then(|valid| match crate::generate::scene(&parsed, &valid) {
-            Ok(code) => Some(emit::sound(&parsed, &valid, root, &code)),
+            Ok(code) => Some(emit::expansion(&parsed, &valid, root, &code)),
             Err(problems) => {
                 parsed.report(problems, &mut faults);
                 None
             }
         });
-        out.extend(generated.unwrap_or_else(|| emit::broken(&parsed.header)));
+        out.extend(generated.unwrap_or_else(|| emit::stub(&parsed.header)));
     }
-    for fault in faults.settle() {
+    for fault in faults.finalize() {
         out.extend(compile_error(&fault.text(&table), fault.ends(&table)));
     }
     out

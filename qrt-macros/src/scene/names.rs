@@ -114,12 +114,12 @@ impl Names {
 
     /// Reports the names in `tokens`, a number, that stand for nothing.
     pub(crate) fn check(&self, tokens: &[Token], later: &[String], faults: &mut Faults) -> bool {
-        let mut sound = true;
+        let mut ok = true;
         for token in tokens {
             let text = match &token.kind {
                 Kind::Word(text) => text,
                 Kind::Group(_, inner) => {
-                    sound &= self.check(inner, later, faults);
+                    ok &= self.check(inner, later, faults);
                     continue;
                 }
                 _ => continue,
@@ -128,7 +128,7 @@ impl Names {
             if known || self.value(text).is_some() {
                 continue;
             }
-            sound = false;
+            ok = false;
             let variable = Variable::ALL.iter().any(|variable| variable.name() == text);
             let message = format!("no constant is called `{text}`");
             let functions = || nearest(text, function_names().chain(["pi"]));
@@ -147,7 +147,7 @@ impl Names {
                 .add(codes::MACRO_NUMBER_NAME, place, message)
                 .help(help);
         }
-        sound
+        ok
     }
 }
 

@@ -18,7 +18,7 @@ fn read_text(text: &str, root: &Path) -> (Vec<Read>, Vec<String>) {
     let mut table = Table::default();
     let mut faults = Faults::default();
     let scenes = read(stream, &Terms::new(), root, &mut table, &mut faults);
-    let faults = faults.settle();
+    let faults = faults.finalize();
     let texts = faults.iter().map(|fault| fault.text(&table));
     (scenes, texts.collect())
 }

@@ -2,7 +2,7 @@
 //!
 //! With S good ids among N, the Grover iterate has the eigenphases +-theta turns, where
 //! `theta = asin(sqrt(S/N)) / pi` in [0, 1/2], and the uniform superposition of ids holds both
-//! equally. The counting register cannot tell them apart: outcomes y and T - y mean the same
+//! equally. The phase register cannot tell them apart: outcomes y and T - y mean the same
 //! `theta~ = y/T`, and are folded onto `y = 0 ..= T/2`. With the kernel K of a single phase,
 //!
 //! ```text
@@ -110,7 +110,7 @@ fn roots(register: &Register, phase: Phase, y: u64) -> (f64, f64) {
     (near, far)
 }
 
-/// P(theta~ | theta): what a counting register of `T = 2^phase_bits` reads, folded onto
+/// P(theta~ | theta): what a phase register of `T = 2^phase_bits` reads, folded onto
 /// `y = 0 ..= T/2`.
 ///
 /// ```

@@ -1,6 +1,6 @@
 //! What counting refuses.
 
-/// The largest counting register.
+/// The largest phase register.
 pub const MAX_PHASE_BITS: u32 = 40;
 /// The most repetitions of one estimate.
 pub const MAX_REPETITIONS: u32 = 1_000_000;
@@ -23,7 +23,7 @@ pub enum CountingError {
     /// The amplitude is not in [0, 1].
     #[error("an amplitude of {0} is not in [0, 1]")]
     AmplitudeOutOfRange(f64),
-    /// The counting register has no size in `1..=40` bits.
+    /// The phase register has no size in `1..=40` bits.
     #[error("{0} phase bits are not in 1..={MAX_PHASE_BITS}")]
     PhaseBitsOutOfRange(u32),
     /// The repetitions are not in `1..=1000000`.

@@ -1,7 +1,7 @@
-//! What one eigenphase leaves in the counting register.
+//! What one eigenphase leaves in the phase register.
 //!
 //! Phase estimation of a phase of `x` grid steps (T steps make a turn) returns outcome `k` with
-//! probability `K(k - x)`, where for amplitudes `w_j` on the counting register
+//! probability `K(k - x)`, where for amplitudes `w_j` on the phase register
 //!
 //! ```text
 //! K(x) = | sum_j w_j exp(2 pi i j x / T) |^2 / T,    j = 0 .. T-1.
@@ -28,7 +28,7 @@ use std::f64::consts::PI;
 
 use qrt_core::scene::Window;
 
-/// A counting register: its size and the window it is prepared in.
+/// A phase register: its size and the window it is prepared in.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Register {
     pub(crate) bits: u32,

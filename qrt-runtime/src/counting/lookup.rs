@@ -1,4 +1,4 @@
-//! The look-up table of quantum supersampling: from what the counter reads to the good ids.
+//! The look-up table of quantum supersampling: from what the phase register reads to the good ids.
 //!
 //! Johnston (*Quantum supersampling*, SIGGRAPH 2016 talks; Johnston, Harrigan & Gimeno-Segovia,
 //! *Programming quantum computers*, 2019, chapter 11) tabulates P(y | S): a column for every
@@ -46,11 +46,11 @@ pub struct Column {
     pub interval: (f64, f64),
 }
 
-/// The look-up table for N ids and a counting register of `T = 2^phase_bits`.
+/// The look-up table for N ids and a phase register of `T = 2^phase_bits`.
 ///
 /// ```
 /// use qrt_runtime::counting::LookupTable;
-/// // Four by four subpixels and four counter qubits.
+/// // Four by four subpixels and four phase qubits.
 /// let table = LookupTable::new(16, 4, 0.95, 1.0)?;
 /// assert_eq!(table.column(4)?.good, 8);
 /// assert_eq!(table.column(8)?.good, 16);
@@ -310,7 +310,7 @@ mod tests {
         (0..=total).map(row).collect()
     }
 
-    /// Johnston's table for 4 x 4 subpixels and 4 counter qubits, and others, entry by entry: the
+    /// Johnston's table for 4 x 4 subpixels and 4 phase qubits, and others, entry by entry: the
     /// largest of each column, its share, and the rows around it.
     #[test]
     fn columns_are_those_of_the_whole_table() {

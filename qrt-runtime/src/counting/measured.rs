@@ -1,13 +1,13 @@
-//! The id register once the counter has been read.
+//! The id register once the phase register has been read.
 //!
-//! Before the inverse Fourier transform the counter holds j with probability `w_j^2`, and the ids
+//! Before the inverse Fourier transform the phase register holds j with probability `w_j^2`, and the ids
 //! have been turned j times: whoever measures them finds a good one with probability
 //!
 //! ```text
 //! sum_j w_j^2 sin^2((2j + 1) pi theta) = 1/2 - 1/2 sum_j w_j^2 cos((4j + 2) pi theta),
 //! ```
 //!
-//! whatever is done to the counter. The cosines add up in closed form.
+//! whatever is done to the phase register. The cosines add up in closed form.
 
 use qrt_core::scene::Window;
 use std::f64::consts::{PI, TAU};

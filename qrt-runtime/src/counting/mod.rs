@@ -3,7 +3,7 @@
 //!
 //! After the oracle, the Grover operator lives in the plane of the good and the bad ids, where it
 //! turns by `theta` turns, `theta = asin(sqrt(S/N))/pi`. Everything that its phase estimation can
-//! measure follows from S, N and the counting register alone: this module draws from that
+//! measure follows from S, N and the phase register alone: this module draws from that
 //! distribution exactly, without a state vector, for registers of up to 40 bits.
 //!
 //! * [`PhaseDistribution`]: `P(theta~ | theta)`, rectangular and sine window, and draws from it;

@@ -1,7 +1,7 @@
 //! The posterior over the number of good ids, and its mean.
 //!
 //! The prior is uniform over S in `0 ..= N`. Up to 2^12 ids, sums go over every S. Beyond, over
-//! cells: the steps between neighbouring outcomes y of the counting register.
+//! cells: the steps between neighbouring outcomes y of the phase register.
 //!
 //! * *Near* an observed outcome, cell by cell: the integers one by one where they are few, otherwise
 //!   by Gauss and Legendre's quadrature in theta, in panels as fine as B repetitions demand.
@@ -40,7 +40,7 @@ const NODES: [(f64, f64); 4] = [
     (0.960_289_856_497_536_3, 0.101_228_536_290_376_3),
 ];
 
-/// The posterior of S/N after outcomes of the counting register.
+/// The posterior of S/N after outcomes of the phase register.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Posterior {
     /// Its mean.

@@ -53,7 +53,7 @@ impl AmplitudeEstimator for AbramsWilliams {
             known_noise,
             ..
         } = self.settings;
-        let start = device.spent();
+        let start = device.usage();
         let failure = 0.5 * (1.0 - confidence);
         // The squares of shares add up to one at most: stages take FEWEST tosses or more.
         let failing = |each: u64| {

@@ -50,7 +50,7 @@ fn no_estimate_leaves_its_bounds_or_its_queries() {
                     let about = format!("{name}, {good} of {total}, {queries}: {found:?}");
                     assert!(found.queries <= queries, "{about}");
                     assert!(found.queries >= 1 && found.shots >= 1, "{about}");
-                    assert_eq!(found.queries, device.spent().queries, "{about}");
+                    assert_eq!(found.queries, device.usage().queries, "{about}");
                     let (low, high) = found.interval;
                     assert!(0.0 <= low && low <= found.amplitude, "{about}");
                     assert!(found.amplitude <= high && high <= 1.0, "{about}");

@@ -31,7 +31,7 @@ pub(super) fn id_bits(total: u64) -> u32 {
 
 /// Queries and shots, up to now.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Spent {
+pub struct Usage {
     /// Applications of the oracle.
     pub queries: u64,
     /// Measurements.
@@ -51,7 +51,7 @@ pub struct Device<'a> {
     theta: Angle,
     noise: Noise,
     stream: &'a mut Stream,
-    spent: Spent,
+    usage: Usage,
 }
 
 impl<'a> Device<'a> {
@@ -71,7 +71,7 @@ impl<'a> Device<'a> {
             theta: Angle::of(good, total)?,
             noise,
             stream,
-            spent: Spent::default(),
+            usage: Usage::default(),
         })
     }
 
@@ -81,8 +81,8 @@ impl<'a> Device<'a> {
     }
 
     /// What was spent up to now.
-    pub fn spent(&self) -> Spent {
-        self.spent
+    pub fn usage(&self) -> Usage {
+        self.usage
     }
 
     /// Random numbers for an estimator's own decisions.
@@ -93,7 +93,7 @@ impl<'a> Device<'a> {
     /// What a run that began at `start` estimates, with all that is counted here.
     pub fn estimate(
         &self,
-        start: Spent,
+        start: Usage,
         amplitude: f64,
         interval: (f64, f64),
         confidence: f64,
@@ -103,10 +103,10 @@ impl<'a> Device<'a> {
             good: None,
             interval,
             confidence,
-            queries: self.spent.queries - start.queries,
-            shots: self.spent.shots - start.shots,
-            depth: self.spent.depth,
-            rounds: self.spent.rounds - start.rounds,
+            queries: self.usage.queries - start.queries,
+            shots: self.usage.shots - start.shots,
+            depth: self.usage.depth,
+            rounds: self.usage.rounds - start.rounds,
             ln_likelihood: None,
             candidates: None,
         }
@@ -114,16 +114,16 @@ impl<'a> Device<'a> {
 
     /// Takes note of `shots` measurements of `queries` each.
     fn spend(&mut self, shots: u64, queries: u64) {
-        self.spent.queries = (self.spent.queries).saturating_add(shots.saturating_mul(queries));
-        self.spent.shots = self.spent.shots.saturating_add(shots);
-        self.spent.depth = self.spent.depth.max(queries);
-        self.spent.rounds += 1;
+        self.usage.queries = (self.usage.queries).saturating_add(shots.saturating_mul(queries));
+        self.usage.shots = self.usage.shots.saturating_add(shots);
+        self.usage.depth = self.usage.depth.max(queries);
+        self.usage.rounds += 1;
     }
 
     /// S, by going through all ids: N queries.
     pub fn every_id(&mut self) -> u64 {
         self.spend(self.problem.total, 1);
-        self.spent.good_ids += self.problem.good;
+        self.usage.good_ids += self.problem.good;
         self.problem.good
     }
 
@@ -132,7 +132,7 @@ impl<'a> Device<'a> {
         self.spend(shots, 1);
         let Problem { good, total } = self.problem;
         let found = binomial::draw(shots, good, total, self.stream);
-        self.spent.good_ids += found;
+        self.usage.good_ids += found;
         found
     }
 
@@ -196,7 +196,7 @@ impl<'a> Device<'a> {
             (mixed(good.0, any.0), mixed(good.1, any.1))
         };
         let found = binomial::draw_with(shots, p, q, self.stream);
-        self.spent.good_ids += found;
+        self.usage.good_ids += found;
         found
     }
 

@@ -9,7 +9,7 @@ pub struct Exact;
 
 impl AmplitudeEstimator for Exact {
     fn estimate(&self, device: &mut Device<'_>) -> Result<Estimate, EstimatorError> {
-        let start = device.spent();
+        let start = device.usage();
         let good = device.every_id();
         let total = device.total();
         let amplitude = good as f64 / total as f64;

@@ -1,4 +1,4 @@
-//! Intervals at the asked confidence: from a posterior, and from outcomes of the counting register.
+//! Intervals at the asked confidence: from a posterior, and from outcomes of the phase register.
 //!
 //! For the latter, with q(w) the largest probability, over all theta and T, of an outcome more than
 //! w steps from T theta, the lower and the upper median of B outcomes are both on one side of T theta and

@@ -39,7 +39,7 @@ mod windowed;
 
 pub use abrams_williams::AbramsWilliams;
 pub use bayes::{AdaptiveBayes, RandomDepth};
-pub use device::{Device, MAX_ITERATIONS, Problem, Spent};
+pub use device::{Device, MAX_ITERATIONS, Problem, Usage};
 pub use error::EstimatorError;
 pub use exact::Exact;
 pub use iterative::Iterative;

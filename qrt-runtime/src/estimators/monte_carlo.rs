@@ -31,7 +31,7 @@ impl MonteCarlo {
 
 impl AmplitudeEstimator for MonteCarlo {
     fn estimate(&self, device: &mut Device<'_>) -> Result<Estimate, EstimatorError> {
-        let start = device.spent();
+        let start = device.usage();
         let hits = device.paths(self.queries);
         let shots = self.queries as f64;
         let amplitude = hits as f64 / shots;

@@ -10,9 +10,9 @@ use std::str::FromStr;
 /// *Depolarising*: with this probability a query leaves the whole register, ids and counter, in the
 /// maximally mixed state, where it stays. A shot of k queries is intact with probability
 /// `(1 - depolarising)^k`; otherwise every outcome is equally likely: an id is good with
-/// probability S/N, and a counter reads anything.
+/// probability S/N, and a phase register reads anything.
 ///
-/// *Readout*: with this probability each measured bit is read wrongly. On a counter the bits are
+/// *Readout*: with this probability each measured bit is read wrongly. On a phase register the bits are
 /// flipped. An id that is read wrongly is another id, and is taken to be good with probability S/N:
 /// neighbours of an id are not modelled.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

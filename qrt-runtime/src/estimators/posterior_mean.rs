@@ -30,7 +30,7 @@ impl PosteriorMean {
 
 impl AmplitudeEstimator for PosteriorMean {
     fn estimate(&self, device: &mut Device<'_>) -> Result<Estimate, EstimatorError> {
-        let start = device.spent();
+        let start = device.usage();
         let outcomes = self.counting.outcomes(device)?;
         let WindowedCounting {
             phase_bits,

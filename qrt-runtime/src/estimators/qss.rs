@@ -10,7 +10,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// Tables that one estimator keeps.
 const TABLES: usize = 8;
 
-/// `qss`: phase estimation of the Grover iterate, and a look-up table from what the counter reads
+/// `qss`: phase estimation of the Grover iterate, and a look-up table from what the phase register reads
 /// to the estimate (Johnston, *Quantum supersampling*, SIGGRAPH 2016 talks; Johnston, Harrigan &
 /// Gimeno-Segovia, *Programming quantum computers*, 2019, chapter 11). See [`LookupTable`].
 ///
@@ -63,7 +63,7 @@ impl Supersampling {
 
 impl AmplitudeEstimator for Supersampling {
     fn estimate(&self, device: &mut Device<'_>) -> Result<Estimate, EstimatorError> {
-        let start = device.spent();
+        let start = device.usage();
         let total = device.total();
         let table = self.table(total)?;
         let mut readings = self.counting.outcomes(device)?;

@@ -68,7 +68,7 @@ impl AmplitudeEstimator for QuantumCoin {
             known_noise,
             ..
         } = self.settings;
-        let start = device.spent();
+        let start = device.usage();
         let failure = 0.5 * (1.0 - confidence);
         let error = self.settings.error.unwrap_or(0.0);
         let deepest = most_queries(known_noise);

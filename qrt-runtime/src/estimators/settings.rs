@@ -10,11 +10,11 @@ pub const DEFAULT_CONFIDENCE: f64 = 0.95;
 /// What is wanted of an estimator. Each takes from it what it has a use for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// t, of T = 2^t: the counting register, in `1..=40`.
+    /// t, of T = 2^t: the phase register, in `1..=40`.
     pub phase_bits: u32,
     /// B, the runs of the counting circuit, in `1..=1000000`.
     pub repetitions: u32,
-    /// The counting register's window, for `posterior-mean`, which leaves it open.
+    /// The phase register's window, for `posterior-mean`, which leaves it open.
     pub window: Window,
     /// The most queries that may be spent, for estimators that decide themselves what they measure;
     /// at least 1. (T - 1) B in a scene, so that all estimators cost the same.

@@ -195,15 +195,15 @@ fn devices_measure_what_the_iterate_gives() {
                 "{k}: {share}, {expected}"
             );
         }
-        assert_eq!(device.spent().queries, 100_000 * (1 + 1 + 2 + 3 + 5 + 17));
-        assert_eq!(device.spent().depth, 17);
+        assert_eq!(device.usage().queries, 100_000 * (1 + 1 + 2 + 3 + 5 + 17));
+        assert_eq!(device.usage().depth, 17);
     }
     let mut stream = Stream::new(3, 0, 0, 0);
     let mut device = Device::new(problem, Noise::NONE, &mut stream).unwrap();
     assert!(device.iterated(1 << 50, 1).is_err());
 }
 
-/// A counter in the maximally mixed state reads every number equally often, which folds onto
+/// A phase register in the maximally mixed state reads every number equally often, which folds onto
 /// twice as often as 0 and T/2.
 #[test]
 fn a_destroyed_counter_reads_anything() {
@@ -225,7 +225,7 @@ fn a_destroyed_counter_reads_anything() {
             counts[y as usize] += 1;
         }
         crate::counting::tests::chi_square_is_plausible(&counts, &[0.125, 0.25, 0.25, 0.25, 0.125]);
-        assert_eq!(device.spent().queries, 7 * 80_000);
+        assert_eq!(device.usage().queries, 7 * 80_000);
     }
 }
 

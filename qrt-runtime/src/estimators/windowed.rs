@@ -21,14 +21,14 @@ pub struct WindowedCounting {
     pub phase_bits: u32,
     /// B, the runs of the circuit, in `1..=1000000`.
     pub repetitions: u32,
-    /// The window of the counting register.
+    /// The window of the phase register.
     pub window: Window,
     /// The interval's, in (0, 1).
     pub confidence: f64,
 }
 
 impl WindowedCounting {
-    /// The counting circuit of an estimator with a counting register: `paper`, `sine`,
+    /// The counting circuit of an estimator with a phase register: `paper`, `sine`,
     /// `posterior-mean` or `qss`.
     ///
     /// # Errors

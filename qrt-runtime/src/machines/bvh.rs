@@ -159,7 +159,7 @@ impl<'i, S: pulp::Simd, const W: usize> Nearest<Lanes<'i, S, W>> for Indexed<'_>
             return self.nearest(cx, ray, wanted);
         }
         let mut hit = self.geometry.nearest_emitter(cx, ray, wanted);
-        if !cx.possible(hit.found) {
+        if !cx.any(hit.found) {
             return hit;
         }
         let mut hidden = cx.index(0);

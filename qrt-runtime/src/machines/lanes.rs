@@ -233,7 +233,7 @@ impl<S: pulp::Simd, const W: usize> Arith for Lanes<'_, S, W> {
         each!(self, not_m64s, a)
     }
     #[inline(always)]
-    fn possible(&mut self, a: Self::Bool) -> bool {
+    fn any(&mut self, a: Self::Bool) -> bool {
         let any = self.simd.or_m64s(a[0], a[W - 1]);
         self.simd.first_true_m64s(any) < S::F64_LANES
     }

@@ -28,7 +28,7 @@ pub use gates::{Dirty, Gates, InvalidGate, Rows};
 pub use instructions::InstructionSet;
 pub use native::NativeOracle;
 pub use nearest::{Answers, Asked, Candidate, NearestMachine};
-pub use oracle::{Defect, Finished, FirstHits, OracleCircuits, OracleMachine, PathRun};
+pub use oracle::{Defect, Finished, OracleCircuits, OracleMachine, PathRun, PrimaryHits};
 pub use rays::{Met, SingleRay};
 pub use real::{PathBlock, PixelSum, Points, Real, Simd};
 pub use span::Span;

@@ -273,7 +273,7 @@ impl NearestMachine {
         })
     }
 
-    /// The classical words of a ray's pixel.
+    /// The classical parameters of a ray's pixel.
     fn words(&self, ray: &Asked) -> Vec<u64> {
         self.oracle.words(self.seed, ray.pixel)
     }
@@ -287,7 +287,7 @@ impl RayBlock {
     fn push(&mut self, oracle: &NearestOracle, ray: &Asked, primitives: Range<usize>) {
         let (distance, number) = match ray.best {
             Some(best) => (best.distance.cast_unsigned(), u64::from(best.primitive)),
-            None => (oracle.nowhere, 0),
+            None => (oracle.t_max, 0),
         };
         let [id, primitive, best_distance, best_primitive] = &mut self.inputs;
         let lanes = id.len() + primitives.len();

@@ -10,15 +10,15 @@
 //! which ids have their sign turned follows exactly, `2^c` times cheaper than path by path.
 
 mod defect;
-mod first_hits;
 mod flips;
 mod parts;
+mod primary_hits;
 mod through_gates;
 
 pub use defect::Defect;
-pub use first_hits::{FirstHits, PathRun};
 pub use parts::OracleCircuits;
 pub(super) use parts::{name, qubits};
+pub use primary_hits::{PathRun, PrimaryHits};
 pub(super) use through_gates::check;
 
 use super::fixed::{self, Fixed};
@@ -37,7 +37,7 @@ use std::sync::Arc;
 pub struct OracleMachine {
     oracle: Arc<Oracle>,
     seed: u64,
-    first_hits: Option<Box<dyn FirstHits>>,
+    primary_hits: Option<Box<dyn PrimaryHits>>,
     /// What is read of every path: by channel the count, then, where they are wanted, by channel the
     /// colour, and last the count of the luminance, where the oracle has it.
     outputs: Vec<Operand>,
@@ -73,7 +73,7 @@ pub struct Finished<'a> {
     /// By channel: each path's colour, in units of `2^-fraction` of the channel's scale. Empty
     /// unless asked for.
     pub colours: [&'a [i64]; 3],
-    /// Queries that finding the paths' first hits took; 0 unless that is asked of an oracle.
+    /// Queries that finding the paths' primary hits took; 0 unless that is asked of an oracle.
     pub queries: u64,
 }
 
@@ -104,7 +104,7 @@ impl OracleMachine {
         Self {
             oracle,
             seed,
-            first_hits: None,
+            primary_hits: None,
             outputs,
             machine,
         }
@@ -172,9 +172,9 @@ impl OracleMachine {
         Ok(Self::of(oracle, seed, outputs, machine))
     }
 
-    /// With what finds the first hits, if they are inputs of the oracle.
-    pub fn with_first_hits(mut self, first_hits: Box<dyn FirstHits>) -> Self {
-        self.first_hits = Some(first_hits);
+    /// With what finds the primary hits, if they are inputs of the oracle.
+    pub fn with_first_hits(mut self, primary_hits: Box<dyn PrimaryHits>) -> Self {
+        self.primary_hits = Some(primary_hits);
         self
     }
 
@@ -245,7 +245,7 @@ impl OracleMachine {
         Ok(())
     }
 
-    /// The classical words of a pixel.
+    /// The classical parameters of a pixel.
     fn words(&self, pixel: [u32; 2]) -> Vec<u64> {
         self.oracle.words(self.seed, pixel)
     }
@@ -312,7 +312,7 @@ impl OracleMachine {
         Ok(())
     }
 
-    /// Finds the paths' first hits, where they are inputs of the oracle.
+    /// Finds the paths' primary hits, where they are inputs of the oracle.
     fn find_first_hits(&self, block: &mut OracleBlock) -> Result<(), Defect> {
         block.queries.clear();
         block.queries.resize(block.runs.len(), 0);
@@ -320,9 +320,9 @@ impl OracleMachine {
             return Ok(());
         }
         let runs: Vec<PathRun> = block.runs.iter().map(|run| run.paths).collect();
-        let first_hits = self.first_hits.as_ref().ok_or(Defect::FirstHits)?;
+        let primary_hits = self.primary_hits.as_ref().ok_or(Defect::PrimaryHits)?;
         block.hits.resize(block.ids.len(), 0);
-        first_hits.find(&runs, &mut block.hits, &mut block.queries)
+        primary_hits.find(&runs, &mut block.hits, &mut block.queries)
     }
 
     fn run_fixed(
@@ -365,7 +365,7 @@ impl OracleMachine {
 struct OracleBlock {
     ids: Vec<u64>,
     runs: Vec<PixelRun>,
-    /// By path: its first hit, if that is an input.
+    /// By path: its primary hit, if that is an input.
     hits: Vec<u64>,
     /// By run: the queries that these took.
     queries: Vec<u64>,

@@ -8,7 +8,7 @@
 //! use qrt_circuit::{Machine, Recorder, Style, When};
 //! use qrt_runtime::machines::run;
 //!
-//! let mut recorder = Recorder::new(Style::Lean);
+//! let mut recorder = Recorder::new(Style::InPlace);
 //! let a: Reg<_, UInt<4>> = Reg::input(&mut recorder, "a");
 //! let mut b: Reg<_, UInt<4>> = Reg::input(&mut recorder, "b");
 //! recorder.add_into(b.register_mut(), a.word().into(), false, When::Always);
@@ -43,8 +43,8 @@ pub enum RunError {
         /// The register's name.
         register: String,
     },
-    /// A program with classical words, which only a scene's pixels decide.
-    #[error("the program has classical words")]
+    /// A program with classical parameters, which only a scene's pixels decide.
+    #[error("the program has classical parameters")]
     Parameters,
     /// The lowering made a list of gates that is no circuit: a defect of qrt.
     #[error(transparent)]
@@ -232,7 +232,7 @@ mod tests {
 
     /// A scratch register that is given back with what a state holds.
     fn leaves() -> Program {
-        let mut m = Recorder::new(Style::Lean);
+        let mut m = Recorder::new(Style::InPlace);
         let a: Reg<_, UInt<4>> = Reg::input(&mut m, "a");
         let mut t: Reg<_, UInt<4>> = Reg::zero(&mut m, "t");
         m.add_into(t.register_mut(), a.word().into(), false, When::Always);
@@ -256,7 +256,7 @@ mod tests {
 
     #[test]
     fn what_is_undone_after_its_operands_changed_is_found() {
-        let mut m = Recorder::new(Style::Lean);
+        let mut m = Recorder::new(Style::InPlace);
         let mut a: Reg<_, UInt<4>> = Reg::input(&mut m, "a");
         let declared = Declaration::work("copy", Type::UInt, 4);
         let copy = m.copy(&declared, a.word());

@@ -43,7 +43,7 @@ pub struct State {
 impl State {
     /// Without registers.
     pub fn new() -> Self {
-        Self::of(Recorder::new(Style::Lean), &[])
+        Self::of(Recorder::new(Style::InPlace), &[])
     }
 
     fn of(recorder: Recorder, parameters: &[u64]) -> Self {

@@ -1,7 +1,7 @@
 //! What a plan chose, and what it expects.
 
 use qrt_core::inspect::grouped;
-use qrt_core::oracle::Spent;
+use qrt_core::oracle::CallCost;
 use qrt_core::scene::{Accuracy, Estimator, Sequence};
 use std::fmt;
 
@@ -52,7 +52,7 @@ pub struct Figures {
     /// Queries of a pixel, all channels together, on average.
     pub queries: f64,
     /// One call of the dearest channel's oracle; none where the scene has no circuit.
-    pub spent: Option<Spent>,
+    pub spent: Option<CallCost>,
 }
 
 impl fmt::Display for Figures {
@@ -103,7 +103,7 @@ impl fmt::Display for Figures {
         }
         let queries = grouped(self.queries.round() as u64);
         match self.spent {
-            Some(Spent { qubits, toffoli }) => writeln!(
+            Some(CallCost { qubits, toffoli }) => writeln!(
                 f,
                 "  {queries} queries a pixel x {} Toffoli = {:.2e}, on {} qubits",
                 grouped(toffoli),

@@ -1,10 +1,10 @@
-//! From an asked accuracy to the cheapest knobs.
+//! From an asked accuracy to the cheapest parameters.
 //!
 //! `accuracy: { error, confidence }` asks that a channel of a pixel be within `error` times the
 //! picture's mean radiance of its limit (infinitely many paths of the scene's length, real numbers,
 //! nothing counted) with probability `confidence`: that share of a picture's channels is.
 //!
-//! # How knobs are chosen
+//! # How parameters are chosen
 //!
 //! By trying them on a sample of pixels, each part of the error apart:
 //!
@@ -15,15 +15,15 @@
 //! * *counting*: runs of the estimator on each channel's own S/N.
 //!
 //! They are added up channel by channel, run by run, so that what counts is how they really combine.
-//! Knobs will do if the share of channels that are off by more, and 1.64 times its standard error
+//! Parameters will do if the share of channels that are off by more, and 1.64 times its standard error
 //! over pixels (what another sample, or one picture's luck, may add), stay below 1 - confidence.
 //!
-//! Among knobs that will do, the product of queries and Toffolis is made least: queries against the
+//! Among parameters that will do, the product of queries and Toffolis is made least: queries against the
 //! width of numbers. A path bit costs a qubit and no Toffoli, but twice the time of a simulation;
 //! path bits are added as long as each, or each of up to three together, saves an eighth of the
 //! queries. Comparators are so many that they take a twentieth of the error.
 //!
-//! The seed of a picture plays no part: a scene always gets the same knobs.
+//! The seed of a picture plays no part: a scene always gets the same parameters.
 
 mod counted;
 mod error;
@@ -53,16 +53,16 @@ pub struct Options<'a> {
     pub workers: Workers<'a>,
 }
 
-/// A scene with chosen knobs.
+/// A scene with chosen parameters.
 #[derive(Clone, Debug)]
 pub struct Plan {
-    /// The scene with the chosen knobs in place of its accuracy.
+    /// The scene with the chosen parameters in place of its accuracy.
     pub scene: ValidScene,
     /// What was chosen, and what is expected of it.
     pub figures: Figures,
 }
 
-/// Chooses the knobs of a scene that asks for an accuracy; `None` for one that doesn't.
+/// Chooses the parameters of a scene that asks for an accuracy; `None` for one that doesn't.
 ///
 /// # Errors
 /// See [`PlanError`].

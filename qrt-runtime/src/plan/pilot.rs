@@ -6,10 +6,10 @@ use crate::estimators::Noise;
 use crate::machines::{OracleMachine, Real};
 use crate::sample::{Means, counted_tallies, prefix_means, radiance, spread, tallies};
 use crate::workers::Workers;
-use qrt_core::oracle::{Oracle, Spent, spent};
+use qrt_core::oracle::{CallCost, Oracle, call_cost};
 use qrt_core::sampling::MAX_PATH_BITS;
 use qrt_core::scene::{Accuracy, Comparator, Estimator, Sequence};
-use qrt_core::valid::{Knobs, ValidScene};
+use qrt_core::valid::{Parameters, ValidScene};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::sync::Mutex;
@@ -246,18 +246,18 @@ impl<'a> Pilot<'a> {
         &self,
         path_bits: u32,
         fraction: u32,
-    ) -> Result<Option<(Errors, Spent)>, PlanError> {
-        let mut knobs = net_knobs(self.scene, path_bits);
+    ) -> Result<Option<(Errors, CallCost)>, PlanError> {
+        let mut parameters = net_parameters(self.scene, path_bits);
         if self.is_lattice() {
-            knobs = self.scene.knobs();
+            parameters = self.scene.parameters();
         }
-        knobs.precision.fraction = Some(fraction);
-        knobs.comparator.bits = self.comparator_bits;
-        let scene = valid(self.scene, knobs)?;
+        parameters.precision.fraction = Some(fraction);
+        parameters.comparator.bits = self.comparator_bits;
+        let scene = valid(self.scene, parameters)?;
         let Ok((channels, oracle)) = Oracle::all(&scene) else {
             return Ok(None);
         };
-        let spent = spent(&channels);
+        let spent = call_cost(&channels);
         let machine = OracleMachine::fixed(Arc::new(oracle), SHIFTS[0], false);
         let paths = machine.paths().min(1 << COMPARED);
         let own = Real::new(&scene, SHIFTS[0])?;
@@ -289,34 +289,34 @@ pub(super) fn unreachable(why: String) -> PlanError {
     PlanError::Unreachable(why)
 }
 
-/// The scene's knobs under a net of `2^bits` paths.
-fn net_knobs(scene: &ValidScene, bits: u32) -> Knobs {
-    let mut knobs = scene.knobs();
-    if knobs.sampling.sequence == Sequence::ProductLattice {
-        knobs.sampling.sequence = Sequence::DigitalNet;
-        for depth in &mut knobs.sampling.depths {
+/// The scene's parameters under a net of `2^bits` paths.
+fn net_parameters(scene: &ValidScene, bits: u32) -> Parameters {
+    let mut parameters = scene.parameters();
+    if parameters.sampling.sequence == Sequence::ProductLattice {
+        parameters.sampling.sequence = Sequence::DigitalNet;
+        for depth in &mut parameters.sampling.depths {
             depth.bits = [16; 2];
         }
     }
-    knobs.sampling.path_bits = bits.min(MAX_PATH_BITS);
-    knobs
+    parameters.sampling.path_bits = bits.min(MAX_PATH_BITS);
+    parameters
 }
 
 fn net(scene: &ValidScene, bits: u32) -> Result<ValidScene, PlanError> {
-    valid(scene, net_knobs(scene, bits))
+    valid(scene, net_parameters(scene, bits))
 }
 
 /// The scene's own sequence: of `2^bits` paths if it is a net.
 fn of_bits(scene: &ValidScene, bits: u32) -> Result<ValidScene, PlanError> {
-    let mut knobs = scene.knobs();
-    if knobs.sampling.sequence == Sequence::DigitalNet {
-        knobs.sampling.path_bits = bits;
+    let mut parameters = scene.parameters();
+    if parameters.sampling.sequence == Sequence::DigitalNet {
+        parameters.sampling.path_bits = bits;
     }
-    valid(scene, knobs)
+    valid(scene, parameters)
 }
 
-pub(super) fn valid(scene: &ValidScene, knobs: Knobs) -> Result<ValidScene, PlanError> {
-    scene.with_knobs(knobs).map_err(|problems| {
+pub(super) fn valid(scene: &ValidScene, parameters: Parameters) -> Result<ValidScene, PlanError> {
+    scene.with_parameters(parameters).map_err(|problems| {
         let first = problems.into_iter().next();
         unreachable(first.map_or_else(String::new, |problem| problem.words().message))
     })

@@ -1,9 +1,9 @@
-//! The cheapest knobs that will do.
+//! The cheapest parameters that will do.
 
 use super::pilot::{Errors, FEWEST, Pilot, quantile, unreachable, valid};
 use super::together::{each_total, failing, will_do};
 use super::{ErrorParts, Figures, Plan, PlanError};
-use qrt_core::oracle::{DEFAULT_FRACTION, Spent};
+use qrt_core::oracle::{CallCost, DEFAULT_FRACTION};
 use qrt_core::scene::{Counting, Estimator, Sequence};
 
 /// Path bits that may be extrapolated to.
@@ -12,9 +12,9 @@ const MOST_PATHS: u32 = 32;
 const WORTH: f64 = 0.125;
 /// Path bits that are looked ahead: registers double, so that a saving may need more than one.
 const AHEAD: u32 = 3;
-/// The counting register that a search begins with.
+/// The phase register that a search begins with.
 const START: u32 = 6;
-/// The largest counting register.
+/// The largest phase register.
 const MOST_PHASE: u32 = 40;
 /// Fraction bits that are tried.
 const FRACTIONS: std::ops::RangeInclusive<u32> = 8..=30;
@@ -22,7 +22,7 @@ const FRACTIONS: std::ops::RangeInclusive<u32> = 8..=30;
 const MANY_POLYGONS: usize = 200;
 
 /// Fraction bits, the error that they leave, and what a call costs then.
-type Width = (u32, Errors, Spent);
+type Width = (u32, Errors, CallCost);
 
 /// A counting block, and how it does.
 #[derive(Clone)]
@@ -257,15 +257,15 @@ fn finish(
         failing(pilot, &others, Some(errors))
     };
     let fraction = width.as_ref().map(|(fraction, ..)| *fraction);
-    let mut knobs = pilot.scene.knobs();
-    knobs.sampling.path_bits = path_bits;
-    knobs.precision.fraction = fraction;
-    knobs.comparator.bits = pilot.comparator_bits;
-    knobs.counting = counting;
-    knobs.counting.estimator = pilot.estimator;
+    let mut parameters = pilot.scene.parameters();
+    parameters.sampling.path_bits = path_bits;
+    parameters.precision.fraction = fraction;
+    parameters.comparator.bits = pilot.comparator_bits;
+    parameters.counting = counting;
+    parameters.counting.estimator = pilot.estimator;
     let film = pilot.scene.scene().film;
     Ok(Plan {
-        scene: valid(pilot.scene, knobs)?,
+        scene: valid(pilot.scene, parameters)?,
         figures: Figures {
             accuracy: pilot.accuracy,
             mean: pilot.mean,

@@ -79,14 +79,14 @@ pub enum RenderError {
     Compiled(#[from] CompiledError),
     /// A model that has no oracle, and so nothing to search with.
     #[error(
-        "first hits are searched for by a circuit, which the model `real` does not have: use \
+        "primary hits are searched for by a circuit, which the model `real` does not have: use \
          `fixed` or `gates`"
     )]
     SearchModel,
     /// An estimator that counts the ids of a superposition, where every path is searched by itself.
     #[error(
-        "the estimator `{0}` counts paths in superposition, and first hits are searched for path \
-         by path: use `exact`, or find first hits classically"
+        "the estimator `{0}` counts paths in superposition, and primary hits are searched for path \
+         by path: use `exact`, or find primary hits classically"
     )]
     SearchEstimator(Estimator),
     /// A search that cannot be made.
@@ -152,8 +152,8 @@ pub enum CompiledError {
     Model,
     /// The scene's parameters are chosen when it is rendered, after its circuit was compiled.
     #[error(
-        "the scene asks for an `accuracy`, and its circuit was compiled before the knobs are \
-         chosen that keep it: write the knobs into the scene, or use `render`"
+        "the scene asks for an `accuracy`, and its circuit was compiled before the parameters are \
+         chosen that keep it: write the parameters into the scene, or use `render`"
     )]
     Accuracy,
     /// The circuit computes no luminance.
@@ -162,9 +162,9 @@ pub enum CompiledError {
          counts: choose three runs, or use `render`"
     )]
     OneRun,
-    /// The circuit finds first hits itself.
+    /// The circuit finds primary hits itself.
     #[error(
-        "a compiled circuit finds first hits itself, and none that are searched for: find first \
+        "a compiled circuit finds primary hits itself, and none that are searched for: find first \
          hits classically, or use `render`"
     )]
     Visibility,

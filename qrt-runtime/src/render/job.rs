@@ -88,7 +88,7 @@ impl<'a> Job<'a> {
                 colour: options.colour,
                 noise: options.noise,
                 seed: options.seed,
-                knobs: scene.knobs(),
+                parameters: scene.parameters(),
                 plan: None,
                 bound: self.pixels.bound(),
                 ids: paths << scene.scene().comparator.bits,

@@ -12,7 +12,7 @@ impl Rendered {
     /// A scene whose name holds a NUL, which no picture can hold.
     pub fn metadata(&self, scene: &ValidScene) -> Result<Metadata, ImageError> {
         let written = scene.scene();
-        let sampling = &self.knobs.sampling;
+        let sampling = &self.parameters.sampling;
         let [x, y, width, height] = self.crop;
         let mut metadata = Metadata::new();
         metadata.set("version", env!("CARGO_PKG_VERSION"))?;
@@ -33,7 +33,7 @@ impl Rendered {
         )?;
         metadata.set("crop", format!("{x},{y},{width},{height}"))?;
         if self.estimator != Estimator::Exact {
-            let (comparator, counting) = (&self.knobs.comparator, &self.knobs.counting);
+            let (comparator, counting) = (&self.parameters.comparator, &self.parameters.counting);
             metadata.set("comparator_bits", comparator.bits.to_string())?;
             metadata.set("comparator_at", comparator.at.name())?;
             metadata.set("phase_bits", counting.phase_bits.to_string())?;

@@ -18,7 +18,7 @@
 //! with `scale` the proven bound of a path's colour in that channel. A channel that is proven
 //! black takes no queries.
 //!
-//! [`Visibility`] says how a path's first hit is found: by the tracer like all others, or path by path
+//! [`Visibility`] says how a path's primary hit is found: by the tracer like all others, or path by path
 //! with an oracle of nearest hits, whose queries are then the picture's.
 //!
 //! A scene that asks for an `accuracy` is rendered with the parameters that [`crate::plan`] chooses for
@@ -70,7 +70,7 @@ use job::Job;
 use pixel::Source;
 use qrt_core::oracle::{self, Oracle, OracleError};
 use qrt_core::scene::Estimator;
-use qrt_core::valid::{Knobs, ValidScene};
+use qrt_core::valid::{Parameters, ValidScene};
 use std::path::PathBuf;
 
 named! {
@@ -116,7 +116,7 @@ pub struct Options<'a> {
     pub colour: Colour,
     /// Noise of the device that counts; none unless set.
     pub noise: Noise,
-    /// How first hits are found.
+    /// How primary hits are found.
     pub visibility: Visibility,
     /// The parameters of a scene that asks for an accuracy, where they are chosen already.
     pub plan: Option<&'a Plan>,
@@ -150,7 +150,7 @@ pub struct Rendered {
     /// Linear radiance. With a crop, of the crop's size.
     pub image: Image,
     /// Queries of the oracle by pixel, as the image's pixels; all channels together. 0 under
-    /// `exact`, which sums over all paths and asks no oracle. Where first hits are searched for:
+    /// `exact`, which sums over all paths and asks no oracle. Where primary hits are searched for:
     /// those of the oracle of nearest hits, all paths together.
     pub queries: Vec<u64>,
     /// S, the good ids of every pixel's channels, as the image's pixels; none of the real model,
@@ -158,7 +158,7 @@ pub struct Rendered {
     pub good: Option<Vec<[u64; 3]>>,
     /// What traced the paths.
     pub model: Model,
-    /// How first hits were found.
+    /// How primary hits were found.
     pub visibility: Visibility,
     /// What was searched for them, if they were not traced; none for a scene without faces, whose
     /// paths meet nothing.
@@ -174,7 +174,7 @@ pub struct Rendered {
     /// What keyed its shifts and draws.
     pub seed: u64,
     /// The parameters: the scene's, or those that its accuracy takes.
-    pub knobs: Knobs,
+    pub parameters: Parameters,
     /// How these were chosen, if they were.
     pub plan: Option<Figures>,
     /// The proven bound on a path's colour per channel: the radiance of S = N.
@@ -317,7 +317,7 @@ impl<'a> Request<'a> {
         }
     }
 
-    /// What traces the paths, and what is searched for their first hits, if they are searched for.
+    /// What traces the paths, and what is searched for their primary hits, if they are searched for.
     fn source(&self) -> Result<(Source, Option<Searched>), RenderError> {
         let Options { seed, model, .. } = *self.options;
         if self.options.visibility != Visibility::Classical {

@@ -109,7 +109,7 @@ impl OneRun {
         let mut stream = Stream::new(pixels.seed(), x, y, LUMINANCE_CHANNEL as u8);
         let mut device = Device::new(problem, noise, &mut stream)?;
         let estimate = estimator.estimate(&mut device)?;
-        let measured = device.spent().good_ids.min(MEASURED);
+        let measured = device.usage().good_ids.min(MEASURED);
         let value = self.comparators.pixel_of_amplitude(estimate.amplitude);
         let mut ids: Vec<u64> = (0..measured).map(|_| stream.below(problem.good)).collect();
         ids.sort_unstable();

@@ -31,7 +31,7 @@ pub(super) struct Totals {
     good: [u64; 3],
     /// Of the luminance, where it is counted.
     segments: Segments,
-    /// Queries that first hits took.
+    /// Queries that primary hits took.
     queries: u64,
     /// Paths out of bounds, and the colour of the first.
     stray: [(u64, f64); 3],

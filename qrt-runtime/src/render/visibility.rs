@@ -1,13 +1,13 @@
-//! How a path's first hit is found.
+//! How a path's primary hit is found.
 //!
 //! Under [`Visibility::Grover`] that is a search of its own for every path, with an oracle of
 //! nearest hits (Lanzagorta & Uhlmann 2005; Alves 2019; Santos 2024), and integration is classical:
-//! paths are taken one by one, and the pixel is their mean. What follows the first hit is traced as
+//! paths are taken one by one, and the pixel is their mean. What follows the primary hit is traced as
 //! ever, by the same program but for its first intersection, which is given: see
-//! [`qrt_core::oracle::Oracle::given_first_hit`].
+//! [`qrt_core::oracle::Oracle::given_primary_hit`].
 
 use super::{Model, Options, RenderError};
-use crate::machines::{FirstHits, NearestMachine, OracleMachine};
+use crate::machines::{NearestMachine, OracleMachine, PrimaryHits};
 use crate::search::{FoundHits, Guess, Method, Rounds};
 use qrt_core::oracle::{NearestOracle, Oracle};
 use qrt_core::scene::{Estimator, Scene};
@@ -18,7 +18,7 @@ use std::sync::Arc;
 /// for.
 pub const DEFAULT_FAILURE: f64 = 1e-3;
 
-/// How a path's first hit is found.
+/// How a path's primary hit is found.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Visibility {
     /// By the tracer, which asks about all faces, like all other hits.
@@ -67,7 +67,7 @@ impl Visibility {
         }
     }
 
-    /// What a picture or a checkpoint says of it: nothing if the tracer finds first hits.
+    /// What a picture or a checkpoint says of it: nothing if the tracer finds primary hits.
     pub(super) fn written(self) -> Vec<(String, String)> {
         let mut written = Vec::new();
         let mut say = |key: &str, value: String| written.push((key.to_owned(), value));
@@ -96,7 +96,7 @@ impl Visibility {
     }
 }
 
-/// The machine that traces paths whose first hits are searched for, and what is searched.
+/// The machine that traces paths whose primary hits are searched for, and what is searched.
 pub(super) fn machine(
     scene: &ValidScene,
     options: &Options<'_>,
@@ -105,7 +105,7 @@ pub(super) fn machine(
     if options.model == Model::Real {
         return Err(RenderError::SearchModel);
     }
-    let oracle = Arc::new(Oracle::given_first_hit(scene)?);
+    let oracle = Arc::new(Oracle::given_primary_hit(scene)?);
     let gates = options.model == Model::Gates;
     let machine = if gates {
         OracleMachine::gates(oracle, seed, false)?
@@ -137,6 +137,6 @@ pub(super) fn machine(
     } else {
         NearestMachine::fixed(nearest, seed)
     };
-    let first_hits: Box<dyn FirstHits> = Box::new(FoundHits::new(nearest, method, seed));
-    Ok((machine.with_first_hits(first_hits), Some(searched)))
+    let primary_hits: Box<dyn PrimaryHits> = Box::new(FoundHits::new(nearest, method, seed));
+    Ok((machine.with_first_hits(primary_hits), Some(searched)))
 }

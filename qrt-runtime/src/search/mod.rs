@@ -50,12 +50,12 @@
 //! # Ok::<(), qrt_runtime::search::RoundsError>(())
 //! ```
 
-mod first_hits;
 mod minimum;
+mod primary_hits;
 mod rounds;
 #[cfg(test)]
 mod tests;
 
-pub use first_hits::{FoundHits, Guess, Method};
 pub use minimum::Search;
+pub use primary_hits::{FoundHits, Guess, Method};
 pub use rounds::{LEAST_FAILURE, Rounds, RoundsError, marked_probability, success};

@@ -10,9 +10,9 @@ use crate::machines::{OracleMachine, Real};
 use crate::render::Model;
 use crate::sample::{self, Drawn, Draws, Means, SampleError, Tally, counted_tallies, tallies};
 use crate::workers::Workers;
-use qrt_core::oracle::{Oracle, Spent, spent};
+use qrt_core::oracle::{CallCost, Oracle, call_cost};
 use qrt_core::scene::{Circuit, Comparator, Estimator, Sampling};
-use qrt_core::valid::{Knobs, ValidScene};
+use qrt_core::valid::{Parameters, ValidScene};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -30,7 +30,7 @@ pub(super) struct Effort {
 /// All that rows have in common.
 pub(super) struct Bench<'a> {
     pub(super) scene: &'a ValidScene,
-    pub(super) knobs: Knobs,
+    pub(super) parameters: Parameters,
     pub(super) pixels: Vec<[u32; 2]>,
     pub(super) seed: u64,
     pub(super) effort: Effort,
@@ -58,7 +58,7 @@ struct Traced {
 #[derive(Clone)]
 struct Built {
     oracle: Arc<Oracle>,
-    spent: Spent,
+    spent: CallCost,
 }
 
 impl<'a> Bench<'a> {
@@ -70,7 +70,7 @@ impl<'a> Bench<'a> {
         workers: Workers<'a>,
     ) -> Self {
         Self {
-            knobs: scene.knobs(),
+            parameters: scene.parameters(),
             scene,
             pixels,
             seed,
@@ -85,48 +85,48 @@ impl<'a> Bench<'a> {
     }
 
     /// The scene under a setting; `None` where there can be no such scene.
-    fn scene_of(&self, knobs: Knobs) -> Option<ValidScene> {
-        self.scene.with_knobs(knobs).ok()
+    fn scene_of(&self, parameters: Parameters) -> Option<ValidScene> {
+        self.scene.with_parameters(parameters).ok()
     }
 
     /// That the scene as it is has a circuit.
     pub(super) fn check(&mut self) -> Result<(), TradeError> {
-        let knobs = Setting::of(&self.knobs).knobs(&self.knobs);
+        let parameters = Setting::of(&self.parameters).parameters(&self.parameters);
         let scene = self
             .scene
-            .with_knobs(knobs.clone())
-            .map_err(TradeError::Knobs)?;
-        self.built(&scene, &knobs)?;
+            .with_parameters(parameters.clone())
+            .map_err(TradeError::Parameters)?;
+        self.built(&scene, &parameters)?;
         Real::new(&scene, self.seed)?;
         Ok(())
     }
 
     /// Measures a row. None where the setting has no circuit.
     pub(super) fn row(&mut self, setting: Setting) -> Result<Option<Row>, TradeError> {
-        let knobs = setting.knobs(&self.knobs);
-        let Some(scene) = self.scene_of(knobs.clone()) else {
+        let parameters = setting.parameters(&self.parameters);
+        let Some(scene) = self.scene_of(parameters.clone()) else {
             return Ok(None);
         };
-        let Some(built) = self.built(&scene, &knobs)? else {
+        let Some(built) = self.built(&scene, &parameters)? else {
             return Ok(None);
         };
-        let mean = sample::radiance(self.reference(self.knobs.sampling.depths.len())?);
+        let mean = sample::radiance(self.reference(self.parameters.sampling.depths.len())?);
         if mean <= 0.0 {
             return Err(TradeError::Black);
         }
         let truth = self.reference(setting.depths)?.clone();
-        let real = self.real(&scene, &knobs)?;
+        let real = self.real(&scene, &parameters)?;
         let counted = match setting.model {
             Model::Real => real.clone(),
-            model => self.counted(&knobs, &built, model)?,
+            model => self.counted(&parameters, &built, model)?,
         };
         let bound = Real::new(&scene, self.seed)?.stage().bound();
-        let ids = (1_u64 << knobs.sampling.path_bits) << knobs.comparator.bits;
+        let ids = (1_u64 << parameters.sampling.path_bits) << parameters.comparator.bits;
         let value =
             |good: &[u64; 3]| std::array::from_fn(|c| bound[c] * (good[c] as f64 / ids as f64));
         let [in_real, in_model]: [Means; 2] =
             [&real.good, &counted.good].map(|good| good.iter().map(value).collect());
-        let estimated = self.estimated(&knobs, &bound, &counted.good, ids)?;
+        let estimated = self.estimated(&parameters, &bound, &counted.good, ids)?;
         let drawn = drawn(&estimated, &in_model, &truth, mean);
         let pixels = self.pixels.len() as f64;
         let depth = self.depth_error(setting.depths, mean)?;
@@ -147,14 +147,14 @@ impl<'a> Bench<'a> {
         }))
     }
 
-    fn real(&mut self, scene: &ValidScene, knobs: &Knobs) -> Result<Traced, TradeError> {
-        let key = (knobs.sampling.clone(), knobs.comparator);
+    fn real(&mut self, scene: &ValidScene, parameters: &Parameters) -> Result<Traced, TradeError> {
+        let key = (parameters.sampling.clone(), parameters.comparator);
         if let Some((_, found)) = self.real.iter().find(|(of, _)| *of == key) {
             return Ok(found.clone());
         }
         let start = Instant::now();
         let real = Real::new(scene, self.seed)?;
-        let comparators = Comparators::rgb(real.stage().bound(), knobs.comparator)?;
+        let comparators = Comparators::rgb(real.stage().bound(), parameters.comparator)?;
         let paths = real.paths();
         let found = tallies(&real, &self.pixels, 0..paths, &[comparators], &self.workers)?;
         let traced = Traced {
@@ -166,12 +166,16 @@ impl<'a> Bench<'a> {
         Ok(traced)
     }
 
-    fn built(&mut self, scene: &ValidScene, knobs: &Knobs) -> Result<Option<Built>, TradeError> {
-        let key = circuit_key(knobs);
+    fn built(
+        &mut self,
+        scene: &ValidScene,
+        parameters: &Parameters,
+    ) -> Result<Option<Built>, TradeError> {
+        let key = circuit_key(parameters);
         if let Some((_, found)) = self.circuits.iter().find(|(of, _)| *of == key) {
             return Ok(Some(found.clone()));
         }
-        let own = Setting::of(&self.knobs).knobs(&self.knobs);
+        let own = Setting::of(&self.parameters).parameters(&self.parameters);
         let (channels, oracle) = match Oracle::all(scene) {
             Ok(all) => all,
             // A row without a circuit is left out; a scene without one has no table.
@@ -180,7 +184,7 @@ impl<'a> Bench<'a> {
         };
         let built = Built {
             oracle: Arc::new(oracle),
-            spent: spent(&channels),
+            spent: call_cost(&channels),
         };
         // One is large, and rows of a circuit stand together, but for the scene's own.
         self.circuits.retain(|(of, _)| *of == circuit_key(&own));
@@ -190,11 +194,11 @@ impl<'a> Bench<'a> {
 
     fn counted(
         &mut self,
-        knobs: &Knobs,
+        parameters: &Parameters,
         built: &Built,
         model: Model,
     ) -> Result<Traced, TradeError> {
-        let key = (circuit_key(knobs), model);
+        let key = (circuit_key(parameters), model);
         if let Some((_, found)) = self.counted.iter().find(|(of, _)| *of == key) {
             return Ok(found.clone());
         }
@@ -219,15 +223,15 @@ impl<'a> Bench<'a> {
     /// What the estimator says of every channel of every pixel, several times.
     fn estimated(
         &self,
-        knobs: &Knobs,
+        parameters: &Parameters,
         bound: &[f64; 3],
         good: &[[u64; 3]],
         total: u64,
     ) -> Result<Estimated, TradeError> {
         let start = Instant::now();
-        let settings = Settings::of(&knobs.counting)?;
+        let settings = Settings::of(&parameters.counting)?;
         let draws = Draws {
-            estimator: &*estimator(knobs.counting.estimator, &settings)?,
+            estimator: &*estimator(parameters.counting.estimator, &settings)?,
             noise: Noise::NONE,
             // The first draw is the picture's own.
             seed: self.seed,
@@ -236,7 +240,7 @@ impl<'a> Bench<'a> {
             total,
         };
         let found = draws.of(&self.pixels, good)?;
-        let exact = knobs.counting.estimator == Estimator::Exact;
+        let exact = parameters.counting.estimator == Estimator::Exact;
         let queries: u64 = found.iter().map(|drawn| drawn.queries).sum();
         let value = |amplitudes: &[f64; 3]| std::array::from_fn(|c| bound[c] * amplitudes[c]);
         let values = |drawn: Drawn| drawn.amplitudes.iter().map(value).collect();
@@ -256,10 +260,15 @@ struct Estimated {
     seconds: f64,
 }
 
-fn circuit_key(knobs: &Knobs) -> CircuitKey {
-    let fraction = knobs.precision.fraction.unwrap_or_default();
-    let sampling = knobs.sampling.clone();
-    (sampling, fraction, knobs.comparator, knobs.circuit)
+fn circuit_key(parameters: &Parameters) -> CircuitKey {
+    let fraction = parameters.precision.fraction.unwrap_or_default();
+    let sampling = parameters.sampling.clone();
+    (
+        sampling,
+        fraction,
+        parameters.comparator,
+        parameters.circuit,
+    )
 }
 
 fn means(tallies: &[Tally], paths: u64) -> Means {

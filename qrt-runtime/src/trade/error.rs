@@ -39,8 +39,8 @@ pub enum TradeError {
     )]
     Black,
     /// The scene's parameters cannot be varied.
-    #[error("the scene's knobs cannot be turned: {}", first(.0))]
-    Knobs(Vec<Problem>),
+    #[error("the scene's parameters cannot be turned: {}", first(.0))]
+    Parameters(Vec<Problem>),
     /// A file cannot be written or read.
     #[error("`{}`: {source}", .path.display())]
     File {

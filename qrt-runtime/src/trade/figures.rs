@@ -181,7 +181,7 @@ fn repetitions(trade: &Trade) -> Figure {
     Figure {
         name: "repetitions",
         plot: Plot {
-            title: "A larger counting register, or the same one again".to_owned(),
+            title: "A larger phase register, or the same one again".to_owned(),
             x: Axis::log("queries of a pixel"),
             y: Axis::log("E_T: RMSE / mean radiance"),
             series: all,

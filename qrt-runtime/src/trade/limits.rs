@@ -32,15 +32,18 @@ impl Bench<'_> {
 
     /// Means over `2^bits` paths of the net, of so many rays.
     fn net_means(&self, rays: usize, bits: u32, key: u64) -> Result<Means, TradeError> {
-        let mut knobs = self.knobs.clone();
-        knobs.sampling = Sampling {
+        let mut parameters = self.parameters.clone();
+        parameters.sampling = Sampling {
             sequence: Sequence::DigitalNet,
             path_bits: bits,
-            depths: depths(&self.knobs.sampling, rays),
+            depths: depths(&self.parameters.sampling, rays),
         };
         // Ids need not be counted here.
-        knobs.comparator.bits = 1;
-        let scene = self.scene.with_knobs(knobs).map_err(TradeError::Knobs)?;
+        parameters.comparator.bits = 1;
+        let scene = self
+            .scene
+            .with_parameters(parameters)
+            .map_err(TradeError::Parameters)?;
         let real = Real::new(&scene, self.seed ^ key)?;
         let mut means = prefix_means(&real, &self.pixels, &[bits], &self.workers)?;
         Ok(means.pop().unwrap_or_default())
@@ -61,7 +64,7 @@ impl Bench<'_> {
     }
 
     fn pictures_by_depth(&self) -> Result<Vec<Means>, TradeError> {
-        let own = self.knobs.sampling.depths.len();
+        let own = self.parameters.sampling.depths.len();
         let most = (own + DEEPER).min(MAX_NET_DEPTHS).max(own);
         let mut pictures: Vec<Means> = Vec::new();
         for rays in 1..=most {
@@ -75,7 +78,7 @@ impl Bench<'_> {
             let step = Band::of_difference(before, last, 1.0).value;
             let own = pictures.get(own - 1);
             let all = own.map_or(0.0, |own| Band::of_difference(own, last, 1.0).value);
-            if rays > self.knobs.sampling.depths.len() + 2 && step <= NEGLIGIBLE * all {
+            if rays > self.parameters.sampling.depths.len() + 2 && step <= NEGLIGIBLE * all {
                 break;
             }
         }

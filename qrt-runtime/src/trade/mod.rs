@@ -1,6 +1,6 @@
 //! Speed against accuracy, measured.
 //!
-//! [`trade`] turns the knobs of a scene one at a time, and estimators and queries together, renders
+//! [`trade`] turns the parameters of a scene one at a time, and estimators and queries together, renders
 //! a sample of its pixels under each setting, and writes what that cost and how far it is from the
 //! picture's limit: a table, plots and a page that shows both.
 //!
@@ -20,7 +20,7 @@
 //! | total | what the estimator says | the exact mean over far more paths, of D rays |
 //!
 //! The total is measured, too: it is no sum of the others. `E_D` is not in it, for it changes with no
-//! other knob than the length of paths. Intervals are a bootstrap's over pixels.
+//! other parameter than the length of paths. Intervals are a bootstrap's over pixels.
 
 //!
 //! # The table
@@ -28,11 +28,11 @@
 //! `trade.csv` begins with a line that names what its rows depend on: version, scene hash, seed,
 //! pixels, quick. Its columns:
 //!
-//! * the setting: `sweep` (the knob that the row is about), `model`, `estimator`, `phase_bits`,
+//! * the setting: `sweep` (the parameter that the row is about), `model`, `estimator`, `phase_bits`,
 //!   `repetitions`, `sequence`, `path_bits`, `depths`, `fraction`, `comparator_bits`, `uncompute`,
 //!   `nearest`;
 //! * its price: `queries` of a pixel, all channels together, on average; `toffoli` and `qubits` of one
-//!   call of the dearest channel's oracle, as `qrt inspect` counts them (a counting register's own
+//!   call of the dearest channel's oracle, as `qrt inspect` counts them (a phase register's own
 //!   qubits are not among them); `toffoli_x_queries`;
 //! * `mean`: the mean radiance, over pixels and channels, that errors are relative to;
 //! * `e_r`, `e_c`, `e_w`, `e_t`, `e_d`, `e_total`, each followed by the ends of its interval at 95 %
@@ -108,7 +108,7 @@ impl Trade {
         self.rows.first()
     }
 
-    /// The rows about one knob.
+    /// The rows about one parameter.
     pub fn of(&self, sweep: Sweep) -> impl Iterator<Item = &Row> {
         self.rows
             .iter()
@@ -121,7 +121,7 @@ impl Trade {
     }
 }
 
-/// Measures a scene's knobs and writes `trade.csv`, plots and `index.html` to `folder`, which is made
+/// Measures a scene's parameters and writes `trade.csv`, plots and `index.html` to `folder`, which is made
 /// if it is not there. A table that an interrupted run has left is gone on with.
 ///
 /// # Errors
@@ -156,7 +156,7 @@ fn measure(scene: &ValidScene, folder: &Path, options: &Options<'_>) -> Result<T
         .pixels
         .unwrap_or(if options.quick { 32 } else { 256 });
     let pixels = spread(film, asked.max(1));
-    let settings = sweep::settings(&scene.knobs(), options.quick);
+    let settings = sweep::settings(&scene.parameters(), options.quick);
     let longest = settings.iter().map(|setting| setting.path_bits).max();
     let more = if options.quick { 3 } else { 4 };
     let effort = Effort {

@@ -1,4 +1,4 @@
-//! What stands in a row: one value of every knob.
+//! What stands in a row: one value of every parameter.
 
 use crate::named::named;
 use crate::render::Model;
@@ -6,7 +6,7 @@ use qrt_core::oracle::DEFAULT_FRACTION;
 use qrt_core::scene::{
     Counting, DepthSampling, Estimator, Map, Nearest, Sampling, Sequence, Uncompute,
 };
-use qrt_core::valid::Knobs;
+use qrt_core::valid::Parameters;
 
 named! {
     /// Which parameter a row is about.
@@ -32,10 +32,10 @@ named! {
     }
 }
 
-/// One value of every knob.
+/// One value of every parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Setting {
-    /// The knob that the row is about.
+    /// The parameter that the row is about.
     pub sweep: Sweep,
     /// What traces the paths.
     pub model: Model,
@@ -78,21 +78,21 @@ pub(super) const KEY: [&str; 12] = [
 ];
 
 impl Setting {
-    /// The knobs as the scene has them, on the fixed machine: the circuit's own numbers.
-    pub(super) fn of(knobs: &Knobs) -> Self {
+    /// The parameters as the scene has them, on the fixed machine: the circuit's own numbers.
+    pub(super) fn of(parameters: &Parameters) -> Self {
         Self {
             sweep: Sweep::Scene,
             model: Model::Fixed,
-            estimator: knobs.counting.estimator,
-            phase_bits: knobs.counting.phase_bits,
-            repetitions: knobs.counting.repetitions,
-            sequence: knobs.sampling.sequence,
-            path_bits: knobs.sampling.path_bits,
-            depths: knobs.sampling.depths.len(),
-            fraction: knobs.precision.fraction.unwrap_or(DEFAULT_FRACTION),
-            comparator_bits: knobs.comparator.bits,
-            uncompute: knobs.circuit.uncompute,
-            nearest: knobs.circuit.nearest,
+            estimator: parameters.counting.estimator,
+            phase_bits: parameters.counting.phase_bits,
+            repetitions: parameters.counting.repetitions,
+            sequence: parameters.sampling.sequence,
+            path_bits: parameters.sampling.path_bits,
+            depths: parameters.sampling.depths.len(),
+            fraction: parameters.precision.fraction.unwrap_or(DEFAULT_FRACTION),
+            comparator_bits: parameters.comparator.bits,
+            uncompute: parameters.circuit.uncompute,
+            nearest: parameters.circuit.nearest,
         }
     }
 
@@ -114,21 +114,21 @@ impl Setting {
         ]
     }
 
-    /// The scene's knobs with these values.
-    pub(super) fn knobs(&self, scene: &Knobs) -> Knobs {
-        let mut knobs = scene.clone();
-        knobs.sampling = self.sampling(&scene.sampling);
-        knobs.precision.fraction = Some(self.fraction);
-        knobs.comparator.bits = self.comparator_bits;
-        knobs.counting = Counting {
+    /// The scene's parameters with these values.
+    pub(super) fn parameters(&self, scene: &Parameters) -> Parameters {
+        let mut parameters = scene.clone();
+        parameters.sampling = self.sampling(&scene.sampling);
+        parameters.precision.fraction = Some(self.fraction);
+        parameters.comparator.bits = self.comparator_bits;
+        parameters.counting = Counting {
             phase_bits: self.phase_bits,
             repetitions: self.repetitions,
             estimator: self.estimator,
             ..scene.counting
         };
-        knobs.circuit.uncompute = self.uncompute;
-        knobs.circuit.nearest = self.nearest;
-        knobs
+        parameters.circuit.uncompute = self.uncompute;
+        parameters.circuit.nearest = self.nearest;
+        parameters
     }
 
     fn sampling(&self, scene: &Sampling) -> Sampling {

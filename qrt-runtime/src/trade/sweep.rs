@@ -1,17 +1,17 @@
-//! Which settings are measured: around the scene's own, one knob at a time, and every estimator with
+//! Which settings are measured: around the scene's own, one parameter at a time, and every estimator with
 //! every number of queries.
 
 use super::setting::{Setting, Sweep};
 use crate::render::Model;
 use qrt_core::scene::{Estimator, Nearest, Sequence, Uncompute};
-use qrt_core::valid::{Knobs, MAX_NET_DEPTHS};
+use qrt_core::valid::{MAX_NET_DEPTHS, Parameters};
 
 /// Registers that are halved before they are repeated: as many as make up for up to 32 repetitions.
 const HALVED: u32 = 4;
 
 /// The rows, in their order. `quick` leaves out every other value, and what takes longest.
-pub(super) fn settings(knobs: &Knobs, quick: bool) -> Vec<Setting> {
-    let scene = Setting::of(knobs);
+pub(super) fn settings(parameters: &Parameters, quick: bool) -> Vec<Setting> {
+    let scene = Setting::of(parameters);
     let step = if quick { 2 } else { 1 };
     let of = |sweep| Setting { sweep, ..scene };
     let mut rows = vec![scene];

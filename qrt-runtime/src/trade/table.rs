@@ -6,7 +6,7 @@
 use super::band::Band;
 use super::error::TradeError;
 use super::setting::{KEY, Setting};
-use qrt_core::oracle::Spent;
+use qrt_core::oracle::CallCost;
 use std::fs::{File, OpenOptions};
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
@@ -27,7 +27,7 @@ pub struct Row {
     /// Queries of a pixel, all channels together.
     pub queries: f64,
     /// Qubits and Toffolis of one call of the oracle.
-    pub spent: Spent,
+    pub spent: CallCost,
     /// The mean radiance over pixels and channels.
     pub mean: f64,
     /// As [`ERRORS`], relative to the mean.
@@ -76,7 +76,7 @@ impl Row {
         Some(Self {
             setting,
             queries: float(0)?,
-            spent: Spent {
+            spent: CallCost {
                 toffoli: cells[1].parse().ok()?,
                 qubits: cells[2].parse().ok()?,
             },

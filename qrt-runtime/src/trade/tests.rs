@@ -97,8 +97,8 @@ fn the_total_is_measured_against_the_limit() {
     assert_eq!(row.queries, 3.0 * 31.0);
     assert_eq!(row.toffoli_x_queries(), 93.0 * row.spent.toffoli as f64);
     // What `render` makes of the same pixels is what was measured.
-    let knobs = row.setting.knobs(&scene(LIT).knobs());
-    let same = scene(LIT).with_knobs(knobs).unwrap();
+    let parameters = row.setting.parameters(&scene(LIT).parameters());
+    let same = scene(LIT).with_parameters(parameters).unwrap();
     let inspected =
         qrt_core::inspect::Inspection::new(&same, None, qrt_core::oracle::Options::default())
             .unwrap();

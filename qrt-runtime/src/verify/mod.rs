@@ -114,7 +114,7 @@ impl Report {
     }
 }
 
-/// Runs a scene on all three machines; one that asks for an accuracy with the knobs that are chosen
+/// Runs a scene on all three machines; one that asks for an accuracy with the parameters that are chosen
 /// for it.
 ///
 /// # Errors

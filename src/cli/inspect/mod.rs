@@ -10,7 +10,7 @@ use super::terminal;
 use clap::Args;
 use qrt_core::front::Loaded;
 use qrt_core::inspect::{CHANNELS, Frame, Inspection, PassFigures};
-use qrt_core::oracle::{Options, Spent, check_budget};
+use qrt_core::oracle::{CallCost, Options, check_budget};
 use qrt_core::valid::ValidScene;
 use qrt_runtime::draw;
 use qrt_runtime::plan::{Figures, Options as PlanOptions, plan};
@@ -24,7 +24,7 @@ use std::path::{Path, PathBuf};
 /// colours of all paths in superposition, compare and flip the phase, uncompute. Nothing is
 /// rendered.
 ///
-/// A scene that asks for an `accuracy` is shown with the knobs that are chosen for it, and the plan
+/// A scene that asks for an `accuracy` is shown with the parameters that are chosen for it, and the plan
 /// with what is expected of it.
 ///
 /// A scene's `budget` is checked; beyond it the figures are still shown and the exit code is 2.
@@ -116,7 +116,7 @@ pub(crate) fn run(args: &InspectArgs) -> Result<(), Failure> {
     keep_budget(&loaded, &inspection)
 }
 
-/// That `scene`, under whatever knobs, has a circuit, and one within its budget.
+/// That `scene`, under whatever parameters, has a circuit, and one within its budget.
 ///
 /// # Errors
 /// What stands in the way, at its place in the scene.
@@ -134,7 +134,7 @@ pub(super) fn check_circuit(loaded: &Loaded, scene: &ValidScene) -> Result<(), F
 /// # Errors
 /// What is beyond it.
 pub(super) fn keep_budget(loaded: &Loaded, inspection: &Inspection) -> Result<(), Failure> {
-    let spent = Spent {
+    let spent = CallCost {
         qubits: u64::from(inspection.qubits),
         toffoli: inspection.total().toffoli,
     };

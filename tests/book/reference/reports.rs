@@ -2,7 +2,7 @@
 
 use qrt::core::compile::BuildError;
 use qrt::core::front::{Loaded, obj, parse};
-use qrt::core::oracle::{MOST_FACES, Oracle, OracleError, check_budget, spent};
+use qrt::core::oracle::{MOST_FACES, Oracle, OracleError, call_cost, check_budget};
 use qrt::core::scene::meshes::Meshes;
 use qrt::core::scene::{Bsdf, Jacobian};
 use qrt::core::syntax::{Problem, Report};
@@ -106,7 +106,7 @@ fn elsewhere() -> Vec<String> {
 
     let tight = wall("budget: { qubits: 100, toffoli: 1000 }");
     let (oracles, _) = Oracle::all(&tight.valid).unwrap();
-    let over = check_budget(&tight.valid, spent(&oracles)).unwrap_err();
+    let over = check_budget(&tight.valid, call_cost(&oracles)).unwrap_err();
     texts.push(tell(&tight, over));
 
     let fine = wall("precision: { fraction: 30 }");

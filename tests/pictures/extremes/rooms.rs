@@ -191,7 +191,7 @@ fn grazing() -> Extreme {
     )
 }
 
-/// Turned by 30 degrees about z and 20 about x.
+/// AxisPermuted by 30 degrees about z and 20 about x.
 fn askew([x, y, z]: Point) -> Point {
     let [s, c] = [0.5, 0.75_f64.sqrt()];
     let [x, y] = [c * x - s * y, s * x + c * y];

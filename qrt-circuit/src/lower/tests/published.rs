@@ -161,7 +161,7 @@ fn lowerings_are_at_or_below_the_best_published_counts() {
         let mut bars = Vec::new();
         out_of_place(&mut bars, n);
         in_place(&mut bars, n, place);
-        for style in [Style::Wide, Style::Lean] {
+        for style in [Style::OutOfPlace, Style::InPlace] {
             products(&mut bars, n, place, style);
         }
         println!("n = {n}: Toffolis, at most; measured, measured inverse; scratch");
@@ -201,7 +201,7 @@ fn tables_are_read_by_few_toffolis() {
                 inverted: false,
             });
             let op = Op::Table {
-                style: Style::Wide,
+                style: Style::OutOfPlace,
                 address: address.collect(),
                 columns: columns.clone(),
                 low,

@@ -8,7 +8,7 @@ use super::simulate::{Bench, program};
 use proptest::prelude::*;
 
 fn style() -> impl Strategy<Value = Style> {
-    prop_oneof![Just(Style::Wide), Just(Style::Lean)]
+    prop_oneof![Just(Style::OutOfPlace), Just(Style::InPlace)]
 }
 
 /// A word of a register of 32 bits.
@@ -229,7 +229,7 @@ fn registers_take_qubits_that_others_have_left() {
     let square = |from: u32| Op::Square {
         a: word(from, 6),
         drop: 3,
-        style: Style::Wide,
+        style: Style::OutOfPlace,
         target: RegisterId(2 * from + 1),
         scratch: RegisterId(2 * from + 2),
     };
@@ -248,7 +248,7 @@ fn registers_take_qubits_that_others_have_left() {
         Op::Square {
             a: word(1, 6),
             drop: 3,
-            style: Style::Wide,
+            style: Style::OutOfPlace,
             target: RegisterId(3),
             scratch: RegisterId(4),
         },

@@ -12,7 +12,7 @@ const R: [RegisterId; 6] = [
     RegisterId(4),
     RegisterId(5),
 ];
-const STYLES: [Style; 2] = [Style::Wide, Style::Lean];
+const STYLES: [Style; 2] = [Style::OutOfPlace, Style::InPlace];
 
 fn word(register: usize, width: u32, signed: bool) -> Word {
     Word {
@@ -398,8 +398,8 @@ fn tables() {
             let line: Box<[i64]> = (0..length as i64).map(|place| 3 * place - 7).collect();
             let few: Box<[i64]> = (0..length).map(|place| i64::from(place % 3 == 0)).collect();
             let columns: Arc<[Box<[i64]>]> = Arc::new([noise, line, few]);
-            let wide = (0..=address_bits).map(|low| (low, Style::Wide));
-            for (low, style) in wide.chain([(0, Style::Lean)]) {
+            let wide = (0..=address_bits).map(|low| (low, Style::OutOfPlace));
+            for (low, style) in wide.chain([(0, Style::InPlace)]) {
                 let address: Box<[Bit]> = (0..address_bits)
                     .map(|index| bit(0, index, index % 3 == 1))
                     .collect();

@@ -41,7 +41,7 @@ pub(crate) fn members<A: Arith>(
         mask = math!(cx, mask && !cx.below(at.surface, surfaces.start));
     }
     let wanted = cx.and(mask, at.alive);
-    cx.possible(wanted).then_some(mask)
+    cx.any(wanted).then_some(mask)
 }
 
 /// The viewer's direction in the local frame.

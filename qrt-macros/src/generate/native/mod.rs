@@ -121,7 +121,7 @@ impl Coder<'_> {
     }
 
     /// Calls the variable that was bound last by the register's name, unless it has a name.
-    fn christen(&mut self, id: RegisterId, variable: &mut String) {
+    fn rename(&mut self, id: RegisterId, variable: &mut String) {
         if *variable != format!("t{}", self.temporaries) {
             return;
         }
@@ -154,7 +154,7 @@ impl Coder<'_> {
                 number.range = proven;
             }
         }
-        self.christen(id, &mut number.text);
+        self.rename(id, &mut number.text);
         self.variables.insert(id, Variable::Number(number));
     }
 
@@ -162,7 +162,7 @@ impl Coder<'_> {
     fn set_truths(&mut self, id: RegisterId, mut truths: String) {
         let register = self.register(id);
         if register.width == 1 && !signed(register.ty) {
-            self.christen(id, &mut truths);
+            self.rename(id, &mut truths);
             self.variables.insert(id, Variable::Truths(truths));
             return;
         }

@@ -1,4 +1,4 @@
-//! What is looked up: tables, linear maps over GF(2), and the pixel's classical words.
+//! What is looked up: tables, linear maps over GF(2), and the pixel's classical parameters.
 
 use super::number::Number;
 use super::range::Range;
@@ -7,7 +7,7 @@ use qrt_circuit::{Bit, RegisterId, Word};
 use std::fmt::Write as _;
 
 impl Coder<'_> {
-    /// A classical word, as the register's type reads its lowest bits.
+    /// A classical parameter, as the register's type reads its lowest bits.
     pub(super) fn classical(&mut self, parameter: u32, target: RegisterId) -> Number {
         let register = self.register(target);
         let (width, signed) = (register.width, signed(register.ty));

@@ -34,8 +34,7 @@ pub struct LampRay0 {
 #[allow(dead_code, reason = "an author reads some of them only")]
 pub struct LampRay1 {
     /// Where it starts, in the scene's frame as the circuit scales it.
-    pub origin_x:
-        ::qrt::core::oracle::compiled::Field<Lamp, ::qrt::circuit::format::UFixed<-4, 6>>,
+    pub origin_x: ::qrt::core::oracle::compiled::Field<Lamp, ::qrt::circuit::format::UFixed<-4, 6>>,
 }
 
 /// Where the numbers of a path of [`Lamp`] are among its registers.
@@ -53,11 +52,10 @@ const _: () = {
     // A name that nothing of what is imported below has.
     type __Scene = Lamp;
     const _: () = {
-        use ::qrt::core::compile::{NamedPlace, Place};
         use ::qrt::circuit::{
-            Bit, BlockId, Declaration, Machine, Operand, Parameter, RegisterId, Role, Style, Type,
-            Word,
+            Bit, BlockId, Declaration, Machine, Operand, RegisterId, Style, Tag, Type, Word,
         };
+        use ::qrt::core::compile::{NamedPlace, PixelWord, Place};
         use ::qrt::core::oracle::Channel;
         use ::qrt::core::oracle::compiled::{
             BlockDeclaration, CompiledOracle, Computed, Field, Outline, Vector,
@@ -87,240 +85,204 @@ const _: () = {
         }
         /// Registers by number.
         static R: [Declaration; 35] = [
-            Declaration::at(0, "id", Type::UInt, Role::Id, 2),
-            Declaration::at(1, "comparator", Type::UInt, Role::Comparator, 2),
-            Declaration::at(2, "flag", Type::Bool, Role::Flag, 1),
-            Declaration::at(3, "ray0.sample.u", Type::UInt, Role::Work, 1).block(1),
-            Declaration::at(4, "parity4", Type::UInt, Role::Work, 1).block(1),
-            Declaration::at(5, "load5", Type::UFixed { fraction: 6 }, Role::Work, 2).block(4),
-            Declaration::at(6, "table6", Type::UFixed { fraction: 6 }, Role::Work, 1)
+            Declaration::at(0, "id", Type::UInt, Tag(1), 2),
+            Declaration::at(1, "comparator", Type::UInt, Tag(2), 2),
+            Declaration::at(2, "flag", Type::Bool, Tag(5), 1),
+            Declaration::at(3, "ray0.sample.u", Type::UInt, Tag(0), 1).block(1),
+            Declaration::at(4, "parity4", Type::UInt, Tag(0), 1).block(1),
+            Declaration::at(5, "load5", Type::UFixed { fraction: 6 }, Tag(0), 2).block(4),
+            Declaration::at(6, "table6", Type::UFixed { fraction: 6 }, Tag(0), 1)
                 .block(4)
                 .scratch(7),
-            Declaration::at(7, "table7", Type::Scratch, Role::Scratch, 0).block(4),
-            Declaration::at(8, "add8", Type::Fixed { fraction: 6 }, Role::Work, 3).block(4),
-            Declaration::at(9, "parity9", Type::UInt, Role::Work, 2).block(6),
-            Declaration::at(10, "parity10", Type::UInt, Role::Work, 1).block(6),
-            Declaration::at(11, "add11", Type::UFixed { fraction: 6 }, Role::Work, 4).block(15),
-            Declaration::at(12, "table12", Type::UFixed { fraction: 6 }, Role::Work, 6).block(15),
-            Declaration::at(13, "table13", Type::Scratch, Role::Scratch, 0).block(15),
-            Declaration::at(14, "divide14", Type::UFixed { fraction: 6 }, Role::Work, 7)
+            Declaration::at(7, "table7", Type::Scratch, Tag(3), 0).block(4),
+            Declaration::at(8, "add8", Type::Fixed { fraction: 6 }, Tag(0), 3).block(4),
+            Declaration::at(9, "parity9", Type::UInt, Tag(0), 2).block(6),
+            Declaration::at(10, "parity10", Type::UInt, Tag(0), 1).block(6),
+            Declaration::at(11, "add11", Type::UFixed { fraction: 6 }, Tag(0), 4).block(15),
+            Declaration::at(12, "table12", Type::UFixed { fraction: 6 }, Tag(0), 6).block(15),
+            Declaration::at(13, "table13", Type::Scratch, Tag(3), 0).block(15),
+            Declaration::at(14, "divide14", Type::UFixed { fraction: 6 }, Tag(0), 7)
                 .block(15)
                 .range(0, 33),
-            Declaration::at(15, "divide15", Type::Bool, Role::Work, 1).block(15),
-            Declaration::at(16, "divide16", Type::Scratch, Role::Scratch, 0).block(15),
-            Declaration::at(17, "table17", Type::Fixed { fraction: 6 }, Role::Work, 7).block(15),
-            Declaration::at(18, "table18", Type::Scratch, Role::Scratch, 0).block(15),
-            Declaration::at(19, "multiply19", Type::Fixed { fraction: 6 }, Role::Work, 6)
+            Declaration::at(15, "divide15", Type::Bool, Tag(0), 1).block(15),
+            Declaration::at(16, "divide16", Type::Scratch, Tag(3), 0).block(15),
+            Declaration::at(17, "table17", Type::Fixed { fraction: 6 }, Tag(0), 7).block(15),
+            Declaration::at(18, "table18", Type::Scratch, Tag(3), 0).block(15),
+            Declaration::at(19, "multiply19", Type::Fixed { fraction: 6 }, Tag(0), 6)
                 .block(15)
                 .range(-31, 30),
-            Declaration::at(20, "multiply20", Type::Scratch, Role::Scratch, 0).block(15),
-            Declaration::at(21, "table21", Type::UFixed { fraction: 6 }, Role::Work, 1).block(15),
-            Declaration::at(22, "table22", Type::Scratch, Role::Scratch, 0).block(15),
-            Declaration::at(23, "add23", Type::Fixed { fraction: 6 }, Role::Work, 7)
+            Declaration::at(20, "multiply20", Type::Scratch, Tag(3), 0).block(15),
+            Declaration::at(21, "table21", Type::UFixed { fraction: 6 }, Tag(0), 1).block(15),
+            Declaration::at(22, "table22", Type::Scratch, Tag(3), 0).block(15),
+            Declaration::at(23, "add23", Type::Fixed { fraction: 6 }, Tag(0), 7)
                 .block(15)
                 .range(-33, 30),
-            Declaration::at(24, "load24", Type::Fixed { fraction: 6 }, Role::Work, 3).block(15),
-            Declaration::at(25, "add25", Type::Fixed { fraction: 6 }, Role::Work, 4).block(15),
-            Declaration::at(26, "select26", Type::UFixed { fraction: 6 }, Role::Work, 7)
+            Declaration::at(24, "load24", Type::Fixed { fraction: 6 }, Tag(0), 3).block(15),
+            Declaration::at(25, "add25", Type::Fixed { fraction: 6 }, Tag(0), 4).block(15),
+            Declaration::at(26, "select26", Type::UFixed { fraction: 6 }, Tag(0), 7)
                 .block(15)
                 .range(0, 127),
-            Declaration::at(27, "select27", Type::UInt, Role::Work, 2).block(15),
-            Declaration::at(28, "add28", Type::Fixed { fraction: 6 }, Role::Work, 8).block(16),
-            Declaration::at(
-                29,
-                "colour.b",
-                Type::UFixed { fraction: 6 },
-                Role::Colour,
-                1,
-            )
-            .block(20)
-            .scratch(30),
-            Declaration::at(30, "table30", Type::Scratch, Role::Scratch, 0).block(20),
-            Declaration::at(31, "table31", Type::UFixed { fraction: 6 }, Role::Work, 6)
+            Declaration::at(27, "select27", Type::UInt, Tag(0), 2).block(15),
+            Declaration::at(28, "add28", Type::Fixed { fraction: 6 }, Tag(0), 8).block(16),
+            Declaration::at(29, "colour.b", Type::UFixed { fraction: 6 }, Tag(4), 1)
+                .block(20)
+                .scratch(30),
+            Declaration::at(30, "table30", Type::Scratch, Tag(3), 0).block(20),
+            Declaration::at(31, "table31", Type::UFixed { fraction: 6 }, Tag(0), 6)
                 .block(20)
                 .range(7, 39),
-            Declaration::at(32, "table32", Type::Scratch, Role::Scratch, 0).block(20),
-            Declaration::at(
-                33,
-                "ray1.origin.x",
-                Type::UFixed { fraction: 6 },
-                Role::Work,
-                1,
-            )
-            .block(2),
-            Declaration::at(34, "select27'", Type::UInt, Role::Work, 2),
+            Declaration::at(32, "table32", Type::Scratch, Tag(3), 0).block(20),
+            Declaration::at(33, "ray1.origin.x", Type::UFixed { fraction: 6 }, Tag(0), 1).block(2),
+            Declaration::at(34, "select27'", Type::UInt, Tag(0), 2),
         ];
         const BLOCKS: &[BlockDeclaration] = &[
             BlockDeclaration {
                 parent: None,
                 name: "oracle",
-                depth: None,
-                scope: false,
+                tag: Tag(0),
             },
             BlockDeclaration {
                 parent: Some(BlockId(0)),
                 name: "generate_ray",
-                depth: Some(0),
-                scope: true,
+                tag: Tag(72057598332895232),
             },
             BlockDeclaration {
                 parent: Some(BlockId(0)),
                 name: "find_intersection",
-                depth: Some(0),
-                scope: true,
+                tag: Tag(144115192370823168),
             },
             BlockDeclaration {
                 parent: Some(BlockId(2)),
                 name: "plane 0",
-                depth: Some(0),
-                scope: true,
+                tag: Tag(18374686483966590976),
             },
             BlockDeclaration {
                 parent: Some(BlockId(2)),
                 name: "plane 1",
-                depth: Some(0),
-                scope: true,
+                tag: Tag(18374686483966590977),
             },
             BlockDeclaration {
                 parent: Some(BlockId(0)),
                 name: "side",
-                depth: Some(0),
-                scope: true,
+                tag: Tag(216172786408751104),
             },
             BlockDeclaration {
                 parent: Some(BlockId(0)),
                 name: "generate_ray",
-                depth: Some(1),
-                scope: true,
+                tag: Tag(72057602627862528),
             },
             BlockDeclaration {
                 parent: Some(BlockId(6)),
                 name: "sample",
-                depth: Some(1),
-                scope: true,
+                tag: Tag(288230384741646336),
             },
             BlockDeclaration {
                 parent: Some(BlockId(6)),
                 name: "x",
-                depth: Some(1),
-                scope: true,
+                tag: Tag(18230571300185702400),
             },
             BlockDeclaration {
                 parent: Some(BlockId(6)),
                 name: "y",
-                depth: Some(1),
-                scope: true,
+                tag: Tag(18230571300185702401),
             },
             BlockDeclaration {
                 parent: Some(BlockId(6)),
                 name: "z",
-                depth: Some(1),
-                scope: true,
+                tag: Tag(18230571300185702402),
             },
             BlockDeclaration {
                 parent: Some(BlockId(6)),
                 name: "x",
-                depth: Some(1),
-                scope: true,
+                tag: Tag(18230571300185702400),
             },
             BlockDeclaration {
                 parent: Some(BlockId(6)),
                 name: "y",
-                depth: Some(1),
-                scope: true,
+                tag: Tag(18230571300185702401),
             },
             BlockDeclaration {
                 parent: Some(BlockId(6)),
                 name: "z",
-                depth: Some(1),
-                scope: true,
+                tag: Tag(18230571300185702402),
             },
             BlockDeclaration {
                 parent: Some(BlockId(0)),
                 name: "find_intersection",
-                depth: Some(1),
-                scope: true,
+                tag: Tag(144115196665790464),
             },
             BlockDeclaration {
                 parent: Some(BlockId(14)),
                 name: "plane 1",
-                depth: Some(1),
-                scope: true,
+                tag: Tag(18374686488261558273),
             },
             BlockDeclaration {
                 parent: Some(BlockId(14)),
                 name: "plane 0",
-                depth: Some(1),
-                scope: true,
+                tag: Tag(18374686488261558272),
             },
             BlockDeclaration {
                 parent: Some(BlockId(14)),
                 name: "plane 1",
-                depth: Some(1),
-                scope: true,
+                tag: Tag(18374686488261558273),
             },
             BlockDeclaration {
                 parent: Some(BlockId(0)),
                 name: "side",
-                depth: Some(1),
-                scope: true,
+                tag: Tag(216172790703718400),
             },
             BlockDeclaration {
                 parent: Some(BlockId(0)),
                 name: "shade",
-                depth: Some(1),
-                scope: true,
+                tag: Tag(360287978779574272),
             },
             BlockDeclaration {
                 parent: Some(BlockId(0)),
                 name: "count",
-                depth: None,
-                scope: false,
+                tag: Tag(432345564227567616),
             },
             BlockDeclaration {
                 parent: Some(BlockId(0)),
                 name: "count",
-                depth: None,
-                scope: false,
+                tag: Tag(432345564227567616),
             },
             BlockDeclaration {
                 parent: Some(BlockId(0)),
                 name: "count",
-                depth: None,
-                scope: false,
+                tag: Tag(432345564227567616),
             },
         ];
         static T6: &[i64] = &[0, 1];
         static T29: &[i64] = &[0, 1, 0, 0];
         static T31: &[i64] = &[7, 39, 7, 7];
-        const PARAMETERS: &[Parameter] = &[
-            Parameter::Shift {
+        const PARAMETERS: &[PixelWord] = &[
+            PixelWord::Shift {
                 depth: 0,
                 axis: 0,
                 bits: 1,
             },
-            Parameter::Shift {
+            PixelWord::Shift {
                 depth: 0,
                 axis: 1,
                 bits: 1,
             },
-            Parameter::Affine {
+            PixelWord::Affine {
                 constant: 0.035041260736242384,
                 along: [-0.02588834764831844, 0.0],
                 fraction: 6,
                 width: 2,
             },
-            Parameter::Shift {
+            PixelWord::Shift {
                 depth: 1,
                 axis: 0,
                 bits: 2,
             },
-            Parameter::Shift {
+            PixelWord::Shift {
                 depth: 1,
                 axis: 1,
                 bits: 1,
             },
-            Parameter::Affine {
+            PixelWord::Affine {
                 constant: -0.02078048888044426,
                 along: [0.048540651840597075, 0.0],
                 fraction: 6,
@@ -395,7 +357,7 @@ const _: () = {
                 RegisterId(34),
             ],
             parameters: PARAMETERS,
-            style: Style::Lean,
+            style: Style::InPlace,
             channels: CHANNELS,
             id: RegisterId(0),
             comparator: RegisterId(1),

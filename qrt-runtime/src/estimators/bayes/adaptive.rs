@@ -37,7 +37,7 @@ impl AdaptiveBayes {
 
 impl AmplitudeEstimator for AdaptiveBayes {
     fn estimate(&self, device: &mut Device<'_>) -> Result<Estimate, EstimatorError> {
-        let start = device.spent();
+        let start = device.usage();
         let mut posterior = Posterior::new(device.total(), self.goal.noise);
         let mut left = self.goal.queries;
         while left > 0 && !self.goal.is_reached(&posterior) {

@@ -3,7 +3,7 @@
 use super::support::{self, Support};
 use crate::estimators::device::id_bits;
 use crate::estimators::interval::credible_content;
-use crate::estimators::{Device, Estimate, Noise, Spent};
+use crate::estimators::{Device, Estimate, Noise, Usage};
 use std::f64::consts::PI;
 
 /// Points that together hold less than this of the mass are dropped, cell by cell.
@@ -330,7 +330,7 @@ impl Posterior {
 
     /// The posterior mean, with the interval of likeliest points for `confidence`: see
     /// [`Self::interval`].
-    pub(super) fn estimate(&self, device: &Device<'_>, start: Spent, confidence: f64) -> Estimate {
+    pub(super) fn estimate(&self, device: &Device<'_>, start: Usage, confidence: f64) -> Estimate {
         let mean = self.mean_amplitude();
         let (low, high) = self.interval(confidence);
         let interval = (low.min(mean), high.max(mean));

@@ -37,7 +37,7 @@ impl RandomDepth {
 
 impl AmplitudeEstimator for RandomDepth {
     fn estimate(&self, device: &mut Device<'_>) -> Result<Estimate, EstimatorError> {
-        let start = device.spent();
+        let start = device.usage();
         let mut posterior = Posterior::new(device.total(), self.goal.noise);
         let most = (MAX_ITERATIONS as f64).min(2.0 * depth::useful(&self.goal.noise));
         let mut left = self.goal.queries;

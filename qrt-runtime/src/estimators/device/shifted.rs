@@ -52,7 +52,7 @@ impl Device<'_> {
     /// let mut device = Device::new(problem, Noise::NONE, &mut stream)?;
     /// // At the reference itself, nothing is left to be amplified.
     /// assert_eq!(device.shifted(0.375, 1001, 500)?, 0);
-    /// assert_eq!(device.spent().queries, 500 * 1001);
+    /// assert_eq!(device.usage().queries, 500 * 1001);
     /// # Ok::<(), qrt_runtime::estimators::EstimatorError>(())
     /// ```
     pub fn shifted(
@@ -209,16 +209,16 @@ mod tests {
                     "{queries}: {heads}, {expected}"
                 );
             }
-            assert_eq!(device.spent().queries, shots * (1 + 2 + 5 + 6));
-            assert_eq!(device.spent().depth, 6);
+            assert_eq!(device.usage().queries, shots * (1 + 2 + 5 + 6));
+            assert_eq!(device.usage().depth, 6);
         }
         let mut stream = Stream::new(8, 0, 0, 0);
         let mut device = Device::new(problem, Noise::NONE, &mut stream).unwrap();
-        assert_eq!(device.spent().queries, 0);
+        assert_eq!(device.usage().queries, 0);
         for reference in [-0.1, 1.1, f64::NAN] {
             assert!(device.shifted(reference, 1, 1).is_err());
         }
         assert!(device.shifted(0.5, MAX_ITERATIONS + 1, 1).is_err());
-        assert_eq!(device.spent().shots, 0);
+        assert_eq!(device.usage().shots, 0);
     }
 }

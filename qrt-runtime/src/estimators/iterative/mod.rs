@@ -126,11 +126,11 @@ impl Rules {
 
     /// Measures until the goal is reached.
     fn run(&self, goal: &Goal, device: &mut Device<'_>) -> Result<Estimate, EstimatorError> {
-        let start = device.spent();
+        let start = device.usage();
         let mut arc = Arc::ALL;
         let mut depth = self.depth(goal, 1);
         loop {
-            let left = goal.queries - (device.spent().queries - start.queries);
+            let left = goal.queries - (device.usage().queries - start.queries);
             if arc.error() <= goal.error || left == 0 {
                 break;
             }

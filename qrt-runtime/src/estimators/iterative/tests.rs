@@ -120,7 +120,7 @@ fn returns_of_the_state_are_even_multiples() {
                 "{k}: {share}, {expected}"
             );
         }
-        assert_eq!(device.spent().queries, 100_000 * (1 + 2 + 3 + 5 + 17));
+        assert_eq!(device.usage().queries, 100_000 * (1 + 2 + 3 + 5 + 17));
     }
     let mut stream = Stream::new(3, 0, 0, 0);
     let mut device = Device::new(problem, Noise::NONE, &mut stream).unwrap();

@@ -79,7 +79,7 @@ impl Mlae {
 
     /// Measures level by level.
     fn measured(&self, device: &mut Device<'_>) -> Result<Likelihood, EstimatorError> {
-        let start = device.spent().queries;
+        let start = device.usage().queries;
         let schedule = Schedule::new(self.noise, id_bits(device.total()));
         let enough = self.error.map_or(f64::INFINITY, |error| Self::COST / error);
         let mut planned = schedule
@@ -88,7 +88,7 @@ impl Mlae {
         let mut likelihood = Likelihood::default();
         let mut deepest = 0;
         loop {
-            let spent = device.spent().queries - start;
+            let spent = device.usage().queries - start;
             let next = planned.next().or_else(|| {
                 self.error?;
                 schedule.beyond(deepest, spent, self.queries - spent)
@@ -117,7 +117,7 @@ impl Mlae {
 
 impl AmplitudeEstimator for Mlae {
     fn estimate(&self, device: &mut Device<'_>) -> Result<Estimate, EstimatorError> {
-        let start = device.spent();
+        let start = device.usage();
         let likelihood = self.measured(device)?;
         let (found, interval) = self.found(&likelihood);
         Ok(Estimate {

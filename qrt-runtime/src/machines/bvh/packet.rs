@@ -4,7 +4,7 @@ use super::WIDE;
 use super::walk::{Line, Search};
 use crate::machines::lanes::Lanes;
 use pulp::bytemuck;
-use qrt_core::tracer::{Arith, Geometry, Turned, cross, weighted};
+use qrt_core::tracer::{Arith, AxisPermuted, Geometry, cross, weighted};
 
 /// Edges of a face, at most.
 const EDGES: usize = 4;
@@ -57,11 +57,11 @@ impl Packet {
             packet.plane[lane] = u64::from(number);
             packet.rank[lane] = rank;
             let mut edge = 0;
-            for slab in &geometry.faces[rank as usize].slabs {
+            for edge_test in &geometry.faces[rank as usize].edge_tests {
                 // The negated form has the negated value exactly, so that one comparison serves.
-                let sides = [(1.0, slab.low), (-1.0, -slab.high)];
+                let sides = [(1.0, edge_test.low), (-1.0, -edge_test.high)];
                 for (sign, low) in sides.into_iter().filter(|(_, low)| low.is_finite()) {
-                    let constants = [sign * slab.form[0], sign * slab.form[1], low];
+                    let constants = [sign * edge_test.form[0], sign * edge_test.form[1], low];
                     for (column, constant) in packet.edges[edge].iter_mut().zip(constants) {
                         column[lane] = constant;
                     }
@@ -112,7 +112,7 @@ impl Packet {
         let index = |column: &[u64; WIDE]| [S::as_simd_u64s(column).0[at]];
         let axis = usize::from(axis) % 3;
         let (o, d) = (&line.origin, &line.direction);
-        let ray = Turned::<Lanes<'_, S, 1>> {
+        let ray = AxisPermuted::<Lanes<'_, S, 1>> {
             origin: cx.real(o[axis]),
             direction: cx.real(d[axis]),
             origin_across: [cx.real(o[axis + 1]), cx.real(o[axis + 2])],
@@ -124,7 +124,7 @@ impl Packet {
         let limit = cx.real(limit);
         let near = cx.less_equal(crossing.distance, limit);
         let mut hit = cx.and(crossing.ahead, near);
-        if !cx.possible(hit) {
+        if !cx.any(hit) {
             return (hit[0], crossing.distance[0]);
         }
         let left = [cx

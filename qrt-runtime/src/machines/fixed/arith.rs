@@ -144,7 +144,7 @@ pub(super) enum Arith<K> {
         table: Box<[K]>,
         t: u32,
     },
-    /// A classical word of the pixel.
+    /// A classical parameter of the pixel.
     Load {
         parameter: u32,
         wrap: Wrap<K>,

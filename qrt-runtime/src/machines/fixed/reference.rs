@@ -3,7 +3,7 @@
 use qrt_circuit::{Contents, Program};
 
 /// What the registers hold after the program, of the state whose input registers hold `inputs`, in
-/// the pixel with these classical words.
+/// the pixel with these classical parameters.
 ///
 /// # Panics
 /// If there are fewer inputs or parameters than the program has.

@@ -3,7 +3,7 @@
 //! X, CNOT and Toffoli permute the basis states, so that each state is followed by itself, and a
 //! gate does the same to all of them: `t ^= 1`, `t ^= a`, `t ^= a & b`. A *row* holds one qubit of
 //! [`Gates::LANES`] states, a bit each, and a gate is a few instructions on vectors of bits. States span
-//! paths and pixels: what a pixel's circuit has built in, the classical words, are rows that gates
+//! paths and pixels: what a pixel's circuit has built in, the classical parameters, are rows that gates
 //! read.
 //!
 //! It knows nothing of numbers. What it computes is what the list of gates computes, which is why
@@ -69,7 +69,7 @@ impl Gates {
     /// States that a machine's rows hold.
     pub const LANES: usize = LANES;
 
-    /// A machine for circuits that share their qubits and their list of classical words: one
+    /// A machine for circuits that share their qubits and their list of classical parameters: one
     /// circuit, or the parts of one between which the states are looked at.
     ///
     /// # Errors

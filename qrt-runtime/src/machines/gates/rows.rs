@@ -34,7 +34,7 @@ impl fmt::Display for Dirty {
     }
 }
 
-/// [`super::Gates::LANES`] states: their qubits, the signs of their amplitudes, and the classical words of their
+/// [`super::Gates::LANES`] states: their qubits, the signs of their amplitudes, and the classical parameters of their
 /// pixels.
 #[derive(Debug)]
 pub struct Rows {
@@ -104,7 +104,7 @@ impl Rows {
         }
     }
 
-    /// Sets the classical words to those of the spans' pixels, lane after lane from 0 on. Lanes
+    /// Sets the classical parameters to those of the spans' pixels, lane after lane from 0 on. Lanes
     /// beyond belong to the last span.
     pub fn set_parameters(&mut self, spans: &[Span<'_>]) {
         for (parameter, bit, row) in self.wiring.clone().parameters() {
@@ -122,7 +122,7 @@ impl Rows {
         }
     }
 
-    /// Turned signs: bit `lane % 64` of word `lane / 64`.
+    /// AxisPermuted signs: bit `lane % 64` of word `lane / 64`.
     pub fn signs(&self) -> &[u64] {
         self.row(self.wiring.sign())
     }

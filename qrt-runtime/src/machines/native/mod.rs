@@ -34,7 +34,7 @@ use std::marker::PhantomData;
     note = "`qrt!` writes code for circuits of at most 20,000 operations"
 )]
 pub trait NativeOracle: CompiledOracle {
-    /// Computes the paths of these ids in a pixel that has these classical words: by channel, how
+    /// Computes the paths of these ids in a pixel that has these classical parameters: by channel, how
     /// many thresholds their colours exceed, before that is cut to `2^c`, and the colours.
     fn native<V: Vectors>(v: V, words: &[u64], ids: V::Longs) -> [[V::Longs; 3]; 2];
 }
@@ -44,7 +44,7 @@ pub trait NativeOracle: CompiledOracle {
 pub(super) struct Run<'a> {
     pub(super) first: u64,
     pub(super) count: usize,
-    /// The pixel's classical words.
+    /// The pixel's classical parameters.
     pub(super) parameters: &'a [u64],
 }
 

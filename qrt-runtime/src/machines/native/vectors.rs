@@ -98,7 +98,7 @@ pub trait Vectors: Copy {
     fn store(self, a: Self::Longs, lanes: &mut [i64]);
 }
 
-/// The lowest `width` bits of a classical word, extended by zeros or copies of the top one.
+/// The lowest `width` bits of a classical parameter, extended by zeros or copies of the top one.
 #[inline(always)]
 pub fn word(words: &[u64], place: usize, width: u32, signed: bool) -> i64 {
     let word = words.get(place).copied().unwrap_or(0);

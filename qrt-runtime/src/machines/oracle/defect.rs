@@ -33,9 +33,9 @@ pub enum Defect {
         /// The path.
         id: u64,
     },
-    /// Paths whose first hits are inputs of the oracle, with nothing that finds them.
-    #[error("the paths' first hits are inputs of the oracle, and nothing finds them")]
-    FirstHits,
+    /// Paths whose primary hits are inputs of the oracle, with nothing that finds them.
+    #[error("the paths' primary hits are inputs of the oracle, and nothing finds them")]
+    PrimaryHits,
     /// A sign that was turned, or not, against the comparison.
     #[error(
         "channel {channel}: the phase of comparator {comparator} is wrong for a colour above \

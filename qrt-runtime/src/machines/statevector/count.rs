@@ -29,9 +29,9 @@ pub struct Counted {
 /// What a run of the counting circuit took.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
-    /// Qubits: ids, ancillas, counting register.
+    /// Qubits: ids, ancillas, phase register.
     pub qubits: u32,
-    /// Of these, the ones in superposition: ids and counting register.
+    /// Of these, the ones in superposition: ids and phase register.
     pub superposed: u32,
     /// Gates executed.
     pub gates: u64,
@@ -77,7 +77,7 @@ pub fn count<M: StateVector>(
         checks: 0,
     };
     counting.prepare(&mut |gate| run.gate(gate))?;
-    for bit in 0..counting.counter().len() as u32 {
+    for bit in 0..counting.phase_register().len() as u32 {
         for _ in 0..1_u64 << bit {
             if checks == Checks::EveryQuery {
                 run.check()?;
@@ -91,13 +91,13 @@ pub fn count<M: StateVector>(
     counting.inverse_fourier(&mut |gate| run.gate(gate))?;
     run.check()?;
     let (gates, checks) = (run.gates, run.checks);
-    let outcomes = machine.distribution(counting.counter())?;
+    let outcomes = machine.distribution(counting.phase_register())?;
     let ids = counting.iterate().oracle().superposed().len();
     Ok(Counted {
         distribution: fold(&outcomes),
         report: Report {
             qubits: counting.qubits(),
-            superposed: (ids + counting.counter().len()) as u32,
+            superposed: (ids + counting.phase_register().len()) as u32,
             gates,
             queries: counting.queries(),
             most_states: None,
@@ -140,7 +140,7 @@ impl<M: StateVector> Run<'_, M> {
 
 /// Counts the good ids of channel number `channel` of a pixel (column, row) by the whole circuit, on
 /// the sparse machine: every Hadamard, every gate of every controlled query with all its ancillas,
-/// the window and the inverse Fourier transform, for a counting register of `phase_bits`.
+/// the window and the inverse Fourier transform, for a phase register of `phase_bits`.
 ///
 /// ```
 /// use qrt_core::front::parse;
@@ -170,7 +170,7 @@ impl<M: StateVector> Run<'_, M> {
 /// ```
 ///
 /// # Errors
-/// No such channel or counting register, more states than the machine allows, an ancilla that does
+/// No such channel or phase register, more states than the machine allows, an ancilla that does
 /// not return to zero.
 pub fn counting_of(
     oracle: &Oracle,

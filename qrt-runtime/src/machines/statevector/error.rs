@@ -68,8 +68,8 @@ pub enum StateVectorError {
     /// A truth table that does not have a power of two of entries.
     #[error("a truth table of {0} entries, not a power of two")]
     TableSize(usize),
-    /// A counting register that is too large to be followed.
-    #[error("amplitudes of a counting register of {bits} bits; at most {most}")]
+    /// A phase register that is too large to be followed.
+    #[error("amplitudes of a phase register of {bits} bits; at most {most}")]
     PhaseBits {
         /// Its qubits.
         bits: u32,

@@ -1,4 +1,4 @@
-//! The Fourier transform that the counting register's gates amount to, as a fast one.
+//! The Fourier transform that the phase register's gates amount to, as a fast one.
 
 use std::f64::consts::TAU;
 

@@ -8,7 +8,7 @@
 //!   basis states, so that a scene's hundreds of ancillas add none.
 //! * [`reduced`]: amplitudes over (counter, id). It knows that ancillas return to zero, so that an
 //!   oracle is a sign for each id.
-//! * [`subspace`]: two amplitudes for each value of the counter. It knows that all good ids have one
+//! * [`subspace`]: two amplitudes for each value of the phase register. It knows that all good ids have one
 //!   amplitude, and all others one, so that S and N suffice.
 //!
 //! [`crate::counting::PhaseDistribution`] is the closed form that the last sums up to. All give the

@@ -3,7 +3,7 @@
 //! The oracle is a sign for each id, and diffusion twice the mean less each amplitude. Under a
 //! counter of value j the ids hold `w_j G^j |s>`, whose amplitudes are real, and those of one more
 //! query follow from those of one less. Only the mean joins the ids: with the means known, each id's
-//! amplitudes for all counters follow by themselves, and its Fourier transform over the counter.
+//! amplitudes for all counters follow by themselves, and its Fourier transform over the phase register.
 //! `O(T N log T)` time, `O(T + N)` memory.
 
 use super::error::filled;
@@ -18,7 +18,7 @@ use rayon::prelude::*;
 /// Transforms at once, of two ids each: one is the real part, one the imaginary one.
 const LANES: usize = 8;
 
-/// Most bits of a counting register: a batch of transforms takes 128 bytes for each value.
+/// Most bits of a phase register: a batch of transforms takes 128 bytes for each value.
 const MOST_PHASE_BITS: u32 = 20;
 
 /// Ids whose amplitudes are summed in a run.
@@ -43,7 +43,7 @@ const SHARES: usize = 32;
 /// ```
 ///
 /// # Errors
-/// A table whose size is no power of two, or a counting register that is not in 1 to 20 bits.
+/// A table whose size is no power of two, or a phase register that is not in 1 to 20 bits.
 pub fn reduced(
     good: &[bool],
     phase_bits: u32,

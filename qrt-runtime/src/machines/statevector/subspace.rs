@@ -1,7 +1,7 @@
-//! The plane of good and bad ids: two amplitudes for each value of the counter.
+//! The plane of good and bad ids: two amplitudes for each value of the phase register.
 //!
 //! All good ids have one amplitude and all bad ids another, so that G is a rotation of that plane,
-//! by `2 phi` with `sin(phi)^2 = S/N`. Under a counter of value j stands `w_j (sin((2j+1) phi),
+//! by `2 phi` with `sin(phi)^2 = S/N`. Under a phase register of value j stands `w_j (sin((2j+1) phi),
 //! cos((2j+1) phi))`: both real, one the real and one the imaginary part of what is transformed.
 //! `O(T log T)`, exact from S and N.
 
@@ -12,7 +12,7 @@ use crate::counting::{Double, check_counts};
 use qrt_core::scene::Window;
 use std::f64::consts::PI;
 
-/// Most bits of a counting register whose amplitudes are listed.
+/// Most bits of a phase register whose amplitudes are listed.
 pub(super) const MOST_PHASE_BITS: u32 = 24;
 
 /// The distribution of counting `good` among `total` ids: by outcome `y = 0 ..= T/2`.
@@ -27,7 +27,7 @@ pub(super) const MOST_PHASE_BITS: u32 = 24;
 /// ```
 ///
 /// # Errors
-/// No ids, more good ids than ids, or a counting register that is not in 1 to 24 bits.
+/// No ids, more good ids than ids, or a phase register that is not in 1 to 24 bits.
 pub fn subspace(
     good: u64,
     total: u64,
@@ -80,7 +80,7 @@ fn turned(a: (Double, Double), b: (Double, Double)) -> (Double, Double) {
     (a.0 * b.0 - a.1 * b.1, a.1 * b.0 + a.0 * b.1)
 }
 
-/// The counting register's amplitudes.
+/// The phase register's amplitudes.
 pub(super) fn window(phase_bits: u32, shape: Window) -> Result<Vec<f64>, StateVectorError> {
     let size = 1_usize << phase_bits;
     let mut weights = filled(1.0 / (size as f64).sqrt(), size)?;

@@ -15,7 +15,7 @@ enum Value {
     List(Vec<Value>),
     /// The instruction set.
     Vectors,
-    /// The pixel's classical words.
+    /// The pixel's classical parameters.
     Words,
 }
 

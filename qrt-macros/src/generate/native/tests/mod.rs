@@ -155,7 +155,7 @@ fn quotients_are_right_next_to_integers() {
             maker.push(Op::Divide {
                 a: word(0, id, up[0]),
                 b: word(b.0, width, up[1]),
-                style: qrt_circuit::Style::Wide,
+                style: qrt_circuit::Style::OutOfPlace,
                 quotient,
                 fits,
                 scratch,

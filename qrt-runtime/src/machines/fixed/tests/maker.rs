@@ -144,7 +144,7 @@ impl Maker {
 
     /// Operation `kind` of 19.
     pub(crate) fn op(&mut self, kind: u32) {
-        let style = Style::Wide;
+        let style = Style::OutOfPlace;
         let scratch = self.register(1, false);
         let drop = if self.dice.coin() {
             self.dice.below(2 * self.widest)
@@ -269,7 +269,7 @@ impl Maker {
                 let columns: Vec<_> = columns.collect();
                 let targets = [self.any_register(), self.any_register()];
                 Op::Table {
-                    style: Style::Wide,
+                    style: Style::OutOfPlace,
                     address: address.into(),
                     columns: columns.into(),
                     low: 0,

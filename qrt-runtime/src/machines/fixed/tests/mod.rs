@@ -70,7 +70,7 @@ fn divisions_and_roots_are_exact_at_their_edges() {
         let fits = maker.truth();
         let root = maker.register((bits as u32).div_ceil(2), false);
         let scratch = maker.truth();
-        let style = Style::Wide;
+        let style = Style::OutOfPlace;
         let (a, b) = (word(0), word(1));
         maker.push(Op::Divide {
             a,

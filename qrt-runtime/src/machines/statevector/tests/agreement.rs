@@ -132,7 +132,7 @@ fn the_sign_of_the_reflection_matters() {
             .part(Part::Counting, &mut |gate| {
                 // What makes O_0's sign right is a Z on a counting qubit, and nothing else is.
                 if let QuantumGate::Phase { on: [qubit], .. } = gate
-                    && counting.counter().contains(qubit)
+                    && counting.phase_register().contains(qubit)
                 {
                     left_out += 1;
                     return Ok(());
@@ -146,7 +146,7 @@ fn the_sign_of_the_reflection_matters() {
         let others = closed(total - good, total, phase_bits, window);
         let machines: [&mut dyn StateVector; 2] = [&mut dense, &mut sparse];
         for machine in machines {
-            let found = fold(&machine.distribution(counting.counter()).unwrap());
+            let found = fold(&machine.distribution(counting.phase_register()).unwrap());
             assert!(off(&found, &right) > 0.1, "the sign does not matter");
             agree(&found, &others, "N - S");
         }

@@ -70,7 +70,7 @@ fn cirq_finds_the_same_amplitudes_and_outcomes() {
             assert_eq!(expected.len(), 1 << phase_bits);
             let mut machine = Dense::new(counting.qubits()).unwrap();
             count(&mut machine, &counting, Checks::AtTheEnd).unwrap();
-            let outcomes = machine.distribution(counting.counter()).unwrap();
+            let outcomes = machine.distribution(counting.phase_register()).unwrap();
             for (outcome, expected) in outcomes.iter().zip(&expected) {
                 assert!(
                     (outcome - expected).abs() < 1e-12,

@@ -1,4 +1,4 @@
-//! One scene under other knobs.
+//! One scene under other parameters.
 
 use super::{ValidScene, sampling};
 use crate::scene::shape::Part;
@@ -9,7 +9,7 @@ use crate::syntax::{Place, Problem, Problems};
 /// the number of [`Sampling::depths`].
 #[derive(Clone, Debug, PartialEq)]
 #[allow(missing_docs)]
-pub struct Knobs {
+pub struct Parameters {
     pub sampling: Sampling,
     pub precision: Precision,
     pub comparator: Comparator,
@@ -18,10 +18,10 @@ pub struct Knobs {
 }
 
 impl ValidScene {
-    /// The scene's knobs. Under `accuracy` those that it chooses have their defaults.
-    pub fn knobs(&self) -> Knobs {
+    /// The scene's parameters. Under `accuracy` those that it chooses have their defaults.
+    pub fn parameters(&self) -> Parameters {
         let scene = &self.scene;
-        Knobs {
+        Parameters {
             sampling: scene.sampling.clone(),
             precision: scene.precision,
             comparator: scene.comparator,
@@ -30,11 +30,11 @@ impl ValidScene {
         }
     }
 
-    /// The same scene under other knobs, and without an `accuracy` that would choose them.
+    /// The same scene under other parameters, and without an `accuracy` that would choose them.
     /// Geometry and materials are as they were read.
     ///
     /// # Errors
-    /// Everything that is wrong with the knobs.
+    /// Everything that is wrong with the parameters.
     ///
     /// ```
     /// # let text = "
@@ -45,26 +45,26 @@ impl ValidScene {
     /// # geometry: []
     /// # ";
     /// # let scene = qrt_core::front::parse(text, "dark.yaml", &[], "".as_ref()).unwrap().valid;
-    /// let mut knobs = scene.knobs();
-    /// knobs.comparator.bits = 6;
-    /// let coarse = scene.with_knobs(knobs.clone()).unwrap();
+    /// let mut parameters = scene.parameters();
+    /// parameters.comparator.bits = 6;
+    /// let coarse = scene.with_parameters(parameters.clone()).unwrap();
     /// assert_eq!(coarse.scene().comparator.bits, 6);
-    /// knobs.comparator.bits = 31;
-    /// let problems = scene.with_knobs(knobs).unwrap_err();
+    /// parameters.comparator.bits = 31;
+    /// let problems = scene.with_parameters(parameters).unwrap_err();
     /// assert_eq!(problems[0].path().unwrap().to_string(), "comparator.bits");
     /// ```
-    pub fn with_knobs(&self, knobs: Knobs) -> Result<Self, Vec<Problem>> {
+    pub fn with_parameters(&self, parameters: Parameters) -> Result<Self, Vec<Problem>> {
         let mut changed = self.clone();
         let scene = &mut changed.scene;
-        scene.sampling = knobs.sampling;
-        scene.precision = knobs.precision;
-        scene.comparator = knobs.comparator;
-        scene.counting = knobs.counting;
-        scene.circuit = knobs.circuit;
+        scene.sampling = parameters.sampling;
+        scene.precision = parameters.precision;
+        scene.comparator = parameters.comparator;
+        scene.counting = parameters.counting;
+        scene.circuit = parameters.circuit;
         scene.accuracy = None;
         let mut problems = Problems::default();
         scene.check(&Place::ROOT, &mut problems);
-        problems.settle();
+        problems.finalize();
         sampling::check(scene, &mut problems);
         problems.result(changed)
     }

@@ -14,7 +14,7 @@ pub(super) fn path_bits(
     _: &mut Problems,
 ) -> Sampling {
     if sampling.sequence == Sequence::ProductLattice && node.entry("path_bits").is_none() {
-        sampling.path_bits = sampling.lattice_bits().min(crate::sampling::MAX_PATH_BITS);
+        sampling.path_bits = sampling.lattice_bits().min(super::MAX_PATH_BITS);
     }
     sampling
 }
@@ -29,7 +29,7 @@ impl Sampling {
     }
 }
 
-/// `accuracy` replaces knobs: none of them may be written beside it.
+/// `accuracy` replaces parameters: none of them may be written beside it.
 pub(super) fn scene(scene: Scene, node: &Node, at: &Place<'_>, problems: &mut Problems) -> Scene {
     if node.entry("accuracy").is_some() {
         for key in ["precision", "comparator", "counting"] {

@@ -26,7 +26,7 @@ const NUMBERS: [&str; 14] = [
 ];
 
 /// Its figures are 1, its functions never return, and its layout has all that any can have.
-pub(crate) fn broken(name: &str, visibility: &str, conditions: &str) -> TokenStream {
+pub(crate) fn stub(name: &str, visibility: &str, conditions: &str) -> TokenStream {
     let never = "::core::unreachable!(\"this scene has errors\")";
     let field =
         format!("::qrt::core::oracle::compiled::Field<{name}, ::qrt::circuit::format::Bool>");

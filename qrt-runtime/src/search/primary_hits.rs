@@ -1,7 +1,7 @@
-//! The first hits of paths, found by asking the oracle of nearest hits.
+//! The primary hits of paths, found by asking the oracle of nearest hits.
 
 use super::{Rounds, Search};
-use crate::machines::{Answers, Asked, Candidate, Defect, FirstHits, NearestMachine, PathRun};
+use crate::machines::{Answers, Asked, Candidate, Defect, NearestMachine, PathRun, PrimaryHits};
 use crate::named::named;
 use crate::random::Stream;
 use std::collections::BTreeMap;
@@ -48,7 +48,7 @@ pub enum Method {
 /// What a ray meets first, and the queries that finding it took.
 type Found = (Option<Candidate>, u64);
 
-/// What finds the first hits of paths: see [`FirstHits`].
+/// What finds the primary hits of paths: see [`PrimaryHits`].
 pub struct FoundHits {
     machine: NearestMachine,
     method: Method,
@@ -195,7 +195,7 @@ impl FoundHits {
     }
 }
 
-impl FirstHits for FoundHits {
+impl PrimaryHits for FoundHits {
     fn find(&self, runs: &[PathRun], hits: &mut [u64], queries: &mut [u64]) -> Result<(), Defect> {
         let none = self.machine.oracle().faces() as u64;
         let number = |hit: Option<Candidate>| hit.map_or(none, |hit| u64::from(hit.primitive));

@@ -1,12 +1,12 @@
 //! The faces as a list: one that is in superposition, looked up by its place.
 //!
 //! [`super::Geometry`] holds faces as constants: a machine that asks about all of them in turn
-//! folds them into its code. A [`Listing`] holds the same faces as rows of tables, for a machine
+//! folds them into its code. A [`FaceTable`] holds the same faces as rows of tables, for a machine
 //! that asks about one face whose number is a register's. The intersection is the same: where a ray
 //! crosses a plane ([`super::cross`]), and whether that lies within the edges.
 
-use super::crossing::{Crossing, Turned, cross};
-use super::geometry::{NO_FACE, Slab};
+use super::crossing::{AxisPermuted, Crossing, cross};
+use super::geometry::{EdgeTest, NO_FACE};
 use super::intersect::{Edges, meets};
 use super::ray::{Hit, Nearest, Ray};
 use super::{Arith, Stage};
@@ -15,7 +15,7 @@ use std::cell::Cell;
 /// Faces in the order in which the running nearest asks about them: of those equally far, the first
 /// is the nearest.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Listing {
+pub struct FaceTable {
     /// Where rays start, if all of them start at one point: what of planes and edges depends on it
     /// is in the tables.
     viewpoint: [f64; 3],
@@ -28,7 +28,7 @@ pub struct Listing {
     labels: Vec<u32>,
 }
 
-/// One slab of each face, as seen from the viewpoint: `low <= p[main] + slope p[other] <= high`.
+/// One edge_test of each face, as seen from the viewpoint: `low <= p[main] + slope p[other] <= high`.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Slot {
     /// Is the main coordinate the second of the two?
@@ -38,7 +38,7 @@ struct Slot {
     high: Vec<[f64; 1]>,
 }
 
-impl Listing {
+impl FaceTable {
     /// The faces that rays of `stage`'s camera may meet.
     pub fn new<const C: usize>(stage: &Stage<C>) -> Self {
         let geometry = stage.geometry();
@@ -55,7 +55,11 @@ impl Listing {
             slots: Vec::new(),
             labels: Vec::new(),
         };
-        let most = geometry.faces.iter().map(|face| face.slabs.len()).max();
+        let most = geometry
+            .faces
+            .iter()
+            .map(|face| face.edge_tests.len())
+            .max();
         listing.slots.resize(most.unwrap_or(0), Slot::default());
         for plane in &geometry.planes {
             let seen = |k: usize| viewpoint[(plane.axis + k) % 3];
@@ -65,14 +69,15 @@ impl Listing {
                 listing.axes.push(plane.axis as u32);
                 listing.planes.push([a, b, offset]);
                 listing.labels.push(face.label);
-                let slabs = face.slabs.iter();
-                let slabs = slabs.map(|slab| Row::new(slab, [seen(1), seen(2)]));
-                let mut slabs: Vec<Row> = slabs.collect();
+                let edge_tests = face.edge_tests.iter();
+                let edge_tests =
+                    edge_tests.map(|edge_test| Row::new(edge_test, [seen(1), seen(2)]));
+                let mut edge_tests: Vec<Row> = edge_tests.collect();
                 // Alike ones in one slot: a column of equal entries costs nothing.
-                slabs.sort_by_key(|row| row.second);
-                let mut slabs = slabs.into_iter();
+                edge_tests.sort_by_key(|row| row.second);
+                let mut edge_tests = edge_tests.into_iter();
                 for slot in &mut listing.slots {
-                    slot.push(&slabs.next().unwrap_or(Row::OPEN));
+                    slot.push(&edge_tests.next().unwrap_or(Row::OPEN));
                 }
             }
         }
@@ -125,7 +130,7 @@ impl Listing {
             ..*ray
         };
         let axis = cx.entry(&self.axes, face);
-        let turned = Turned::looked_up(cx, &seen, axis);
+        let turned = AxisPermuted::looked_up(cx, &seen, axis);
         let [a, b, offset] = cx.rows(&self.planes, face);
         cross(cx, [a, b], offset, &turned)
     }
@@ -133,7 +138,7 @@ impl Listing {
 
 /// The edges of a face whose number is a register's.
 struct Looked<'a, A: Arith> {
-    list: &'a Listing,
+    list: &'a FaceTable,
     face: A::Index,
 }
 
@@ -162,16 +167,16 @@ impl<A: Arith> Edges<A> for Looked<'_, A> {
 }
 
 /// The nearest intersection, found before: the first ray's is given, as a face's number in a
-/// [`Listing`] or the number of its faces for none; those of the others are looked for.
-pub struct FirstGiven<'a, A: Arith, N> {
-    list: &'a Listing,
+/// [`FaceTable`] or the number of its faces for none; those of the others are looked for.
+pub struct PrimaryHitGiven<'a, A: Arith, N> {
+    list: &'a FaceTable,
     first: Cell<Option<A::Index>>,
     others: &'a N,
 }
 
-impl<'a, A: Arith, N: Nearest<A>> FirstGiven<'a, A, N> {
+impl<'a, A: Arith, N: Nearest<A>> PrimaryHitGiven<'a, A, N> {
     /// The first ray meets face number `first`; `others` finds what the others meet.
-    pub fn new(list: &'a Listing, first: A::Index, others: &'a N) -> Self {
+    pub fn new(list: &'a FaceTable, first: A::Index, others: &'a N) -> Self {
         Self {
             list,
             first: Cell::new(Some(first)),
@@ -180,7 +185,7 @@ impl<'a, A: Arith, N: Nearest<A>> FirstGiven<'a, A, N> {
     }
 }
 
-impl<A: Arith, N: Nearest<A>> Nearest<A> for FirstGiven<'_, A, N> {
+impl<A: Arith, N: Nearest<A>> Nearest<A> for PrimaryHitGiven<'_, A, N> {
     #[inline(always)]
     fn nearest(&self, cx: &mut A, ray: &Ray<A>, wanted: A::Bool) -> Hit<A> {
         match self.first.take() {
@@ -215,17 +220,17 @@ impl Row {
         high: f64::INFINITY,
     };
 
-    /// `slab` of a plane of which `seen` is the viewpoint's place.
-    fn new(slab: &Slab, seen: [f64; 2]) -> Self {
-        let [a, b] = slab.form;
+    /// `edge_test` of a plane of which `seen` is the viewpoint's place.
+    fn new(edge_test: &EdgeTest, seen: [f64; 2]) -> Self {
+        let [a, b] = edge_test.form;
         let away = a * seen[0] + b * seen[1];
         // The greater of the two is 1.
         let second = a != 1.0;
         Self {
             second: u32::from(second),
             slope: if second { a } else { b },
-            low: slab.low - away,
-            high: slab.high - away,
+            low: edge_test.low - away,
+            high: edge_test.high - away,
         }
     }
 }

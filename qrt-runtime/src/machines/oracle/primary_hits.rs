@@ -1,4 +1,4 @@
-//! What finds first hits that are inputs of an oracle.
+//! What finds primary hits that are inputs of an oracle.
 
 use super::Defect;
 
@@ -13,9 +13,9 @@ pub struct PathRun {
     pub count: usize,
 }
 
-/// What finds the first hits of paths, for an oracle that is given them
-/// ([`qrt_core::oracle::Oracle::given_first_hit`]).
-pub trait FirstHits: Send + Sync {
+/// What finds the primary hits of paths, for an oracle that is given them
+/// ([`qrt_core::oracle::Oracle::given_primary_hit`]).
+pub trait PrimaryHits: Send + Sync {
     /// Sets `hits`, path after path and run after run, to the numbers of the faces that are met
     /// first, or the number of all faces where none is; and adds to `queries`, by run, what it took.
     ///
