@@ -2,7 +2,7 @@
 
 use super::value::{Bool, Index, Real};
 use super::{Affine, Builder};
-use crate::tracer::Named;
+use crate::tracer::{Named, Quantity};
 use qrt_circuit::{Bit, RegisterId, Word};
 use std::fmt;
 
@@ -28,11 +28,11 @@ pub struct NamedPlace {
 impl NamedPlace {
     /// What the component is called, if there are several.
     pub fn component_name(&self) -> Option<&'static str> {
-        let names = match self.name.name {
-            "origin" | "direction" => ["x", "y", "z"],
-            "throughput" => ["r", "g", "b"],
-            "sample" => ["u", "v", ""],
-            _ => return None,
+        let names = match self.name.quantity {
+            Quantity::Origin | Quantity::Direction => ["x", "y", "z"],
+            Quantity::Throughput => ["r", "g", "b"],
+            Quantity::Sample => ["u", "v", ""],
+            Quantity::Distance | Quantity::Face | Quantity::Found => return None,
         };
         names.get(self.component).copied()
     }
@@ -41,8 +41,8 @@ impl NamedPlace {
 /// `ray1.direction.x`
 impl fmt::Display for NamedPlace {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Named { depth, name } = self.name;
-        write!(f, "ray{depth}.{name}")?;
+        let Named { depth, quantity } = self.name;
+        write!(f, "ray{depth}.{}", quantity.name())?;
         match self.component_name() {
             Some(component) => write!(f, ".{component}"),
             None => Ok(()),
@@ -81,7 +81,7 @@ impl Builder<'_> {
         let samples = self.coordinates.iter().map(|(&(depth, v), &index)| {
             let name = Named {
                 depth,
-                name: "sample",
+                quantity: Quantity::Sample,
             };
             (name, usize::from(v), Nameable::Index(index))
         });

@@ -8,9 +8,10 @@ use super::{
 use crate::compile::{self, Builder, NamedPlace, Real, Recorded, Role, Target};
 use crate::sampling::PathPoints;
 use crate::scene::{Nearest, Uncompute};
-use crate::tracer::{self, Arith, FaceTable, PrimaryHitGiven, Records, Stage, trace};
+use crate::tracer::{self, Arith, FaceTable, PrimaryHitGiven, Quantity, Records, Stage, trace};
 use crate::valid::ValidScene;
 use qrt_circuit::{Operand, Program, RegisterId, Style, Type, Word};
+use std::collections::HashSet;
 
 /// Channels by number.
 const CHANNELS: [&str; 4] = ["r", "g", "b", "luminance"];
@@ -156,7 +157,7 @@ impl Recording {
         let sharing = builder.sharing();
         let mut recorded = builder.finish()?;
         for named in &mut recorded.names {
-            if named.name.name == "throughput" {
+            if named.name.quantity == Quantity::Throughput {
                 named.component = channels[named.component];
             }
         }
@@ -227,9 +228,12 @@ impl Recording {
         });
         let places = places.filter(|named| held.contains(&named.place.register()));
         let places: Vec<NamedPlace> = places.collect();
+        // Where two are in one register, it has the first one's name.
+        let mut called = HashSet::new();
         for named in &places {
-            let register = &mut program.registers[named.place.register().index()];
-            if Role::of(register) == Role::Work && !register.name.starts_with("ray") {
+            let id = named.place.register();
+            let register = &mut program.registers[id.index()];
+            if Role::of(register) == Role::Work && called.insert(id) {
                 register.name = named.to_string();
             }
         }

@@ -61,13 +61,47 @@ pub enum Part {
     Component(usize),
 }
 
-/// What a number or a vector of a ray is called.
+/// A number or a vector of a ray that has a name in the layout of registers; in the order of names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Quantity {
+    /// Where it goes: a vector; the camera's are of no particular length.
+    Direction,
+    /// How far away it meets a surface, in lengths of its direction.
+    Distance,
+    /// The face that it meets, by number.
+    Face,
+    /// Whether it meets a surface, on a path that has not ended.
+    Found,
+    /// Where it starts: a vector, in the scene's frame as the circuit scales it.
+    Origin,
+    /// The cell of the unit square that it samples: its two coordinates.
+    Sample,
+    /// The fraction of what it finds that reaches the camera, by channel.
+    Throughput,
+}
+
+impl Quantity {
+    /// `direction`
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Direction => "direction",
+            Self::Distance => "distance",
+            Self::Face => "face",
+            Self::Found => "found",
+            Self::Origin => "origin",
+            Self::Sample => "sample",
+            Self::Throughput => "throughput",
+        }
+    }
+}
+
+/// A quantity of one ray.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Named {
     /// The ray: 0 is the primary one.
     pub depth: usize,
-    /// `direction`
-    pub name: &'static str,
+    /// Which quantity.
+    pub quantity: Quantity,
 }
 
 /// The arithmetic of a machine.

@@ -3,7 +3,7 @@
 use super::bsdf::Vertex;
 use super::ray::{Nearest, Ray};
 use super::vector::{self, Vector};
-use super::{Arith, Named, Part, Stage};
+use super::{Arith, Named, Part, Quantity, Stage};
 
 /// The colour of each path, per channel, in radiance.
 ///
@@ -27,11 +27,11 @@ pub fn trace<A: Arith, N: Nearest<A>, const C: usize>(
     let mut alive = cx.truth(true);
     let mut throughput: Option<[A::Real; C]> = None;
     for depth in 0..stage.depths() {
-        let named = |name| Named { depth, name };
-        cx.named(named("origin"), &ray.origin);
-        cx.named(named("direction"), &ray.direction);
+        let named = |quantity| Named { depth, quantity };
+        cx.named(named(Quantity::Origin), &ray.origin);
+        cx.named(named(Quantity::Direction), &ray.direction);
         if let Some(throughput) = throughput {
-            cx.named(named("throughput"), &throughput);
+            cx.named(named(Quantity::Throughput), &throughput);
         }
         let scatter = stage.scatters.get(depth);
         cx.enter(Part::FindIntersection(depth));
@@ -41,9 +41,9 @@ pub fn trace<A: Arith, N: Nearest<A>, const C: usize>(
         };
         cx.leave();
         alive = cx.and(alive, hit.found);
-        cx.named_truth(named("found"), alive);
-        cx.named(named("distance"), &[hit.distance]);
-        cx.named_index(named("face"), hit.face);
+        cx.named_truth(named(Quantity::Found), alive);
+        cx.named(named(Quantity::Distance), &[hit.distance]);
+        cx.named_index(named(Quantity::Face), hit.face);
         if !cx.any(alive) {
             break;
         }

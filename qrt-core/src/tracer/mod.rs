@@ -40,7 +40,7 @@ mod scalar;
 mod stage;
 pub(crate) mod vector;
 
-pub use arith::{Arith, Axis, Coordinate, Named, Part};
+pub use arith::{Arith, Axis, Coordinate, Named, Part, Quantity};
 pub use camera::CameraStage;
 pub use crossing::{AxisPermuted, Crossing, between, cross, weighted};
 pub use face_table::{FaceTable, PrimaryHitGiven};

@@ -165,8 +165,10 @@ fn outline(out: &mut String, oracle: &Oracle) {
     for named in &oracle.places {
         let _ = writeln!(
             out,
-            "NamedPlace {{ name: {:?}, component: {}, place: {} }},",
-            named.name,
+            "NamedPlace {{ name: Named {{ depth: {}, quantity: Quantity::{:?} }}, component: {}, \
+             place: {} }},",
+            named.name.depth,
+            named.name.quantity,
             named.component,
             place(named.place)
         );

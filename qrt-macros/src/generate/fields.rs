@@ -3,6 +3,7 @@
 use qrt_circuit::{Bit, Word};
 use qrt_core::compile::{NamedPlace, Place};
 use qrt_core::oracle::Oracle;
+use qrt_core::tracer::Quantity;
 use std::fmt::Write as _;
 
 struct Component {
@@ -12,8 +13,8 @@ struct Component {
 }
 
 /// A quantity of a ray, as fields of its struct.
-struct Quantity {
-    name: &'static str,
+struct Named {
+    name: Quantity,
     components: Vec<Component>,
 }
 
@@ -61,15 +62,15 @@ pub(super) fn write(
     format!("{scene}Layout {{ {values} }}")
 }
 
-fn quantities(oracle: &Oracle, depth: usize) -> Vec<Quantity> {
-    let mut quantities: Vec<Quantity> = Vec::new();
+fn quantities(oracle: &Oracle, depth: usize) -> Vec<Named> {
+    let mut quantities: Vec<Named> = Vec::new();
     for (place, named) in oracle.places.iter().enumerate() {
         if named.name.depth != depth {
             continue;
         }
-        let name = named.name.name;
+        let name = named.name.quantity;
         if quantities.last().is_none_or(|last| last.name != name) {
-            quantities.push(Quantity {
+            quantities.push(Named {
                 name,
                 components: Vec::new(),
             });
@@ -130,22 +131,21 @@ fn component(oracle: &Oracle, place: usize, named: &NamedPlace) -> Component {
 }
 
 /// What a quantity is, for its documentation.
-fn meaning(quantity: &str) -> &'static str {
+fn meaning(quantity: Quantity) -> &'static str {
     match quantity {
-        "origin" => "Where it starts, in the scene's frame as the circuit scales it.",
-        "direction" => "Where it goes; the camera's are of no particular length.",
-        "throughput" => "The share of what it finds that reaches the camera.",
-        "found" => "Does it meet a surface, on a path that has not ended?",
-        "distance" => "How far away that is, in lengths of its direction.",
-        "face" => "The face it meets, by number.",
-        "sample" => "The cell of the unit square that it samples.",
-        _ => "A number of the ray.",
+        Quantity::Origin => "Where it starts, in the scene's frame as the circuit scales it.",
+        Quantity::Direction => "Where it goes; the camera's are of no particular length.",
+        Quantity::Throughput => "The fraction of what it finds that reaches the camera.",
+        Quantity::Found => "Whether it meets a surface, on a path that has not ended.",
+        Quantity::Distance => "How far away that is, in lengths of its direction.",
+        Quantity::Face => "The face it meets, by number.",
+        Quantity::Sample => "The cell of the unit square that it samples.",
     }
 }
 
-fn field(out: &mut String, values: &mut String, scene: &str, quantity: &Quantity) {
-    let name = quantity.name;
-    let meaning = meaning(name);
+fn field(out: &mut String, values: &mut String, scene: &str, quantity: &Named) {
+    let meaning = meaning(quantity.name);
+    let name = quantity.name.name();
     if let [x, y, z] = quantity.components.as_slice()
         && x.name == Some("x")
     {

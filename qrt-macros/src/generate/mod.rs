@@ -84,7 +84,7 @@ fn text(
             use ::qrt::core::oracle::compiled::{{
                 BlockDeclaration, CompiledOracle, Computed, Field, Outline, Vector,
             }};
-            use ::qrt::core::tracer::Named;
+            use ::qrt::core::tracer::{{Named, Quantity}};
             use ::qrt::runtime::machines::native::{{
                 Integers, NativeOracle, Truths, Vectors, word,
             }};"

@@ -60,7 +60,7 @@ const _: () = {
         use ::qrt::core::oracle::compiled::{
             BlockDeclaration, CompiledOracle, Computed, Field, Outline, Vector,
         };
-        use ::qrt::core::tracer::Named;
+        use ::qrt::core::tracer::{Named, Quantity};
         use ::qrt::runtime::machines::native::{Integers, NativeOracle, Truths, Vectors, word};
         impl __Scene {
             /// Where the numbers of a path are among its registers, ray by ray.
@@ -322,7 +322,7 @@ const _: () = {
             NamedPlace {
                 name: Named {
                     depth: 0,
-                    name: "sample",
+                    quantity: Quantity::Sample,
                 },
                 component: 0,
                 place: Place::Index(Word::unsigned(RegisterId(3), 0, 1)),
@@ -330,7 +330,7 @@ const _: () = {
             NamedPlace {
                 name: Named {
                     depth: 1,
-                    name: "origin",
+                    quantity: Quantity::Origin,
                 },
                 component: 0,
                 place: Place::Number {
