@@ -89,7 +89,9 @@ impl<R> Reads<R> for Box<[Bit<R>]> {
         self.into_iter().map(|bit| bit.of(&mut *rename)).collect()
     }
     fn each<'a>(&'a self, see: &mut dyn FnMut(&'a R)) {
-        self.iter().for_each(|bit| see(&bit.register));
+        for bit in self {
+            see(&bit.register);
+        }
     }
     fn argument(&self) -> Argument<'_, R> {
         Argument::Bits(self)
@@ -117,7 +119,9 @@ impl<R> Reads<R> for Option<Bit<R>> {
         self.map(|bit| bit.of(rename))
     }
     fn each<'a>(&'a self, see: &mut dyn FnMut(&'a R)) {
-        self.iter().for_each(|bit| see(&bit.register));
+        if let Some(bit) = self {
+            see(&bit.register);
+        }
     }
     fn argument(&self) -> Argument<'_, R> {
         Argument::Condition

@@ -291,7 +291,10 @@ impl OracleMachine {
             Machine::Fixed { fixed, lanes } => {
                 lanes.lend(
                     || fixed.lanes(),
-                    |own| self.run_fixed(fixed, own, block, &spans),
+                    |own| {
+                        self.run_fixed(fixed, own, block, &spans);
+                        Ok::<(), Defect>(())
+                    },
                 )?;
             }
             Machine::Native { run, instructions } => {
@@ -331,7 +334,7 @@ impl OracleMachine {
         lanes: &mut fixed::Lanes,
         block: &mut OracleBlock,
         spans: &[Span<'_>],
-    ) -> Result<(), Defect> {
+    ) {
         let count = block.ids.len();
         let zeros = vec![0; count];
         let wanted = self.outputs.iter().zip(&mut block.values);
@@ -340,7 +343,6 @@ impl OracleMachine {
         let inputs = [&block.ids, &zeros, &block.hits].map(Vec::as_slice);
         let inputs = &inputs[..2 + usize::from(self.oracle.nearest.is_some())];
         fixed.run(lanes, inputs, spans, &mut wanted);
-        Ok(())
     }
 
     /// Adds the outputs that are the same on all paths, and cuts counts to the comparators' number.

@@ -32,7 +32,7 @@ pub enum RenderError {
     )]
     NothingNoisy,
     /// A crop without pixels, or not within the film.
-    #[error("{}", outside(.crop, .film))]
+    #[error("{}", outside(.crop, *.film))]
     Crop {
         /// x, y, width, height.
         crop: [u32; 4],
@@ -194,7 +194,7 @@ fn name(channel: usize) -> &'static str {
         .unwrap_or("?")
 }
 
-fn outside([x, y, width, height]: &[u32; 4], [w, h]: &[u32; 2]) -> String {
+fn outside([x, y, width, height]: &[u32; 4], [w, h]: [u32; 2]) -> String {
     if *width == 0 || *height == 0 {
         format!("a crop of {width} x {height} has no pixels")
     } else {

@@ -34,10 +34,12 @@ impl Draws<'_> {
         good: &[[u64; 3]],
     ) -> Result<Vec<Drawn>, EstimatorError> {
         let pairs = pixels.par_iter().zip(good);
-        pairs.map(|(pixel, good)| self.pixel(pixel, good)).collect()
+        pairs
+            .map(|(pixel, good)| self.pixel(*pixel, good))
+            .collect()
     }
 
-    fn pixel(&self, &[x, y]: &[u32; 2], good: &[u64; 3]) -> Result<Drawn, EstimatorError> {
+    fn pixel(&self, [x, y]: [u32; 2], good: &[u64; 3]) -> Result<Drawn, EstimatorError> {
         let mut amplitudes = vec![[0.0; 3]; self.count as usize];
         let mut queries = 0;
         for (draw, amplitudes) in (0_u64..).zip(&mut amplitudes) {
