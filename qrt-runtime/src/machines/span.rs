@@ -5,6 +5,6 @@
 pub struct Span<'a> {
     /// How many.
     pub lanes: usize,
-    /// The pixel's classical parameters: [`qrt_circuit::Parameter::value`] of each.
+    /// The pixel's classical parameters: [`qrt_core::compile::PixelWord::value`] of each.
     pub parameters: &'a [u64],
 }
