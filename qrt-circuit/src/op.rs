@@ -26,7 +26,7 @@ pub enum Argument<'a, R = RegisterId> {
     Word(&'a Word<R>),
     /// A bit of a register.
     Bit(&'a Bit<R>),
-    /// Bits, the least significant first.
+    /// Some bits, the least significant first.
     Bits(&'a [Bit<R>]),
     /// A number from a register, or a constant.
     Operand(&'a Operand<R>),
@@ -43,17 +43,17 @@ pub enum When<R = RegisterId> {
     Always,
     /// Where the bit holds; nothing happens elsewhere.
     If(Bit<R>),
-    /// Everywhere, but where the bit holds the sign is turned: an addition subtracts.
+    /// Everywhere, but reversed where the bit holds: an addition subtracts.
     Reversed(Bit<R>),
 }
 
-/// How the operations that leave something behind are lowered.
+/// How the operations that have garbage are lowered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
 pub enum Style {
-    /// Partial sums out of place: fewest gates, most scratch.
+    /// Partial sums out of place: fewest gates, most garbage.
     #[default]
     OutOfPlace,
-    /// Partial sums in place: least scratch, up to twice the gates.
+    /// Partial sums in place: least garbage, up to twice the gates.
     InPlace,
 }
 
@@ -147,7 +147,7 @@ impl<R> Reads<R> for When<R> {
 ///
 /// * `reads`: a number, a bit or a condition from registers; `register`: a whole register that is
 ///   read or changed in place;
-/// * `target`, `targets`: zero before the operation; `garbage`: what it leaves behind;
+/// * `target`, `targets`: zero before the operation; `garbage`: its intermediate results;
 /// * `constant`: the same on all paths; `style`: how the operation is lowered.
 macro_rules! field {
     (map reads $field:ident, $read:ident, $write:ident) => {
@@ -231,7 +231,8 @@ macro_rules! operations {
         }
 
         impl<R, T> Op<R, T> {
-            /// What it is called; so is the method of [`super::Machine`] that computes it.
+            /// The operation's name, which is also that of the method of [`super::Machine`] that
+            /// computes it.
             pub fn name(&self) -> &'static str {
                 match self { $( Self::$name { .. } => $word, )* }
             }
@@ -258,7 +259,7 @@ macro_rules! operations {
                 }
             }
 
-            /// What holds what it leaves behind.
+            /// The register that holds the operation's garbage; none if it has none.
             pub fn scratch(&self) -> Option<T>
             where
                 T: Copy,
@@ -284,7 +285,7 @@ macro_rules! operations {
                 }
             }
 
-            /// How it is lowered, where there is a choice.
+            /// How the operation is lowered, where there is a choice.
             pub fn style(&self) -> Option<Style> {
                 #[allow(unused_assignments, unused_mut, reason = "most are lowered in one way")]
                 match self {
@@ -321,7 +322,7 @@ macro_rules! operations {
         }
 
         impl<R, T: Copy> Op<R, T> {
-            /// What holds its results, out of place.
+            /// The registers that hold the results of an operation out of place.
             pub fn targets(&self) -> Vec<T> {
                 let mut all = Vec::new();
                 match self {
@@ -361,7 +362,7 @@ operations! {
     {
         /// `t = parameter`: a classical parameter that the pixel decides.
         Load = "load"
-        /// Its place in the program's list.
+        /// The parameter's index in the program's list.
         constant parameter: u32,
         /// The target.
         target target: T,
@@ -370,11 +371,12 @@ operations! {
         /// `t = parameter ^ XOR_b source_b columns[b]`, over the bits b of `source`: a linear map over
         /// GF(2), shifted.
         Parity = "parity"
-        /// The id register.
+        /// The register of the path index.
         register source: R,
         /// By bit of the source: the bits of t that it flips.
         constant columns: Arc<[u64]>,
-        /// The pixel's shift, if there is one: its place in the program's list.
+        /// The parameter that is the pixel's shift, by its index in the program's list; none if
+        /// there is no shift.
         constant parameter: Option<u32>,
         /// The target.
         target target: T,
@@ -434,7 +436,7 @@ operations! {
         target target: T,
     }
     {
-        /// `t = a < b`, leaving nothing behind.
+        /// `t = a < b`, without garbage.
         Less = "less"
         /// The first operand.
         reads a: Operand<R>,
@@ -541,7 +543,7 @@ operations! {
         XorInto = "xor_into"
         /// What is added over GF(2).
         reads a: Operand<R>,
-        /// The condition; none: everywhere.
+        /// The condition; none if the change is everywhere.
         reads when: Option<Bit<R>>,
         /// The target.
         register target: R,
@@ -553,7 +555,7 @@ operations! {
         reads a: Operand<R>,
         /// Whether it is subtracted.
         constant subtract: bool,
-        /// The condition; none: everywhere.
+        /// The condition; none if the change is everywhere.
         reads when: When<R>,
         /// The target.
         register target: R,
@@ -565,11 +567,11 @@ operations! {
         register a: R,
         /// The second operand.
         register b: R,
-        /// The condition; none: everywhere.
+        /// The condition; none if the change is everywhere.
         reads when: Option<Bit<R>>,
     }
     {
-        /// The sign of a basis state's amplitude, where `bit` holds: a Z. Its own inverse.
+        /// Flips the phase of a basis state where `bit` holds: a Z. Its own inverse.
         Phase = "phase"
         /// The condition.
         reads bit: Bit<R>,
@@ -594,7 +596,7 @@ impl Op {
 }
 
 impl<R, T> Op<R, T> {
-    /// With its garbage in this register, if it leaves any behind.
+    /// The same operation with its garbage in this register, if it has any.
     pub fn with_scratch(mut self, scratch: T) -> Self {
         if let Some(field) = self.scratch_mut() {
             *field = scratch;
@@ -602,7 +604,7 @@ impl<R, T> Op<R, T> {
         self
     }
 
-    /// Lowered in this style, where there is a choice.
+    /// The same operation, lowered in this style where there is a choice.
     pub fn with_style(mut self, style: Style) -> Self {
         if let Some(field) = self.style_mut() {
             *field = style;

@@ -32,7 +32,7 @@ pub(super) struct Truth {
 /// A small unsigned integer of the path.
 #[derive(Clone, Debug)]
 pub(super) struct Choice {
-    /// It is below this.
+    /// The bound that the integer is below.
     pub(super) bound: u32,
     pub(super) word: Option<Word>,
     pub(super) table: Option<Tabulated>,
@@ -137,9 +137,9 @@ pub enum Bool {
     Constant(bool),
     /// A bit of the path.
     Node {
-        /// Its place in the builder's list.
+        /// The bit's index in the builder's list.
         node: u32,
-        /// Is it negated?
+        /// Whether the bit's negation is meant.
         inverted: bool,
     },
 }

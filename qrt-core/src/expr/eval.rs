@@ -10,7 +10,7 @@ impl Expr {
         self.eval_in(at, &mut Vec::new())
     }
 
-    /// As [`Expr::eval`], with room for the values of its nodes that can be used again.
+    /// As [`Expr::eval`], with memory for the values of its nodes that can be used again.
     pub fn eval_in(&self, at: &Variables, values: &mut Vec<f64>) -> f64 {
         values.clear();
         for node in &self.nodes {
@@ -20,7 +20,7 @@ impl Expr {
         values[self.root.index()]
     }
 
-    /// The variables that node `id` depends on.
+    /// The variables that the value of node `id` depends on.
     pub fn variables(&self, id: Id) -> VariableSet {
         self.node_variables()[id.index()]
     }

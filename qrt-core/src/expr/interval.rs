@@ -1,4 +1,5 @@
-//! Intervals: bounds of an expression over a box, rounded outward so that they are proofs.
+//! Intervals: bounds of an expression over intervals of its variables, rounded outward so that they
+//! are proofs.
 //!
 //! Every operation encloses all values that it has for operands within theirs; where it has none
 //! (the root of a negative number) it encloses nothing. Bounds are infinite where none is known.
@@ -145,7 +146,7 @@ impl std::ops::Neg for Interval {
     }
 }
 
-/// Libm's functions are right to an ulp; four leave room.
+/// Libm's functions are right to an ulp; four leave a margin.
 const LIBM_ULPS: u32 = 4;
 
 impl Interval {

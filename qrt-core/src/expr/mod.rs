@@ -44,7 +44,7 @@ pub use interval::{Domain, Interval};
 pub use parse::{MAX_DEPTH, MAX_LENGTH, function_names};
 use std::ops;
 
-/// The place of a [`Node`] in [`Expr::nodes`].
+/// The index of a [`Node`] in [`Expr::nodes`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Id(u32);
 
@@ -76,7 +76,7 @@ impl Variable {
     /// Those of a map or a Jacobian.
     pub const SQUARE: [Self; 2] = [Self::U, Self::V];
 
-    /// As it is written.
+    /// The name by which it is written in a formula.
     pub fn name(self) -> &'static str {
         match self {
             Self::U => "u",
@@ -93,7 +93,7 @@ impl Variable {
 pub struct VariableSet(u8);
 
 impl VariableSet {
-    /// None.
+    /// The empty set.
     pub const EMPTY: Self = Self(0);
     /// `u` and `v`.
     pub const SQUARE: Self = Self(1 << Variable::U as u8 | 1 << Variable::V as u8);
@@ -176,7 +176,7 @@ impl Function {
         Self::Log,
     ];
 
-    /// As it is written.
+    /// The name by which it is written in a formula.
     pub fn name(self) -> &'static str {
         match self {
             Self::Sin => "sin",

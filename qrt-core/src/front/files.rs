@@ -29,9 +29,9 @@ pub struct Files<'a> {
 
 #[derive(Clone, Copy, Debug)]
 enum Origin<'a> {
-    /// Below a folder.
+    /// The files below a folder on disk.
     Disk(&'a Path),
-    /// Names and contents.
+    /// Files that a program holds, by name and contents.
     Held(&'a [(&'a str, &'a [u8])]),
 }
 

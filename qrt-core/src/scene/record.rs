@@ -200,7 +200,7 @@ macro_rules! keyword {
                 match self { $( Self::$word => $text, )* }
             }
 
-            /// The one called `name`.
+            /// The word whose name in a scene is `name`; `None` if there is none.
             pub fn from_name(name: &str) -> Option<Self> {
                 match name { $( $text => Some(Self::$word), )* _ => None }
             }

@@ -24,7 +24,7 @@ pub(crate) trait Shape {
     fn check(&self, value: &Self::Value, at: &Place<'_>, problems: &mut Problems);
     /// Writes it; `None` leaves the key out.
     fn encode(&self, value: &Self::Value) -> Option<Data>;
-    /// Draft-07.
+    /// The shape's JSON Schema, draft-07.
     fn schema(&self) -> Data;
 }
 
@@ -46,7 +46,7 @@ pub(crate) trait Keyword: Copy + PartialEq + 'static {
     const VALUES: &'static [Self];
 }
 
-/// Of a [`Part`].
+/// The shape of a [`Part`].
 pub(crate) struct PartShape<T>(PhantomData<T>);
 
 pub(crate) const fn part<T>() -> PartShape<T> {
@@ -72,7 +72,7 @@ impl<T: Part> Shape for PartShape<T> {
     }
 }
 
-/// Of a [`Keyword`].
+/// The shape of a [`Keyword`].
 pub(crate) struct WordShape<T>(PhantomData<T>);
 
 pub(crate) const fn word<T>() -> WordShape<T> {

@@ -250,10 +250,10 @@ fn quote(out: &mut String, text: &str) {
 pub struct Fingerprint(u128);
 
 impl Fingerprint {
-    /// Of no bytes.
+    /// The fingerprint of no bytes.
     pub const EMPTY: Self = Self(0x6c62_272e_07bb_0142_62b8_2175_6295_c58d);
 
-    /// With more bytes behind those so far.
+    /// The fingerprint of the bytes so far, followed by more.
     pub fn and(self, bytes: &[u8]) -> Self {
         const PRIME: u128 = 0x0000_0000_0100_0000_0000_0000_0000_013b;
         let step = |hash: u128, byte: &u8| (hash ^ u128::from(*byte)).wrapping_mul(PRIME);

@@ -176,8 +176,8 @@ impl Node {
         }
     }
 
-    /// The node at `path`, or the nearest one above it that is written (a default is written
-    /// nowhere), with the span to show: that of the key where the path ends in a name.
+    /// The node at `path`, or the nearest one above it that is written (a default is not written),
+    /// with the span to show: that of the key where the path ends in a name.
     pub fn resolve(&self, path: &Path) -> Resolved<'_> {
         let mut found = Resolved {
             node: self,

@@ -13,11 +13,11 @@ pub struct Stage<const C: usize> {
     pub(crate) camera: CameraStage,
     /// Sample bits of the primary ray.
     pub(crate) film_bits: [u32; 2],
-    /// By face: its surface.
+    /// The number of the surface of each face.
     pub(crate) surface_of: Vec<u32>,
-    /// By face: the unit normal.
+    /// The unit normal of each face.
     pub(crate) normals: Vec<[f64; 3]>,
-    /// By face: tangent, bitangent and centre.
+    /// The tangent, bitangent and centre of each face.
     pub(crate) frames: Vec<[f64; 9]>,
     pub(crate) emitters: Emitters<C>,
     /// Surfaces below this number scatter nothing.
@@ -93,7 +93,7 @@ impl<const C: usize> Stage<C> {
         self
     }
 
-    /// D: rays on a path.
+    /// D, the number of rays on a path: one more than the bounces.
     pub fn depths(&self) -> usize {
         self.scatters.len() + 1
     }
