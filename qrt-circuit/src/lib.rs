@@ -126,7 +126,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! From here: [`format`] gives registers types (`UInt<8>`, `Fixed<2, 14>`); [`controlled`] runs
+//! From here: [`mod@format`] gives registers types (`UInt<8>`, `Fixed<2, 14>`); [`controlled`] runs
 //! code under a condition; [`quantum`] makes a phase oracle of a program that flips a phase, and
 //! puts Grover's iterate and quantum counting around it.
 //!

@@ -39,11 +39,11 @@ pub enum Argument<'a, R = RegisterId> {
 /// When an addition in place happens.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum When<R = RegisterId> {
-    /// On every path.
+    /// The change happens on every path.
     Always,
-    /// Where the bit holds; nothing happens elsewhere.
+    /// The change happens where the bit holds; nothing happens elsewhere.
     If(Bit<R>),
-    /// Everywhere, but reversed where the bit holds: an addition subtracts.
+    /// The change happens everywhere, but reversed where the bit holds: an addition subtracts.
     Reversed(Bit<R>),
 }
 
@@ -354,9 +354,9 @@ operations! {
     {
         /// `t = a mod 2^w`
         Copy = "copy"
-        /// What is copied.
+        /// The number that is copied.
         reads a: Word<R>,
-        /// The target.
+        /// The target `t`, or what is changed in place.
         target target: T,
     }
     {
@@ -364,7 +364,7 @@ operations! {
         Load = "load"
         /// The parameter's index in the program's list.
         constant parameter: u32,
-        /// The target.
+        /// The target `t`, or what is changed in place.
         target target: T,
     }
     {
@@ -373,12 +373,12 @@ operations! {
         Parity = "parity"
         /// The register of the path index.
         register source: R,
-        /// By bit of the source: the bits of t that it flips.
+        /// The bits of t that each bit of the source flips.
         constant columns: Arc<[u64]>,
         /// The parameter that is the pixel's shift, by its index in the program's list; none if
         /// there is no shift.
         constant parameter: Option<u32>,
-        /// The target.
+        /// The target `t`, or what is changed in place.
         target target: T,
     }
     {
@@ -388,7 +388,7 @@ operations! {
         reads a: Bit<R>,
         /// The second operand.
         reads b: Bit<R>,
-        /// The target: one bit.
+        /// The target `t`: one bit.
         target target: T,
     }
     {
@@ -398,7 +398,7 @@ operations! {
         reads a: Bit<R>,
         /// The second operand.
         reads b: Bit<R>,
-        /// The target: one bit.
+        /// The target `t`: one bit.
         target target: T,
     }
     {
@@ -410,17 +410,17 @@ operations! {
         reads b: Operand<R>,
         /// Whether b is subtracted.
         constant subtract: bool,
-        /// The target.
+        /// The target `t`, or what is changed in place.
         target target: T,
     }
     {
         /// `t = if when { -a } else { a } mod 2^w`
         Negate = "negate"
-        /// The number.
+        /// The number `a` that is read.
         reads a: Word<R>,
         /// The condition.
         reads when: Bit<R>,
-        /// The target.
+        /// The target `t`, or what is changed in place.
         target target: T,
     }
     {
@@ -432,7 +432,7 @@ operations! {
         reads a: Operand<R>,
         /// The number where it does not.
         reads b: Operand<R>,
-        /// The target.
+        /// The target `t`, or what is changed in place.
         target target: T,
     }
     {
@@ -442,7 +442,7 @@ operations! {
         reads a: Operand<R>,
         /// The second operand.
         reads b: Operand<R>,
-        /// The target: one bit.
+        /// The target `t`: one bit.
         target target: T,
     }
     {
@@ -452,43 +452,43 @@ operations! {
         reads a: Word<R>,
         /// The second factor.
         reads b: Word<R>,
-        /// Bits dropped below.
+        /// How many of the result's lowest bits are dropped.
         constant drop: u32,
-        /// How it is lowered.
+        /// How the operation is lowered.
         style style: Style,
-        /// The target.
+        /// The target `t`, or what is changed in place.
         target target: T,
-        /// The garbage.
+        /// The register of the garbage.
         garbage scratch: T,
     }
     {
         /// `t = floor(a^2 / 2^drop) mod 2^w`
         Square = "square"
-        /// The number.
+        /// The number `a` that is read.
         reads a: Word<R>,
-        /// Bits dropped below.
+        /// How many of the result's lowest bits are dropped.
         constant drop: u32,
-        /// How it is lowered.
+        /// How the operation is lowered.
         style style: Style,
-        /// The target.
+        /// The target `t`, or what is changed in place.
         target target: T,
-        /// The garbage.
+        /// The register of the garbage.
         garbage scratch: T,
     }
     {
         /// `t = floor(factor a / 2^drop) mod 2^w`, for a constant factor other than 0.
         Scale = "scale"
-        /// The number.
+        /// The number `a` that is read.
         reads a: Word<R>,
         /// The factor.
         constant factor: i64,
-        /// Bits dropped below.
+        /// How many of the result's lowest bits are dropped.
         constant drop: u32,
-        /// How it is lowered.
+        /// How the operation is lowered.
         style style: Style,
-        /// The target.
+        /// The target `t`, or what is changed in place.
         target target: T,
-        /// The garbage.
+        /// The register of the garbage.
         garbage scratch: T,
     }
     {
@@ -499,25 +499,25 @@ operations! {
         reads a: Word<R>,
         /// The divisor.
         reads b: Word<R>,
-        /// How it is lowered.
+        /// How the operation is lowered.
         style style: Style,
         /// The quotient.
         target quotient: T,
         /// Whether the quotient fits: one bit.
         target fits: T,
-        /// The garbage.
+        /// The register of the garbage.
         garbage scratch: T,
     }
     {
         /// `t = floor(sqrt(a)) mod 2^w`, for an unsigned a.
         SquareRoot = "square_root"
-        /// The number.
+        /// The number `a` that is read.
         reads a: Word<R>,
-        /// How it is lowered.
+        /// How the operation is lowered.
         style style: Style,
-        /// The target.
+        /// The target `t`, or what is changed in place.
         target target: T,
-        /// The garbage.
+        /// The register of the garbage.
         garbage scratch: T,
     }
     {
@@ -526,38 +526,38 @@ operations! {
         Table = "table"
         /// Bits of the address, the least significant first.
         reads address: Box<[Bit<R>]>,
-        /// Entries by column.
+        /// The entries of each column, by address.
         constant columns: Arc<[Box<[i64]>]>,
-        /// Of the address bits, how many of the lowest select among words read together, under
+        /// How many of the lowest address bits select among words read together, under
         /// [`Style::OutOfPlace`].
         constant low: u32,
-        /// How it is lowered.
+        /// How the operation is lowered.
         style style: Style,
         /// The targets.
         targets targets: Box<[T]>,
-        /// The garbage.
+        /// The register of the garbage.
         garbage scratch: T,
     }
     {
         /// `t ^= a mod 2^w`, where `when` holds. In place, and its own inverse.
         XorInto = "xor_into"
-        /// What is added over GF(2).
+        /// The number that is added over GF(2).
         reads a: Operand<R>,
         /// The condition; none if the change is everywhere.
         reads when: Option<Bit<R>>,
-        /// The target.
+        /// The target `t`, or what is changed in place.
         register target: R,
     }
     {
         /// `t += a mod 2^w` or `t -= a mod 2^w`. In place.
         AddInto = "add_into"
-        /// What is added.
+        /// The number that is added or subtracted.
         reads a: Operand<R>,
         /// Whether it is subtracted.
         constant subtract: bool,
         /// The condition; none if the change is everywhere.
         reads when: When<R>,
-        /// The target.
+        /// The target `t`, or what is changed in place.
         register target: R,
     }
     {

@@ -35,7 +35,7 @@ pub enum Type {
 }
 
 impl Type {
-    /// As it is written for a register of `width` bits: `UInt<8>`, `Fixed<2, 14>`.
+    /// The type as it is written for a register of `width` bits: `UInt<8>`, `Fixed<2, 14>`.
     pub fn name(self, width: u32) -> String {
         match self {
             Self::Bool => "Bool".to_owned(),
@@ -66,7 +66,7 @@ pub struct Tag(pub u64);
 /// A named, typed array of qubits. Bit 0 is the least significant.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Register {
-    /// The name.
+    /// The name that the author gave it.
     pub name: String,
     /// What the register's bits mean.
     pub ty: Type,
@@ -114,7 +114,7 @@ impl BlockId {
 pub struct Block {
     /// The block around it; none for the root.
     pub parent: Option<BlockId>,
-    /// The name.
+    /// The name that the author gave it.
     pub name: String,
     /// The tag by which the program's author finds the block again.
     pub tag: Tag,

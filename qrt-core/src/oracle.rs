@@ -120,11 +120,11 @@ pub struct Channel {
 /// A scene's oracle: see [the module](self).
 #[derive(Clone, Debug)]
 pub struct Oracle {
-    /// What computes the colours.
+    /// The program that computes the colours.
     pub program: Program,
-    /// What its parameters hold in each pixel.
+    /// What the program's parameters hold in each pixel.
     pub parameters: Vec<PixelWord>,
-    /// The channels that it computes.
+    /// The channels whose colours the program computes.
     pub channels: Vec<Channel>,
     /// The register of the path index.
     pub id: RegisterId,

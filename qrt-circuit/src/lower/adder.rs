@@ -13,9 +13,9 @@ use super::{Gates, Lowering, Qubit, Wire};
 enum Step {
     /// It follows from the wires, without a gate.
     Free,
-    /// In the place of the addend's bit.
+    /// The carry is in the place of the addend's bit.
     Replaced { carry: Qubit, addend: Qubit },
-    /// In a borrowed bit, by the gates of this range.
+    /// The carry is in a borrowed bit, computed by the gates of this range.
     Borrowed { at: Qubit, gates: [usize; 2] },
 }
 

@@ -24,7 +24,7 @@ pub(super) struct Landing<'a> {
 }
 
 impl<'a> Landing<'a> {
-    /// Of a result with `shift` zeros below, of which `drop` bits are dropped.
+    /// The landing of a result with `shift` zeros below, of which `drop` bits are dropped.
     pub(super) fn new(shift: u32, drop: u32, target: &'a [Qubit]) -> Self {
         let zeros = (shift.saturating_sub(drop) as usize).min(target.len());
         Self {

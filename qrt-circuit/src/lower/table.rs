@@ -235,7 +235,7 @@ impl Planner {
 }
 
 impl Plan {
-    /// For a table of which the targets have the widths `width`.
+    /// Plans a table of which the targets have the widths `width`.
     pub(super) fn new(
         address_bits: usize,
         columns: &[Box<[i64]>],
@@ -258,7 +258,8 @@ impl Plan {
     }
 }
 
-/// By high bit of the address: the new bits of a one-hot register of so many entries.
+/// The number of new bits that each high bit of the address makes of a one-hot register of so many
+/// entries.
 fn news(groups: usize) -> impl Iterator<Item = usize> {
     let olds = (0..).map(|bit| 1_usize << bit);
     olds.take_while(move |old| *old < groups)

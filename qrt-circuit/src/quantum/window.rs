@@ -98,7 +98,7 @@ pub(super) fn prepare<E>(
     sink(X(bond))
 }
 
-/// By bit, how far a bond of 0 and one of 1 rotate it.
+/// The angles in radians by which a bond of 0 and one of 1 rotate each bit.
 fn angles(bits: u32) -> Vec<[f64; 2]> {
     let step = PI / ((1_u64 << bits) as f64 + 1.0);
     let (mut angles, mut ratio, mut rest) = (Vec::new(), 1.0, 0.0);

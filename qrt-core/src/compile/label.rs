@@ -70,7 +70,7 @@ impl fmt::Display for Role {
 /// A stage of the oracle, or a part of one: what a block of its program computes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum StageName {
-    /// All of it: the root.
+    /// The whole oracle: the root block.
     Oracle,
     /// The paper's *Generate Ray*: the camera's ray, or what a surface scatters.
     GenerateRay,
@@ -141,14 +141,14 @@ impl fmt::Display for StageName {
 /// Which block of the oracle's program it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Label {
-    /// The stage.
+    /// The stage that the block computes.
     pub stage: StageName,
     /// The number of bounces before the ray that the block belongs to; none for a block of no ray.
     pub depth: Option<u32>,
 }
 
 impl Label {
-    /// Of the stages that blocks can be, those without a number, by their place in a tag.
+    /// The stages without a number that blocks can be, by their number in a tag.
     const PLAIN: [StageName; 10] = [
         StageName::Oracle,
         StageName::GenerateRay,
@@ -182,7 +182,8 @@ impl Label {
         }
     }
 
-    /// As programs carry it: the stage's number, the depth and one, the kind of stage.
+    /// The tag by which programs carry it: the stage's number, the depth and one, the kind of
+    /// stage.
     pub fn tag(self) -> Tag {
         let (kind, number) = match self.stage {
             StageName::Plane(number) => (0xff, number),
@@ -246,7 +247,7 @@ impl PixelWord {
         qrt_circuit::Parameter { name, width }
     }
 
-    /// Its bits in pixel (column, row).
+    /// The parameter's bits in pixel (column, row).
     pub fn value(&self, points: &PathPoints, seed: u64, pixel: [u32; 2]) -> u64 {
         match *self {
             Self::Shift { depth, axis, bits } => {

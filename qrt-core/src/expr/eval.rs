@@ -5,7 +5,7 @@
 use super::{Expr, Function, Id, Node, VariableSet, Variables};
 
 impl Expr {
-    /// Its value: NaN or infinite where it has none.
+    /// The expression's value: NaN or infinite where it has none.
     pub fn eval(&self, at: &Variables) -> f64 {
         self.eval_in(at, &mut Vec::new())
     }
@@ -43,7 +43,7 @@ impl Expr {
 }
 
 impl Node {
-    /// Its value, given those of its operands.
+    /// The node's value, given those of its operands.
     pub fn value(&self, at: &Variables, of: impl Fn(Id) -> f64) -> f64 {
         match *self {
             Self::Number(value) => value,
@@ -76,7 +76,7 @@ impl Node {
 }
 
 impl Function {
-    /// Its value.
+    /// The function's value at `x`.
     pub fn value(self, x: f64) -> f64 {
         match self {
             Self::Sin => libm::sin(x),

@@ -150,13 +150,13 @@ impl std::ops::Neg for Interval {
 const LIBM_ULPS: u32 = 4;
 
 impl Interval {
-    /// Every number.
+    /// The interval of all numbers.
     pub const ALL: Self = Self {
         lo: f64::NEG_INFINITY,
         hi: f64::INFINITY,
     };
 
-    /// One number alone.
+    /// The interval of one number alone.
     pub fn point(value: f64) -> Self {
         Self {
             lo: value,
@@ -210,7 +210,7 @@ impl Interval {
         }
     }
 
-    /// All sums.
+    /// The interval of all sums of two numbers, one of each interval.
     pub fn plus(self, other: Self) -> Self {
         // Knuth's exact sum: what rounding lost of a + b.
         let sum = |a: f64, b: f64| {
@@ -224,7 +224,7 @@ impl Interval {
         }
     }
 
-    /// All products.
+    /// The interval of all products of two numbers, one of each interval.
     pub fn times(self, other: Self) -> Self {
         let product = |a: f64, b: f64| {
             // The bound 0 times the bound infinity is 0: infinity stands for large numbers.

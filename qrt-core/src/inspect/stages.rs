@@ -19,7 +19,7 @@ pub enum Part {
 }
 
 impl Part {
-    /// All of them, in order.
+    /// All parts, in the order in which they run.
     pub const ALL: [Self; 3] = [Self::Compute, Self::Flip, Self::Uncompute];
 
     /// The part's name.

@@ -92,8 +92,8 @@ pub struct Outline {
     pub registers: &'static [Declaration],
     /// All blocks of the program, in its order.
     pub blocks: &'static [BlockDeclaration],
-    /// By operation, in the order of [`Program::ops`], its first target; empty where that is the
-    /// order in which they run first.
+    /// The first target of each operation, in the order of [`Program::ops`]; empty where that is
+    /// the order in which they run first.
     pub order: &'static [RegisterId],
     /// All classical parameters of the program, in its order.
     pub parameters: &'static [PixelWord],
@@ -178,7 +178,7 @@ impl Outline {
     }
 }
 
-/// Where a number of a path is among the registers of `S`. Its format is in its type.
+/// The place of a number of a path among the registers of `S`. The number's format is the type `T`.
 pub struct Field<S, T> {
     /// Its place in [`Outline::places`].
     place: usize,
@@ -227,8 +227,8 @@ impl<S: CompiledOracle, T: Format> Field<S, T> {
         Self { offset, ..self }
     }
 
-    /// Its bits. A sign and what is the same on all paths of a pixel are not among them:
-    /// [`Field::value`] knows them.
+    /// The bits of the register that are the number. A sign and what is the same on all paths of a
+    /// pixel are not among them: [`Field::value`] knows them.
     pub fn word(&self) -> Word {
         self.word
     }
@@ -283,7 +283,7 @@ pub struct Computed<'a, S, R> {
 }
 
 impl<'a, S: CompiledOracle, R> Computed<'a, S, R> {
-    /// Of the registers of [`Outline::places`], and by channel the count and the colour.
+    /// The registers of [`Outline::places`], and the count and the colour of each channel.
     #[inline(always)]
     pub fn new(fields: &'a [&'a R], channels: [[Operand<&'a R>; 2]; 3]) -> Self {
         Self {
@@ -293,20 +293,20 @@ impl<'a, S: CompiledOracle, R> Computed<'a, S, R> {
         }
     }
 
-    /// A field's bits.
+    /// The bits of a field, as operations read them.
     #[inline(always)]
     pub fn word<T: Format>(&self, field: &Field<S, T>) -> Word<&'a R> {
         field.word.of(|_| self.fields[field.place])
     }
 
-    /// By channel: how many of the comparator's thresholds the colour exceeds, before it is cut to
-    /// their number.
+    /// How many of the comparator's thresholds the colour of each channel exceeds, before it is cut
+    /// to their number.
     #[inline(always)]
     pub fn counts(&self) -> [Operand<&'a R>; 3] {
         [0, 1, 2].map(|channel| copied(&self.channels[channel][0]))
     }
 
-    /// By channel: the colour, in units of `2^-fraction` of its bound.
+    /// The colour of each channel, in units of `2^-fraction` of its bound.
     #[inline(always)]
     pub fn colours(&self) -> [Operand<&'a R>; 3] {
         [0, 1, 2].map(|channel| copied(&self.channels[channel][1]))

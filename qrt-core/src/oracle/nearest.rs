@@ -43,9 +43,9 @@ pub const MOST_FACES: usize = (1 << 16) - 1;
 /// meet nothing.
 #[derive(Clone, Debug)]
 pub struct NearestOracle {
-    /// What computes [`NearestOracle::distance`] and [`NearestOracle::nearer`].
+    /// The program that computes [`NearestOracle::distance`] and [`NearestOracle::nearer`].
     pub program: Program,
-    /// What its parameters hold in each pixel.
+    /// What the program's parameters hold in each pixel.
     pub parameters: Vec<PixelWord>,
     /// The register of the path index.
     pub id: RegisterId,

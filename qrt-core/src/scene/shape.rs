@@ -108,7 +108,7 @@ impl<T: Keyword> Shape for WordShape<T> {
 #[derive(Clone, Copy)]
 pub(crate) struct Number {
     range: Range,
-    /// What it is called that is out of range.
+    /// The problem of a number that is out of range.
     fault: fn(f64, Range) -> Datum,
 }
 
@@ -130,17 +130,17 @@ pub(crate) const fn number(low: f64, high: f64) -> Number {
 }
 
 impl Number {
-    /// Without the lowest itself.
+    /// The same interval without its lowest number.
     pub(crate) const fn above(mut self) -> Self {
         self.range.low_open = true;
         self
     }
-    /// Without the highest itself.
+    /// The same interval without its highest number.
     pub(crate) const fn below(mut self) -> Self {
         self.range.high_open = true;
         self
     }
-    /// With a problem of its own for what is out of range.
+    /// The same interval with a problem of its own for what is out of range.
     pub(crate) const fn or(self, fault: fn(f64, Range) -> Datum) -> Self {
         Self { fault, ..self }
     }

@@ -11,16 +11,16 @@ pub enum Data {
     Number(f64),
     /// `true` or `false`.
     Bool(bool),
-    /// A text.
+    /// A text, which is not read as a number or a word.
     Text(String),
-    /// Elements in order.
+    /// A list of elements, in their order.
     List(Vec<Data>),
-    /// Entries in order.
+    /// A map of keys to values, in the order written.
     Map(Vec<(String, Data)>),
 }
 
 impl Data {
-    /// A text.
+    /// A text, which is not read as a number or a word.
     pub fn text(text: impl Into<String>) -> Self {
         Self::Text(text.into())
     }

@@ -75,13 +75,13 @@ pub struct Face {
 /// A face's frame: tangents, normal (the front) and centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame {
-    /// Unit tangent.
+    /// The unit tangent, orthogonal to the normal.
     pub tangent: DVec3,
-    /// Unit bitangent.
+    /// The unit bitangent, orthogonal to both others.
     pub bitangent: DVec3,
-    /// Unit normal, `(v1 - v0) x (v2 - v0)`.
+    /// The unit normal, along `(v1 - v0) x (v2 - v0)`.
     pub normal: DVec3,
-    /// Mean of the corners.
+    /// The mean of the corners, in stage units.
     pub centre: DVec3,
 }
 
@@ -97,7 +97,7 @@ pub struct Geometry {
     /// Faces, grouped by plane, in the order of the scene: where faces of one plane overlap, the
     /// one listed first wins.
     pub faces: Vec<Face>,
-    /// Frames by face label.
+    /// The shading frame of each face label.
     pub frames: Vec<Frame>,
     /// The plane of each face label.
     pub plane_of: Vec<u32>,

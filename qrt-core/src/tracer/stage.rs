@@ -123,7 +123,7 @@ impl<const C: usize> Stage<C> {
         scatter.density(cx, surface, outgoing, incoming)
     }
 
-    /// The polygons.
+    /// The polygons, made ready for intersection.
     pub fn geometry(&self) -> &Geometry {
         &self.geometry
     }
@@ -143,7 +143,7 @@ fn used(scene: &ValidScene) -> Vec<bool> {
     used
 }
 
-/// By lobe, and so that emitters (which are black or Lambertian) are neighbours.
+/// Sorts surfaces by lobe, and so that emitters (which are black or Lambertian) are neighbours.
 fn sort_key(surface: &Surface) -> (u32, bool) {
     let (rank, emits) = (rank(&surface.scatter), emits(surface));
     (rank, emits == (rank == 0))

@@ -82,7 +82,7 @@ pub struct Polygon {
 }
 
 impl ValidScene {
-    /// The scene as written.
+    /// The scene as its author wrote it.
     pub fn scene(&self) -> &Scene {
         &self.scene
     }
@@ -90,7 +90,7 @@ impl ValidScene {
     pub fn surfaces(&self) -> &[Surface] {
         &self.materials
     }
-    /// All polygons.
+    /// All polygons of the scene, those of meshes included.
     pub fn polygons(&self) -> &[Polygon] {
         &self.polygons
     }

@@ -63,7 +63,7 @@ impl GgxLobe {
         Scattered { direction, weight }
     }
 
-    /// By the own map: `D(h) G1(o) / (4 cos_o)`.
+    /// The density of directions by the own map: `D(h) G1(o) / (4 cos_o)`, per steradian.
     pub(super) fn density<A: Arith>(
         &self,
         cx: &mut A,
