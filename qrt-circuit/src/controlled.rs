@@ -11,7 +11,8 @@ use super::{Bit, Op, Type, When};
 pub struct Controlled<'a, M: Machine> {
     machine: &'a mut M,
     when: Bit<&'a M::Register>,
-    /// Parts entered that are undone again by what follows, and need no condition.
+    /// How many parts have been entered that are undone again by what follows, and need no
+    /// condition.
     unconditional: u32,
 }
 

@@ -6,24 +6,24 @@ use super::{Bit, Instruction, Op, Operand, Program, RegisterId, When, Word};
 /// its inverse would not leave 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Unclean {
-    /// The register.
+    /// The register that is undone.
     pub register: RegisterId,
-    /// What it holds.
+    /// The integer that the register holds.
     pub held: u64,
-    /// What its operation computes.
+    /// The integer that its operation computes from its operands now.
     pub expected: u64,
 }
 
 /// The contents of a program's registers, one path's.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Contents {
-    /// By register: its bits. Scratch stays 0, whatever an operation leaves behind there.
+    /// The bits of each register. Garbage is not followed: its registers stay 0.
     pub registers: Vec<u64>,
-    /// By parameter: its bits.
+    /// The bits of each classical parameter.
     pub parameters: Vec<u64>,
-    /// By register: its width.
+    /// The width of each register, in bits.
     pub widths: Vec<u32>,
-    /// Has the amplitude's sign been turned?
+    /// Whether the basis state's phase has been flipped: its amplitude has the factor -1.
     pub negative: bool,
 }
 
@@ -32,7 +32,8 @@ fn mask(width: u32) -> u64 {
 }
 
 impl Contents {
-    /// Before a program's first instruction: its inputs hold `inputs`, everything else 0.
+    /// The contents before a program's first instruction: its inputs hold `inputs`, everything else
+    /// 0.
     ///
     /// # Panics
     /// If there are fewer inputs than the program has.
@@ -210,7 +211,7 @@ impl Contents {
         }
     }
 
-    /// Undoes `op`.
+    /// Undoes `op`: its targets become zero, and what it changed in place is as before.
     pub fn uncompute(&mut self, op: &Op) {
         let targets = op.targets();
         if targets.is_empty() {

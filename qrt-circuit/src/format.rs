@@ -43,9 +43,9 @@ pub struct Bool;
     note = "registers are `UInt<W>`, `Int<W>`, `Fixed<I, F>`, `UFixed<I, F>` or `Bool`"
 )]
 pub trait Format {
-    /// The same, as a value.
+    /// The format as a value.
     const TYPE: Type;
-    /// Bits: 1 to 63.
+    /// How many bits a register of this format has: 1 to 63.
     const WIDTH: u32;
 
     /// The bits that stand for `value`, if it is a number of this format.
@@ -135,7 +135,7 @@ impl<R, T: Format> Reg<R, T> {
         Self::of(machine.zero(&Declaration::work(name, T::TYPE, T::WIDTH)))
     }
 
-    /// Gives a register of one's own back, which holds 0 again.
+    /// Frees a register of one's own, which holds 0 again.
     #[inline(always)]
     pub fn free<M: Machine<Register = R>>(self, machine: &mut M) {
         machine.free(self.register);
@@ -153,7 +153,7 @@ impl<R, T: Format> Reg<R, T> {
         &mut self.register
     }
 
-    /// The machine's register, for good.
+    /// Turns this into the machine's register.
     #[inline(always)]
     pub fn into_register(self) -> R {
         self.register

@@ -3,7 +3,7 @@
 use super::{Parameter, RegisterId};
 use std::ops::Range;
 
-/// A qubit of a [`Circuit`].
+/// The index of a qubit of a [`Circuit`].
 pub type Qubit = u32;
 
 /// A gate on basis states. All are their own inverses.
@@ -18,20 +18,20 @@ pub enum Gate {
     /// Flips the qubit where bit `bit` of classical parameter `parameter` is set: an X, or nothing, in
     /// the circuit of a pixel.
     Load {
-        /// The word's place in [`Circuit::parameters`].
+        /// The parameter's index in [`Circuit::parameters`].
         parameter: u32,
-        /// Its bit.
+        /// The parameter's bit, 0 the least significant.
         bit: u32,
-        /// The qubit.
+        /// The qubit that is flipped.
         target: Qubit,
     },
-    /// Turns the sign where the qubit holds.
+    /// Flips the phase where the qubit holds.
     Z(Qubit),
 }
 
-/// What takes gates one after another.
+/// What receives gates one after another.
 pub trait Gates {
-    /// The next gate.
+    /// Receives the next gate.
     fn gate(&mut self, gate: Gate);
 
     /// Flips a qubit.
@@ -57,13 +57,14 @@ impl Gates for Vec<Gate> {
 /// A program lowered to gates.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Circuit {
-    /// In the order in which they run.
+    /// The gates, in the order in which they run.
     pub gates: Vec<Gate>,
-    /// By instruction of the program: its gates.
+    /// The range of [`Circuit::gates`] of each instruction of the program.
     pub ranges: Vec<Range<usize>>,
-    /// Qubits: the most that are in use at any time.
+    /// How many qubits there are: the most that are in use at any time.
     pub qubits: u32,
-    /// By instruction of the program: qubits in use while it runs, its own ancillas included.
+    /// How many qubits are in use while each instruction of the program runs, its own ancillas
+    /// included.
     pub in_use: Vec<u32>,
     /// Registers that hold something before the first gate, and their qubits, bit 0 first. All
     /// other qubits are zero then.
@@ -71,6 +72,6 @@ pub struct Circuit {
     /// Registers that hold something after the last gate, and their qubits. All other qubits are
     /// zero then.
     pub outputs: Vec<(RegisterId, Vec<Qubit>)>,
-    /// Classical parameters.
+    /// The classical parameters that loads read.
     pub parameters: Vec<Parameter>,
 }

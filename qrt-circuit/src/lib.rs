@@ -4,7 +4,7 @@
 //! A computation that runs on a superposition has to be reversible: it may flip bits and swap
 //! states, never overwrite or forget. This crate lets you write such a computation on *numbers*
 //! (add, multiply, divide, compare, look up in a table), and gives you its inverse, its gates and
-//! its price. It knows nothing of what the numbers mean.
+//! its cost. It knows nothing of what the numbers mean.
 //!
 //! # In ten minutes: a squarer
 //!
@@ -24,7 +24,7 @@
 //!
 //! let program = squarer();
 //! assert_eq!(program.ops[0].name(), "square");
-//! // What is held after it: x, the square, and what the lowering leaves behind.
+//! // What is held after it: x, the square, and the lowering's garbage.
 //! let names: Vec<&str> = program.registers.iter().map(|r| r.name.as_str()).collect();
 //! assert_eq!(names, ["x", "square", "scratch"]);
 //! ```
@@ -90,7 +90,7 @@
 //! ```
 //!
 //! **Inverse.** [`Program::inverse`] lists the inverses in reverse order: uncomputation is never
-//! written by hand. Here it gives all qubits but those of `x` back.
+//! written by hand. Here it returns all qubits but those of `x` to zero.
 //!
 //! ```
 //! # use qrt_circuit::{Declaration, Machine, Program, Recorder, Style, Type, Word};
@@ -126,9 +126,9 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! From here: [`format`] gives registers types (`UInt<8>`, `Fixed<2, 14>`); [`controlled`] runs code
-//! under a condition; [`quantum`] makes a phase oracle of a program that turns a sign, and puts
-//! Grover's iterate and quantum counting around it.
+//! From here: [`mod@format`] gives registers types (`UInt<8>`, `Fixed<2, 14>`); [`controlled`] runs
+//! code under a condition; [`quantum`] makes a phase oracle of a program that flips a phase, and
+//! puts Grover's iterate and quantum counting around it.
 //!
 //! # What a program means
 //!
@@ -137,22 +137,22 @@
 //! hold, it writes an integer into a register. There are no branches; what depends on a path is
 //! selected, and every path runs every instruction.
 //!
-//! **Bit order.** Bit 0 of a register is its least significant. So it is for ids, indices, masks,
-//! tables' addresses and what is exported.
+//! **Bit order.** Bit 0 of a register is its least significant. So it is for path indices, sample
+//! indices, masks, tables' addresses and what is exported.
 //!
-//! **Evaluation.** Before the first instruction the *inputs* hold the path's id (and the
+//! **Evaluation.** Before the first instruction the *inputs* hold the path index (and the
 //! comparator), and all other registers are zero. An op out of place finds its targets zero and
 //! leaves its result there; each register is the target of one op, so a register has one meaning
 //! wherever it isn't zero. `evaluate` says on integers what each op computes, and is the definition
 //! of it.
 //!
-//! **Who owns ancillas.** An op that leaves something behind (carries, remainders, partial sums)
-//! owns a *scratch* register that no other op reads. What it borrows and returns within itself is
-//! its lowering's affair. Qubits have an owner from the instruction that computes a register to the
-//! one that undoes it; in between nobody else has them, and outside of it they are zero and can be
+//! **Who owns ancillas.** An op with garbage (carries, remainders, partial sums) owns a *scratch*
+//! register for it that no other op reads. What it borrows and returns within itself is its
+//! lowering's affair. Qubits have an owner from the instruction that computes a register to the one
+//! that undoes it; in between nobody else has them, and outside of it they are zero and can be
 //! anybody's.
 //!
-//! **What uncompute undoes.** The inverse of an op out of place returns its targets and its scratch
+//! **What uncompute undoes.** The inverse of an op out of place returns its targets and its garbage
 //! to zero, *provided that its operands hold what they held when it ran*. In
 //! [`Program::inverse`], the inverses in reverse order, they do: that is why uncomputation is never
 //! written by hand. Between compute and uncompute a program may therefore add ops that read its

@@ -10,22 +10,24 @@ use super::{Bit, BlockId, Op, Operand, RegisterId, Style, Tag, Type, When, Word}
 /// A register as it is declared in code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Declaration {
-    /// Its place in the program's list; none for one that joins the list when it is computed.
+    /// The register's index in the program's list; none for one that joins the list when it is
+    /// computed.
     pub id: Option<RegisterId>,
-    /// The place of what the operation leaves behind whose first target it is, if it has a place.
+    /// The index of the garbage register of the operation whose first target this register is; none
+    /// if it has no place in the program's list.
     pub scratch: Option<RegisterId>,
-    /// What it is called.
+    /// The register's name.
     pub name: &'static str,
-    /// What its bits mean.
+    /// What the register's bits mean.
     pub ty: Type,
-    /// What its author knows it as.
+    /// The tag by which the program's author finds the register again.
     pub tag: Tag,
-    /// Qubits.
+    /// How many qubits the register has.
     pub width: u32,
     /// The block whose operation computes it.
     pub block: BlockId,
-    /// The least and the greatest number that it holds, in units of its lowest bit, where that is
-    /// known.
+    /// The least and the greatest number that the register holds, in units of its lowest bit, where
+    /// that is known.
     pub range: Option<[i64; 2]>,
 }
 
@@ -58,7 +60,7 @@ impl Declaration {
         }
     }
 
-    /// In this block.
+    /// The same declaration, computed by an operation of this block.
     pub const fn block(self, block: u32) -> Self {
         Self {
             block: BlockId(block),
@@ -66,7 +68,8 @@ impl Declaration {
         }
     }
 
-    /// Holding numbers from `low` to `high`.
+    /// The same declaration, of a register that holds numbers from `low` to `high`, in units of its
+    /// lowest bit.
     pub const fn range(self, low: i64, high: i64) -> Self {
         Self {
             range: Some([low, high]),
@@ -74,7 +77,8 @@ impl Declaration {
         }
     }
 
-    /// The first target of an operation that leaves something behind in this register.
+    /// The same declaration, as the first target of an operation whose garbage is in register
+    /// number `scratch`.
     pub const fn scratch(self, scratch: u32) -> Self {
         Self {
             scratch: Some(RegisterId(scratch)),
@@ -82,7 +86,7 @@ impl Declaration {
         }
     }
 
-    /// Is its top bit a sign?
+    /// Whether the register's top bit is a sign.
     #[inline(always)]
     pub const fn signed(&self) -> bool {
         matches!(self.ty, Type::Int | Type::Fixed { .. })
@@ -92,8 +96,8 @@ impl Declaration {
 /// What reversible code asks of a [`Machine`].
 #[derive(Debug)]
 pub enum Call<'a, R> {
-    /// An operation. What it leaves behind is the machine's own affair, and so is how it is
-    /// lowered: the register declared for its garbage is a placeholder.
+    /// An operation. Its garbage is the machine's own affair, and so is how it is lowered: the
+    /// register declared for the garbage is a placeholder.
     Compute(Op<&'a R, &'a Declaration>),
     /// The inverse of the operation that computed these registers, all of them and no others, in
     /// its order. Registers that no operation computed have none, and nothing happens.
@@ -104,10 +108,10 @@ pub enum Call<'a, R> {
 
 /// What reversible code runs on.
 ///
-/// A machine needs [`Machine::call`] alone. All other methods are provided: one for each
-/// [`Op`], of the same name, whose documentation says what it computes; `t` declares its target.
-/// Operations return their targets, which are theirs alone until [`Machine::undo`] takes them back:
-/// a register can be read by reference as often as one likes, and be undone once.
+/// A machine needs [`Machine::call`] alone. All other methods are provided: one for each [`Op`], of
+/// the same name, whose documentation says what it computes; `t` declares its target. Operations
+/// return their targets, which are theirs alone until [`Machine::undo`] returns them: a register
+/// can be read by reference as often as one likes, and be undone once.
 ///
 /// Code that the macros generate is a straight line of calls of these methods: over a
 /// [`super::Recorder`] it yields a program, over a machine that holds numbers it computes with
@@ -126,8 +130,8 @@ pub trait Machine {
     fn joined(&mut self, _when: Bit<&Self::Register>) -> Option<Self::Register> {
         None
     }
-    /// Enters or leaves a part that is undone again by what follows, and therefore needs no
-    /// condition. See [`super::unconditional`].
+    /// Tells the machine that a part begins or ends that is undone again by what follows, and
+    /// therefore needs no condition. See [`super::unconditional`].
     fn unconditional(&mut self, _entered: bool) {}
 
     /// What follows is charged to this block.
@@ -139,7 +143,7 @@ pub trait Machine {
     fn zero(&mut self, t: &Declaration) -> Self::Register {
         self.add(t, Operand::Constant(0), Operand::Constant(0))
     }
-    /// Gives a register of one's own back, which holds 0 again.
+    /// Frees a register of one's own, which holds 0 again.
     fn free(&mut self, register: Self::Register) {
         self.undo([register]);
     }
@@ -354,7 +358,7 @@ pub trait Machine {
         )
     }
     /// [`Op::Table`], of which the `low` lowest address bits select among words read together where
-    /// the scratch for that is there. An address beyond the columns may not occur.
+    /// there is garbage to hold them. An address beyond the columns may not occur.
     fn table<const N: usize>(
         &mut self,
         targets: [&Declaration; N],
@@ -460,7 +464,7 @@ impl<R> Word<R> {
         }
     }
 
-    /// With zeros below: times `2^shift`.
+    /// The same bits with `shift` zeros below: the number times `2^shift`.
     #[inline(always)]
     pub fn shifted(self, shift: u32) -> Self {
         Self { shift, ..self }
@@ -478,7 +482,7 @@ impl<R> Bit<R> {
         }
     }
 
-    /// The bit's negation.
+    /// The negation of the bit.
     #[inline(always)]
     pub fn inverted(self) -> Self {
         Self {

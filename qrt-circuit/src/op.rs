@@ -26,7 +26,7 @@ pub enum Argument<'a, R = RegisterId> {
     Word(&'a Word<R>),
     /// A bit of a register.
     Bit(&'a Bit<R>),
-    /// Bits, the least significant first.
+    /// Some bits, the least significant first.
     Bits(&'a [Bit<R>]),
     /// A number from a register, or a constant.
     Operand(&'a Operand<R>),
@@ -39,21 +39,21 @@ pub enum Argument<'a, R = RegisterId> {
 /// When an addition in place happens.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum When<R = RegisterId> {
-    /// On every path.
+    /// The change happens on every path.
     Always,
-    /// Where the bit holds; nothing happens elsewhere.
+    /// The change happens where the bit holds; nothing happens elsewhere.
     If(Bit<R>),
-    /// Everywhere, but where the bit holds the sign is turned: an addition subtracts.
+    /// The change happens everywhere, but reversed where the bit holds: an addition subtracts.
     Reversed(Bit<R>),
 }
 
-/// How the operations that leave something behind are lowered.
+/// How the operations that have garbage are lowered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
 pub enum Style {
-    /// Partial sums out of place: fewest gates, most scratch.
+    /// Partial sums out of place: fewest gates, most garbage.
     #[default]
     OutOfPlace,
-    /// Partial sums in place: least scratch, up to twice the gates.
+    /// Partial sums in place: least garbage, up to twice the gates.
     InPlace,
 }
 
@@ -151,7 +151,7 @@ impl<R> Reads<R> for When<R> {
 ///
 /// * `reads`: a number, a bit or a condition from registers; `register`: a whole register that is
 ///   read or changed in place;
-/// * `target`, `targets`: zero before the operation; `garbage`: what it leaves behind;
+/// * `target`, `targets`: zero before the operation; `garbage`: its intermediate results;
 /// * `constant`: the same on all paths; `style`: how the operation is lowered.
 macro_rules! field {
     (map reads $field:ident, $read:ident, $write:ident) => {
@@ -235,7 +235,8 @@ macro_rules! operations {
         }
 
         impl<R, T> Op<R, T> {
-            /// What it is called; so is the method of [`super::Machine`] that computes it.
+            /// The operation's name, which is also that of the method of [`super::Machine`] that
+            /// computes it.
             pub fn name(&self) -> &'static str {
                 match self { $( Self::$name { .. } => $word, )* }
             }
@@ -262,7 +263,7 @@ macro_rules! operations {
                 }
             }
 
-            /// What holds what it leaves behind.
+            /// The register that holds the operation's garbage; none if it has none.
             pub fn scratch(&self) -> Option<T>
             where
                 T: Copy,
@@ -288,7 +289,7 @@ macro_rules! operations {
                 }
             }
 
-            /// How it is lowered, where there is a choice.
+            /// How the operation is lowered, where there is a choice.
             pub fn style(&self) -> Option<Style> {
                 #[allow(unused_assignments, unused_mut, reason = "most are lowered in one way")]
                 match self {
@@ -325,7 +326,7 @@ macro_rules! operations {
         }
 
         impl<R, T: Copy> Op<R, T> {
-            /// What holds its results, out of place.
+            /// The registers that hold the results of an operation out of place.
             pub fn targets(&self) -> Vec<T> {
                 let mut all = Vec::new();
                 match self {
@@ -357,30 +358,31 @@ operations! {
     {
         /// `t = a mod 2^w`
         Copy = "copy"
-        /// What is copied.
+        /// The number that is copied.
         reads a: Word<R>,
-        /// The target.
+        /// The target `t`, or what is changed in place.
         target target: T,
     }
     {
         /// `t = parameter`: a classical parameter that the pixel decides.
         Load = "load"
-        /// Its place in the program's list.
+        /// The parameter's index in the program's list.
         constant parameter: u32,
-        /// The target.
+        /// The target `t`, or what is changed in place.
         target target: T,
     }
     {
         /// `t = parameter ^ XOR_b source_b columns[b]`, over the bits b of `source`: a linear map over
         /// GF(2), shifted.
         Parity = "parity"
-        /// The id register.
+        /// The register of the path index.
         register source: R,
-        /// By bit of the source: the bits of t that it flips.
+        /// The bits of t that each bit of the source flips.
         constant columns: Arc<[u64]>,
-        /// The pixel's shift, if there is one: its place in the program's list.
+        /// The parameter that is the pixel's shift, by its index in the program's list; none if
+        /// there is no shift.
         constant parameter: Option<u32>,
-        /// The target.
+        /// The target `t`, or what is changed in place.
         target target: T,
     }
     {
@@ -390,7 +392,7 @@ operations! {
         reads a: Bit<R>,
         /// The second operand.
         reads b: Bit<R>,
-        /// The target: one bit.
+        /// The target `t`: one bit.
         target target: T,
     }
     {
@@ -400,7 +402,7 @@ operations! {
         reads a: Bit<R>,
         /// The second operand.
         reads b: Bit<R>,
-        /// The target: one bit.
+        /// The target `t`: one bit.
         target target: T,
     }
     {
@@ -412,17 +414,17 @@ operations! {
         reads b: Operand<R>,
         /// Whether b is subtracted.
         constant subtract: bool,
-        /// The target.
+        /// The target `t`, or what is changed in place.
         target target: T,
     }
     {
         /// `t = if when { -a } else { a } mod 2^w`
         Negate = "negate"
-        /// The number.
+        /// The number `a` that is read.
         reads a: Word<R>,
         /// The condition.
         reads when: Bit<R>,
-        /// The target.
+        /// The target `t`, or what is changed in place.
         target target: T,
     }
     {
@@ -434,17 +436,17 @@ operations! {
         reads a: Operand<R>,
         /// The number where it does not.
         reads b: Operand<R>,
-        /// The target.
+        /// The target `t`, or what is changed in place.
         target target: T,
     }
     {
-        /// `t = a < b`, leaving nothing behind.
+        /// `t = a < b`, without garbage.
         Less = "less"
         /// The first operand.
         reads a: Operand<R>,
         /// The second operand.
         reads b: Operand<R>,
-        /// The target: one bit.
+        /// The target `t`: one bit.
         target target: T,
     }
     {
@@ -454,43 +456,43 @@ operations! {
         reads a: Word<R>,
         /// The second factor.
         reads b: Word<R>,
-        /// Bits dropped below.
+        /// How many of the result's lowest bits are dropped.
         constant drop: u32,
-        /// How it is lowered.
+        /// How the operation is lowered.
         style style: Style,
-        /// The target.
+        /// The target `t`, or what is changed in place.
         target target: T,
-        /// The garbage.
+        /// The register of the garbage.
         garbage scratch: T,
     }
     {
         /// `t = floor(a^2 / 2^drop) mod 2^w`
         Square = "square"
-        /// The number.
+        /// The number `a` that is read.
         reads a: Word<R>,
-        /// Bits dropped below.
+        /// How many of the result's lowest bits are dropped.
         constant drop: u32,
-        /// How it is lowered.
+        /// How the operation is lowered.
         style style: Style,
-        /// The target.
+        /// The target `t`, or what is changed in place.
         target target: T,
-        /// The garbage.
+        /// The register of the garbage.
         garbage scratch: T,
     }
     {
         /// `t = floor(factor a / 2^drop) mod 2^w`, for a constant factor other than 0.
         Scale = "scale"
-        /// The number.
+        /// The number `a` that is read.
         reads a: Word<R>,
         /// The factor.
         constant factor: i64,
-        /// Bits dropped below.
+        /// How many of the result's lowest bits are dropped.
         constant drop: u32,
-        /// How it is lowered.
+        /// How the operation is lowered.
         style style: Style,
-        /// The target.
+        /// The target `t`, or what is changed in place.
         target target: T,
-        /// The garbage.
+        /// The register of the garbage.
         garbage scratch: T,
     }
     {
@@ -501,25 +503,25 @@ operations! {
         reads a: Word<R>,
         /// The divisor.
         reads b: Word<R>,
-        /// How it is lowered.
+        /// How the operation is lowered.
         style style: Style,
         /// The quotient.
         target quotient: T,
         /// Whether the quotient fits: one bit.
         target fits: T,
-        /// The garbage.
+        /// The register of the garbage.
         garbage scratch: T,
     }
     {
         /// `t = floor(sqrt(a)) mod 2^w`, for an unsigned a.
         SquareRoot = "square_root"
-        /// The number.
+        /// The number `a` that is read.
         reads a: Word<R>,
-        /// How it is lowered.
+        /// How the operation is lowered.
         style style: Style,
-        /// The target.
+        /// The target `t`, or what is changed in place.
         target target: T,
-        /// The garbage.
+        /// The register of the garbage.
         garbage scratch: T,
     }
     {
@@ -528,38 +530,38 @@ operations! {
         Table = "table"
         /// Bits of the address, the least significant first.
         reads address: Box<[Bit<R>]>,
-        /// Entries by column.
+        /// The entries of each column, by address.
         constant columns: Arc<[Box<[i64]>]>,
-        /// Of the address bits, how many of the lowest select among words read together, under
+        /// How many of the lowest address bits select among words read together, under
         /// [`Style::OutOfPlace`].
         constant low: u32,
-        /// How it is lowered.
+        /// How the operation is lowered.
         style style: Style,
         /// The targets.
         targets targets: Box<[T]>,
-        /// The garbage.
+        /// The register of the garbage.
         garbage scratch: T,
     }
     {
         /// `t ^= a mod 2^w`, where `when` holds. In place, and its own inverse.
         XorInto = "xor_into"
-        /// What is added over GF(2).
+        /// The number that is added over GF(2).
         reads a: Operand<R>,
-        /// The condition; none: everywhere.
+        /// The condition; none if the change is everywhere.
         reads when: Option<Bit<R>>,
-        /// The target.
+        /// The target `t`, or what is changed in place.
         register target: R,
     }
     {
         /// `t += a mod 2^w` or `t -= a mod 2^w`. In place.
         AddInto = "add_into"
-        /// What is added.
+        /// The number that is added or subtracted.
         reads a: Operand<R>,
         /// Whether it is subtracted.
         constant subtract: bool,
-        /// The condition; none: everywhere.
+        /// The condition; none if the change is everywhere.
         reads when: When<R>,
-        /// The target.
+        /// The target `t`, or what is changed in place.
         register target: R,
     }
     {
@@ -569,11 +571,11 @@ operations! {
         register a: R,
         /// The second operand.
         register b: R,
-        /// The condition; none: everywhere.
+        /// The condition; none if the change is everywhere.
         reads when: Option<Bit<R>>,
     }
     {
-        /// The sign of a basis state's amplitude, where `bit` holds: a Z. Its own inverse.
+        /// Flips the phase of a basis state where `bit` holds: a Z. Its own inverse.
         Phase = "phase"
         /// The condition.
         reads bit: Bit<R>,
@@ -598,7 +600,7 @@ impl Op {
 }
 
 impl<R, T> Op<R, T> {
-    /// With its garbage in this register, if it leaves any behind.
+    /// The same operation with its garbage in this register, if it has any.
     pub fn with_scratch(mut self, scratch: T) -> Self {
         if let Some(field) = self.scratch_mut() {
             *field = scratch;
@@ -606,7 +608,7 @@ impl<R, T> Op<R, T> {
         self
     }
 
-    /// Lowered in this style, where there is a choice.
+    /// The same operation, lowered in this style where there is a choice.
     pub fn with_style(mut self, style: Style) -> Self {
         if let Some(field) = self.style_mut() {
             *field = style;

@@ -6,35 +6,35 @@ use super::{Block, BlockId, Op, Register, RegisterId};
 /// in: it is loaded by Xs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Parameter {
-    /// What it is called.
+    /// The parameter's name.
     pub name: String,
-    /// Bits: 1 to 64.
+    /// How many bits the parameter has: 1 to 64.
     pub width: u32,
 }
 
 /// One step of a program: an operation or its inverse.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Instruction {
-    /// Its place in [`Program::ops`].
+    /// The operation's index in [`Program::ops`].
     pub op: u32,
-    /// Is it undone?
+    /// Whether the operation is undone.
     pub inverse: bool,
-    /// The block that it is charged to.
+    /// The block that the instruction's cost is charged to.
     pub block: BlockId,
 }
 
 /// A reversible program: see [the module](super).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Program {
-    /// All registers.
+    /// All registers, by [`RegisterId`].
     pub registers: Vec<Register>,
-    /// All blocks; the first is the whole program.
+    /// All blocks, by [`BlockId`]; the first is the whole program.
     pub blocks: Vec<Block>,
     /// All classical parameters.
     pub parameters: Vec<Parameter>,
-    /// All operations.
+    /// All operations, each once, whether it runs forwards, backwards or both.
     pub ops: Vec<Op>,
-    /// What runs, in order.
+    /// The instructions, in the order in which they run.
     pub instructions: Vec<Instruction>,
     /// Registers that hold something before the first instruction: its
     /// operands. In [`Program::inverse`], also what the program computed.
@@ -68,7 +68,7 @@ impl Program {
         ids.filter(|id| held[id.index()]).collect()
     }
 
-    /// The register's width.
+    /// The register's width in qubits.
     pub fn width(&self, register: RegisterId) -> u32 {
         self.registers[register.index()].width
     }

@@ -23,17 +23,17 @@ use std::collections::HashMap;
 pub struct Recorder {
     program: Program,
     style: Style,
-    /// By register: the operation that computes it.
+    /// The operation that computes each register.
     computed: HashMap<RegisterId, u32>,
     block: BlockId,
 }
 
-/// A register of a [`Recorder`].
+/// A register of a [`Recorder`]: a handle on a register of the program that it records.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Recorded(RegisterId);
 
 impl Recorded {
-    /// Its place in the program's list.
+    /// The register's index in the program's list.
     pub fn id(&self) -> RegisterId {
         self.0
     }
@@ -77,12 +77,12 @@ impl Recorder {
         Recorded(id)
     }
 
-    /// What has been recorded until now.
+    /// The program that has been recorded until now.
     pub fn program(&self) -> &Program {
         &self.program
     }
 
-    /// What was recorded.
+    /// The recorded program.
     pub fn finish(self) -> Program {
         self.program
     }
@@ -100,8 +100,8 @@ impl Recorder {
         id
     }
 
-    /// The register of what `op` leaves behind: the one declared with its first target, or a new
-    /// one of the width that its lowering needs.
+    /// The register of the garbage of `op`: the one declared with its first target, or a new one of
+    /// the width that its lowering needs.
     fn scratch(&mut self, declared: Option<RegisterId>, op: &Op) -> RegisterId {
         declared.unwrap_or_else(|| {
             let registers = &self.program.registers;
@@ -115,7 +115,7 @@ impl Recorder {
         })
     }
 
-    /// Records an operation; its targets.
+    /// Records an operation, and returns its targets.
     fn compute(&mut self, op: Op<&Recorded, &Declaration>) -> Vec<RegisterId> {
         let declared = op.targets().first().and_then(|t| t.scratch);
         let style = self.style;

@@ -1,11 +1,11 @@
 //! Registers, and how operations read them.
 
-/// A register of a [`super::Program`].
+/// The index of a register in the list of a [`super::Program`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct RegisterId(pub u32);
 
 impl RegisterId {
-    /// Its place in the program's list.
+    /// The index in the program's list.
     pub fn index(self) -> usize {
         self.0 as usize
     }
@@ -14,7 +14,7 @@ impl RegisterId {
 /// What a register's bits mean.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Type {
-    /// One bit.
+    /// One bit: a truth value.
     Bool,
     /// An unsigned integer.
     UInt,
@@ -22,20 +22,20 @@ pub enum Type {
     Int,
     /// An unsigned number in units of `2^-fraction`.
     UFixed {
-        /// Bits after the point.
+        /// How many of the register's bits are after the point.
         fraction: u32,
     },
     /// A number in two's complement, in units of `2^-fraction`.
     Fixed {
-        /// Bits after the point.
+        /// How many of the register's bits are after the point.
         fraction: u32,
     },
-    /// What an operation leaves behind and nothing else reads: carries, remainders, partial sums.
+    /// Garbage, which no other operation reads: carries, remainders, partial sums.
     Scratch,
 }
 
 impl Type {
-    /// As it is written for a register of `width` bits: `UInt<8>`, `Fixed<2, 14>`.
+    /// The type as it is written for a register of `width` bits: `UInt<8>`, `Fixed<2, 14>`.
     pub fn name(self, width: u32) -> String {
         match self {
             Self::Bool => "Bool".to_owned(),
@@ -58,26 +58,26 @@ impl Type {
     }
 }
 
-/// What the author of a program knows a register or a block as. Nothing here reads it: it travels
-/// with the program, for whoever wrote it to find things again.
+/// A number by which the author of a program finds a register or a block again. Nothing here reads
+/// it: it travels with the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Default)]
 pub struct Tag(pub u64);
 
 /// A named, typed array of qubits. Bit 0 is the least significant.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Register {
-    /// What it is called.
+    /// The name that the author gave it.
     pub name: String,
-    /// What its bits mean.
+    /// What the register's bits mean.
     pub ty: Type,
-    /// What its author knows it as: a role, say.
+    /// The tag by which the program's author finds the register again: a role, say.
     pub tag: Tag,
-    /// Qubits.
+    /// How many qubits the register has.
     pub width: u32,
     /// The block whose operation computes it.
     pub block: BlockId,
-    /// The least and the greatest number that it holds, in units of its lowest bit, where that
-    /// has been proven.
+    /// The least and the greatest number that the register holds, in units of its lowest bit, where
+    /// that has been proven.
     pub range: Option<[i64; 2]>,
 }
 
@@ -95,15 +95,15 @@ impl Register {
     }
 }
 
-/// A block of a [`super::Program`].
+/// The index of a block in the list of a [`super::Program`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct BlockId(pub u32);
 
 impl BlockId {
-    /// The whole program.
+    /// The root block: the whole program.
     pub const ROOT: Self = Self(0);
 
-    /// Its place in the program's list.
+    /// The index in the program's list.
     pub fn index(self) -> usize {
         self.0 as usize
     }
@@ -114,9 +114,9 @@ impl BlockId {
 pub struct Block {
     /// The block around it; none for the root.
     pub parent: Option<BlockId>,
-    /// What it is called.
+    /// The name that the author gave it.
     pub name: String,
-    /// What its author knows it as.
+    /// The tag by which the program's author finds the block again.
     pub tag: Tag,
 }
 
@@ -128,15 +128,15 @@ pub struct Block {
 /// A program names its registers by `RegisterId`; what runs on a [`super::Machine`] borrows them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Word<R = RegisterId> {
-    /// The register.
+    /// The register that is read.
     pub register: R,
-    /// The first bit read.
+    /// The first bit read, 0 the least significant.
     pub offset: u32,
-    /// Bits read; above 0.
+    /// How many bits are read; above 0.
     pub width: u32,
-    /// Is the top bit the sign?
+    /// Whether the top bit read is a sign.
     pub signed: bool,
-    /// Zeros below.
+    /// How many zeros follow below the bits read.
     pub shift: u32,
 }
 
@@ -153,7 +153,7 @@ impl<R> Word<R> {
         }
     }
 
-    /// Bits of the number it stands for, its sign and the zeros below included.
+    /// How many bits the number has that it stands for, its sign and the zeros below included.
     pub fn bits(&self) -> u32 {
         self.width + self.shift
     }
@@ -186,11 +186,11 @@ impl<R> Word<R> {
 /// One bit of a register, or its negation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Bit<R = RegisterId> {
-    /// The register.
+    /// The register that is read.
     pub register: R,
-    /// The bit; 0 is the least significant.
+    /// The bit that is read; 0 is the least significant.
     pub index: u32,
-    /// Is it negated?
+    /// Whether the negation of the bit is read.
     pub inverted: bool,
 }
 
@@ -215,9 +215,9 @@ impl<R> Bit<R> {
 /// A number that an operation reads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Operand<R = RegisterId> {
-    /// From a register.
+    /// A number read from a register.
     Word(Word<R>),
-    /// The same on every path.
+    /// A constant, the same on every path.
     Constant(i64),
 }
 

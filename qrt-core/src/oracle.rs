@@ -1,7 +1,7 @@
 //! A scene's oracle: the paper's Path Tracing frame as a reversible program.
 //!
-//! The oracle of a channel flips the phase of every basis state (id, comparator) whose path's
-//! colour exceeds the comparator's threshold, and leaves all other qubits as they were:
+//! The oracle of a channel flips the phase of every basis state (path index, comparator) whose
+//! path's colour exceeds the comparator's threshold, and leaves all other qubits as they were:
 //!
 //! ```text
 //! compute        id -> colour_id            generate_ray, find_intersection, shade; per depth
@@ -13,7 +13,7 @@
 //! The colour is held in units of the channel's proven bound, so that it is a number in [0, 1]
 //! whatever the scene's radiances; `colour'` is it rounded to a step `2^-c` (to the nearest under
 //! `midpoints`, up under `edges`), which makes the comparison one of integers:
-//! `#{y < 2^c : y < colour'} = min(colour', 2^c)` of a path's ids are good.
+//! `#{y < 2^c : y < colour'} = min(colour', 2^c)` of a path's basis states are good.
 //!
 //! One program serves all pixels of a film: what differs between them are classical parameters
 //! ([`crate::compile::PixelWord`]), loaded by Xs.
@@ -51,10 +51,10 @@ pub fn luminance(colour: &[f64; 3]) -> f64 {
     LUMINANCE[0] * r + LUMINANCE[1] * g + LUMINANCE[2] * b
 }
 
-/// How a scene is compiled, where not as it says itself.
+/// How a scene is compiled, where that differs from what the scene says.
 #[derive(Clone, Copy, Debug)]
 pub struct Options {
-    /// How operations that leave something behind are lowered; by the scene's strategy unless set.
+    /// How operations that have garbage are lowered; by the scene's strategy unless set.
     pub style: Option<Style>,
     /// What is done to make the program cheaper.
     pub passes: Passes,
@@ -79,7 +79,7 @@ pub enum OracleError {
     Sampling(SamplingError),
     /// More faces than a table holds that is looked up by a face's number.
     TooManyFaces {
-        /// The scene's faces.
+        /// How many faces the scene has.
         faces: usize,
     },
 }
@@ -111,7 +111,7 @@ pub struct Channel {
     pub number: usize,
     /// The colour, in units of `scale 2^-fraction`.
     pub colour: Operand,
-    /// How many thresholds the colour exceeds, before it is cut to `2^c`.
+    /// How many of the comparator's thresholds the colour exceeds, before it is cut to `2^c`.
     pub count: Operand,
     /// The proven bound on a path's colour, in radiance.
     pub scale: f64,
@@ -120,29 +120,30 @@ pub struct Channel {
 /// A scene's oracle: see [the module](self).
 #[derive(Clone, Debug)]
 pub struct Oracle {
-    /// What computes the colours.
+    /// The program that computes the colours.
     pub program: Program,
-    /// What its parameters hold in each pixel.
+    /// What the program's parameters hold in each pixel.
     pub parameters: Vec<PixelWord>,
-    /// The channels that it computes.
+    /// The channels whose colours the program computes.
     pub channels: Vec<Channel>,
-    /// The path's id.
+    /// The register of the path index.
     pub id: RegisterId,
-    /// The comparator.
+    /// The register of the comparator.
     pub comparator: RegisterId,
-    /// What the first ray meets, if that is given: see [`Oracle::given_primary_hit`].
+    /// The register of what the first ray meets, if that is given: see
+    /// [`Oracle::given_primary_hit`].
     pub nearest: Option<RegisterId>,
-    /// The outcome of the comparison.
+    /// The register of the outcome of the comparison, whose phase is flipped.
     pub flag: RegisterId,
-    /// Fraction bits of every number.
+    /// How many fraction bits every number has.
     pub fraction: u32,
     /// The paths of a pixel.
     pub points: PathPoints,
     /// Columns and rows of the film.
     pub film: [u32; 2],
-    /// What of its rays is in registers once all is computed: by name and ray.
+    /// Which named values are in registers once all is computed, by name and ray.
     pub places: Vec<NamedPlace>,
-    /// Operations that the tracer asked for, and of these, those that were there already.
+    /// How many operations the tracer asked for, and how many of these were there already.
     pub sharing: [u64; 2],
 }
 
@@ -197,7 +198,7 @@ impl Oracle {
         Ok(Recording::with_luminance(scene, options)?.oracle(&[3]))
     }
 
-    /// One program for all three channels and, behind them, their luminance: what a machine runs
+    /// One program for all three channels and, after them, their luminance: what a machine runs
     /// that counts the luminance and looks at the colours of the paths that it measures.
     ///
     /// # Errors
@@ -223,13 +224,13 @@ impl Oracle {
             .collect()
     }
 
-    /// Bits of the comparator.
+    /// How many qubits the comparator has.
     pub fn comparator_bits(&self) -> u32 {
         self.program.width(self.comparator)
     }
 
-    /// Good ids of a path whose register `count` reads as `count`: of its `2^c` comparators, those
-    /// that the colour exceeds.
+    /// How many basis states are good of a path whose register `count` reads as `count`: of its
+    /// `2^c` comparators, those that the colour exceeds.
     pub fn good(&self, count: i64) -> u64 {
         count.clamp(0, 1 << self.comparator_bits()).cast_unsigned()
     }
@@ -274,8 +275,8 @@ impl Oracle {
         program
     }
 
-    /// All of it, for channel number `channel` of [`Oracle::channels`]: compute, compare, flip,
-    /// undo.
+    /// The whole oracle of channel number `channel` of [`Oracle::channels`]: compute, compare,
+    /// flip, uncompute.
     pub fn whole(&self, channel: usize) -> Program {
         let mut whole = self.flip(channel);
         let undo = self.program.inverse().instructions;
@@ -307,7 +308,7 @@ impl Builder<'_> {
         self.enter_count();
         let fraction = self.fraction_bits();
         let (operand, _) = self.operand_of(colour);
-        // x > (y + s) 2^k is floor((x + r) / 2^k) > y, with r = 2^k - 1 less the threshold's share.
+        // x > (y + s) 2^k is floor((x + r) / 2^k) > y, with r = 2^k - 1 less the threshold's part.
         let step = fraction.saturating_sub(bits);
         let rise = match at {
             ComparatorAt::Midpoints if step > 0 => (1_i64 << (step - 1)) - 1,

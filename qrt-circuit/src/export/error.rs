@@ -6,25 +6,25 @@ use std::{fmt, io};
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum ExportError {
-    /// The id has fewer bits than its path is said to have.
+    /// Fewer qubits are in superposition than the path index is said to have.
     PathBits {
-        /// What the path is said to have.
+        /// Bits that the path index is said to have.
         path_bits: u32,
-        /// Bits of the id.
+        /// Qubits in superposition: those of the path index and the comparator.
         id: u32,
     },
     /// A gate reads a bit of a classical parameter for which no word was given.
     MissingWord {
-        /// The parameter's place in the program's list.
+        /// The parameter's index in the program's list.
         parameter: u32,
-        /// Its bit.
+        /// The bit that the gate reads, 0 the least significant.
         bit: u32,
     },
-    /// A sign or phase on so many qubits has no gate in the libraries.
+    /// A phase on so many qubits has no gate in the libraries.
     TooManyQubits(usize),
-    /// It was asked to end.
+    /// The flag of [`Export::with_cancel`](super::Export::with_cancel) ended the writing.
     Interrupted,
-    /// It cannot be written.
+    /// The output cannot be written to.
     Io(io::Error),
 }
 

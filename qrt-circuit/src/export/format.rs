@@ -1,6 +1,6 @@
 //! The two languages.
 
-/// A language for circuits.
+/// A language in which a circuit is written.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Format {
     /// OpenQASM 3.0 (Cross et al., *OpenQASM 3: a broader and deeper quantum assembly language*,
@@ -12,7 +12,7 @@ pub enum Format {
 }
 
 impl Format {
-    /// Its name: `openqasm3`, `openqasm2`.
+    /// The language's name: `openqasm3` or `openqasm2`.
     pub fn name(self) -> &'static str {
         match self {
             Self::OpenQasm3 => "openqasm3",
@@ -28,7 +28,7 @@ impl Format {
         }
     }
 
-    /// Declares qubits.
+    /// The declaration of a register of qubits.
     pub(super) fn qubits(self, name: &str, qubits: usize) -> String {
         match self {
             Self::OpenQasm3 => format!("qubit[{qubits}] {name};\n"),
@@ -36,7 +36,7 @@ impl Format {
         }
     }
 
-    /// Declares classical bits.
+    /// The declaration of a register of classical bits.
     pub(super) fn bits(self, name: &str, bits: usize) -> String {
         match self {
             Self::OpenQasm3 => format!("bit[{bits}] {name};\n"),
@@ -44,7 +44,7 @@ impl Format {
         }
     }
 
-    /// Measures a qubit into a bit.
+    /// The statement that measures a qubit into a bit.
     pub(super) fn measure(self, qubit: &str, bit: &str) -> String {
         match self {
             Self::OpenQasm3 => format!("{bit} = measure {qubit};\n"),

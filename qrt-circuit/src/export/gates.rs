@@ -8,24 +8,24 @@ use std::f64::consts::TAU;
 use std::fmt::Write as _;
 use std::io::{self, Write};
 
-/// What was written.
+/// What an export has written: its gates, qubits and bytes.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Tally {
-    /// By name: how many gates.
+    /// How many gates were written, by the name of the gate.
     pub by_name: BTreeMap<&'static str, u64>,
-    /// Qubits.
+    /// How many qubits the circuit has, of all registers.
     pub qubits: u32,
-    /// Bytes of text.
+    /// How many bytes the text has.
     pub bytes: u64,
 }
 
 impl Tally {
-    /// All gates.
+    /// How many gates were written, of all names.
     pub fn gates(&self) -> u64 {
         self.by_name.values().sum()
     }
 
-    /// `2 qubits, 3 gates: 2 z, 1 cz`, the most frequent first.
+    /// What was written, in words: `2 qubits, 3 gates: 2 z, 1 cz`, the most frequent gate first.
     pub fn text(&self) -> String {
         let mut names: Vec<_> = self.by_name.iter().collect();
         names.sort_by_key(|(name, gates)| (std::cmp::Reverse(**gates), **name));
@@ -47,11 +47,11 @@ impl Tally {
     }
 }
 
-/// Writes a circuit.
+/// Writes a circuit in an OpenQASM language, line by line.
 pub(super) struct Writer<'a, W> {
     format: Format,
     registers: &'a [Register],
-    /// By qubit: its name.
+    /// The name of each qubit.
     names: Vec<String>,
     tally: Tally,
     line: String,
@@ -102,7 +102,7 @@ impl<'a, W: Write> Writer<'a, W> {
         self.put(&format!("// {text}\n"))
     }
 
-    /// Language, comments, registers.
+    /// Writes the language's first lines, the comments and the registers.
     pub(super) fn header(&mut self, comments: &[String]) -> io::Result<()> {
         self.put(self.format.header())?;
         for comment in comments {
@@ -119,7 +119,7 @@ impl<'a, W: Write> Writer<'a, W> {
         Ok(())
     }
 
-    /// A line of one gate.
+    /// Writes the line of one gate, with its angle in radians if it has one.
     fn line(&mut self, gate: &'static str, angle: Option<f64>, on: &[Qubit]) -> io::Result<()> {
         *self.tally.by_name.entry(gate).or_default() += 1;
         let mut line = std::mem::take(&mut self.line);

@@ -14,24 +14,25 @@
 //! | gate | OpenQASM 3 | OpenQASM 2 |
 //! |---|---|---|
 //! | X, CNOT, Toffoli, Hadamard | `x`, `cx`, `ccx`, `h` | the same |
-//! | a sign on one qubit, two, three | `z`, `cz`, `h ccx h` | the same |
+//! | a phase flip on one qubit, two, three | `z`, `cz`, `h ccx h` | the same |
 //! | another phase on one qubit, two | `p`, `cp` | `u1`, `cu1` |
 //! | a rotation | `ry` | `ry` |
 //!
-//! The Grover iterate's global phase of -1 is `z x z x` on one qubit: whoever puts the circuit under
-//! a control counts the right ids.
+//! The Grover iterate's global phase of -1 is `z x z x` on one qubit: whoever puts the circuit
+//! under a control counts the good basis states, and not the others.
 //!
 //! # Registers
 //!
-//! `path` and `comparator`, the id (or `ids` alone); `work`, zero before and after; for counting also
-//! `counter`, whose qubits are measured into `outcome`, and for the sine window `bond`, which is zero
-//! before and after. Bit 0 of each is its least significant.
+//! `path` and `comparator`, which are in superposition (or `ids` alone); `work`, zero before and
+//! after; for counting also `counter`, the phase register, whose qubits are measured into
+//! `outcome`, and for the sine window `bond`, which is zero before and after. Bit 0 of each is its
+//! least significant.
 //!
 //! ```
 //! use qrt_circuit::quantum::{Counting, Part, PhaseOracle, Window};
 //! use qrt_circuit::export::{Export, Format};
 //!
-//! // 3 of 4 ids are good; one bit of phase.
+//! // 3 of 4 basis states are good; one bit of phase.
 //! let oracle = PhaseOracle::polynomial(2, vec![vec![0], vec![1], vec![0, 1]])?;
 //! let counting = Counting::new(&oracle, 1, Window::Rect)?;
 //! let mut text = Vec::new();
@@ -75,17 +76,18 @@ const STRIDE: u64 = 1 << 16;
 /// A register of an exported circuit.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Register {
-    /// Its name.
+    /// The register's name, as the text declares it.
     pub name: Cow<'static, str>,
-    /// Its qubits in the circuit that is exported, bit 0 first.
+    /// The register's qubits in the circuit that is exported, bit 0 first.
     pub qubits: Vec<Qubit>,
 }
 
 /// A part of a counting circuit, to be written.
 ///
-/// OpenQASM's libraries have no sign on more than three qubits. O_0's is on those of the id and, in a
-/// counting circuit, on its control: [`Counting::with`] and
-/// [`Conjunction::Toffolis`](crate::quantum::Conjunction::Toffolis) make circuits without.
+/// OpenQASM's libraries have no phase flip on more than three qubits. O_0's is on all qubits in
+/// superposition and, in a counting circuit, on its control: [`Counting::with`] and
+/// [`Conjunction::Toffolis`](crate::quantum::Conjunction::Toffolis) make circuits without such a
+/// flip.
 #[derive(Clone)]
 pub struct Export<'a> {
     counting: &'a Counting<'a>,
@@ -105,11 +107,12 @@ impl std::fmt::Debug for Export<'_> {
 }
 
 impl<'a> Export<'a> {
-    /// A part of a circuit. Of its id the lowest `path_bits` are called `path` and the others
-    /// `comparator`; without such a number it is `ids` (`id` is a gate in OpenQASM).
+    /// Prepares a part of a circuit for writing. Of the qubits in superposition the lowest
+    /// `path_bits` are called `path` and the others `comparator`; without such a number all are
+    /// `ids` (`id` is a gate in OpenQASM).
     ///
     /// # Errors
-    /// The id has fewer bits.
+    /// Fewer than `path_bits` qubits are in superposition.
     pub fn new(
         counting: &'a Counting<'a>,
         part: Part,
@@ -153,13 +156,14 @@ impl<'a> Export<'a> {
         })
     }
 
-    /// With a flag that ends the writing, which is looked at now and then.
+    /// Sets a flag that ends the writing; it is looked at every few ten thousand gates.
     pub fn with_cancel(mut self, cancel: &'a AtomicBool) -> Self {
         self.cancel = Some(cancel);
         self
     }
 
-    /// With what is told, now and then, how many gates have been written since it was told last.
+    /// Sets a function that is called every few ten thousand gates with the number of gates written
+    /// since its last call.
     pub fn with_progress(mut self, progress: &'a dyn Fn(u64)) -> Self {
         self.progress = Some(progress);
         self
@@ -170,12 +174,12 @@ impl<'a> Export<'a> {
         &self.registers
     }
 
-    /// Qubits, of all registers.
+    /// How many qubits all registers have together.
     pub fn qubits(&self) -> u32 {
         self.counting.qubits_of(self.part)
     }
 
-    /// Gates of the circuit. The text has a few more: some are written as several.
+    /// How many gates the circuit has. The text has a few more: some are written as several.
     pub fn gates(&self) -> u64 {
         self.counting.gates(self.part)
     }
@@ -184,8 +188,8 @@ impl<'a> Export<'a> {
     /// comment, line breaks and all that is not ASCII, is escaped.
     ///
     /// # Errors
-    /// What `out` says; the flag to end it; a sign on more than three qubits, of which the oracle of
-    /// a scene has none. Some text may have been written by then.
+    /// An error of `out`; the flag to end it; a phase flip on more than three qubits, of which the
+    /// oracle of a scene has none. Some text may have been written by then.
     pub fn write(
         &self,
         format: Format,
@@ -224,11 +228,11 @@ impl<'a> Export<'a> {
 
 /// Writes a reversible program: its inputs and what it computes as registers of their names, in
 /// which characters that OpenQASM's names lack become `_`, and all other qubits, which are zero
-/// before and after, as `work`. `words` are the contents of its parameters, `comments` as in
-/// [`Export::write`].
+/// before and after, as `work`. `words` are the contents of its classical parameters, `comments` as
+/// in [`Export::write`].
 ///
 /// # Errors
-/// What `out` says, and a parameter without a word.
+/// An error of `out`, and a parameter without a word.
 pub fn write_program(
     program: &Program,
     words: &[u64],

@@ -11,11 +11,11 @@ use super::{Gates, Lowering, Qubit, Wire};
 
 /// How a carry came to be.
 enum Step {
-    /// It follows from the wires.
+    /// It follows from the wires, without a gate.
     Free,
-    /// In the place of the addend's bit.
+    /// The carry is in the place of the addend's bit.
     Replaced { carry: Qubit, addend: Qubit },
-    /// In a borrowed bit, by the gates of this range.
+    /// The carry is in a borrowed bit, computed by the gates of this range.
     Borrowed { at: Qubit, gates: [usize; 2] },
 }
 
@@ -254,7 +254,7 @@ impl Lowering {
         }
     }
 
-    /// `t = a < b` of unsigned numbers of one width; the carries stay behind if `keep`.
+    /// `t = a < b` of unsigned numbers of one width; the carries stay as garbage if `keep`.
     pub(super) fn less(&mut self, a: &[Wire], b: &[Wire], target: Qubit, keep: bool) {
         let Some(top) = a.len().checked_sub(1) else {
             return;
@@ -286,15 +286,15 @@ impl Lowering {
     }
 }
 
-/// Is the wire's qubit at no other place?
+/// Whether the wire's qubit is at no other place.
 fn alone(wires: &[Wire], place: usize) -> bool {
     let source = wires[place].source();
     let same = wires.iter().filter(|wire| wire.source() == source);
     same.count() == 1
 }
 
-/// The place from which on neither of the numbers changes: there the carry settles, and two bits on
-/// so does the sum.
+/// The place from which on neither of the numbers changes: there the carry no longer changes, and
+/// two bits on neither does the sum.
 pub(super) fn settled(a: &[Wire], b: &[Wire]) -> usize {
     let mut place = a.len().saturating_sub(1);
     while place > 0 && a[place - 1] == a[place] && b[place - 1] == b[place] {

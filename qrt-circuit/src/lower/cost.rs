@@ -6,16 +6,16 @@ use std::collections::HashMap;
 use std::iter::Sum;
 use std::ops::Add;
 
-/// Gates.
+/// How many gates of each kind an operation, or a program, takes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Cost {
-    /// Toffolis, unitary.
+    /// Toffolis, where everything is undone unitarily.
     pub toffoli: u64,
     /// ANDs that are left when those that computed into clean bits are undone by measurement.
     pub and_measured: u64,
-    /// CNOTs.
+    /// CNOT gates.
     pub cnot: u64,
-    /// Xs, those that a pixel's classical parameters may ask for included.
+    /// X gates, those that a pixel's classical parameters may need included.
     pub x: u64,
 }
 
@@ -99,16 +99,16 @@ pub fn costs(op: &Op, width: impl Fn(RegisterId) -> u32) -> [Cost; 2] {
     })
 }
 
-/// Of a qubit, as far as Toffolis go.
+/// What is known of a qubit, as far as Toffolis go.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Clean {
-    /// It holds something.
+    /// The qubit holds something.
     No,
-    /// Nothing yet; what comes stays.
+    /// The qubit is zero, and what a Toffoli computes into it stays.
     Kept,
-    /// Nothing; what comes is taken back.
+    /// The qubit is zero, and what a Toffoli computes into it is uncomputed.
     Borrowed,
-    /// What is taken back by the next Toffoli on it.
+    /// The qubit holds what the next Toffoli on it uncomputes.
     Lent,
 }
 
@@ -117,7 +117,7 @@ pub fn cost(op: &Op, inverse: bool, width: impl Fn(RegisterId) -> u32) -> Cost {
     costs(op, width)[usize::from(inverse)]
 }
 
-/// Toffolis of a program.
+/// How many Toffolis a program has.
 pub fn toffoli(program: &Program) -> u64 {
     tally(program).iter().map(|cost| cost.toffoli).sum()
 }

@@ -10,9 +10,9 @@
 //!
 //! # Ancillas
 //!
-//! Garbage bits come from the operation's scratch register in the order in which the
-//! lowering asks for them; the same lowering, run on an unlimited supply, says how wide that
-//! register must be. Bits that are returned to zero within the operation are borrowed from those
+//! Garbage bits come from the operation's garbage register in the order in which the lowering
+//! allocates them; the same lowering, run on an unlimited supply, says how many qubits that
+//! register must have. Bits that are returned to zero within the operation are borrowed from those
 //! that nobody owns.
 //!
 //! # Counts
@@ -49,18 +49,18 @@ use wire::Wire;
 /// Lowers operations, one after another, onto qubits that have been placed.
 #[derive(Default)]
 struct Lowering {
-    /// What has been emitted.
+    /// The gates that have been emitted.
     gates: Vec<Gate>,
-    /// Qubits that nobody owns.
+    /// The qubits that nobody owns.
     pool: Pool,
-    /// By register: its qubits; empty where it has none.
+    /// The qubits of each register; empty where it has none.
     registers: Vec<Vec<Qubit>>,
-    /// The bits of the current operation's scratch register that are allocated.
+    /// The bits of the current operation's garbage register that are allocated.
     garbage: Vec<Qubit>,
     /// Gates that compute a carry in the place of a qubit that holds something, and, each after its
-    /// own, those that take it back.
+    /// own, those that uncompute it.
     carried: Vec<usize>,
-    /// The current operation's scratch register; none: bits are made as they are asked for.
+    /// The current operation's garbage register; none if bits are made as they are asked for.
     scratch: Option<Vec<Qubit>>,
 }
 
@@ -105,7 +105,7 @@ impl Lowering {
         Wire::qubit(qubit).xor(bit.inverted)
     }
 
-    /// The next bit that stays behind.
+    /// Allocates the next garbage bit.
     fn garbage_bit(&mut self) -> Qubit {
         let scratch = self.scratch.as_ref();
         let own = scratch.and_then(|scratch| scratch.get(self.garbage.len()));

@@ -5,11 +5,11 @@
 //! *Plain rows*: row i is `a_i b`, n ANDs, added at bit i.
 //!
 //! *Signed digits*: with digits d = 2 a_i - 1 of either sign in place of the bits, and the top one
-//! turned since it is the sign's, `2a + 1 = sum d_i 2^i`; so `a b = -(not a_0) b + sum_{i > 0} d_i
+//! negated since it is the sign's, `2a + 1 = sum d_i 2^i`; so `a b = -(not a_0) b + sum_{i > 0} d_i
 //! 2^(i - 1) b`. The first term takes n ANDs and a negation, and each of the others is an addition
-//! or subtraction, as the row's bit says: b is complemented by CNOTs from that bit, which is also the
-//! carry in. No row needs ANDs of its own, and the product takes about one Toffoli for each pair of
-//! bits. (Booth's idea of signed digits, with the digit 0 left out.)
+//! or subtraction, as the row's bit says: b is complemented by CNOTs from that bit, which is also
+//! the carry in. No row needs ANDs of its own, and the product takes about one Toffoli for each
+//! pair of bits. (Booth's idea of signed digits, with the digit 0 left out.)
 //!
 //! Out of place each row's partial sum is n + 2 new bits, of which the lowest is the product's. In
 //! place, rows are added within the product's bits.
@@ -17,14 +17,14 @@
 use super::super::{Style, Word};
 use super::{Gates, Lowering, Qubit, Wire, extended, invert, qubits};
 
-/// Where the bits of a result go: those from `drop` on to the target, those below to scratch.
+/// Where the bits of a result go: those from `drop` on to the target, those below to the garbage.
 pub(super) struct Landing<'a> {
     pub(super) drop: usize,
     pub(super) target: &'a [Qubit],
 }
 
 impl<'a> Landing<'a> {
-    /// Of a result with `shift` zeros below, of which `drop` bits are dropped.
+    /// The landing of a result with `shift` zeros below, of which `drop` bits are dropped.
     pub(super) fn new(shift: u32, drop: u32, target: &'a [Qubit]) -> Self {
         let zeros = (shift.saturating_sub(drop) as usize).min(target.len());
         Self {
@@ -81,7 +81,7 @@ impl Product {
         }
     }
 
-    /// Digits: an unsigned number has a further one, its sign's.
+    /// How many digits a has: an unsigned number has a further one, its sign's.
     pub(super) fn digits(&self) -> usize {
         self.rows + usize::from(!self.a_signed)
     }
@@ -126,7 +126,7 @@ fn negation(bits: usize) -> usize {
     bits.saturating_sub(2)
 }
 
-/// Toffolis of carries that stay, or that a sum in place takes back.
+/// Toffolis of carries that stay, or that a sum in place uncomputes.
 fn carried(carries: usize, style: Style) -> usize {
     match style {
         Style::OutOfPlace => carries,
@@ -348,7 +348,7 @@ impl Lowering {
     }
 }
 
-/// Is the digit the last, and where is its row subtracted?
+/// Whether the digit is the last, and the wire on which its row is subtracted.
 fn digit(a: &[Wire], p: &Product, place: usize) -> (bool, Wire) {
     let top = place + 1 == p.digits();
     let bit = a.get(place).copied().unwrap_or(Wire::ZERO);

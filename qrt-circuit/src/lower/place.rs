@@ -3,36 +3,36 @@
 use super::super::{Circuit, Gate, Op, Program, Qubit, RegisterId};
 use super::Lowering;
 
-/// Qubits that nobody owns.
+/// The pool of qubits that nobody owns, and from which ancillas are allocated.
 #[derive(Default)]
 pub(super) struct Pool {
     idle: Vec<Qubit>,
     made: u32,
-    /// The most that have been in use since it was last set.
+    /// The most qubits that have been in use since this was last set.
     pub(super) peak: u32,
 }
 
 impl Pool {
-    /// A qubit that is zero.
+    /// Allocates a qubit, which is zero.
     pub(super) fn allocate(&mut self) -> Qubit {
         let qubit = self.idle.pop().unwrap_or_else(|| self.make());
         self.peak = self.peak.max(self.in_use());
         qubit
     }
 
-    /// A qubit that nobody has had before.
+    /// Makes a qubit that has not been in use before.
     pub(super) fn make(&mut self) -> Qubit {
         self.made += 1;
         self.peak = self.peak.max(self.in_use());
         self.made - 1
     }
 
-    /// Takes back a qubit, which is zero.
+    /// Frees a qubit, which is zero.
     pub(super) fn free(&mut self, qubit: Qubit) {
         self.idle.push(qubit);
     }
 
-    /// Qubits that there are.
+    /// How many qubits there are.
     pub(super) fn made(&self) -> u32 {
         self.made
     }
@@ -43,7 +43,7 @@ impl Pool {
 }
 
 impl Lowering {
-    /// With the program's inputs placed.
+    /// A lowering with the program's inputs placed.
     fn on(program: &Program) -> Self {
         let mut lowering = Self {
             registers: vec![Vec::new(); program.registers.len()],
@@ -55,7 +55,7 @@ impl Lowering {
         lowering
     }
 
-    /// Gives a register qubits.
+    /// Allocates the qubits of a register.
     pub(super) fn place(&mut self, register: RegisterId, width: u32) {
         if self.registers[register.index()].is_empty() {
             let qubits = (0..width).map(|_| self.pool.allocate()).collect();
@@ -99,7 +99,8 @@ impl Lowering {
     }
 }
 
-/// Width of the scratch register that `op` needs, given the widths of its other registers.
+/// Width in qubits of the garbage register that `op` needs, given the widths of its other
+/// registers.
 pub fn scratch_width(op: &Op, width: impl Fn(RegisterId) -> u32) -> u32 {
     if op.scratch().is_none() {
         return 0;
@@ -109,7 +110,7 @@ pub fn scratch_width(op: &Op, width: impl Fn(RegisterId) -> u32) -> u32 {
     lowering.garbage.len() as u32
 }
 
-/// An operation with its registers, other than its scratch, placed on qubits of its own.
+/// An operation with its registers, other than its garbage, placed on qubits of its own.
 pub(super) fn alone(op: &Op, width: impl Fn(RegisterId) -> u32) -> (Op, Lowering) {
     let mut lowering = Lowering::default();
     let mut ids: Vec<RegisterId> = Vec::new();
@@ -133,8 +134,8 @@ pub(super) fn alone(op: &Op, width: impl Fn(RegisterId) -> u32) -> (Op, Lowering
     (op, lowering)
 }
 
-/// Lowers a program. Registers take qubits when they are computed, and leave them, zero, to others
-/// when they are undone.
+/// Lowers a program. The qubits of a register are allocated when it is computed, and freed, zero
+/// again, when it is undone.
 pub fn circuit(program: &Program) -> Circuit {
     parts(program, &[]).into_iter().next().unwrap_or_default()
 }

@@ -2,10 +2,10 @@
 //!
 //! Digit by digit without restoring, two bits of the radicand a step. With Q the root so far, q its
 //! last bit and D the remainder, the next is `4D + pair - (4Q + 1)` where q holds and `4D + pair +
-//! (4Q + 3)` where it does not; both are `4D + pair + 3 + 4 (Q ^ q)`, with all bits of Q turned by q,
-//! so that a step is one addition. The sign of what comes out is the complement of the root's next
-//! bit, and its qubit is that bit's. After j steps D has j + 2 bits: k(k + 1)/2 Toffolis for a root of
-//! k bits, out of place.
+//! (4Q + 3)` where it does not; both are `4D + pair + 3 + 4 (Q ^ q)`, with all bits of Q flipped
+//! where q holds, so that a step is one addition. The sign of what comes out is the complement of
+//! the root's next bit, and its qubit is that bit's. After j steps D has j + 2 bits: k(k + 1)/2
+//! Toffolis for a root of k bits, out of place.
 
 use super::super::{Style, Word};
 use super::{Gates, Lowering, Qubit, Wire, qubits};
@@ -54,8 +54,8 @@ impl Lowering {
         }
     }
 
-    /// Turns the root's first bits by the last of them, and gives the step's addend; again, and they
-    /// are as they were.
+    /// Flips the root's first bits where the last of them holds, and returns the step's addend. A
+    /// second call flips them back.
     fn turn(&mut self, root: &[Qubit], step: usize) -> Vec<Wire> {
         let Some(last) = step.checked_sub(1).map(|before| root.len() - 1 - before) else {
             return vec![Wire::ONE; 3];

@@ -21,9 +21,9 @@ pub(super) struct Row {
 
 /// What a product with a constant consists of.
 pub(super) struct Rows {
-    /// Zeros below.
+    /// How many zeros the product has below.
     pub(super) shift: u32,
-    /// Is the lowest digit -1?
+    /// Whether the lowest digit is -1.
     pub(super) negative: bool,
     /// The first partial sum: a or -a.
     pub(super) first: (usize, bool),
@@ -74,13 +74,13 @@ impl Rows {
         self.added.last().map_or(self.first, |row| row.after)
     }
 
-    /// Bits of what the rows that begin below `needed` give, and whether the top is a sign.
+    /// Bits of the sum of the rows that begin below `needed`, and whether the top is a sign.
     fn reached(&self, needed: usize) -> (usize, bool) {
         let beyond = self.added.iter().find(|row| row.place >= needed);
         beyond.map_or(self.extent(), |row| row.before)
     }
 
-    /// Are the lowest digit, -1, and the next, +1, one subtraction?
+    /// Whether the lowest digit, -1, and the next, +1, are one subtraction.
     pub(super) fn fused(&self, needed: usize) -> bool {
         let adds = |row: &Row| !row.subtract && row.place < needed;
         self.negative && self.added.first().is_some_and(adds)

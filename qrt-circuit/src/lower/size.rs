@@ -1,9 +1,9 @@
-//! How large and how deep circuits are.
+//! How many qubits circuits have, and their Toffoli depth.
 
 use super::super::{Circuit, Gate, Program, Qubit};
 use super::place::walk;
 
-/// The size of a program's circuit.
+/// The size of a program's circuit in qubits and in Toffoli depth.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Size {
     /// [`Circuit::qubits`]
@@ -35,14 +35,15 @@ pub fn most_qubits(program: &Program) -> u32 {
     walk(program, |_, _| {})
 }
 
-/// Toffoli depth: each gate as early as its qubits allow, and only Toffolis take time.
+/// The Toffoli depth of a circuit: each gate runs as early as its qubits allow, and only Toffolis
+/// take time.
 pub fn depth(circuit: &Circuit) -> u64 {
     let mut clock = Clock::default();
     clock.run(&circuit.gates);
     clock.latest()
 }
 
-/// By qubit: Toffolis that its content has to wait for.
+/// For each qubit, the Toffoli depth at which its content is ready.
 #[derive(Default)]
 struct Clock {
     times: Vec<u64>,

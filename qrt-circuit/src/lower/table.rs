@@ -13,7 +13,7 @@
 use super::{Gates, Lowering, Qubit, Wire};
 use std::collections::HashMap;
 
-/// A function of the address that has been planned.
+/// Where a planned function of the address is read from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Source {
     Zero,
@@ -32,7 +32,7 @@ struct Function {
 enum Node {
     /// The sum of one-hot bits: by group, whether it is in it.
     Leaf(Vec<u64>),
-    /// By a low bit of the address.
+    /// One of two functions, by a low bit of the address.
     Select {
         bit: usize,
         low: Function,
@@ -43,12 +43,12 @@ enum Node {
 /// What is computed for a table.
 #[derive(Default)]
 pub(super) struct Plan {
-    /// Entries of the one-hot register; 1: there is none.
+    /// Entries of the one-hot register; 1 if there is none.
     groups: usize,
     low: usize,
-    /// Each after those that it reads.
+    /// The functions that are computed, each after those that it reads.
     nodes: Vec<Node>,
-    /// By column and by bit.
+    /// The functions that the targets are, by column and by bit.
     outputs: Vec<Vec<Function>>,
 }
 
@@ -174,7 +174,7 @@ struct Planner {
     groups: usize,
     nodes: Vec<Node>,
     known: HashMap<(usize, Vec<u64>), Function>,
-    /// Toffolis that may still be spent.
+    /// How many more Toffolis the plan may take.
     left: u64,
 }
 
@@ -235,7 +235,7 @@ impl Planner {
 }
 
 impl Plan {
-    /// For a table of which the targets have the widths `width`.
+    /// Plans a table of which the targets have the widths `width`.
     pub(super) fn new(
         address_bits: usize,
         columns: &[Box<[i64]>],
@@ -258,7 +258,8 @@ impl Plan {
     }
 }
 
-/// By high bit of the address: the new bits of a one-hot register of so many entries.
+/// The number of new bits that each high bit of the address makes of a one-hot register of so many
+/// entries.
 fn news(groups: usize) -> impl Iterator<Item = usize> {
     let olds = (0..).map(|bit| 1_usize << bit);
     olds.take_while(move |old| *old < groups)
@@ -282,7 +283,7 @@ pub fn best_low(address_bits: u32, columns: &[Box<[i64]>]) -> u32 {
     let truths = Truths::new(address_bits as usize, columns, most as usize, |column| {
         widths[column]
     });
-    // From the middle, which is seldom far off, so that most others end early.
+    // From the middle, which is seldom far from the best, so that most others end early.
     let mut lows: Vec<u32> = (0..=most).collect();
     lows.sort_by_key(|low| low.abs_diff(most / 2));
     let mut best = (u64::MAX, 0);

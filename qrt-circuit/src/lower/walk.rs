@@ -1,4 +1,4 @@
-//! Tables without scratch: unary iteration.
+//! Tables without garbage: unary iteration.
 //!
 //! A walk over the tree of addresses (Babbush et al. 2018) holds the conjunction of the bits on the
 //! way in one ancilla a level. From a node to its two children it takes an AND; from one child to

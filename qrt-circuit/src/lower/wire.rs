@@ -27,12 +27,12 @@ impl Wire {
         }
     }
 
-    /// Its qubit; none for a constant.
+    /// The wire's qubit; none for a constant.
     pub(super) const fn source(self) -> Option<Qubit> {
         self.source
     }
 
-    /// Is it the negation of its qubit, or the constant 1?
+    /// Whether the wire is the negation of its qubit, or the constant 1.
     pub(super) const fn inverted(self) -> bool {
         self.inverted
     }
@@ -45,7 +45,7 @@ impl Wire {
         }
     }
 
-    /// Are they equal, or each other's negation, whatever the qubits hold?
+    /// Whether the two wires are equal, or each other's negation, whatever the qubits hold.
     pub(super) fn related(self, other: Self) -> bool {
         self.source == other.source
     }

@@ -1,23 +1,23 @@
-//! Signs under many controls, whole or of Toffolis.
+//! Phase flips under many controls, as one gate or by Toffolis.
 
 use super::QuantumGate::{Ccx, Phase};
 use super::{QuantumGate, Turns};
 use crate::Qubit;
 
-/// How a sign that more than two qubits control is written.
+/// How a phase flip that more than two qubits control is written.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Conjunction {
-    /// As one gate.
+    /// As one multi-controlled gate, without ancillas.
     #[default]
     Whole,
-    /// As Toffolis into ancillas that are zero, a sign on two qubits, and the Toffolis backwards
-    /// (Barenco et al., *Elementary gates for quantum computation*, 1995, section 7): `2 (k - 2)`
-    /// Toffolis and `k - 2` ancillas for `k` qubits. Within G the oracle's ancillas serve.
+    /// As Toffolis into ancillas that are zero, a phase flip on two qubits, and the Toffolis
+    /// backwards (Barenco et al., *Elementary gates for quantum computation*, 1995, section 7):
+    /// `2 (k - 2)` Toffolis and `k - 2` ancillas for `k` qubits. Within G the oracle's ancillas serve.
     Toffolis,
 }
 
 impl Conjunction {
-    /// Ancillas for a sign on `qubits` qubits.
+    /// How many ancillas a phase flip on `qubits` qubits needs.
     pub fn ancillas(self, qubits: u32) -> u32 {
         match self {
             Self::Whole => 0,
@@ -25,13 +25,13 @@ impl Conjunction {
         }
     }
 
-    /// Gates of a sign on `qubits` qubits.
+    /// How many gates a phase flip on `qubits` qubits takes.
     pub fn gates(self, qubits: u32) -> u64 {
         1 + 2 * u64::from(self.ancillas(qubits))
     }
 
-    /// Turns the sign where all of `on` hold. `ancillas` are zero, before and after, and as many as
-    /// [`Conjunction::ancillas`] says.
+    /// Flips the phase where all of `on` hold. `ancillas` are zero, before and after, and as many
+    /// as [`Conjunction::ancillas`] says.
     pub(super) fn sign<E>(
         self,
         on: &[Qubit],

@@ -8,10 +8,10 @@ use super::{
 };
 use crate::Qubit;
 
-/// What of the circuit is handed over.
+/// Which part of the counting circuit is handed over, gate by gate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Part {
-    /// O_f alone.
+    /// One call of the phase oracle O_f alone.
     Oracle,
     /// One iterate G alone, its global phase included.
     Grover,
@@ -22,7 +22,8 @@ pub enum Part {
 /// The counting circuit of an oracle: phase estimation of its Grover iterate.
 ///
 /// Its qubits are the iterate's, then the phase register's, then the sine window's bond. All are
-/// zero before; after it all but the ids and the phase register are zero again.
+/// zero before; after it all but the oracle's qubits in superposition and the phase register are
+/// zero again.
 #[derive(Clone, Debug)]
 pub struct Counting<'a> {
     iterate: GroverIterate<'a>,
@@ -43,7 +44,7 @@ impl<'a> Counting<'a> {
         Self::with(oracle, phase_bits, window, Conjunction::Whole)
     }
 
-    /// As [`Counting::new`], with O_0's sign written so.
+    /// As [`Counting::new`], with O_0's phase flip written as `conjunction` says.
     ///
     /// # Errors
     /// As [`Counting::new`].
@@ -65,7 +66,7 @@ impl<'a> Counting<'a> {
         })
     }
 
-    /// The iterate.
+    /// The Grover iterate whose phase is estimated.
     pub fn iterate(&self) -> &GroverIterate<'a> {
         &self.iterate
     }
@@ -75,13 +76,14 @@ impl<'a> Counting<'a> {
         &self.counter
     }
 
-    /// All qubits: `0..qubits`.
+    /// How many qubits the whole circuit has: they are `0..qubits`.
     pub fn qubits(&self) -> u32 {
         let bond = u32::from(window::has_bond(self.window));
         self.iterate.qubits() + self.counter.len() as u32 + bond
     }
 
-    /// The qubits that are zero after each iterate and at the end, ids and phase register apart.
+    /// The qubits that are zero after each iterate and at the end: all but those in superposition
+    /// and the phase register's.
     pub fn ancillas(&self) -> Vec<Qubit> {
         let ids = self.iterate.oracle().superposed();
         let all = 0..self.qubits();
@@ -89,7 +91,7 @@ impl<'a> Counting<'a> {
             .collect()
     }
 
-    /// Qubits that a part uses: `0..qubits_of`.
+    /// How many qubits a part uses: they are `0..qubits_of`.
     pub fn qubits_of(&self, part: Part) -> u32 {
         match part {
             Part::Oracle => self.iterate.oracle().qubits(),
@@ -98,7 +100,7 @@ impl<'a> Counting<'a> {
         }
     }
 
-    /// Gates of a part, as many as are handed over.
+    /// How many gates of a part are handed over.
     pub fn gates(&self, part: Part) -> u64 {
         let bits = self.counter.len() as u32;
         match part {
@@ -142,7 +144,8 @@ impl<'a> Counting<'a> {
         }
     }
 
-    /// The window, and Hadamards on the ids.
+    /// Prepares the phase register in the window, and puts Hadamards on the oracle's qubits in
+    /// superposition.
     ///
     /// # Errors
     /// The sink's.
@@ -157,8 +160,7 @@ impl<'a> Counting<'a> {
         ids.iter().try_for_each(|id| sink(H(*id)))
     }
 
-    /// One G under the control of bit `bit` of the phase register, which asks for `2^bit` of
-    /// them.
+    /// One G under the control of bit `bit` of the phase register, which controls `2^bit` of them.
     ///
     /// # Errors
     /// The sink's.

@@ -8,29 +8,29 @@ use std::fmt;
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum QuantumError {
-    /// The oracle has no qubits in superposition, so no ids.
+    /// The oracle has no qubits in superposition, so there is nothing to count.
     NoIds,
-    /// A truth table of more ids than can be listed.
+    /// A truth table has more entries than can be listed.
     TableBits {
-        /// Bits of an id.
+        /// Address bits of the table that was asked for.
         bits: u32,
-        /// The most.
+        /// The most address bits that a table may have.
         most: u32,
     },
     /// A gate reads a bit that the pixel's classical parameters do not have.
     MissingWord {
-        /// The word.
+        /// The parameter's index in the program's list.
         parameter: u32,
-        /// Its bit.
+        /// The bit that the gate reads, 0 the least significant.
         bit: u32,
     },
     /// A gate names a qubit that the circuit does not have, or one qubit twice.
     InvalidQubit(Qubit),
-    /// A sign is turned in the part of an oracle that computes or uncomputes.
+    /// A phase is flipped in the part of an oracle that computes or uncomputes.
     SignOutsideFlip(Qubit),
-    /// The oracle has no such channel.
+    /// The oracle has no channel of this number.
     NoChannel(usize),
-    /// The phase register has no size in `1..=40` bits.
+    /// The phase register's size is not in `1..=40` qubits.
     PhaseBitsOutOfRange(u32),
 }
 

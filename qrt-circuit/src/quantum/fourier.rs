@@ -8,7 +8,7 @@ use super::QuantumGate::{Cx, H, Phase};
 use super::{QuantumGate, Turns};
 use crate::Qubit;
 
-/// Gates of the transform of `bits` qubits.
+/// How many gates the transform of `bits` qubits takes.
 pub(super) fn gates(bits: u32) -> u64 {
     let bits = u64::from(bits);
     3 * (bits / 2) + bits + bits * bits.saturating_sub(1) / 2

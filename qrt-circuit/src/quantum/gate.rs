@@ -3,8 +3,8 @@
 use crate::Qubit;
 use std::f64::consts::TAU;
 
-/// A gate on amplitudes. X, CNOT and Toffoli are those of [`super::super::Gate`], with the classical
-/// words of a pixel built in.
+/// A gate on amplitudes. X, CNOT and Toffoli are those of [`super::super::Gate`], with the
+/// classical parameters of a pixel built in.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum QuantumGate<'a> {
     /// Flips a qubit.
@@ -17,17 +17,17 @@ pub enum QuantumGate<'a> {
     H(Qubit),
     /// `|0> -> cos(a/2) |0> + sin(a/2) |1>`, `|1> -> -sin(a/2) |0> + cos(a/2) |1>`.
     Ry {
-        /// a, in radians.
+        /// The angle a of the rotation, in radians.
         angle: f64,
-        /// The qubit.
+        /// The qubit that is rotated.
         target: Qubit,
     },
     /// Multiplies by `exp(2 pi i turns)` where all of `on` hold: on one qubit Z, S, T and their
     /// like, on two a controlled phase, on more a multi-controlled one, on none the global phase.
     Phase {
-        /// The phase.
+        /// The phase, in turns.
         turns: Turns,
-        /// Different qubits.
+        /// The qubits that all must hold, no two of them equal.
         on: &'a [Qubit],
     },
 }
@@ -59,13 +59,13 @@ pub struct Turns {
 }
 
 impl Turns {
-    /// Half a turn: a sign.
+    /// Half a turn: a phase flip, the factor -1.
     pub const HALF: Self = Self {
         numerator: 1,
         bits: 1,
     };
 
-    /// `numerator / 2^bits` turns.
+    /// The phase of `numerator / 2^bits` turns.
     ///
     /// # Panics
     /// If `bits` exceeds 52: an angle that f64 does not tell from others.
@@ -91,17 +91,17 @@ impl Turns {
         self.numerator
     }
 
-    /// The denominator's exponent.
+    /// The exponent of the denominator: the phase is `numerator / 2^bits` turns.
     pub fn bits(self) -> u32 {
         self.bits
     }
 
-    /// Turns, exactly.
+    /// The phase in turns, in (-1/2, 1/2], without rounding.
     pub fn as_f64(self) -> f64 {
         self.numerator as f64 / (1_u64 << self.bits) as f64
     }
 
-    /// The phase that undoes it.
+    /// The phase that undoes this one: its negative.
     pub fn inverse(self) -> Self {
         Self::new(-self.numerator, self.bits)
     }

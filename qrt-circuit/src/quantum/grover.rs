@@ -6,13 +6,14 @@ use crate::Qubit;
 
 /// `G = H O_0 H O_f`, over an oracle's qubits in superposition.
 ///
-/// O_0 turns the sign of every basis state *except* `|0...0>`: so G turns the plane of good and bad
-/// ids by `theta` turns with `sin(pi theta)^2 = S/N`. With the opposite sign, that of `|0...0>`
-/// alone, G is its negative. Alone that is a global phase; under a control it is a Z on the control,
-/// and the count comes out as N - S.
+/// O_0 flips the phase of every basis state *except* `|0...0>`: so G rotates the plane of good and
+/// bad basis states by `theta` turns, with `sin(pi theta)^2 = S/N`. With the opposite sign, that of
+/// `|0...0>` alone, G is its negative. Alone that is a global phase; under a control it is a Z on
+/// the control, and the count comes out as N - S.
 ///
-/// Under a control only signs have it: the oracle's one, O_0's, and the Z that makes O_0's sign
-/// right. The Hadamards and all that computes meet their inverses where the control is 0.
+/// Under a control only the phase flips are controlled: the oracle's, O_0's, and the Z that makes
+/// O_0's sign right. The Hadamards and all that computes meet their inverses where the control is
+/// 0.
 #[derive(Clone, Debug)]
 pub struct GroverIterate<'a> {
     oracle: &'a PhaseOracle,
@@ -21,12 +22,12 @@ pub struct GroverIterate<'a> {
 }
 
 impl<'a> GroverIterate<'a> {
-    /// The iterate of an oracle, with O_0's sign as one gate.
+    /// The iterate of an oracle, with O_0's phase flip as one gate.
     pub fn new(oracle: &'a PhaseOracle) -> Self {
         Self::with(oracle, Conjunction::Whole)
     }
 
-    /// The iterate of an oracle, with O_0's sign written so.
+    /// The iterate of an oracle, with O_0's phase flip written as `conjunction` says.
     pub fn with(oracle: &'a PhaseOracle, conjunction: Conjunction) -> Self {
         let controlled = oracle.superposed().len() as u32 + 1;
         let mut ancillas = oracle.ancillas();
@@ -41,7 +42,7 @@ impl<'a> GroverIterate<'a> {
         }
     }
 
-    /// Its oracle.
+    /// The oracle whose good basis states the iterate amplifies.
     pub fn oracle(&self) -> &'a PhaseOracle {
         self.oracle
     }
@@ -77,7 +78,7 @@ impl<'a> GroverIterate<'a> {
         ids.iter().try_for_each(|id| sink(H(*id)))
     }
 
-    /// O_0: Xs about the sign of `|1...1>`, and minus all.
+    /// O_0: Xs around the phase flip of `|1...1>`, and a global phase of -1.
     fn reflect<E>(
         &self,
         control: Option<Qubit>,

@@ -1,21 +1,22 @@
 //! The counting circuit, gate by gate: the paper's whole figure.
 //!
-//! An oracle of [`super::lower`] permutes basis states and turns one sign. What quantum counting
+//! An oracle of [`super::lower`] permutes basis states and flips one phase. What quantum counting
 //! puts around it are Hadamards, phases and rotations: a [`QuantumGate`] is a gate of either kind.
 //!
 //! * [`PhaseOracle`]: O_f of one pixel and channel, as gates;
 //! * [`GroverIterate`]: `G = H O_0 H O_f`, alone or under a control;
-//! * [`Counting`]: Hadamards on the ids, the phase register's window, controlled powers of G and
-//!   the inverse Fourier transform.
+//! * [`Counting`]: Hadamards on the qubits in superposition, the phase register's window,
+//!   controlled powers of G and the inverse Fourier transform.
 //!
 //! Circuits are handed over gate by gate and never held: the controlled powers of G repeat the
-//! oracle `T - 1` times. A *sink* is a closure that takes each gate and may refuse, which ends it:
+//! oracle `T - 1` times. A *sink* is a closure that receives each gate and may refuse it, which
+//! ends the circuit:
 //!
 //! ```
 //! use qrt_circuit::quantum::{Counting, Part, PhaseOracle, QuantumGate, Window};
 //! use std::convert::Infallible;
 //!
-//! // 3 of 8 ids are good; the phase is read to 4 bits.
+//! // 3 of 8 basis states are good; the phase is read to 4 bits.
 //! let oracle = PhaseOracle::table(3, |id| id > 4)?;
 //! let counting = Counting::new(&oracle, 4, Window::Rect)?;
 //! let mut hadamards = 0;
@@ -28,9 +29,9 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! **Bit order.** Bit 0 of every register is its least significant. Qubit j of the counting
-//! register controls `G^(2^j)`; once all is done the register reads `y`, and `theta~ = y/T` or
-//! `1 - y/T`.
+//! **Bit order.** Bit 0 of every register is its least significant. Qubit j of the phase register
+//! controls `G^(2^j)`; once all is done the phase register reads `y`, and
+//! `theta~ = y/T` or `1 - y/T`.
 //!
 //! **Phases** are in turns: `Phase` multiplies by `exp(2 pi i turns)`.
 
@@ -53,5 +54,5 @@ pub use grover::GroverIterate;
 pub use oracle::{Flip, PhaseOracle};
 pub use window::Window;
 
-/// The largest phase register.
+/// The most qubits that a phase register may have.
 pub const MAX_PHASE_BITS: u32 = 40;

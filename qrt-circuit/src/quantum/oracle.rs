@@ -7,28 +7,28 @@ use crate::{
     Type, lower,
 };
 
-/// Most bits of the ids of a truth table.
+/// The most address bits of a truth table.
 const TABLE_BITS: u32 = 20;
 
 /// A step of an oracle's flip.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Flip {
-    /// X, CNOT or Toffoli.
+    /// An X, CNOT or Toffoli, which has no control of the iterate.
     Gate(Gate),
-    /// Turns the sign where all these qubits hold. These alone carry an iterate's control.
+    /// Flips the phase where all these qubits hold. These alone carry an iterate's control.
     Sign(Vec<Qubit>),
 }
 
-/// An oracle that turns the signs of good ids: compute, flip, uncompute.
+/// An oracle that flips the phase of good basis states: compute, flip, uncompute.
 ///
-/// Its qubits are `0..qubits`. Those in superposition hold the id (path and comparator); all others
-/// are zero before and after. The circuit of a pixel has its classical parameters built in.
+/// Its qubits are `0..qubits`. Those in superposition hold the path index and the comparator; all
+/// others are zero before and after. The circuit of a pixel has its classical parameters built in.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PhaseOracle {
-    /// X, CNOT and Toffoli.
+    /// Gates X, CNOT and Toffoli alone, in the order in which they run.
     compute: Vec<Gate>,
     flip: Vec<Flip>,
-    /// X, CNOT and Toffoli.
+    /// Gates X, CNOT and Toffoli alone, in the order in which they run.
     uncompute: Vec<Gate>,
     superposed: Vec<Qubit>,
     qubits: u32,
@@ -36,11 +36,12 @@ pub struct PhaseOracle {
 
 impl PhaseOracle {
     /// An oracle of circuits that share their qubits, as [`lower::parts`] makes them, for a pixel
-    /// with these classical `words`. `superposed` is the id, bit 0 first.
+    /// with these `words`, the contents of its classical parameters. `superposed` are the qubits in
+    /// superposition, bit 0 first.
     ///
     /// # Errors
-    /// No superposed qubits; a word that is missing; a gate that is none; a sign turned outside of
-    /// `flip`.
+    /// No superposed qubits; a word that is missing; a gate on a qubit that is not there, or on one
+    /// qubit twice; a phase flipped outside of `flip`.
     pub fn new(
         compute: &Circuit,
         flip: &Circuit,
@@ -64,9 +65,9 @@ impl PhaseOracle {
         oracle.checked()
     }
 
-    /// An oracle without ancillas: its good ids are those for which an odd number of `monomials`
-    /// hold, each the conjunction of some bits of the id (the algebraic normal form of a truth
-    /// table). Bits are qubits `0..bits`.
+    /// An oracle without ancillas: its good basis states are those for which an odd number of
+    /// `monomials` hold, each the conjunction of some bits of the state (the algebraic normal form
+    /// of a truth table). Bits are qubits `0..bits`.
     ///
     /// # Errors
     /// No bits, or a monomial with a bit that is not one of them.
@@ -81,8 +82,8 @@ impl PhaseOracle {
         oracle.checked()
     }
 
-    /// An oracle that looks its ids up: a table by unary iteration writes `good` into a flag. The id
-    /// is qubits `0..bits`.
+    /// An oracle that looks its basis states up: a table by unary iteration writes `good` into a
+    /// flag. The address is qubits `0..bits`.
     ///
     /// # Errors
     /// No bits, or more than 20.
@@ -109,30 +110,30 @@ impl PhaseOracle {
         )
     }
 
-    /// The id's qubits, bit 0 first: those in superposition.
+    /// The qubits in superposition, bit 0 first: the path index and, above it, the comparator.
     pub fn superposed(&self) -> &[Qubit] {
         &self.superposed
     }
 
-    /// All qubits, ancillas included: `0..qubits`.
+    /// How many qubits one call has, ancillas included: they are `0..qubits`.
     pub fn qubits(&self) -> u32 {
         self.qubits
     }
 
-    /// Those that are zero before and after.
+    /// The ancillas: the qubits that are zero before and after each call.
     pub fn ancillas(&self) -> Vec<Qubit> {
         let all = 0..self.qubits;
         all.filter(|qubit| !self.superposed.contains(qubit))
             .collect()
     }
 
-    /// Gates of one call.
+    /// How many gates one call has, phase flips included.
     pub fn gates(&self) -> u64 {
         (self.compute.len() + self.flip.len() + self.uncompute.len()) as u64
     }
 
-    /// Hands over the oracle's gates. With a `control`, only the signs have it: without a sign, what
-    /// is computed is uncomputed and nothing has happened.
+    /// Hands over the oracle's gates. With a `control`, only the phase flips have it: without a
+    /// flip, what is computed is uncomputed and nothing has happened.
     ///
     /// # Errors
     /// The sink's.
@@ -205,14 +206,14 @@ fn reversible<E>(
             Gate::X(t) => sink(X(t))?,
             Gate::Cx(a, t) => sink(Cx(a, t))?,
             Gate::Ccx(a, b, t) => sink(Ccx(a, b, t))?,
-            // Neither is left: loads are built in, and signs are steps of their own.
+            // Neither is left: loads are built in, and phase flips are steps of their own.
             Gate::Load { .. } | Gate::Z(_) => {}
         }
     }
     Ok(())
 }
 
-/// The gates with a pixel's words built in: each load is an X, or nothing.
+/// The gates with a pixel's classical parameters built in: each load is an X, or nothing.
 fn loaded(gates: &[Gate], words: &[u64]) -> Result<Vec<Gate>, QuantumError> {
     let mut all = Vec::with_capacity(gates.len());
     for gate in gates {
@@ -236,7 +237,7 @@ fn loaded(gates: &[Gate], words: &[u64]) -> Result<Vec<Gate>, QuantumError> {
     Ok(all)
 }
 
-/// Look a flag up, turn its sign, undo.
+/// The program that looks a flag up, flips its phase, and uncomputes it.
 fn table(bits: u32, good: impl Fn(u64) -> bool) -> Program {
     let [id, flag, scratch] = [0, 1, 2].map(RegisterId);
     let entries: Box<[i64]> = (0..1 << bits).map(|id| i64::from(good(id))).collect();

@@ -10,15 +10,15 @@
 //! (1 - D_m) cos(x)^2 + (1 + D_m) sin(x)^2,    D_m = sin(2^m a) / (2^m sin(a)),
 //! ```
 //!
-//! so one *bond* qubit with amplitudes `sqrt(1 - D_m) cos(x)` and `sqrt(1 + D_m) sin(x)` carries all
-//! that the bits below need to know: the state is a matrix product of bond dimension 2. The next bit
-//! turns x by `+-b`, `b = 2^(m-2) a`. With the bit in the basis |+>, |->, that takes the bond's |0>
-//! to `c |0>|+> - s |1>|->` and |1> to `c |1>|+> + s |0>|->`, with c and s of the bond's value: a
-//! rotation of the bit that the bond selects, a CNOT from the bit to the bond, and a Hadamard on the
-//! bit. At the top x is a quarter turn and the bond |1>; at the bottom D_0 = 1, and it is |1> again.
-//! So T amplitudes take 2 t rotations, 3 t CNOTs and no ancilla but the bond, which comes back.
-//! (That matrix product states are prepared by such a staircase: Schoen et al., *Sequential
-//! generation of entangled multiqubit states*, 2005.)
+//! so one *bond* qubit with amplitudes `sqrt(1 - D_m) cos(x)` and `sqrt(1 + D_m) sin(x)` carries
+//! all that the bits below need to know: the state is a matrix product of bond dimension 2. The
+//! next bit moves x by `+-b`, `b = 2^(m-2) a`. With the bit in the basis |+>, |->, that takes the
+//! bond's |0> to `c |0>|+> - s |1>|->` and |1> to `c |1>|+> + s |0>|->`, with c and s of the bond's
+//! value: a rotation of the bit that the bond selects, a CNOT from the bit to the bond, and a
+//! Hadamard on the bit. At the top x is a quarter turn and the bond |1>; at the bottom D_0 = 1, and
+//! it is |1> again. So T amplitudes take 2 t rotations, 3 t CNOTs and no ancilla but the bond,
+//! which comes back. (That matrix product states are prepared by such a staircase: Schoen et al.,
+//! *Sequential generation of entangled multiqubit states*, 2005.)
 
 use super::QuantumGate;
 use super::QuantumGate::{Cx, H, Ry, X};
@@ -36,7 +36,7 @@ pub enum Window {
 }
 
 impl Window {
-    /// Its name: `rect`, `sine`.
+    /// The window's name: `rect` or `sine`.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Rect => "rect",
@@ -51,12 +51,12 @@ impl fmt::Display for Window {
     }
 }
 
-/// Does the window need a bond qubit?
+/// Whether the window needs a bond qubit.
 pub(super) fn has_bond(window: Window) -> bool {
     window == Window::Sine
 }
 
-/// Gates that prepare a register of `bits` qubits.
+/// How many gates prepare a register of `bits` qubits.
 pub(super) fn gates(window: Window, bits: u32) -> u64 {
     match window {
         Window::Rect => u64::from(bits),
@@ -98,7 +98,7 @@ pub(super) fn prepare<E>(
     sink(X(bond))
 }
 
-/// By bit, how far a bond of 0 and one of 1 rotate it.
+/// The angles in radians by which a bond of 0 and one of 1 rotate each bit.
 fn angles(bits: u32) -> Vec<[f64; 2]> {
     let step = PI / ((1_u64 << bits) as f64 + 1.0);
     let (mut angles, mut ratio, mut rest) = (Vec::new(), 1.0, 0.0);

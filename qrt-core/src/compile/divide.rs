@@ -8,7 +8,7 @@ use qrt_circuit::{Bit, Op, Operand, Type, Word};
 struct Quotient {
     /// `floor(|a| / |b|)`, in ulps.
     value: Real,
-    /// Does it fit? Elsewhere the value means nothing.
+    /// Whether the quotient fits its register. Elsewhere the value means nothing.
     fits: Bool,
     /// The greatest value of its register, in ulps.
     most: i64,
@@ -30,7 +30,7 @@ impl Builder<'_> {
     }
 
     fn quotient(&mut self, a: Word, b: Word, most: f64, range: [i64; 2]) -> Quotient {
-        // Quotient bits after the point: as many as there is room for below the dividend.
+        // Quotient bits after the point: as many as fit below the dividend.
         let fraction = self.fraction();
         let lost = (a.bits() + fraction).saturating_sub(MAX_BITS);
         let lost = lost.min(fraction);
@@ -59,7 +59,7 @@ impl Builder<'_> {
             Some(node) if lost > 0 => self.shifted(node, lost as i32),
             _ => value,
         };
-        // Proven to fit by the intervals?
+        // The intervals may prove that it fits.
         let fits = if range[1] >> lost <= all {
             Bool::Constant(true)
         } else {

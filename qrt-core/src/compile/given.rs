@@ -47,7 +47,7 @@ impl Builder<'_> {
         })
     }
 
-    /// The bit that holds `a`; none if `a` is the same on every path.
+    /// The bit that holds the truth value `a`; none if `a` is the same on every path.
     pub(crate) fn truth_bit(&mut self, a: Bool) -> Option<Bit> {
         matches!(a, Bool::Node { .. }).then(|| self.bit(a))
     }

@@ -7,13 +7,13 @@ use std::fmt;
 /// What a register is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Role {
-    /// The path index: in superposition.
+    /// The path index, in superposition.
     Id,
-    /// The comparator: in superposition.
+    /// The comparator, in superposition.
     Comparator,
     /// A value of the path: zero before the oracle and after it.
     Work,
-    /// What an operation leaves behind: zero before the oracle and after it.
+    /// The garbage of an operation: zero before the oracle and after it.
     Scratch,
     /// The path's colour, which the comparator is compared with: zero before and after.
     Colour,
@@ -41,7 +41,7 @@ impl Role {
         }
     }
 
-    /// As programs carry it.
+    /// The tag by which programs carry it.
     pub const fn tag(self) -> Tag {
         Tag(match self {
             Self::Work => 0,
@@ -70,7 +70,7 @@ impl fmt::Display for Role {
 /// A stage of the oracle, or a part of one: what a block of its program computes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum StageName {
-    /// All of it: the root.
+    /// The whole oracle: the root block.
     Oracle,
     /// The paper's *Generate Ray*: the camera's ray, or what a surface scatters.
     GenerateRay,
@@ -105,7 +105,7 @@ pub enum StageName {
 }
 
 impl StageName {
-    /// What it is called, without its number.
+    /// The stage's name, without its number.
     pub fn kind(self) -> &'static str {
         match self {
             Self::Plane(_) => "plane",
@@ -141,14 +141,14 @@ impl fmt::Display for StageName {
 /// Which block of the oracle's program it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Label {
-    /// The stage.
+    /// The stage that the block computes.
     pub stage: StageName,
-    /// The depth of the ray that it belongs to.
+    /// The number of bounces before the ray that the block belongs to; none for a block of no ray.
     pub depth: Option<u32>,
 }
 
 impl Label {
-    /// Of the stages that blocks can be, those without a number, by their place in a tag.
+    /// The stages without a number that blocks can be, by their number in a tag.
     const PLAIN: [StageName; 10] = [
         StageName::Oracle,
         StageName::GenerateRay,
@@ -182,7 +182,8 @@ impl Label {
         }
     }
 
-    /// As programs carry it: the stage's number, the depth and one, the kind of stage.
+    /// The tag by which programs carry it: the stage's number, the depth and one, the kind of
+    /// stage.
     pub fn tag(self) -> Tag {
         let (kind, number) = match self.stage {
             StageName::Plane(number) => (0xff, number),
@@ -213,22 +214,22 @@ impl Label {
 pub enum PixelWord {
     /// The XOR shift of a sample coordinate, its top `bits` bits.
     Shift {
-        /// Depth of the ray.
+        /// The number of bounces before the ray.
         depth: usize,
-        /// 0: u, 1: v.
+        /// The coordinate's axis: 0 for u, 1 for v.
         axis: usize,
-        /// Bits of the coordinate.
+        /// How many bits the coordinate has.
         bits: u32,
     },
     /// `round((constant + along[0] column + along[1] row) 2^fraction) mod 2^width`
     Affine {
-        /// At the film's upper left corner.
+        /// The value at the film's upper left corner.
         constant: f64,
-        /// Its change per column and per row.
+        /// The change of the value per column and per row.
         along: [f64; 2],
-        /// Bits after the point.
+        /// How many bits are after the point.
         fraction: u32,
-        /// Bits in all.
+        /// How many bits there are in all.
         width: u32,
     },
 }
@@ -246,7 +247,7 @@ impl PixelWord {
         qrt_circuit::Parameter { name, width }
     }
 
-    /// Its bits in pixel (column, row).
+    /// The parameter's bits in pixel (column, row).
     pub fn value(&self, points: &PathPoints, seed: u64, pixel: [u32; 2]) -> u64 {
         match *self {
             Self::Shift { depth, axis, bits } => {

@@ -65,7 +65,7 @@ const FEW: usize = 10;
 /// The type and the width of an operation's result, before it has a register.
 type Shape = (Type, u32);
 
-/// What an operation leaves behind, before its width is known.
+/// The shape of an operation's garbage, before its width is known.
 const GARBAGE: Shape = (Type::Scratch, 0);
 
 /// Why a scene has no circuit.
@@ -76,9 +76,9 @@ pub enum BuildError {
     UnboundedQuotient,
     /// A number that needs more than 62 bits.
     TooWide {
-        /// What it is.
+        /// What kind of number it is.
         what: &'static str,
-        /// Bits it needs.
+        /// How many bits it needs.
         bits: u32,
     },
 }
@@ -107,43 +107,44 @@ impl std::error::Error for BuildError {}
 /// What a program is built for.
 #[derive(Clone, Copy, Debug)]
 pub struct Target<'a> {
-    /// Fraction bits of every number.
+    /// How many fraction bits every number has.
     pub fraction: u32,
-    /// How operations that leave something behind are lowered.
+    /// How operations that have garbage are lowered.
     pub style: Style,
     /// The paths of a pixel.
     pub points: &'a PathPoints,
-    /// Columns and rows.
+    /// Columns and rows of the film.
     pub film: [u32; 2],
-    /// Primitives.
+    /// One more than the greatest number of a face that a ray can meet.
     pub faces: u32,
-    /// What is done on the way.
+    /// What is done to make the program cheaper.
     pub passes: Passes,
 }
 
-/// What the builder does to make a program cheaper. All of it, unless the price of a pass is asked.
+/// What the builder does to make a program cheaper. All passes are on, unless the saving of one is
+/// to be measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[allow(clippy::struct_excessive_bools)] // Each is a pass that can be left out.
 pub struct Passes {
-    /// Equal values are computed once.
+    /// Whether equal values are computed once.
     pub share: bool,
-    /// Functions of few bits stay tables where these are cheaper.
+    /// Whether functions of few bits stay tables where these are cheaper.
     pub tabulate: bool,
-    /// What nothing needs vanishes.
+    /// Whether operations that nothing needs are removed.
     pub needed: bool,
-    /// Tables of one address become one.
+    /// Whether tables of one address become one.
     pub merge: bool,
 }
 
 impl Passes {
-    /// All of them.
+    /// All passes.
     pub const ALL: Self = Self {
         share: true,
         tabulate: true,
         needed: true,
         merge: true,
     };
-    /// None.
+    /// No passes.
     pub const NONE: Self = Self {
         share: false,
         tabulate: false,
@@ -157,7 +158,7 @@ pub struct Builder<'a> {
     target: Target<'a>,
     registers: Vec<Register>,
     blocks: Vec<Block>,
-    /// By block: is its work uncomputed at its end, under `uncompute: scoped`?
+    /// Whether the work of each block is uncomputed at its end, under `uncompute: scoped`.
     scopes: Vec<bool>,
     parameters: Vec<PixelWord>,
     ops: Vec<(Op, BlockId)>,
@@ -187,7 +188,7 @@ pub(crate) struct Recorded {
 }
 
 impl<'a> Builder<'a> {
-    /// An empty program with an id register.
+    /// A builder of an empty program, whose one input is the path index.
     pub fn new(target: Target<'a>) -> Self {
         let mut builder = Self {
             target,
@@ -219,7 +220,7 @@ impl<'a> Builder<'a> {
         builder
     }
 
-    /// Fraction bits of every number.
+    /// How many fraction bits every number has.
     pub fn fraction_bits(&self) -> u32 {
         self.target.fraction
     }
@@ -266,12 +267,12 @@ impl<'a> Builder<'a> {
         self.register(name, ty, role, width)
     }
 
-    /// Operations that were asked for, and of these, those that were there already.
+    /// How many operations were asked for, and how many of these were there already.
     pub fn sharing(&self) -> [u64; 2] {
         [self.asked, self.shared]
     }
 
-    /// The path's id.
+    /// The register of the path index.
     pub fn id(&self) -> RegisterId {
         self.id
     }

@@ -17,11 +17,11 @@ pub(super) enum Nameable {
 /// A register, or a part of one, that the tracer has a name for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NamedPlace {
-    /// The name and the ray.
+    /// The name of the value, and the ray that it belongs to.
     pub name: Named,
-    /// Which component of a vector.
+    /// Which component of a vector it is: 0, 1 or 2.
     pub component: usize,
-    /// Where it is.
+    /// The register that holds the value, and how it is read.
     pub place: Place,
 }
 
@@ -55,16 +55,17 @@ impl fmt::Display for NamedPlace {
 pub enum Place {
     /// `-1^negated word 2^-fraction + offset[0] + offset[1] column + offset[2] row`
     Number {
-        /// The bits.
+        /// The bits that are read.
         word: Word,
-        /// Is the number's negative there?
+        /// Whether the register holds the number's negative.
         negated: bool,
-        /// What is not in the register: the same on all paths of a pixel.
+        /// The part that is not in the register, being the same on all paths of a pixel: its
+        /// constant, and its change per column and per row.
         offset: [f64; 3],
     },
-    /// A truth.
+    /// A truth value, by its bit.
     Truth(Bit),
-    /// An unsigned integer.
+    /// An unsigned integer, by its bits.
     Index(Word),
 }
 
@@ -75,8 +76,8 @@ impl Builder<'_> {
             .extend(values.map(|(component, value)| (name, component, value)));
     }
 
-    /// Named values that are in registers. What is nowhere, because a table serves instead or
-    /// because it is the same on all paths, is left out.
+    /// Named values that are in registers. A value in no register, because a table serves instead
+    /// or because it is the same on all paths, is left out.
     pub(super) fn named_places(&self) -> Vec<NamedPlace> {
         let samples = self.coordinates.iter().map(|(&(depth, v), &index)| {
             let name = Named {
@@ -141,7 +142,7 @@ impl Place {
         }
     }
 
-    /// The register.
+    /// The register of which the place is a part.
     pub fn register(&self) -> RegisterId {
         match self {
             Self::Number { word, .. } | Self::Index(word) => word.register,

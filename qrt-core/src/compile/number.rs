@@ -9,7 +9,7 @@ use qrt_circuit::{Op, Operand, Type, Word};
 pub(super) struct Plain {
     pub(super) operand: Operand,
     pub(super) range: [i64; 2],
-    /// Does it stand for its negative?
+    /// Whether the operand stands for its negative.
     pub(super) negated: bool,
 }
 
@@ -96,7 +96,7 @@ impl Builder<'_> {
         let (x, y) = (ends(offset.along[0], width), ends(offset.along[1], height));
         let low = offset.constant + x[0].min(x[1]) + y[0].min(y[1]);
         let high = offset.constant + x[0].max(x[1]) + y[0].max(y[1]);
-        // Where slopes are summed in another order the last bit may differ.
+        // Where coefficients are summed in another order the last bit may differ.
         let slack = i64::from(!offset.is_constant());
         [self.rounded(low) - slack, self.rounded(high) + slack]
     }

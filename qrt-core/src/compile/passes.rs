@@ -19,7 +19,7 @@ use std::sync::Arc;
 pub(super) struct Draft {
     pub(super) registers: Vec<Register>,
     pub(super) blocks: Vec<Block>,
-    /// By block: is its work uncomputed at its end, under `uncompute: scoped`?
+    /// Whether the work of each block is uncomputed at its end, under `uncompute: scoped`.
     pub(super) scopes: Vec<bool>,
     pub(super) ops: Vec<(Op, BlockId)>,
 }
@@ -53,7 +53,7 @@ impl Draft {
         place.checked_sub(1).map(|below| path[below])
     }
 
-    /// Gives every scratch register the width that its operation needs.
+    /// Gives every garbage register the width that its operation needs.
     pub(super) fn size_scratch(&mut self, known: &mut Known) {
         for (op, _) in &self.ops {
             let registers = &self.registers;
@@ -96,7 +96,7 @@ pub(super) fn merge_tables(draft: &mut Draft, known_of: &mut Known) {
             defined.insert(target, place);
         }
         if let Op::Table { address, style, .. } = op {
-            // Without scratch a table is there for its block alone: what another one needs of it
+            // Without garbage a table is there for its block alone: what another one needs of it
             // would have to be kept in between.
             let block = (*style == Style::InPlace).then_some(*block);
             let key = (address.to_vec(), block);
@@ -251,8 +251,8 @@ pub(super) fn schedule(
 }
 
 impl Scheduler<'_> {
-    /// The instructions of a block. A scope leaves behind nothing but copies of what is read
-    /// outside of it.
+    /// The instructions of a block. All that is left of a scope is copies of what is read outside
+    /// of it.
     fn block(&mut self, block: BlockId) -> Vec<Instruction> {
         let mut forward = Vec::new();
         for item in std::mem::take(&mut self.items[block.index()]) {
@@ -291,7 +291,7 @@ impl Scheduler<'_> {
             .into_iter()
             .filter(|register| self.read_outside(*register, block))
             .collect();
-        // A result of an operation that leaves nothing else behind may stay as it is.
+        // A result of an operation without garbage may stay as it is.
         let mut stays: HashSet<usize> = HashSet::new();
         let mut copies = Vec::new();
         for register in outside {

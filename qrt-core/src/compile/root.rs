@@ -112,8 +112,8 @@ impl Builder<'_> {
         let Operand::Word(word) = operand else {
             return Real::constant(0.0);
         };
-        // Zeros below make room for the root's fraction: as many, or two fewer for each bit that
-        // the root then lacks.
+        // Zeros below are for the root's fraction: as many, or two fewer for each bit that the root
+        // then lacks.
         let room = (MAX_BITS - 1).saturating_sub(word.bits());
         let fraction = self.fraction();
         let lost = fraction.saturating_sub(room).div_ceil(2);

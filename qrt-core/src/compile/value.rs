@@ -32,7 +32,7 @@ pub(super) struct Truth {
 /// A small unsigned integer of the path.
 #[derive(Clone, Debug)]
 pub(super) struct Choice {
-    /// It is below this.
+    /// The bound that the integer is below.
     pub(super) bound: u32,
     pub(super) word: Option<Word>,
     pub(super) table: Option<Tabulated>,
@@ -135,11 +135,11 @@ impl Real {
 pub enum Bool {
     /// The same on all paths.
     Constant(bool),
-    /// A bit of the path.
+    /// A truth value of the path, by its node or that node's negation.
     Node {
-        /// Its place in the builder's list.
+        /// The node's index in the builder's list.
         node: u32,
-        /// Is it negated?
+        /// Whether the node's negation is meant.
         inverted: bool,
     },
 }
@@ -168,7 +168,7 @@ impl Bool {
 pub enum Index {
     /// The same on all paths.
     Constant(u32),
-    /// Of the path: its place in the builder's list.
+    /// An integer of the path, by its index in the builder's list.
     Node(u32),
 }
 

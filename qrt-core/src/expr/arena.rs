@@ -11,7 +11,7 @@ pub(super) struct Arena {
 }
 
 impl Arena {
-    /// The id of `node`, an old one if there is an equal.
+    /// Adds `node`, unless there is an equal one, and returns its index.
     pub(super) fn push(&mut self, node: Node) -> Id {
         *self.known.entry(node.key()).or_insert_with(|| {
             self.nodes.push(node);
@@ -19,7 +19,7 @@ impl Arena {
         })
     }
 
-    /// A number.
+    /// Adds a number.
     pub(super) fn number(&mut self, value: f64) -> Id {
         self.push(Node::Number(value))
     }

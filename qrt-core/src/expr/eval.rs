@@ -5,12 +5,12 @@
 use super::{Expr, Function, Id, Node, VariableSet, Variables};
 
 impl Expr {
-    /// Its value: NaN or infinite where it has none.
+    /// The expression's value: NaN or infinite where it has none.
     pub fn eval(&self, at: &Variables) -> f64 {
         self.eval_in(at, &mut Vec::new())
     }
 
-    /// As [`Expr::eval`], with room for the values of its nodes that can be used again.
+    /// As [`Expr::eval`], with memory for the values of its nodes that can be used again.
     pub fn eval_in(&self, at: &Variables, values: &mut Vec<f64>) -> f64 {
         values.clear();
         for node in &self.nodes {
@@ -20,7 +20,7 @@ impl Expr {
         values[self.root.index()]
     }
 
-    /// The variables that node `id` depends on.
+    /// The variables that the value of node `id` depends on.
     pub fn variables(&self, id: Id) -> VariableSet {
         self.node_variables()[id.index()]
     }
@@ -43,7 +43,7 @@ impl Expr {
 }
 
 impl Node {
-    /// Its value, given those of its operands.
+    /// The node's value, given those of its operands.
     pub fn value(&self, at: &Variables, of: impl Fn(Id) -> f64) -> f64 {
         match *self {
             Self::Number(value) => value,
@@ -76,7 +76,7 @@ impl Node {
 }
 
 impl Function {
-    /// Its value.
+    /// The function's value at `x`.
     pub fn value(self, x: f64) -> f64 {
         match self {
             Self::Sin => libm::sin(x),

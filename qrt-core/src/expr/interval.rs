@@ -1,4 +1,5 @@
-//! Intervals: bounds of an expression over a box, rounded outward so that they are proofs.
+//! Intervals: bounds of an expression over intervals of its variables, rounded outward so that they
+//! are proofs.
 //!
 //! Every operation encloses all values that it has for operands within theirs; where it has none
 //! (the root of a negative number) it encloses nothing. Bounds are infinite where none is known.
@@ -145,17 +146,17 @@ impl std::ops::Neg for Interval {
     }
 }
 
-/// Libm's functions are right to an ulp; four leave room.
+/// Libm's functions are right to an ulp; four leave a margin.
 const LIBM_ULPS: u32 = 4;
 
 impl Interval {
-    /// Every number.
+    /// The interval of all numbers.
     pub const ALL: Self = Self {
         lo: f64::NEG_INFINITY,
         hi: f64::INFINITY,
     };
 
-    /// One number alone.
+    /// The interval of one number alone.
     pub fn point(value: f64) -> Self {
         Self {
             lo: value,
@@ -209,7 +210,7 @@ impl Interval {
         }
     }
 
-    /// All sums.
+    /// The interval of all sums of two numbers, one of each interval.
     pub fn plus(self, other: Self) -> Self {
         // Knuth's exact sum: what rounding lost of a + b.
         let sum = |a: f64, b: f64| {
@@ -223,7 +224,7 @@ impl Interval {
         }
     }
 
-    /// All products.
+    /// The interval of all products of two numbers, one of each interval.
     pub fn times(self, other: Self) -> Self {
         let product = |a: f64, b: f64| {
             // The bound 0 times the bound infinity is 0: infinity stands for large numbers.

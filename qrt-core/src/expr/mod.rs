@@ -44,7 +44,7 @@ pub use interval::{Domain, Interval};
 pub use parse::{MAX_DEPTH, MAX_LENGTH, function_names};
 use std::ops;
 
-/// The place of a [`Node`] in [`Expr::nodes`].
+/// The index of a [`Node`] in [`Expr::nodes`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Id(u32);
 
@@ -71,12 +71,12 @@ pub enum Variable {
 }
 
 impl Variable {
-    /// All of them.
+    /// All of these, in the order of their definition.
     pub const ALL: [Self; 5] = [Self::U, Self::V, Self::CosI, Self::CosO, Self::CosA];
-    /// Those of a map or a Jacobian.
+    /// The variables of a map or a Jacobian.
     pub const SQUARE: [Self; 2] = [Self::U, Self::V];
 
-    /// As it is written.
+    /// The name by which it is written in a formula.
     pub fn name(self) -> &'static str {
         match self {
             Self::U => "u",
@@ -93,7 +93,7 @@ impl Variable {
 pub struct VariableSet(u8);
 
 impl VariableSet {
-    /// None.
+    /// The empty set.
     pub const EMPTY: Self = Self(0);
     /// `u` and `v`.
     pub const SQUARE: Self = Self(1 << Variable::U as u8 | 1 << Variable::V as u8);
@@ -106,7 +106,7 @@ impl VariableSet {
     pub fn contains(self, variable: Variable) -> bool {
         self.0 & Self::of(variable).0 != 0
     }
-    /// Those of both.
+    /// The variables that are in this set, in `other` or in both.
     pub fn union(self, other: Self) -> Self {
         Self(self.0 | other.0)
     }
@@ -118,7 +118,7 @@ impl VariableSet {
     pub fn is_empty(self) -> bool {
         self.0 == 0
     }
-    /// Its members in the order of [`Variable::ALL`].
+    /// The set's members in the order of [`Variable::ALL`].
     pub fn iter(self) -> impl Iterator<Item = Variable> {
         Variable::ALL.into_iter().filter(move |v| self.contains(*v))
     }
@@ -164,7 +164,7 @@ pub enum Function {
 }
 
 impl Function {
-    /// All of them.
+    /// All of these, in the order of their definition.
     pub const ALL: [Self; 8] = [
         Self::Sin,
         Self::Cos,
@@ -176,7 +176,7 @@ impl Function {
         Self::Log,
     ];
 
-    /// As it is written.
+    /// The name by which it is written in a formula.
     pub fn name(self) -> &'static str {
         match self {
             Self::Sin => "sin",
@@ -234,7 +234,7 @@ impl Expr {
         })
     }
 
-    /// The number pi.
+    /// The constant pi.
     pub fn pi() -> Self {
         Self {
             nodes: vec![Node::Number(std::f64::consts::PI)],
@@ -260,7 +260,7 @@ impl Expr {
         self.root
     }
 
-    /// Its value, where it is a plain number.
+    /// The expression's value, where it is a plain number.
     pub fn constant(&self) -> Option<f64> {
         match self.nodes[self.root.index()] {
             Node::Number(value) => Some(value),
@@ -268,27 +268,27 @@ impl Expr {
         }
     }
 
-    /// The absolute value of it.
+    /// The absolute value of this expression.
     pub fn abs(&self) -> Self {
         self.with(self, |a, _| Node::Abs(a))
     }
 
-    /// The square root of it.
+    /// The square root of this expression.
     pub fn sqrt(&self) -> Self {
         self.with(self, |a, _| Node::Sqrt(a))
     }
 
-    /// The function `f` of it.
+    /// The function `f` of this expression.
     pub fn apply(&self, f: Function) -> Self {
         self.with(self, |a, _| Node::Function(f, a))
     }
 
-    /// An integer power of it.
+    /// An integer power of this expression.
     pub fn powi(&self, power: i32) -> Self {
         self.with(self, |a, _| Node::Powi(a, power))
     }
 
-    /// `then` where it is less than `other`, `otherwise` elsewhere.
+    /// `then` where this expression is less than `other`, `otherwise` elsewhere.
     pub fn if_less(&self, other: &Self, then: &Self, otherwise: &Self) -> Self {
         let mut arena = Arena::default();
         let [a, b, x, y] = [self, other, then, otherwise].map(|operand| arena.import(operand));
@@ -296,7 +296,7 @@ impl Expr {
         arena.finish(root)
     }
 
-    /// It, with `variable` replaced by `by`.
+    /// This expression with `variable` replaced by `by`.
     pub fn substitute(&self, variable: Variable, by: &Self) -> Self {
         let mut arena = Arena::default();
         let by = arena.import(by);

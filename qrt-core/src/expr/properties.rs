@@ -173,7 +173,7 @@ fn derivatives_agree_with_differences() {
     });
 }
 
-/// The slope by central differences, extrapolated to a step of 0 (Richardson), and by how much
+/// The derivative by central differences, extrapolated to a step of 0 (Richardson), and by how much
 /// the steps disagree; `None` where the expression is not finite nearby.
 fn difference(e: &Expr, variable: Variable, at: &Variables) -> Option<(f64, f64)> {
     let moved = |by: f64| {

@@ -29,25 +29,25 @@ pub struct Files<'a> {
 
 #[derive(Clone, Copy, Debug)]
 enum Origin<'a> {
-    /// Below a folder.
+    /// The files below a folder on disk.
     Disk(&'a Path),
-    /// Names and contents.
+    /// Files that a program holds, by name and contents.
     Held(&'a [(&'a str, &'a [u8])]),
 }
 
 impl<'a> Files<'a> {
-    /// Those of a folder on disk, which relative names start from.
+    /// The files of a folder on disk, which relative names start from.
     pub fn of_folder(folder: &'a Path) -> Self {
         Self::below(Path::new(""), folder)
     }
 
-    /// Those of `folder`, itself relative to `root`; errors call them as seen from `root`.
+    /// The files of `folder`, itself relative to `root`; errors call them as seen from `root`.
     pub fn below(root: &'a Path, folder: &'a Path) -> Self {
         let origin = Origin::Disk(root);
         Self { folder, origin }
     }
 
-    /// These names and contents, and no others.
+    /// The files of these names and contents, and no others.
     pub fn held(files: &'a [(&'a str, &'a [u8])]) -> Self {
         Self {
             folder: Path::new(""),

@@ -19,9 +19,9 @@ pub const MAX_BYTES: u64 = 16 << 20;
 /// A scene that was read and checked, with the text it came from.
 #[derive(Clone, Debug)]
 pub struct Loaded {
-    /// The scene.
+    /// The scene, checked.
     pub valid: ValidScene,
-    /// Its text as written.
+    /// The scene's text as it was read.
     pub source: Source,
     /// Texts of overrides.
     overrides: Vec<Source>,

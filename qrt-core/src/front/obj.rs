@@ -1,9 +1,9 @@
 //! Meshes from Wavefront OBJ files, with the materials of their MTL files.
 //!
 //! `tobj` reads the shape, but it accepts what is no mesh (NaN vertices, faces of two corners),
-//! knows no continued lines and no comment behind a statement, and names no line. So it reads
-//! through a `Scanner`, which checks each statement and hands on vertices and faces; the faces
-//! are then cut into triangles (`polygon`).
+//! knows no continued lines and no comment after a statement, and names no line. So it reads
+//! through a `Scanner`, which checks each statement and hands on vertices and faces; the faces are
+//! then cut into triangles (`polygon`).
 //!
 //! Of a material, `Kd` is the albedo of a Lambertian surface and `Ke` its radiance; what an MTL
 //! file says about highlights and transparency has no part in a scene. `tobj` panics on a colour

@@ -67,7 +67,7 @@ pub fn read(source: &Source, number: u32, problems: &mut Problems) -> Option<Ove
 }
 
 /// Puts the override's value into the tree. A key that is not there is added (blocks that may be
-/// left out are filled with their defaults); a step that leads nowhere is reported.
+/// left out are filled with their defaults); a step that leads to nothing is reported.
 pub fn apply(tree: &mut Node, set: Override, problems: &mut Problems) {
     let defaults = defaults();
     let mut default = Some(&defaults);

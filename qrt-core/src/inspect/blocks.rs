@@ -9,18 +9,19 @@ use std::collections::HashMap;
 /// A block of the program, and what it costs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct BlockFigures {
-    /// Its place in the program's list; the first of several of one path.
+    /// The block's index in the program's list; the first of several of one name within the same
+    /// block.
     pub block: BlockId,
-    /// The names of the blocks around it and its own, from below the root, each with its depth
-    /// where it brings one: `find_intersection 1/plane 3`. The root's is `oracle`.
+    /// The names of the blocks around it and its own, from below the root, each with the bounce
+    /// where it has one: `find_intersection 1/plane 3`. The root's is `oracle`.
     pub path: String,
-    /// Its stage and the depth it belongs to.
+    /// The block's stage and the bounce that it belongs to.
     pub label: Label,
-    /// Blocks around it.
+    /// How many blocks are around it: 0 for the root.
     pub level: u32,
-    /// Of the whole call, without the blocks within it.
+    /// What the block costs in the whole call, without the blocks within it.
     pub own: Cost,
-    /// Of the whole call, the blocks within it included.
+    /// What the block costs in the whole call, the blocks within it included.
     pub total: Cost,
     /// [`BlockFigures::total`] in the compute part alone.
     pub compute: Cost,
@@ -51,7 +52,7 @@ impl Inspection {
             }
         }
         let mut total = own.clone();
-        // A block stands behind the one around it in the list.
+        // A block stands after the one around it in the list.
         for place in (1..blocks.len()).rev() {
             if let Some(parent) = blocks[place].parent
                 && one[place] == place

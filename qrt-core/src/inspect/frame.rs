@@ -1,7 +1,7 @@
 //! The call in the paper's frame: wires and boxes, found in the program.
 //!
-//! A wire is a bundle of qubits. The id, the comparator, the colour and the flag have wires of
-//! their own; so has what each box computes *and another box reads*. All other qubits, with the
+//! A wire is a bundle of qubits. The path index, the comparator, the colour and the flag have wires
+//! of their own; so has what each box computes *and another box reads*. All other qubits, with the
 //! ancillas that operations borrow, are the wire `work`.
 
 use super::{Inspection, Part, Stage};
@@ -13,28 +13,28 @@ use std::collections::BTreeSet;
 /// A bundle of qubits.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Wire {
-    /// What it is called: `id`, `ray_0`, `nearest_0`, `colour`.
+    /// The wire's name: `id`, `ray_0`, `nearest_0`, `colour`.
     pub name: String,
-    /// The depth it belongs to.
+    /// The bounce that the wire belongs to, 0 for the primary ray; none for a wire of no ray.
     pub depth: Option<u32>,
-    /// Its qubits.
+    /// How many qubits the wire is a bundle of.
     pub qubits: u64,
-    /// Does it hold something before the first box?
+    /// Whether the wire holds something before the first box.
     pub input: bool,
 }
 
-/// A box.
+/// A box of the paper's figure: a stage of the call.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FrameBox {
-    /// What it is called: `Find Intersection 0`.
+    /// The title of the box: `Find Intersection 0`.
     pub name: String,
     /// The stage of the oracle.
     pub stage: StageName,
     /// The part of the call.
     pub part: Part,
-    /// Is it the inverse of another?
+    /// Whether the box is the inverse of another.
     pub inverse: bool,
-    /// What it costs.
+    /// What the box costs in gates.
     pub cost: Cost,
     /// The wires that it reads and does not change, from the top.
     pub reads: Vec<usize>,
@@ -44,14 +44,14 @@ pub struct FrameBox {
 
 /// The call as boxes on wires.
 ///
-/// The id, the comparator, the colour and the flag have wires of their own; so has what each box
-/// computes and another box reads. All other qubits, with the ancillas that operations borrow, are
-/// the wire `work`.
+/// The path index, the comparator, the colour and the flag have wires of their own; so has what
+/// each box computes and another box reads. All other qubits, with the ancillas that operations
+/// borrow, are the wire `work`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Frame {
-    /// From the top; the last is `work`.
+    /// The wires from the top; the last is `work`.
     pub wires: Vec<Wire>,
-    /// From the left.
+    /// The boxes from the left, in the order in which they run.
     pub boxes: Vec<FrameBox>,
 }
 
@@ -60,7 +60,7 @@ pub struct Frame {
 enum Bundle {
     Id,
     Comparator,
-    /// Of a stage, by its place.
+    /// What a stage computes, by the stage's index.
     Of(usize),
     Colour,
     Flag,
@@ -112,7 +112,7 @@ impl Frame {
                 reads.extend(op.reads().into_iter().map(place));
                 writes.extend(op.fresh().into_iter().map(place));
             }
-            // A sign is turned, nothing is computed.
+            // A phase is flipped, nothing is computed.
             let wire = |bundle: &Bundle| order.iter().position(|known| known == bundle);
             FrameBox {
                 name: title(stage),
@@ -177,7 +177,7 @@ fn bundles(inspection: &Inspection, stages: &[Stage]) -> Vec<Bundle> {
     registers.iter().enumerate().map(bundle).collect()
 }
 
-/// The most qubits in use beside those of the other wires.
+/// How many qubits `work` has: the most in use beside those of the other wires.
 fn work(inspection: &Inspection, bundles: &[Bundle]) -> u64 {
     let instructions = inspection.whole.instructions.len();
     let mut change = vec![0_i64; instructions + 1];

@@ -1,8 +1,8 @@
 //! Where each register is, and when: the register map.
 //!
 //! Registers are laid out contiguously in the order in which they are computed: each on the lowest
-//! qubits that are free side by side. Under `keep`, where nothing is returned before everything
-//! is, that places one above the other; under `scoped` the qubits of finished scopes are taken
+//! qubits that are free side by side. Under `keep`, where nothing is returned before everything is,
+//! that places one above the other; under `scoped` the qubits of finished scopes are allocated
 //! again. A lowering to gates may scatter a register over single free qubits, and then needs no
 //! more of them than are in use; the map, whose registers stay whole, can be a little higher.
 
@@ -14,9 +14,9 @@ use std::ops::Range;
 /// a scope computes is computed again when the scope is undone.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Lifetime {
-    /// The register.
+    /// The register that is computed and uncomputed.
     pub register: RegisterId,
-    /// Its first qubit in the layout.
+    /// The register's first qubit in the layout.
     pub offset: u32,
     /// From the instruction that computes it to the one that uncomputes it.
     pub instructions: Range<usize>,
@@ -31,16 +31,17 @@ pub struct Lifetime {
 /// placement reaches.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Layout {
-    /// In the order in which they begin.
+    /// The lifetimes, in the order in which they begin.
     pub lifetimes: Vec<Lifetime>,
-    /// Qubits of the layout.
+    /// How many qubits the layout has.
     pub height: u32,
-    /// By register: its first qubit when it is first computed; none for what the program lacks.
+    /// The first qubit of each register when it is first computed; none for a register that the
+    /// program does not compute.
     offsets: Vec<Option<u32>>,
 }
 
 impl Layout {
-    /// The layout of a program. Inputs come first and stay.
+    /// Lays out a program. Inputs come first and stay.
     pub fn of(program: &Program) -> Self {
         let end = program.instructions.len();
         let mut layout = Self {
@@ -79,7 +80,7 @@ impl Layout {
         self.offsets.get(register.index()).copied().flatten()
     }
 
-    /// Registers that the program has.
+    /// How many registers the layout places.
     pub fn registers(&self) -> u64 {
         self.offsets.iter().flatten().count() as u64
     }
@@ -111,7 +112,7 @@ struct Free {
 }
 
 impl Free {
-    /// The lowest run of `width` qubits.
+    /// Allocates the lowest free run of `width` qubits.
     fn take(&mut self, width: u32) -> u32 {
         let found = self.runs.iter().find(|&(_, &length)| length >= width);
         if let Some((&start, &length)) = found {

@@ -27,7 +27,7 @@ use qrt_circuit::Program;
 use qrt_circuit::lower::{self, Cost};
 use std::ops::Range;
 
-/// Names of the channels.
+/// The names of the channels, in their order.
 pub const CHANNELS: [&str; 3] = ["r", "g", "b"];
 
 /// One call of a channel's oracle, with what it costs.
@@ -35,17 +35,19 @@ pub const CHANNELS: [&str; 3] = ["r", "g", "b"];
 pub struct Inspection {
     /// The channel: 0 red, 1 green, 2 blue.
     pub channel: usize,
-    /// The oracle.
+    /// The oracle of that channel.
     pub oracle: Oracle,
     /// `O_f`: all its instructions.
     pub whole: Program,
-    /// By instruction: its cost.
+    /// What each instruction of the call costs in gates.
     pub costs: Vec<Cost>,
-    /// By instruction: qubits in use while it runs, its own ancillas included.
+    /// How many qubits are in use while each instruction of the call runs, its own ancillas
+    /// included.
     pub in_use: Vec<u32>,
-    /// Qubits: the most that are in use at any time.
+    /// How many qubits the call needs: the most that are in use at any time.
     pub qubits: u32,
-    /// Toffolis on the longest chain of gates of which each waits for the one before.
+    /// The Toffoli depth: Toffolis on the longest chain of gates of which each waits for the one
+    /// before.
     pub toffoli_depth: u64,
     /// Where each register is, and when.
     pub layout: Layout,
@@ -92,7 +94,7 @@ impl Inspection {
         })
     }
 
-    /// The cost of all of it.
+    /// What the whole call costs in gates.
     pub fn total(&self) -> Cost {
         self.costs.iter().copied().sum()
     }
@@ -152,7 +154,7 @@ impl Inspection {
         (roles, ancillas)
     }
 
-    /// What each pass takes away, one added after the other.
+    /// How much each pass makes the call cheaper, one added after the other.
     ///
     /// # Errors
     /// As [`Oracle::new`]; a pass can be what makes a scene's numbers fit.
@@ -161,7 +163,7 @@ impl Inspection {
     }
 }
 
-/// A channel that may be the dearest.
+/// A channel that may be the most expensive.
 struct Candidate {
     channel: usize,
     oracle: Oracle,

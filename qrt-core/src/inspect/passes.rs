@@ -1,4 +1,4 @@
-//! What each pass takes away.
+//! How much each pass makes a call of the oracle cheaper.
 
 use super::Inspection;
 use crate::compile::Passes;
@@ -6,16 +6,16 @@ use crate::oracle::{Options, Oracle, OracleError};
 use crate::valid::ValidScene;
 use qrt_circuit::lower::{self, Cost};
 
-/// The call after a pass was added to those before it.
+/// The cost of a call of the oracle after a pass was added to those before it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PassFigures {
-    /// The pass: `none`, `share`, `tabulate`, `needed`, `merge`.
+    /// The name of the pass: `none`, `share`, `tabulate`, `needed`, `merge`.
     pub name: &'static str,
-    /// Toffolis of the call.
+    /// How many Toffolis the call has.
     pub toffoli: u64,
-    /// Operations of the compute part.
+    /// How many operations the compute part has.
     pub ops: u64,
-    /// Qubits of the call.
+    /// How many qubits the call needs.
     pub qubits: u32,
 }
 

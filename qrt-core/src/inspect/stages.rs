@@ -1,4 +1,4 @@
-//! The boxes of the paper's Path Tracing frame, found in the order of a program's instructions.
+//! The stages of the paper's Path Tracing frame, found in the order of a program's instructions.
 
 use super::Inspection;
 use crate::compile::{Label, StageName};
@@ -10,19 +10,19 @@ use std::ops::Range;
 /// A part of one call of the oracle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Part {
-    /// From the id to the colour.
+    /// Computes the colour from the path index.
     Compute,
-    /// Compares the colour, flips the phase, undoes the comparison.
+    /// Compares the colour with the comparator, flips the phase, and uncomputes the comparison.
     Flip,
-    /// Compute, backwards.
+    /// Uncomputes what the first part computed.
     Uncompute,
 }
 
 impl Part {
-    /// All of them, in order.
+    /// All parts, in the order in which they run.
     pub const ALL: [Self; 3] = [Self::Compute, Self::Flip, Self::Uncompute];
 
-    /// What it is called.
+    /// The part's name.
     pub fn name(self) -> &'static str {
         match self {
             Self::Compute => "compute",
@@ -32,25 +32,27 @@ impl Part {
     }
 }
 
-/// A run of instructions that belong together: a box of the frame.
+/// A stage of the oracle: a run of instructions that belong together, and a box of the paper's
+/// figure.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Stage {
     /// The part of the call.
     pub part: Part,
-    /// That of its block, or [`StageName::Surface`], [`StageName::Compare`], [`StageName::Flip`].
+    /// The name of the stage's block, or [`StageName::Surface`], [`StageName::Compare`],
+    /// [`StageName::Flip`].
     pub name: StageName,
-    /// The depth it belongs to.
+    /// The bounce that the stage belongs to, 0 for the primary ray; none for a stage of no ray.
     pub depth: Option<u32>,
     /// Its block; none for what stands between blocks. What the frame does after other blocks, such
     /// as ending a path, is little and counted with them.
     pub block: Option<BlockId>,
-    /// Is it the inverse of another?
+    /// Whether the stage is the inverse of another.
     pub inverse: bool,
-    /// Its instructions.
+    /// The range of the call's instructions that the stage is.
     pub instructions: Range<usize>,
-    /// What they cost.
+    /// What the instructions cost in gates.
     pub cost: Cost,
-    /// The most qubits in use while it runs.
+    /// The most qubits in use while the stage runs.
     pub qubits: u32,
 }
 
@@ -66,7 +68,7 @@ impl fmt::Display for Stage {
 }
 
 impl Inspection {
-    /// The boxes, in the order in which they run. Their instructions are all instructions of the
+    /// The stages, in the order in which they run. Their instructions are all instructions of the
     /// call, each once.
     pub fn stages(&self) -> Vec<Stage> {
         let mut stages: Vec<Stage> = Vec::new();

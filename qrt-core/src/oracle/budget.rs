@@ -8,16 +8,16 @@ use crate::valid::ValidScene;
 use qrt_circuit::{Op, RegisterId, lower};
 use std::collections::HashMap;
 
-/// What one call of an oracle takes.
+/// What one call of an oracle costs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CallCost {
-    /// Qubits: the most in use at any time.
+    /// How many qubits a call needs: the most in use at any time.
     pub qubits: u64,
-    /// Toffoli gates.
+    /// How many Toffoli gates a call has.
     pub toffoli: u64,
 }
 
-/// What a call of the dearest of these oracles takes, all of them of one channel.
+/// The cost of a call of the most expensive of these oracles, each of which is of one channel.
 pub fn call_cost(channels: &[Oracle]) -> CallCost {
     // Oracles of one scene share most of their operations.
     let mut known: HashMap<RegisterId, (Op, u64)> = HashMap::new();
@@ -55,8 +55,8 @@ pub fn call_cost(channels: &[Oracle]) -> CallCost {
     }
 }
 
-/// The limits of the scene's `budget` that a call goes beyond, each with what could be done about
-/// it. [`crate::front::Loaded::report`] shows them in the scene.
+/// Reports the limits of the scene's `budget` that a call exceeds, each with what could be done
+/// about it. [`crate::front::Loaded::report`] shows them in the scene.
 ///
 /// # Errors
 /// At least one limit is exceeded.
@@ -87,7 +87,7 @@ pub fn check_budget(scene: &ValidScene, spent: CallCost) -> Result<(), Vec<Probl
 }
 
 impl OracleError {
-    /// What is wrong with the scene. [`crate::front::Loaded::report`] shows it there.
+    /// This error as a problem of the scene, where [`crate::front::Loaded::report`] shows it.
     pub fn problem(&self) -> Problem {
         let root = Path::root();
         match self {

@@ -18,13 +18,13 @@ use std::marker::PhantomData;
 /// The code is there once, generic over the [`Machine`] that runs it: a [`Recorder`] makes the
 /// program of it again, and a machine of lanes computes with it.
 pub trait CompiledOracle: Sized + 'static {
-    /// What the code leaves open.
+    /// What of the oracle is not in the code: its registers, blocks and channels.
     const OUTLINE: &'static Outline;
 
-    /// The scene.
+    /// The scene that the oracle was compiled from.
     fn scene() -> &'static ValidScene;
 
-    /// Computes a path's registers from its id, lets `apply` read them, and uncomputes them.
+    /// Computes a path's registers from its index, lets `apply` read them, and uncomputes them.
     ///
     /// Computed registers exist in `apply` alone: they can neither be kept nor be forgotten.
     fn within<M: Machine, T>(
@@ -41,7 +41,7 @@ pub trait CompiledOracle: Sized + 'static {
         PathPoints::new(&Self::scene().scene().sampling)
     }
 
-    /// The program that the code stands for: from a path's id to its colours.
+    /// The program that the code stands for: from a path index to the path's colours.
     fn program() -> Program {
         let outline = Self::OUTLINE;
         let mut recorder = outline.recorder();
@@ -77,46 +77,46 @@ pub trait CompiledOracle: Sized + 'static {
 /// A block as it is declared in code: see [`Block`].
 #[derive(Clone, Copy, Debug)]
 pub struct BlockDeclaration {
-    /// The block around it.
+    /// The block around this one; none for the root.
     pub parent: Option<BlockId>,
-    /// What it is called.
+    /// The block's name.
     pub name: &'static str,
-    /// Its [`crate::compile::Label`].
+    /// The block's [`crate::compile::Label`], as a tag.
     pub tag: Tag,
 }
 
 /// What is known of a compiled oracle beside its code.
 #[derive(Debug)]
 pub struct Outline {
-    /// All registers.
+    /// All registers of the program, in its order.
     pub registers: &'static [Declaration],
-    /// All blocks.
+    /// All blocks of the program, in its order.
     pub blocks: &'static [BlockDeclaration],
-    /// By operation, in the order of [`Program::ops`], its first target; empty where that is the
-    /// order in which they run first.
+    /// The first target of each operation, in the order of [`Program::ops`]; empty where that is
+    /// the order in which they run first.
     pub order: &'static [RegisterId],
-    /// All classical parameters.
+    /// All classical parameters of the program, in its order.
     pub parameters: &'static [PixelWord],
-    /// How operations that leave something behind are lowered.
+    /// How operations that have garbage are lowered.
     pub style: Style,
-    /// The channels.
+    /// The channels that the program computes.
     pub channels: &'static [Channel],
-    /// The path's id.
+    /// The register of the path index.
     pub id: RegisterId,
-    /// The comparator.
+    /// The register of the comparator.
     pub comparator: RegisterId,
-    /// The outcome of the comparison.
+    /// The register of the outcome of the comparison, whose phase is flipped.
     pub flag: RegisterId,
-    /// Fraction bits of every number.
+    /// How many fraction bits every number has.
     pub fraction: u32,
-    /// [`Oracle::sharing`]
+    /// As [`Oracle::sharing`].
     pub sharing: [u64; 2],
-    /// [`Oracle::places`]
+    /// As [`Oracle::places`].
     pub places: &'static [NamedPlace],
 }
 
 impl Outline {
-    /// Of a scene that has none, because of its errors.
+    /// The outline of a scene that has none, because of its errors.
     pub const NONE: Self = Self {
         registers: &[],
         blocks: &[],
@@ -170,7 +170,7 @@ impl Outline {
         program
     }
 
-    /// Declares the inputs, and returns the id.
+    /// Declares the inputs, and returns the register of the path index.
     pub fn inputs(&self, recorder: &mut Recorder) -> Recorded {
         let id = recorder.input(&self.registers[self.id.index()]);
         recorder.input(&self.registers[self.comparator.index()]);
@@ -178,7 +178,7 @@ impl Outline {
     }
 }
 
-/// Where a number of a path is among the registers of `S`. Its format is in its type.
+/// The place of a number of a path among the registers of `S`. The number's format is the type `T`.
 pub struct Field<S, T> {
     /// Its place in [`Outline::places`].
     place: usize,
@@ -214,7 +214,7 @@ impl<S: CompiledOracle, T: Format> Field<S, T> {
         }
     }
 
-    /// Its negative (of a truth: its negation).
+    /// The field that reads the negative of the number (of a truth: its negation).
     pub const fn negated(self) -> Self {
         Self {
             negated: true,
@@ -222,13 +222,13 @@ impl<S: CompiledOracle, T: Format> Field<S, T> {
         }
     }
 
-    /// With what is not in the register: `offset[0] + offset[1] column + offset[2] row`.
+    /// The field with what is not in the register: `offset[0] + offset[1] column + offset[2] row`.
     pub const fn plus(self, offset: [f64; 3]) -> Self {
         Self { offset, ..self }
     }
 
-    /// Its bits. A sign and what is the same on all paths of a pixel are not among them:
-    /// [`Field::value`] knows them.
+    /// The bits of the register that are the number. A sign and what is the same on all paths of a
+    /// pixel are not among them: [`Field::value`] knows them.
     pub fn word(&self) -> Word {
         self.word
     }
@@ -283,7 +283,7 @@ pub struct Computed<'a, S, R> {
 }
 
 impl<'a, S: CompiledOracle, R> Computed<'a, S, R> {
-    /// Of the registers of [`Outline::places`], and by channel the count and the colour.
+    /// The registers of [`Outline::places`], and the count and the colour of each channel.
     #[inline(always)]
     pub fn new(fields: &'a [&'a R], channels: [[Operand<&'a R>; 2]; 3]) -> Self {
         Self {
@@ -293,20 +293,20 @@ impl<'a, S: CompiledOracle, R> Computed<'a, S, R> {
         }
     }
 
-    /// A field's bits.
+    /// The bits of a field, as operations read them.
     #[inline(always)]
     pub fn word<T: Format>(&self, field: &Field<S, T>) -> Word<&'a R> {
         field.word.of(|_| self.fields[field.place])
     }
 
-    /// By channel: how many of the comparator's thresholds the colour exceeds, before it is cut to
-    /// their number.
+    /// How many of the comparator's thresholds the colour of each channel exceeds, before it is cut
+    /// to their number.
     #[inline(always)]
     pub fn counts(&self) -> [Operand<&'a R>; 3] {
         [0, 1, 2].map(|channel| copied(&self.channels[channel][0]))
     }
 
-    /// By channel: the colour, in units of `2^-fraction` of its bound.
+    /// The colour of each channel, in units of `2^-fraction` of its bound.
     #[inline(always)]
     pub fn colours(&self) -> [Operand<&'a R>; 3] {
         [0, 1, 2].map(|channel| copied(&self.channels[channel][1]))

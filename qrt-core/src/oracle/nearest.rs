@@ -1,4 +1,5 @@
-//! The oracle of nearest hits: which faces does a ray meet nearer than the nearest known?
+//! The oracle of nearest hits, which marks the faces that a ray meets nearer than the nearest
+//! known.
 
 use super::recording::target;
 use super::{Options, OracleError, register_of};
@@ -16,8 +17,8 @@ pub const MOST_FACES: usize = (1 << 16) - 1;
 
 /// The oracle of a scene's nearest hits.
 ///
-/// For a path, whose id is a basis state, it flips the phase of every basis state (primitive) whose
-/// face the path's first ray meets before all that is known so far:
+/// For a path, whose index is a basis state, it flips the phase of every basis state (primitive)
+/// whose face the path's first ray meets before all that is known so far:
 ///
 /// ```text
 /// compute        id -> ray;  primitive -> face, by table;  (ray, face) -> meets, distance
@@ -42,29 +43,30 @@ pub const MOST_FACES: usize = (1 << 16) - 1;
 /// meet nothing.
 #[derive(Clone, Debug)]
 pub struct NearestOracle {
-    /// What computes [`NearestOracle::distance`] and [`NearestOracle::nearer`].
+    /// The program that computes [`NearestOracle::distance`] and [`NearestOracle::nearer`].
     pub program: Program,
-    /// What its parameters hold in each pixel.
+    /// What the program's parameters hold in each pixel.
     pub parameters: Vec<PixelWord>,
-    /// The path's id.
+    /// The register of the path index.
     pub id: RegisterId,
-    /// The face's number: its place in [`FaceTable::labels`], which is the order in which a running
-    /// nearest asks about them.
+    /// The register of the face's number: its index in [`FaceTable::labels`], which is the order in
+    /// which a running nearest asks about them.
     pub primitive: RegisterId,
-    /// The distance of the nearest so far, in ulps.
+    /// The register of the nearest distance so far, in units of `2^-fraction`.
     pub best_distance: RegisterId,
-    /// Its number.
+    /// The register of the nearest face's number so far.
     pub best_primitive: RegisterId,
     /// The face's distance, in units of `2^-fraction` of the ray's direction; anything where the
     /// ray does not meet it.
     pub distance: Operand,
-    /// Is the face nearer than the nearest so far? None if no ray can meet any.
+    /// Whether the face is nearer than the nearest so far. None if no ray can meet any face.
     pub nearer: Option<Bit>,
-    /// What [`NearestOracle::best_distance`] holds where there is none; the number then is 0.
+    /// What [`NearestOracle::best_distance`] holds where no face has been found, in units of
+    /// `2^-fraction`; the number then is 0.
     pub t_max: u64,
-    /// By face, its label in the scene; and then that of none.
+    /// The label in the scene of each face, and after the last the label that stands for no face.
     pub labels: Vec<u32>,
-    /// Fraction bits of every number.
+    /// How many fraction bits every number has.
     pub fraction: u32,
     /// The paths of a pixel.
     pub points: PathPoints,
@@ -159,17 +161,17 @@ impl NearestOracle {
             .collect()
     }
 
-    /// P, the faces.
+    /// P, the number of faces.
     pub fn faces(&self) -> usize {
         self.labels.len() - 1
     }
 
-    /// `2^m`, the basis states that are searched.
+    /// `2^m`, the number of basis states that are searched.
     pub fn states(&self) -> usize {
         1 << self.program.width(self.primitive)
     }
 
-    /// Turns the sign where the face is nearer: what stands between compute and uncompute.
+    /// Flips the phase where the face is nearer: what stands between compute and uncompute.
     pub fn flip(&self) -> Program {
         let mut program = self.program.clone();
         let block = BlockId(program.blocks.len() as u32);
@@ -191,7 +193,7 @@ impl NearestOracle {
         program
     }
 
-    /// All of it: compute, flip, undo. One query.
+    /// The whole oracle, one query: compute, flip, uncompute.
     pub fn whole(&self) -> Program {
         let mut whole = self.flip();
         let undo = self.program.inverse().instructions;
@@ -203,7 +205,7 @@ impl NearestOracle {
         whole
     }
 
-    /// What one query costs, and the most qubits in use at any time.
+    /// What one query costs in gates, and the most qubits in use at any time.
     pub fn cost(&self) -> (Cost, u32) {
         let whole = self.whole();
         let costs = lower::tally(&whole);

@@ -6,7 +6,7 @@ use qrt_circuit::quantum::{PhaseOracle, QuantumError};
 
 impl Oracle {
     /// The circuit of channel number `channel` of [`Oracle::channels`] in pixel (column, row): its
-    /// id is the path's id and, above it, the comparator.
+    /// qubits in superposition are the path index and, above it, the comparator.
     ///
     /// # Errors
     /// No such channel.

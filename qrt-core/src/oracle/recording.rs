@@ -19,9 +19,9 @@ const CHANNELS: [&str; 4] = ["r", "g", "b", "luminance"];
 /// How the first ray's hit comes about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum PrimaryHit {
-    /// The tracer finds it.
+    /// The tracer finds the primary hit.
     Traced,
-    /// It is given in a register.
+    /// The primary hit is given in a register.
     Given,
 }
 
@@ -87,7 +87,7 @@ impl Recording {
         Self::with(scene, channels, options, first, |_, _, _| Vec::new())
     }
 
-    /// All three channels, and behind them their luminance.
+    /// All three channels, followed by their luminance.
     pub(super) fn with_luminance(
         scene: &ValidScene,
         options: Options,

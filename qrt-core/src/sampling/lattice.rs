@@ -1,4 +1,5 @@
-//! The paper's product lattice: the id is the concatenation of each depth's bits.
+//! The paper's product lattice: the path index, here `id`, is the concatenation of each depth's
+//! bits.
 //!
 //! `id = id_0 | id_1 << n_0 | ...`, depth 0 lowest, and in each depth `id_k = i | j << bits_u`: `u`
 //! below `v`, every field little-endian. Cell `i` of `2^bits` stands at its centre
@@ -14,14 +15,14 @@ use crate::scene::MAX_PATH_BITS;
 /// use qrt_core::sampling::ProductLattice;
 /// let lattice = ProductLattice::new(&[[2, 1], [0, 3]])?;
 /// assert_eq!(lattice.path_bits(), 6);
-/// // v of depth 1 is dimension 3: the three highest bits of the id.
+/// // v of depth 1 is dimension 3: the three highest bits of the path index.
 /// assert_eq!(lattice.index(3, 0b101_0_00), 0b101);
 /// assert_eq!(lattice.index(0, 0b000_0_11), 0b11);
 /// # Ok::<(), qrt_core::sampling::SamplingError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ProductLattice {
-    /// Per dimension: the lowest id bit of its field, and the field's width.
+    /// Per dimension: the lowest bit of its field of the path index, and the field's width.
     fields: Vec<(u32, u32)>,
     path_bits: u32,
 }
@@ -57,12 +58,13 @@ impl ProductLattice {
         self.fields.len()
     }
 
-    /// Bits of a path id: the sum of all coordinates' bits.
+    /// How many bits a path index has: the sum of all coordinates' bits.
     pub fn path_bits(&self) -> u32 {
         self.path_bits
     }
 
-    /// The bit of the coordinate's index that is id bit `id_bit`, or 0 if it is another's.
+    /// The bit of the coordinate's sample index that is bit `id_bit` of the path index, or 0 if
+    /// that is another coordinate's.
     ///
     /// # Panics
     /// If `dimension` is not below [`Self::dimensions`].
@@ -75,7 +77,7 @@ impl ProductLattice {
         }
     }
 
-    /// The cell of coordinate `dimension` of path `id`: its field of the id.
+    /// The cell of coordinate `dimension` of path `id`: its field of the path index.
     ///
     /// # Panics
     /// If `dimension` is not below [`Self::dimensions`].

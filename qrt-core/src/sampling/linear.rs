@@ -1,15 +1,16 @@
-//! One coordinate of a path as a linear function of its id over GF(2).
+//! One coordinate of a path as a linear function of the path index over GF(2).
 //!
-//! Both sequences are of this kind, `index = XOR of the columns of the id's set bits`, so both are
-//! compiled to CNOTs (one per set bit of a column) and a pixel's shift to Xs: no Toffoli. The
-//! renderer walks through consecutive ids, where linearity makes each index one XOR:
+//! Both sequences are of this kind, `index = XOR of the columns of the path index's set bits`, so
+//! both are compiled to CNOTs (one per set bit of a column) and a pixel's shift to Xs: no Toffoli.
+//! The renderer walks through consecutive path indices, where linearity makes each index one XOR:
 //! `index(256 h + l) = index(256 h) XOR index(l)`, the right-hand index from a table.
 
-/// Low id bits that the table covers.
+/// How many low bits of the path index the table covers.
 const BLOCK_BITS: u32 = 8;
 const BLOCK: usize = 1 << BLOCK_BITS;
 
-/// The matrix of one coordinate: column `b` holds the index bits that id bit `b` flips.
+/// The matrix of one coordinate: column `b` holds the bits of the sample index that bit `b` of the
+/// path index flips.
 #[derive(Clone, Debug)]
 pub(super) struct LinearMap {
     columns: Box<[u32]>,
@@ -17,7 +18,7 @@ pub(super) struct LinearMap {
 }
 
 impl LinearMap {
-    /// The map with these columns; id bits beyond them flip nothing.
+    /// The map with these columns; bits of the path index beyond them flip nothing.
     pub(super) fn new(columns: impl IntoIterator<Item = u32>) -> Self {
         let columns: Box<[u32]> = columns.into_iter().collect();
         let mut block = Box::new([0; BLOCK]);
@@ -31,12 +32,12 @@ impl LinearMap {
         Self { columns, block }
     }
 
-    /// The index bits that id bit `id_bit` flips.
+    /// The bits of the sample index that bit `id_bit` of the path index flips.
     pub(super) fn column(&self, id_bit: u32) -> u32 {
         self.columns.get(id_bit as usize).copied().unwrap_or(0)
     }
 
-    /// The index of path `id`.
+    /// The sample index of path `id`.
     pub(super) fn index(&self, id: u64) -> u32 {
         let mut index = 0;
         let mut rest = id;

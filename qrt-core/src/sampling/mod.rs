@@ -1,18 +1,19 @@
-//! Where a path's random numbers come from: sequences that turn a path id into cells of the unit
+//! Where a path's random numbers come from: sequences that map a path index to cells of the unit
 //! square, one square per ray.
 //!
-//! The integral over paths is the mean over `R = 2^path_bits` ids. Ray `k` of path `id` takes its
-//! coordinates `(u, v)` from dimensions `2k` and `2k + 1`; each is the index of one of `2^bits`
-//! cells and stands for its centre ([`cell_centre`]). Both sequences are linear over GF(2), up to
-//! the pixel's shift:
+//! The integral over paths is the mean over `R = 2^path_bits` path indices. Ray `k` of path `id`
+//! takes its coordinates `(u, v)` from dimensions `2k` and `2k + 1`; each is the index of one of
+//! `2^bits` cells and stands for its centre ([`cell_centre`]). Both sequences are linear over
+//! GF(2), up to the pixel's shift:
 //!
 //! `index_d(id) = shift_d ^ XOR_b id_b column_d(b)`,
 //!
-//! bit 0 of ids and of indices being the least significant. So in a circuit they cost CNOTs and Xs
-//! and not one Toffoli.
+//! bit 0 of path indices `id` and of sample indices being the least significant. So in a circuit
+//! they cost CNOTs and Xs and not one Toffoli.
 //!
-//! * [`DigitalNet`]: every id bit acts on every coordinate; the error falls almost as `1/R`.
-//! * [`ProductLattice`]: the paper's; each coordinate has id bits of its own.
+//! * [`DigitalNet`]: every bit of the path index acts on every coordinate; the error falls almost
+//!   as `1/R`.
+//! * [`ProductLattice`]: the paper's; each coordinate has bits of the path index of its own.
 
 mod joe_kuo;
 mod lattice;
@@ -107,17 +108,17 @@ impl PathPoints {
         })
     }
 
-    /// The dimension of coordinate `axis` (0: u, 1: v) of ray `depth`.
+    /// The dimension of coordinate `axis` (0: u, 1: v) of ray `depth`: `2 depth + axis`.
     pub fn dimension(depth: usize, axis: usize) -> usize {
         2 * depth + axis
     }
 
-    /// Bits of a path id: ids are `0 .. 2^path_bits`.
+    /// How many bits a path index has: path indices are `0 .. 2^path_bits`.
     pub fn path_bits(&self) -> u32 {
         self.path_bits
     }
 
-    /// Rays on a path.
+    /// How many rays a path has: one more than its bounces.
     pub fn depths(&self) -> usize {
         self.coordinates.len() / 2
     }
@@ -130,7 +131,7 @@ impl PathPoints {
         self.coordinate(depth, axis).bits
     }
 
-    /// The index bits that bit `id_bit` of the id flips.
+    /// The bits of the sample index that bit `id_bit` of the path index flips.
     ///
     /// # Panics
     /// If `depth` or `axis` is out of range.
@@ -147,12 +148,12 @@ impl PathPoints {
         }
     }
 
-    /// Do pixels shift their points?
+    /// Whether pixels shift their points.
     pub fn shifts(&self) -> bool {
         self.sequence == Sequence::DigitalNet
     }
 
-    /// The index of coordinate `axis` of ray `depth` on path `id`.
+    /// The sample index of coordinate `axis` of ray `depth` on path `id`.
     ///
     /// # Panics
     /// If `depth` or `axis` is out of range.
@@ -161,8 +162,8 @@ impl PathPoints {
         map.index(id) ^ net::top(shift, *bits) as u32
     }
 
-    /// The indices of coordinate `axis` of ray `depth` on the paths `first_id ..`, as many as
-    /// `out` holds. One XOR and one store per path, best for runs of 256 ids or more.
+    /// The sample indices of coordinate `axis` of ray `depth` on the paths `first_id ..`, as many
+    /// as `out` holds. One XOR and one store per path, best for runs of 256 paths or more.
     ///
     /// # Panics
     /// If `depth` or `axis` is out of range.
@@ -189,7 +190,7 @@ pub enum SamplingError {
     /// More coordinates than there are direction numbers.
     #[allow(missing_docs)]
     Dimensions { dimensions: usize },
-    /// More path bits than an id holds.
+    /// More path bits than a path index holds.
     #[allow(missing_docs)]
     PathBits { path_bits: u64 },
     /// A coordinate finer than an index holds.

@@ -1,13 +1,15 @@
-//! The digital net: all path bits form one id, and coordinate `d` is `C_d id` over GF(2).
+//! The digital net: all path bits form one path index, here `id`, and coordinate `d` is `C_d id`
+//! over GF(2).
 //!
 //! The matrices `C_d` are Sobol's with the direction numbers of Joe & Kuo: with `p(x) = x^s + a_1
 //! x^(s-1) + ... + 1` the dimension's primitive polynomial and `V_i = m_i 2^-i`,
 //!
 //! `V_i = a_1 V_(i-1) ^ ... ^ a_(s-1) V_(i-s+1) ^ V_(i-s) ^ (V_(i-s) >> s)` for `i > s`.
 //!
-//! Column `b` of the matrix, what id bit `b` (bit 0 the least significant) contributes, is
-//! `V_(b+1)`. Ids run in natural order, not in Gray code: point `id` here is point `n` of a
-//! generator in Gray code where `id = n ^ (n >> 1)`. Any first `2^m` points are a (t, m, s)-net.
+//! Column `b` of the matrix, what bit `b` of the path index (bit 0 the least significant)
+//! contributes, is `V_(b+1)`. Path indices run in natural order, not in Gray code: point `id` here
+//! is point `n` of a generator in Gray code where `id = n ^ (n >> 1)`. Any first `2^m` points are a
+//! (t, m, s)-net.
 //!
 //! The point is XORed with a [`pixel_shift`], so that neighbouring pixels err independently, and
 //! its top `bits` bits are the index `k` of its cell, whose centre `(k + 1/2) / 2^bits` is traced.
@@ -25,7 +27,7 @@ pub const MAX_DIMENSIONS: usize = INITIAL.len() + 1;
 /// ```
 /// use qrt_core::sampling::DigitalNet;
 /// let net = DigitalNet::new(2, 3)?;
-/// // Three bits of dimension 0 are the id's, reversed; dimension 1 visits every cell once too.
+/// // Three bits of dimension 0 are the path index's, reversed; dimension 1 visits every cell once too.
 /// let index = |d| (0..8).map(|id| net.index(d, id, 0, 3)).collect::<Vec<_>>();
 /// assert_eq!(index(0), [0, 4, 2, 6, 1, 5, 3, 7]);
 /// assert_eq!(index(1), [0, 4, 6, 2, 5, 1, 3, 7]);
@@ -68,13 +70,13 @@ impl DigitalNet {
         self.dimensions
     }
 
-    /// Bits of a path id.
+    /// How many bits a path index has.
     pub fn path_bits(&self) -> u32 {
         self.path_bits
     }
 
-    /// What bit `id_bit` of the id flips in the coordinate, a fraction aligned to bit 63; 0 for
-    /// bits beyond `path_bits`.
+    /// What bit `id_bit` of the path index flips in the coordinate, a fraction aligned to bit 63; 0
+    /// for bits beyond `path_bits`.
     ///
     /// # Panics
     /// If `dimension` is not below [`Self::dimensions`].
@@ -92,7 +94,7 @@ impl DigitalNet {
     }
 
     /// The cell of coordinate `dimension` of point `id`: the top `bits` (0 to 64) bits of
-    /// `C_d id ^ shift`. Bits of the id beyond `path_bits` do not matter.
+    /// `C_d id ^ shift`. Bits of `id` beyond `path_bits` do not matter.
     ///
     /// # Panics
     /// If `dimension` is not below [`Self::dimensions`].

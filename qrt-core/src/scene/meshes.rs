@@ -54,7 +54,8 @@ pub struct ObjMesh {
 pub struct ObjFace {
     /// Its corners, in the file's units.
     pub vertices: [DVec3; 3],
-    /// Index into [`ObjMesh::materials`]; `None` if they were not wanted.
+    /// The triangle's material, as an index into [`ObjMesh::materials`]; `None` if materials were
+    /// not wanted.
     pub material: Option<usize>,
 }
 
@@ -72,15 +73,15 @@ pub struct ObjMaterial {
 /// What is wrong with a file; codes are `QRT0320` to `QRT0344`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ObjError {
-    /// Stable code.
+    /// The stable code of the error: `QRT0320`.
     pub code: &'static str,
     /// The file: the OBJ itself or one of its libraries.
     pub file: PathBuf,
-    /// The line, from 1.
+    /// The line of the file, counted from 1; `None` if the error is of no single line.
     pub line: Option<usize>,
     /// What is wrong, in one sentence without a full stop.
     pub message: String,
-    /// The right thing to do.
+    /// What to do about it; `None` if nothing can be advised.
     pub help: Option<String>,
 }
 

@@ -190,17 +190,17 @@ macro_rules! keyword {
         }
 
         impl $name {
-            /// All of them.
+            /// All words of the keyword, in the order of their definition.
             pub const ALL: &'static [Self] = &[$(Self::$word),*];
             /// Their names in scenes, in the order of [`Self::ALL`].
             pub const NAMES: &'static [&'static str] = &[$($text),*];
 
-            /// The name in a scene.
+            /// The word's name in a scene.
             pub const fn name(self) -> &'static str {
                 match self { $( Self::$word => $text, )* }
             }
 
-            /// The one called `name`.
+            /// The word whose name in a scene is `name`; `None` if there is none.
             pub fn from_name(name: &str) -> Option<Self> {
                 match name { $( $text => Some(Self::$word), )* _ => None }
             }

@@ -24,7 +24,7 @@ pub(crate) trait Shape {
     fn check(&self, value: &Self::Value, at: &Place<'_>, problems: &mut Problems);
     /// Writes it; `None` leaves the key out.
     fn encode(&self, value: &Self::Value) -> Option<Data>;
-    /// Draft-07.
+    /// The shape's JSON Schema, draft-07.
     fn schema(&self) -> Data;
 }
 
@@ -46,7 +46,7 @@ pub(crate) trait Keyword: Copy + PartialEq + 'static {
     const VALUES: &'static [Self];
 }
 
-/// Of a [`Part`].
+/// The shape of a [`Part`].
 pub(crate) struct PartShape<T>(PhantomData<T>);
 
 pub(crate) const fn part<T>() -> PartShape<T> {
@@ -72,7 +72,7 @@ impl<T: Part> Shape for PartShape<T> {
     }
 }
 
-/// Of a [`Keyword`].
+/// The shape of a [`Keyword`].
 pub(crate) struct WordShape<T>(PhantomData<T>);
 
 pub(crate) const fn word<T>() -> WordShape<T> {
@@ -108,7 +108,7 @@ impl<T: Keyword> Shape for WordShape<T> {
 #[derive(Clone, Copy)]
 pub(crate) struct Number {
     range: Range,
-    /// What it is called that is out of range.
+    /// The problem of a number that is out of range.
     fault: fn(f64, Range) -> Datum,
 }
 
@@ -130,17 +130,17 @@ pub(crate) const fn number(low: f64, high: f64) -> Number {
 }
 
 impl Number {
-    /// Without the lowest itself.
+    /// The same interval without its lowest number.
     pub(crate) const fn above(mut self) -> Self {
         self.range.low_open = true;
         self
     }
-    /// Without the highest itself.
+    /// The same interval without its highest number.
     pub(crate) const fn below(mut self) -> Self {
         self.range.high_open = true;
         self
     }
-    /// With a problem of its own for what is out of range.
+    /// The same interval with a problem of its own for what is out of range.
     pub(crate) const fn or(self, fault: fn(f64, Range) -> Datum) -> Self {
         Self { fault, ..self }
     }

@@ -11,16 +11,16 @@ pub enum Data {
     Number(f64),
     /// `true` or `false`.
     Bool(bool),
-    /// A text.
+    /// A text, which is not read as a number or a word.
     Text(String),
-    /// Elements in order.
+    /// A list of elements, in their order.
     List(Vec<Data>),
-    /// Entries in order.
+    /// A map of keys to values, in the order written.
     Map(Vec<(String, Data)>),
 }
 
 impl Data {
-    /// A text.
+    /// A text, which is not read as a number or a word.
     pub fn text(text: impl Into<String>) -> Self {
         Self::Text(text.into())
     }
@@ -250,10 +250,10 @@ fn quote(out: &mut String, text: &str) {
 pub struct Fingerprint(u128);
 
 impl Fingerprint {
-    /// Of no bytes.
+    /// The fingerprint of no bytes.
     pub const EMPTY: Self = Self(0x6c62_272e_07bb_0142_62b8_2175_6295_c58d);
 
-    /// With more bytes behind those so far.
+    /// The fingerprint of the bytes so far, followed by more.
     pub fn and(self, bytes: &[u8]) -> Self {
         const PRIME: u128 = 0x0000_0000_0100_0000_0000_0000_0000_013b;
         let step = |hash: u128, byte: &u8| (hash ^ u128::from(*byte)).wrapping_mul(PRIME);

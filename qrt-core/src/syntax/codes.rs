@@ -6,14 +6,14 @@
 //! `QRT07..` about the form of the macro `qrt!`, `QRT08..` about reversible routines, `QRT09..`
 //! about the use of the command line.
 
-/// A row of the table.
+/// A row of the table of error codes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Code {
     /// `QRT0101`
     pub code: &'static str,
     /// What is wrong, in a few words.
     pub title: &'static str,
-    /// What to do.
+    /// What to do about it.
     pub advice: &'static str,
 }
 

@@ -14,15 +14,15 @@ use std::fmt;
 /// A problem in words.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Words {
-    /// Stable code: `QRT0101`.
+    /// The stable code of the problem: `QRT0101`.
     pub code: &'static str,
     /// What is wrong, in one sentence without a full stop.
     pub message: String,
     /// What stands beside the caret; may be empty.
     pub label: String,
-    /// The right thing to write.
+    /// The right thing to write; none if nothing can be advised.
     pub help: Option<String>,
-    /// What the other place is.
+    /// What the other place is that matters: "first written here"; may be empty.
     pub also: &'static str,
 }
 
@@ -50,7 +50,7 @@ macro_rules! problems {
             )*
         }
     )*) => {
-        /// What is wrong.
+        /// What is wrong, by concept and with its arguments.
         #[derive(Clone, Debug, PartialEq)]
         pub enum What {
             $( $(#[$doc])* $concept($concept), )*

@@ -90,7 +90,7 @@ impl<'a> Place<'a> {
         Place { parent, step }
     }
 
-    /// As a path.
+    /// The same place as a path.
     pub(crate) fn path(&self) -> Path {
         let mut steps = Vec::new();
         let mut place = Some(self);

@@ -15,7 +15,7 @@ use std::ops::Range;
 pub struct Problem {
     /// What is wrong.
     pub what: What,
-    /// Where.
+    /// Where the problem is.
     pub at: At,
     /// Bytes within the string found there, where the problem is a part of it.
     pub within: Option<Range<usize>>,
@@ -26,9 +26,10 @@ pub struct Problem {
 /// Where a problem is.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum At {
-    /// What this leads to in the scene; the root of a scene that could not be read is the file.
+    /// What this path leads to in the scene; the root of a scene that could not be read is the
+    /// file.
     Path(Path),
-    /// There in the text.
+    /// A place in the text.
     Span(Span),
 }
 
@@ -51,7 +52,7 @@ impl From<Span> for At {
 }
 
 impl Problem {
-    /// A problem there.
+    /// A problem at this place.
     pub fn new(at: impl Into<At>, what: impl Into<What>) -> Self {
         Self {
             what: what.into(),
@@ -61,13 +62,13 @@ impl Problem {
         }
     }
 
-    /// With another place that matters.
+    /// The same problem with another place that matters.
     pub fn also(mut self, at: impl Into<At>) -> Self {
         self.also = Some(at.into());
         self
     }
 
-    /// Its path in the scene; none for one of the text.
+    /// The problem's path in the scene; none for a problem of the text.
     pub fn path(&self) -> Option<&Path> {
         match &self.at {
             At::Path(path) => Some(path),
@@ -80,7 +81,7 @@ impl Problem {
         self.what.words()
     }
 
-    /// Its stable code: `QRT0101`.
+    /// The problem's stable code: `QRT0101`.
     pub fn code(&self) -> &'static str {
         self.words().code
     }
@@ -162,17 +163,17 @@ impl Problems {
         !self.places.is_empty() && (self.covers(path) || self.above.contains(&path.values()))
     }
 
-    /// Those added since there were `count` of them.
+    /// The problems added since there were `count` of them.
     pub(crate) fn since(&mut self, count: usize) -> &mut [Problem] {
         &mut self.found[count..]
     }
 
-    /// How many there are.
+    /// How many problems there are.
     pub fn count(&self) -> usize {
         self.found.len()
     }
 
-    /// All of them, in the order found.
+    /// All problems, in the order found.
     pub fn all(self) -> Vec<Problem> {
         self.found
     }

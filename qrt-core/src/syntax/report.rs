@@ -42,7 +42,7 @@ impl Source {
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Told {
     words: Words,
-    /// Nowhere when a file cannot be read.
+    /// The place; none when a file cannot be read.
     span: Option<Span>,
     /// The other place that matters.
     also: Option<Span>,
@@ -138,7 +138,7 @@ impl Report {
         out.push_str(&renderer.render(&[Group::with_title(last)]));
         out.push('\n');
         // The renderer makes control characters of ASCII visible; to a terminal, those of the
-        // block behind it can be orders too.
+        // Unicode block after it can be orders too.
         out.replace(|c| matches!(c, '\u{80}'..='\u{9f}'), "\u{fffd}")
     }
 

@@ -12,31 +12,31 @@ use std::fmt;
 pub struct Span {
     /// Which source: 0 is the scene itself, then one for each override.
     pub source: u32,
-    /// First byte.
+    /// The first byte of the place.
     pub start: usize,
-    /// One past the last byte.
+    /// The byte after the last one of the place.
     pub end: usize,
 }
 
 /// A value and its place.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Node {
-    /// Where it stands.
+    /// The place where the value stands.
     pub span: Span,
-    /// What it is.
+    /// The value itself.
     pub value: Value,
 }
 
 /// A value without a meaning yet.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
-    /// Nothing written, `~` or `null`.
+    /// No value: nothing is written, or `~` or `null`.
     Null,
     /// What could not be read, which has been reported.
     Unread,
     /// A number, a word or a text; [`Scalar::kind`] tells which.
     Scalar(Scalar),
-    /// Elements in order.
+    /// A list of elements, in their order.
     List(Vec<Node>),
     /// Entries in the order written; keys are distinct.
     Map(Vec<Entry>),
@@ -45,9 +45,9 @@ pub enum Value {
 /// The text of a scalar.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Scalar {
-    /// Without quotes, escapes resolved.
+    /// The text without quotes, its escapes resolved.
     pub text: String,
-    /// In quotes or in a block: text whatever it looks like.
+    /// Whether it stands in quotes or in a block, and so is text whatever it looks like.
     pub quoted: bool,
 }
 
@@ -149,11 +149,11 @@ fn is_decimal(text: &str) -> bool {
 /// A key and its value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
-    /// The key.
+    /// The key, without quotes.
     pub key: String,
     /// Where the key stands.
     pub key_span: Span,
-    /// The value.
+    /// The value of the key.
     pub value: Node,
 }
 
@@ -176,8 +176,8 @@ impl Node {
         }
     }
 
-    /// The node at `path`, or the nearest one above it that is written (a default is written
-    /// nowhere), with the span to show: that of the key where the path ends in a name.
+    /// The node at `path`, or the nearest one above it that is written (a default is not written),
+    /// with the span to show: that of the key where the path ends in a name.
     pub fn resolve(&self, path: &Path) -> Resolved<'_> {
         let mut found = Resolved {
             node: self,
@@ -243,7 +243,7 @@ impl Node {
     }
 }
 
-/// Where a path leads.
+/// What a path leads to in a tree.
 #[derive(Clone, Copy, Debug)]
 pub struct Resolved<'a> {
     /// The node, or the nearest above.

@@ -15,32 +15,32 @@ pub enum Axis {
 /// A sample coordinate of a path: its depth (0 is the primary ray) and axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Coordinate {
-    /// Depth of the ray it samples.
+    /// The ray that it samples: the number of bounces before it.
     pub depth: usize,
-    /// Which of the two.
+    /// Which of the ray's two sample coordinates it is.
     pub axis: Axis,
 }
 
 impl Coordinate {
-    /// The first of `depth`.
+    /// The first coordinate of the ray of this `depth`.
     pub fn u(depth: usize) -> Self {
         let axis = Axis::U;
         Self { depth, axis }
     }
 
-    /// The second of `depth`.
+    /// The second coordinate of the ray of this `depth`.
     pub fn v(depth: usize) -> Self {
         let axis = Axis::V;
         Self { depth, axis }
     }
 
-    /// Its dimension in a sequence: `2 depth` for `u`, `2 depth + 1` for `v`.
+    /// The coordinate's dimension in a sequence: `2 depth` for `u`, `2 depth + 1` for `v`.
     pub fn dimension(self) -> usize {
         2 * self.depth + usize::from(self.axis == Axis::V)
     }
 }
 
-/// A part of the tracer: a box of the paper's figure, or a part of one.
+/// A stage of the tracer, as the paper's figure has it, or a part of one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
     /// The ray of this depth: the camera's, or what a surface scatters.
@@ -98,7 +98,7 @@ impl Quantity {
 /// A quantity of one ray.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Named {
-    /// The ray: 0 is the primary one.
+    /// The number of bounces before the ray: 0 for the primary ray.
     pub depth: usize,
     /// Which quantity.
     pub quantity: Quantity,
@@ -143,9 +143,9 @@ pub trait Arith: Sized {
     fn abs(&mut self, a: Self::Real) -> Self::Real;
     /// `sqrt(a)`; anything where `a < 0`.
     fn sqrt(&mut self, a: Self::Real) -> Self::Real;
-    /// The lesser.
+    /// The lesser of `a` and `b`.
     fn min(&mut self, a: Self::Real, b: Self::Real) -> Self::Real;
-    /// The greater.
+    /// The greater of `a` and `b`.
     fn max(&mut self, a: Self::Real, b: Self::Real) -> Self::Real;
     /// `factor a`, for a constant factor.
     #[inline(always)]
@@ -189,7 +189,7 @@ pub trait Arith: Sized {
         let [high] = self.rows(table, row);
         self.less_equal(value, high)
     }
-    /// How far a hit is drawn towards its face's centre, as a share of the way: see
+    /// How far a hit is moved towards its face's centre, as a fraction of the way: see
     /// [`super::INWARD`].
     #[inline(always)]
     fn inward(&mut self) -> f64 {
@@ -226,14 +226,14 @@ pub trait Arith: Sized {
     fn less(&mut self, a: Self::Real, b: Self::Real) -> Self::Bool;
     /// `a <= b`
     fn less_equal(&mut self, a: Self::Real, b: Self::Real) -> Self::Bool;
-    /// Conjunction.
+    /// `a && b`, both of which are computed.
     fn and(&mut self, a: Self::Bool, b: Self::Bool) -> Self::Bool;
-    /// Disjunction.
+    /// `a || b`, both of which are computed.
     fn or(&mut self, a: Self::Bool, b: Self::Bool) -> Self::Bool;
-    /// Negation.
+    /// `!a`
     fn not(&mut self, a: Self::Bool) -> Self::Bool;
-    /// May `a` hold for some path? A machine that knows the values may answer "no" and so spare
-    /// work that could change nothing; a circuit always answers "yes".
+    /// Whether `a` may hold for some path. A machine that knows the values may return false and so
+    /// spare work that could change nothing; a circuit always returns true.
     fn any(&mut self, a: Self::Bool) -> bool;
     /// `if c { a } else { b }`
     fn select(&mut self, c: Self::Bool, a: Self::Real, b: Self::Real) -> Self::Real;
@@ -251,7 +251,7 @@ pub trait Arith: Sized {
     /// Entry `row` of a table of integers.
     fn entry(&mut self, table: &[u32], row: Self::Index) -> Self::Index;
 
-    /// The index of a sample coordinate, `0..2^bits`: from the path's id alone.
+    /// The index of a sample coordinate, `0..2^bits`: from the path index alone.
     fn coordinate(&mut self, coordinate: Coordinate) -> Self::Index;
     /// The cell centre `(index + 1/2) / 2^bits`.
     fn centre(&mut self, index: Self::Index, bits: u32) -> Self::Real;

@@ -1,12 +1,12 @@
 //! The bound on a path's colour: the colour scale of the comparator, in the paper `2^b`.
 //!
-//! The tighter it is, the larger the fraction of good ids that a pixel has, and the fewer queries
-//! an estimate needs. With `L_1 = max Le`, a path of `k` rays carries at most
+//! The tighter it is, the larger the fraction of good basis states that a pixel has, and the fewer
+//! queries an estimate needs. With `L_1 = max Le`, a path of `k` rays carries at most
 //! `L_k = max over surfaces of (Le + W L_{k-1})`, where `W` bounds the weight at that depth.
 
 use super::bsdf::ScatterStage;
 
-/// Per channel, an upper bound of the colour of every path.
+/// An upper bound of the colour of every path, per channel.
 pub(crate) fn colour<const C: usize>(
     radiance: &[[f64; C]],
     scatters: &[ScatterStage<C>],

@@ -9,17 +9,18 @@ use glam::DVec3;
 /// The camera in stage units: a ray is affine in the film position `(column + u, row + v)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CameraStage {
-    /// Do rays start at one point (and fan out), or at many (and run parallel)?
+    /// Whether rays start at one point and fan out; otherwise they start at many and run parallel.
     pub perspective: bool,
-    /// What does not move with the film position: the eye, or the common direction.
+    /// What does not depend on the film position, in stage units: the eye, or the common direction.
     pub fixed: [f64; 3],
-    /// What does, at the film's upper left corner: the direction, or the origin.
+    /// What depends on the film position, at the film's upper left corner: the direction, or the
+    /// origin.
     pub corner: [f64; 3],
-    /// Its change per column.
+    /// The change of `corner` per column of the film.
     pub column: [f64; 3],
-    /// Its change per row.
+    /// The change of `corner` per row of the film.
     pub row: [f64; 3],
-    /// Must primary directions have unit length?
+    /// Whether primary directions must have unit length.
     pub unit: bool,
     /// A bound on the distance of whatever a primary ray meets, in lengths of its direction.
     pub reach: f64,
@@ -77,7 +78,7 @@ pub(crate) fn ray_origins(camera: &Camera, film: Film) -> Vec<DVec3> {
 }
 
 impl CameraStage {
-    /// Lowers `camera`.
+    /// Makes `camera` ready for the tracer, in stage units of `geometry`.
     pub fn new(camera: &Camera, film: Film, geometry: &Geometry, unit: bool) -> Self {
         let basis = Basis::new(camera);
         let [upper_left, upper_right, lower_left, _] = basis.corners(film);

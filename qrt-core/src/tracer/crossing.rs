@@ -16,17 +16,18 @@ pub fn weighted<A: Arith>(cx: &mut A, form: [A::Real; 2], at: [A::Real; 2]) -> A
     math!(cx, at[0] * form[0] + at[1] * form[1])
 }
 
-/// A ray as the planes of one main axis see it: its parts along that axis and across.
+/// An axis-permuted ray: its components along the main axis of a plane, and along the two axes
+/// after it.
 pub struct AxisPermuted<A: Arith> {
-    /// Along the axis.
+    /// The origin's coordinate along the main axis.
     pub origin: A::Real,
-    /// Along the axis.
+    /// The direction's component along the main axis.
     pub direction: A::Real,
-    /// Along the next axis and the one after it.
+    /// The origin's coordinates along the next axis and the one after it.
     pub origin_across: [A::Real; 2],
-    /// Along the next axis and the one after it.
+    /// The direction's components along the next axis and the one after it.
     pub direction_across: [A::Real; 2],
-    /// As [`Ray::reach`].
+    /// A bound on the distance of whatever the ray meets: see [`Ray::reach`].
     pub reach: f64,
 }
 
@@ -43,7 +44,7 @@ impl<A: Arith> AxisPermuted<A> {
         }
     }
 
-    /// As the planes of `axis` see `ray`, whichever that is.
+    /// The axis-permuted `ray` for planes whose main axis is the register `axis`.
     #[inline(always)]
     pub(crate) fn looked_up(cx: &mut A, ray: &Ray<A>, axis: A::Index) -> Self {
         let [x, y] = [cx.is(axis, 0), cx.is(axis, 1)];
@@ -69,11 +70,11 @@ impl<A: Arith> AxisPermuted<A> {
 
 /// Where a ray crosses a plane.
 pub struct Crossing<A: Arith> {
-    /// Does it, ahead of its origin?
+    /// Whether the ray crosses the plane ahead of its origin.
     pub ahead: A::Bool,
-    /// At which distance.
+    /// The distance of the crossing, in lengths of the ray's direction.
     pub distance: A::Real,
-    /// Where, along the two axes after the plane's main one.
+    /// The crossing point's coordinates along the two axes after the plane's main one.
     pub point: [A::Real; 2],
 }
 

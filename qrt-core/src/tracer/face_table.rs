@@ -1,4 +1,4 @@
-//! The faces as a list: one that is in superposition, looked up by its place.
+//! The face table: a face whose number is in superposition is looked up in a QROM.
 //!
 //! [`super::Geometry`] holds faces as constants: a machine that asks about all of them in turn
 //! folds them into its code. A [`FaceTable`] holds the same faces as rows of tables, for a machine
@@ -19,19 +19,20 @@ pub struct FaceTable {
     /// Where rays start, if all of them start at one point: what of planes and edges depends on it
     /// is in the tables.
     viewpoint: [f64; 3],
-    /// By face: the main axis of its plane.
+    /// The main axis of the plane of each face.
     axes: Vec<u32>,
-    /// By face: its plane's form, and its offset as seen from the viewpoint.
+    /// The form of the plane of each face, and the plane's offset as seen from the viewpoint.
     planes: Vec<[f64; 3]>,
     slots: Vec<Slot>,
-    /// By face, its label; and then [`NO_FACE`].
+    /// The label of each face, and after the last [`NO_FACE`].
     labels: Vec<u32>,
 }
 
-/// One edge_test of each face, as seen from the viewpoint: `low <= p[main] + slope p[other] <= high`.
+/// One half-plane edge test of each face, as seen from the viewpoint:
+/// `low <= p[main] + slope p[other] <= high`.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Slot {
-    /// Is the main coordinate the second of the two?
+    /// Whether the main coordinate is the second of the two.
     second: Vec<u32>,
     slope: Vec<[f64; 1]>,
     low: Vec<[f64; 1]>,
@@ -90,17 +91,17 @@ impl FaceTable {
         listing
     }
 
-    /// Faces.
+    /// How many faces the table has.
     pub fn len(&self) -> usize {
         self.axes.len()
     }
 
-    /// Is there none?
+    /// Whether the table has no faces.
     pub fn is_empty(&self) -> bool {
         self.axes.is_empty()
     }
 
-    /// By face, its label in the scene; and after the last, [`NO_FACE`].
+    /// The label in the scene of each face, and after the last [`NO_FACE`].
     pub fn labels(&self) -> &[u32] {
         &self.labels
     }
@@ -212,7 +213,7 @@ struct Row {
 }
 
 impl Row {
-    /// What holds for every point.
+    /// The test that every point passes.
     const OPEN: Self = Self {
         second: 0,
         slope: 0.0,
@@ -220,7 +221,7 @@ impl Row {
         high: f64::INFINITY,
     };
 
-    /// `edge_test` of a plane of which `seen` is the viewpoint's place.
+    /// The row of `edge_test`, of a plane of which `seen` is the viewpoint's place.
     fn new(edge_test: &EdgeTest, seen: [f64; 2]) -> Self {
         let [a, b] = edge_test.form;
         let away = a * seen[0] + b * seen[1];

@@ -1,4 +1,4 @@
-//! The frame itself: the paper's `Path Tracing` box.
+//! The frame itself: the paper's `Path Tracing`, stage by stage.
 
 use super::bsdf::Vertex;
 use super::ray::{Nearest, Ray};
@@ -110,7 +110,7 @@ pub fn trace<A: Arith, N: Nearest<A>, const C: usize>(
     colour
 }
 
-/// Where the next ray starts, along one axis: the point of `ray` at `distance`, drawn a little
+/// Where the next ray starts, along one axis: the point of `ray` at `distance`, moved a little
 /// towards the `centre` of its face.
 #[inline(always)]
 fn start_along<A: Arith>(

@@ -20,7 +20,7 @@ pub const NO_PLANE: u32 = u32::MAX;
 /// origin: a few ulps, so that neighbours overlap rather than leave cracks.
 pub const TOLERANCE: f64 = 1.0 / (1_u64 << 49) as f64;
 
-/// How far a hit is drawn from its face's edge towards the face's centre, as a share of the way:
+/// How far a hit is moved from its face's edge towards the face's centre, as a fraction of the way:
 /// more than the edges' tolerance, less than any picture shows. A ray that starts there stands
 /// strictly inside the face, so it cannot slip past a neighbour that meets it at that edge.
 pub const INWARD: f64 = 1.0 / (1_u64 << 32) as f64;
@@ -35,11 +35,11 @@ const ON_PLANE: f64 = 1.0 / (1_u64 << 46) as f64;
 /// (axes are counted cyclically). The greater of `|a|`, `|b|` is 1; a bound may be infinite.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EdgeTest {
-    /// `a` and `b`.
+    /// The coefficients `a` and `b`.
     pub form: [f64; 2],
-    /// The least value inside.
+    /// The least value of the form inside; may be -infinity.
     pub low: f64,
-    /// The greatest value inside.
+    /// The greatest value of the form inside; may be infinity.
     pub high: f64,
 }
 
@@ -50,37 +50,38 @@ pub struct EdgeTest {
 pub struct Plane {
     /// The main axis: that of the normal's greatest component.
     pub axis: usize,
-    /// `a` and `b`.
+    /// The coefficients `a` and `b`.
     pub form: [f64; 2],
-    /// The plane's place.
+    /// The plane's offset along its main axis, in stage units.
     pub offset: f64,
-    /// Its faces, in [`Geometry::faces`].
+    /// The range of [`Geometry::faces`] that lies on the plane.
     pub faces: Range<usize>,
 }
 
-/// A convex polygon on a plane: the intersection of edge_tests.
+/// A convex polygon on a plane: where all half-plane edge tests pass.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Face {
-    /// Its number in the order of the scene.
+    /// The face's number in the order of the scene.
     pub label: u32,
-    /// Does it emit?
+    /// Whether the face emits.
     pub emits: bool,
-    /// Does a later face of its plane emit? Then this one hides it where they overlap.
+    /// Whether a later face of its plane emits, which this one hides where they overlap.
     pub hides_emitter: bool,
-    /// Pairs of parallel edges share a edge_test: two for a parallelogram, three for a triangle.
+    /// The half-plane edge tests. Pairs of parallel edges share one: two for a parallelogram, three
+    /// for a triangle.
     pub edge_tests: Vec<EdgeTest>,
 }
 
 /// A face's frame: tangents, normal (the front) and centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame {
-    /// Unit tangent.
+    /// The unit tangent, orthogonal to the normal.
     pub tangent: DVec3,
-    /// Unit bitangent.
+    /// The unit bitangent, orthogonal to both others.
     pub bitangent: DVec3,
-    /// Unit normal, `(v1 - v0) x (v2 - v0)`.
+    /// The unit normal, along `(v1 - v0) x (v2 - v0)`.
     pub normal: DVec3,
-    /// Mean of the corners.
+    /// The mean of the corners, in stage units.
     pub centre: DVec3,
 }
 
@@ -96,7 +97,7 @@ pub struct Geometry {
     /// Faces, grouped by plane, in the order of the scene: where faces of one plane overlap, the
     /// one listed first wins.
     pub faces: Vec<Face>,
-    /// Frames by face label.
+    /// The shading frame of each face label.
     pub frames: Vec<Frame>,
     /// The plane of each face label.
     pub plane_of: Vec<u32>,
@@ -112,8 +113,8 @@ pub struct Geometry {
 }
 
 impl Geometry {
-    /// Lowers `polygons`; `emits` tells which emit, and `reach` are points (the eye) from which
-    /// rays start too.
+    /// Makes `polygons` ready for intersection; `emits` tells which emit, and `reach` are points
+    /// (the eye) from which rays start too.
     pub fn new(polygons: &[Polygon], emits: impl Fn(&Polygon) -> bool, reach: &[DVec3]) -> Self {
         let (centre, scale) = stage_units(polygons);
         let staged = |p: DVec3| (p - centre) * scale;
@@ -169,7 +170,7 @@ impl Geometry {
         geometry
     }
 
-    /// The greatest distance of a point of the geometry from the origin.
+    /// The greatest distance of a point of the geometry from the origin, in stage units.
     pub fn radius(&self) -> f64 {
         let points = self.corners.iter().flatten();
         points.map(|point| point.length()).fold(0.0, f64::max)

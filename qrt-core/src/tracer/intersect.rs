@@ -23,7 +23,7 @@ impl EdgeTest {
     }
 }
 
-/// Does `point` pass every edge_test?
+/// Whether `point` passes every half-plane edge test.
 #[inline(always)]
 fn within<A: Arith>(cx: &mut A, edge_tests: &[EdgeTest], point: [A::Real; 2]) -> A::Bool {
     // The usual cases without a loop: truth values then stay in mask registers.
@@ -53,7 +53,7 @@ fn within<A: Arith>(cx: &mut A, edge_tests: &[EdgeTest], point: [A::Real; 2]) ->
 
 /// The edges of a face, as a machine holds them: the same for all paths, or looked up.
 pub(crate) trait Edges<A: Arith> {
-    /// Is this point of the face's plane within all of them?
+    /// Whether this point of the face's plane is within all edges.
     fn hold(&self, cx: &mut A, point: [A::Real; 2]) -> A::Bool;
 }
 
@@ -64,7 +64,7 @@ impl<A: Arith> Edges<A> for [EdgeTest] {
     }
 }
 
-/// Does a ray that crosses a face's plane so meet the face?
+/// Whether a ray with this crossing of a face's plane meets the face.
 #[inline(always)]
 pub(crate) fn meets<A: Arith, E: Edges<A> + ?Sized>(
     cx: &mut A,
@@ -153,7 +153,7 @@ impl Geometry {
         }
     }
 
-    /// Does another face on planes with main axis `AXIS` hide the emitter?
+    /// Whether another face on planes with main axis `AXIS` hides the emitter.
     #[inline(always)]
     fn hidden_along<A: Arith, const AXIS: usize>(
         &self,

@@ -8,7 +8,7 @@ pub(super) fn plane_of(corners: &[DVec3], frame: &Frame) -> Plane {
     let axis = largest(frame.normal);
     let scaled = frame.normal / frame.normal[axis];
     let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
-    // What a rotation by a multiple of 90 degrees leaves behind is not a slope.
+    // What rounding leaves of a rotation by a multiple of 90 degrees is no coefficient.
     let form = [scaled[next], scaled[last]].map(|c| if c.abs() < f64::EPSILON { 0.0 } else { c });
     let heights = corners
         .iter()
@@ -77,7 +77,8 @@ fn largest(v: DVec3) -> usize {
     }
 }
 
-/// The edges as edge_tests. Edges are tested in the plane's projection along its main axis.
+/// The half-plane tests of the edges. Edges are tested in the plane's projection along its main
+/// axis.
 pub(super) fn edge_tests(
     corners: &[DVec3],
     axis: usize,

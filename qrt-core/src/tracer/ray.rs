@@ -4,15 +4,15 @@ use super::Arith;
 use super::geometry::NO_FACE;
 use super::vector::Vector;
 
-/// A ray.
+/// A ray of every path, in stage units.
 pub struct Ray<A: Arith> {
-    /// Where it starts.
+    /// The point where the ray starts.
     pub origin: Vector<A>,
-    /// Where it goes; of unit length wherever a material asks for angles.
+    /// The direction of the ray; of unit length wherever a material reads angles.
     pub direction: Vector<A>,
-    /// The plane it leaves; [`super::NO_PLANE`] from the camera.
+    /// The number of the plane that the ray leaves; [`super::NO_PLANE`] from the camera.
     pub from: A::Index,
-    /// A bound on the distance of whatever it meets, in lengths of its direction.
+    /// A bound on the distance of whatever the ray meets, in lengths of its direction.
     pub reach: f64,
 }
 
@@ -25,11 +25,11 @@ impl<A: Arith> Copy for Ray<A> {}
 
 /// The nearest intersection.
 pub struct Hit<A: Arith> {
-    /// Is there one?
+    /// Whether the ray meets any face.
     pub found: A::Bool,
-    /// Distance, in lengths of the ray's direction.
+    /// The distance of the hit, in lengths of the ray's direction.
     pub distance: A::Real,
-    /// The face; the first where there is none.
+    /// The number of the face that is hit; the first face where none is.
     pub face: A::Index,
 }
 

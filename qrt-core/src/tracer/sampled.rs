@@ -32,7 +32,7 @@ impl Sampled {
         Self::of_index(bits, move |index| function(cell_centre(index, bits)))
     }
 
-    /// Bits of the index.
+    /// How many bits the index has.
     pub fn bits(&self) -> u32 {
         self.bits
     }
@@ -51,7 +51,7 @@ impl Sampled {
         }
     }
 
-    /// Are both stored, and equal?
+    /// Whether both are stored, and equal.
     pub(super) fn same(&self, other: &Self) -> bool {
         self.bits == other.bits && !self.table.is_empty() && self.table == other.table
     }

@@ -3,10 +3,10 @@
 use super::{Arith, Axis, Coordinate, Sampled};
 use crate::expr::Function;
 
-/// One path, and what it was asked for.
+/// The arithmetic of one path, and the operations that it was asked for.
 #[derive(Default)]
 pub(crate) struct Scalar {
-    /// Sample indices of depth 1.
+    /// The sample indices of the ray after the first bounce.
     pub(crate) cell: [u32; 2],
     /// The names of the real numbers' operations, in the order of their calls.
     pub(crate) calls: Vec<&'static str>,

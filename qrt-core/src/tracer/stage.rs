@@ -13,11 +13,11 @@ pub struct Stage<const C: usize> {
     pub(crate) camera: CameraStage,
     /// Sample bits of the primary ray.
     pub(crate) film_bits: [u32; 2],
-    /// By face: its surface.
+    /// The number of the surface of each face.
     pub(crate) surface_of: Vec<u32>,
-    /// By face: the unit normal.
+    /// The unit normal of each face.
     pub(crate) normals: Vec<[f64; 3]>,
-    /// By face: tangent, bitangent and centre.
+    /// The tangent, bitangent and centre of each face.
     pub(crate) frames: Vec<[f64; 9]>,
     pub(crate) emitters: Emitters<C>,
     /// Surfaces below this number scatter nothing.
@@ -93,7 +93,7 @@ impl<const C: usize> Stage<C> {
         self
     }
 
-    /// D: rays on a path.
+    /// D, the number of rays on a path: one more than the bounces.
     pub fn depths(&self) -> usize {
         self.scatters.len() + 1
     }
@@ -123,7 +123,7 @@ impl<const C: usize> Stage<C> {
         scatter.density(cx, surface, outgoing, incoming)
     }
 
-    /// The polygons.
+    /// The polygons, made ready for intersection.
     pub fn geometry(&self) -> &Geometry {
         &self.geometry
     }
@@ -143,7 +143,7 @@ fn used(scene: &ValidScene) -> Vec<bool> {
     used
 }
 
-/// By lobe, and so that emitters (which are black or Lambertian) are neighbours.
+/// Sorts surfaces by lobe, and so that emitters (which are black or Lambertian) are neighbours.
 fn sort_key(surface: &Surface) -> (u32, bool) {
     let (rank, emits) = (rank(&surface.scatter), emits(surface));
     (rank, emits == (rank == 0))

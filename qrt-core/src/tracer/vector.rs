@@ -50,7 +50,7 @@ pub(crate) fn scale<A: Arith, const N: usize>(
     mul(cx, a, &[s; N])
 }
 
-/// Component by component.
+/// The operation of this name, component by component.
 #[inline(always)]
 pub(crate) fn mul<A: Arith, const N: usize>(
     cx: &mut A,
@@ -60,7 +60,7 @@ pub(crate) fn mul<A: Arith, const N: usize>(
     components!(*a, k => cx.mul(a[k], b[k]))
 }
 
-/// Component by component.
+/// The operation of this name, component by component.
 #[inline(always)]
 pub(crate) fn add<A: Arith, const N: usize>(
     cx: &mut A,
@@ -70,7 +70,7 @@ pub(crate) fn add<A: Arith, const N: usize>(
     components!(*a, k => cx.add(a[k], b[k]))
 }
 
-/// Component by component.
+/// The operation of this name, component by component.
 #[inline(always)]
 pub(crate) fn sub<A: Arith, const N: usize>(
     cx: &mut A,
@@ -80,13 +80,13 @@ pub(crate) fn sub<A: Arith, const N: usize>(
     components!(*a, k => cx.sub(a[k], b[k]))
 }
 
-/// Component by component.
+/// The operation of this name, component by component.
 #[inline(always)]
 pub(crate) fn neg<A: Arith, const N: usize>(cx: &mut A, a: &[A::Real; N]) -> [A::Real; N] {
     components!(*a, k => cx.neg(a[k]))
 }
 
-/// Component by component.
+/// The operation of this name, component by component.
 #[inline(always)]
 pub(crate) fn select<A: Arith, const N: usize>(
     cx: &mut A,

@@ -24,11 +24,11 @@ mod tests;
 /// Reads and checks a BSDF. Paths of problems are relative to it: `map[0]`, `jacobian`, `value[2]`.
 ///
 /// Codes: those of [`Expr::parse`] for each formula, and `QRT0410` not one or three values,
-/// `QRT0411` a map that leaves the unit sphere, `QRT0412` a map or slope without a finite value,
-/// `QRT0413` a map of whole areas to points or lines, `QRT0414` a Jacobian that is not the map's,
-/// `QRT0415` a negative value, `QRT0416` a value that is not finite, `QRT0417` a BSDF that gains
-/// energy, `QRT0418` a weight without a bound,
-/// `QRT0419` a map that reaches directions more than once.
+/// `QRT0411` a map that leaves the unit sphere, `QRT0412` a map or a derivative without a finite
+/// value, `QRT0413` a map of whole areas to points or lines, `QRT0414` a Jacobian that is not the
+/// map's, `QRT0415` a negative value, `QRT0416` a value that is not finite, `QRT0417` a BSDF that
+/// gains energy, `QRT0418` a weight without a bound, `QRT0419` a map that reaches directions more
+/// than once.
 pub fn compile(bsdf: &Bsdf) -> Result<CustomBsdf, Vec<Problem>> {
     let mut problems = Vec::new();
     let root = Path::root();

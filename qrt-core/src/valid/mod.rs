@@ -1,8 +1,8 @@
 //! `Scene` -> [`ValidScene`], or every error at once.
 //!
 //! What a value may be by itself (its range) is part of its definition in [`crate::scene`]; here it
-//! is checked, along with what values must be to each other: names that lead somewhere, primitives
-//! with an area, ids that fit into a word.
+//! is checked, along with what values must be to each other: names that are defined, primitives
+//! with an area, path indices that fit into a word.
 
 pub mod bsdf;
 mod camera;
@@ -22,7 +22,7 @@ use crate::syntax::{self, Path, Place, Problem, Problems};
 use glam::DVec3;
 use std::path::PathBuf;
 
-/// A checked scene: the only way on. It can be made by [`validate`] alone.
+/// A checked scene, which everything downstream demands. It can be made by [`validate`] alone.
 #[derive(Clone, Debug)]
 pub struct ValidScene {
     pub(crate) scene: Scene,
@@ -36,9 +36,9 @@ pub struct ValidScene {
 pub struct Surface {
     /// The name in the scene, or `FILE.mtl:NAME`.
     pub name: String,
-    /// What leaves the front, W/(sr m^2) in linear RGB.
+    /// The radiance that leaves the front, in W/(sr m^2), linear RGB.
     pub radiance: Rgb,
-    /// What scatters.
+    /// How the surface scatters.
     pub scatter: Scatter,
 }
 
@@ -59,7 +59,7 @@ pub enum Scatter {
 /// A checked BSDF of the user's own.
 #[derive(Clone, Debug)]
 pub struct CustomBsdf {
-    /// phi(u, v)
+    /// The map phi(u, v) from the unit square to unit vectors, by component x, y, z.
     pub map: [Expr; 3],
     /// `J |phi_z|`, in `u`, `v`: what multiplies `value` to make the weight `f |n.i| J`. With
     /// `jacobian: auto` it is `|x_u y_v - x_v y_u|`, simplified, so that products that cancel do.
@@ -75,14 +75,14 @@ pub struct CustomBsdf {
 pub struct Polygon {
     /// Corners; a triangle repeats its last one.
     pub vertices: [DVec3; 4],
-    /// 3 or 4.
+    /// How many corners the polygon has: 3 or 4.
     pub corners: u8,
-    /// Index into [`ValidScene::surfaces`].
+    /// The polygon's surface, as an index into [`ValidScene::surfaces`].
     pub surface: u32,
 }
 
 impl ValidScene {
-    /// The scene as written.
+    /// The scene as its author wrote it.
     pub fn scene(&self) -> &Scene {
         &self.scene
     }
@@ -90,7 +90,7 @@ impl ValidScene {
     pub fn surfaces(&self) -> &[Surface] {
         &self.materials
     }
-    /// All polygons.
+    /// All polygons of the scene, those of meshes included.
     pub fn polygons(&self) -> &[Polygon] {
         &self.polygons
     }

@@ -1,12 +1,14 @@
-//! Ids must fit into words, the net must have its dimensions, and parameters must not contradict.
+//! Path indices must fit into words, the net must have its dimensions, and parameters must not
+//! contradict.
 
 use crate::sampling::{MAX_DIMENSIONS, MAX_PATH_BITS};
 use crate::scene::{Comparator, Counting, Map, Precision, Sampling, Scene, Sequence, finalize};
 use crate::syntax::{Path, Problem, Problems, Sampling as Fault};
 
-/// Bits of path id and comparator together: counts of their ids stay within 64-bit words.
+/// The most bits of path index and comparator together: counts of their basis states stay within
+/// 64-bit words.
 pub const MAX_ID_BITS: u32 = 62;
-/// Rays of a path under the digital net, which has two dimensions for each.
+/// The most rays of a path under the digital net, which needs two dimensions for each.
 pub const MAX_NET_DEPTHS: usize = MAX_DIMENSIONS / 2;
 
 pub(super) fn check(scene: &Scene, problems: &mut Problems) {

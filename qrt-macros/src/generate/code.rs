@@ -11,7 +11,7 @@ struct Coder<'a> {
     program: &'a Program,
     names: &'a Names,
     id: RegisterId,
-    /// What the last instruction was charged to.
+    /// The block that the last instruction was charged to.
     block: Option<BlockId>,
 }
 

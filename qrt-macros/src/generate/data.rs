@@ -6,7 +6,7 @@ use qrt_core::oracle::Oracle;
 use std::collections::HashMap;
 use std::fmt::Write as _;
 
-/// Writes all of them.
+/// Writes the constants of all of them.
 pub(super) fn write(out: &mut String, oracle: &Oracle) {
     registers(out, oracle);
     blocks(out, oracle);
@@ -25,7 +25,7 @@ fn ty(ty: Type) -> String {
     }
 }
 
-/// Registers by number, with what their operations leave behind.
+/// Writes the registers by number, with the garbage of their operations.
 fn registers(out: &mut String, oracle: &Oracle) {
     let program = &oracle.program;
     let mut scratch: HashMap<u32, u32> = HashMap::new();
@@ -74,7 +74,7 @@ fn blocks(out: &mut String, oracle: &Oracle) {
     out.push_str("];\n");
 }
 
-/// The columns of tables, each called by its target's number.
+/// Writes the columns of tables, each called by its target's number.
 fn tables(out: &mut String, oracle: &Oracle) {
     for op in &oracle.program.ops {
         if let Op::Table {

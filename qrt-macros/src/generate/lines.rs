@@ -6,20 +6,20 @@
 use std::collections::HashMap;
 use std::fmt::Write as _;
 
-/// A statement.
+/// A statement of the generated code.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Line {
     pub(super) text: String,
-    /// Variables that it binds.
+    /// The variables that the statement binds.
     pub(super) bound: Vec<String>,
-    /// Variables that are no more after it.
+    /// The variables that the statement consumes.
     pub(super) taken: Vec<String>,
 }
 
-/// Statements of a block.
+/// The most statements of a block.
 const LENGTH: usize = 100;
 
-/// The statements, in blocks that hand on what they bind and do not take, if `needed` after the
+/// The statements, in blocks that hand on what they bind and do not consume, if `needed` after the
 /// statement of that number.
 pub(super) fn blocks(lines: &[Line], needed: impl Fn(&str, usize) -> bool) -> String {
     let mut out = String::new();
@@ -46,7 +46,7 @@ pub(super) fn blocks(lines: &[Line], needed: impl Fn(&str, usize) -> bool) -> St
     out
 }
 
-/// By variable: the number of the last statement that names it. Of several statements that bind a
+/// The number of the last statement that names each variable. Of several statements that bind a
 /// name, there is one.
 pub(super) fn last_uses(lines: &[Line]) -> HashMap<&str, usize> {
     let mut uses = HashMap::new();

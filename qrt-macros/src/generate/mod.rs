@@ -25,7 +25,8 @@ use qrt_core::valid::ValidScene;
 use quote::ToTokens as _;
 use std::fmt::Write as _;
 
-/// Operations up to which a circuit becomes code. Beyond, the code would take minutes to compile.
+/// The most operations of a circuit that becomes code. Beyond, the code would take minutes to
+/// compile.
 const MOST: usize = 20_000;
 
 /// What stands beside the struct of a scene and its function `scene()`.
@@ -39,7 +40,7 @@ pub(crate) fn scene(parsed: &Parsed, valid: &ValidScene) -> Result<TokenStream, 
     Ok(parsed_text(&text(&name, &public, &conditions, valid)?))
 }
 
-/// Text that this module wrote.
+/// The tokens of text that this module wrote.
 fn parsed_text(text: &str) -> TokenStream {
     // Its tests read all kinds of it; what they miss must not vanish.
     let unread = || quote::quote!(::core::compile_error! { "the circuit's code cannot be read" });
@@ -51,7 +52,7 @@ fn parsed_text(text: &str) -> TokenStream {
     text.parse().unwrap_or_else(|_| unread())
 }
 
-/// The same as text.
+/// What [`scene`] returns, as text.
 fn text(
     scene: &str,
     public: &str,

@@ -1,4 +1,4 @@
-//! Names of variables.
+//! The names of the generated code's variables.
 
 use qrt_circuit::RegisterId;
 use qrt_core::oracle::Oracle;
@@ -26,7 +26,7 @@ impl Names {
         Self(registers.map(name).collect())
     }
 
-    /// The variable.
+    /// The variable that holds a register.
     pub(super) fn of(&self, register: RegisterId) -> &str {
         &self.0[register.index()]
     }

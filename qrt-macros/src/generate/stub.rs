@@ -3,7 +3,7 @@
 
 use proc_macro2::TokenStream;
 
-/// Rays that such a scene seems to have.
+/// How many rays such a scene seems to have.
 const RAYS: usize = 16;
 
 /// What the layout of a scene can have.

@@ -8,7 +8,7 @@ use std::rc::Rc;
 use syn::{BinOp, Expr, Lit, UnOp};
 
 impl Scope {
-    /// Is an expression true or false, by its form?
+    /// Whether an expression is true or false, by its form, and not a number.
     pub(super) fn is_bit(&self, expression: &Expr) -> bool {
         match expression {
             Expr::Paren(inner) => self.is_bit(&inner.expr),

@@ -7,12 +7,12 @@ pub(super) struct Constant {
     pub(super) fraction: u32,
 }
 
-/// Why digits are no constant.
+/// Why decimal digits are no exact constant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Inexact {
-    /// No number of fraction bits is enough.
+    /// No number of fraction bits is enough: the constant has no last bit.
     Never,
-    /// It takes more bits than there are.
+    /// The constant needs more bits than there are.
     TooLong,
 }
 

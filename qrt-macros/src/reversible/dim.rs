@@ -1,4 +1,4 @@
-//! Widths, places of bits and numbers of turns: linear in the constants that a routine is generic
+//! Widths, places of bits and numbers of passes: linear in the constants that a routine is generic
 //! over and in the variables of its loops.
 
 use proc_macro2::{Literal, TokenStream};
@@ -59,7 +59,7 @@ impl Linear {
         self.terms.is_empty().then_some(self.constant)
     }
 
-    /// Is it known not to be negative, whatever the names stand for?
+    /// Whether it is known not to be negative, whatever the names stand for.
     pub(super) fn never_negative(&self) -> bool {
         self.constant >= 0 && self.terms.values().all(|factor| *factor >= 0)
     }
@@ -72,7 +72,7 @@ impl Linear {
         self.terms.get(name).copied().unwrap_or(0)
     }
 
-    /// With `value` in `name`'s stead.
+    /// The same sum with `value` in place of `name`.
     pub(super) fn with(&self, name: &Ident, value: &Self) -> Self {
         let factor = self.factor(name);
         let mut rest = self.clone();

@@ -10,7 +10,7 @@ use quote::{ToTokens, format_ident, quote, quote_spanned};
 use std::collections::BTreeSet;
 use syn::{Ident, Path, PathArguments};
 
-/// All that a routine becomes.
+/// All Rust that a routine expands to.
 pub(super) fn routine(routine: &Routine) -> TokenStream {
     let demands = routine.demands.iter().map(|demand| {
         let (condition, message) = (&demand.condition, &demand.message);
@@ -358,7 +358,7 @@ fn number(bit: &Bit, source: &TokenStream) -> super::ir::Number {
     super::number::truth(bit.clone(), source.to_token_stream())
 }
 
-/// Registers that a statement writes.
+/// Collects the names of the registers that a statement writes.
 fn written(statement: &Statement, names: &mut Vec<Ident>) {
     let (first, second): (&[Statement], &[Statement]) = match &statement.kind {
         K::Update(place, _) => {

@@ -29,7 +29,7 @@ struct Asked {
 }
 
 impl Scope {
-    /// What an update consists of.
+    /// The terms that an update adds or subtracts.
     pub(super) fn terms(
         &mut self,
         update: Update,
@@ -276,7 +276,7 @@ impl Scope {
     }
 }
 
-/// `floor(..)` and `wrapping(..)`.
+/// Reads what `floor(..)` and `wrapping(..)` ask for.
 fn request(call: &syn::ExprCall, asked: Asked) -> Option<Asked> {
     let Expr::Path(function) = &*call.func else {
         return None;
@@ -315,7 +315,7 @@ fn nearest(kind: &NumberKind, size: &Size, fraction: &Linear) -> String {
     format!("{}", (value * scale).round() / scale)
 }
 
-/// Aligned to the target's last bit, and cut to its first if it wraps.
+/// The number aligned to the target's last bit, and cut to its first if it wraps.
 fn cut(number: Number, below: &Linear, wraps: Option<Linear>) -> Number {
     let source = number.source.clone();
     let mut size = number.size.clone();
@@ -341,7 +341,7 @@ fn cut(number: Number, below: &Linear, wraps: Option<Linear>) -> Number {
 }
 
 impl Number {
-    /// Is it computed by an operation that can leave out the lowest bits?
+    /// Whether the number is computed by an operation that can leave out the lowest bits.
     pub(super) fn is_product(&self) -> bool {
         match &self.kind {
             NumberKind::Pointed(inner) => inner.is_product(),

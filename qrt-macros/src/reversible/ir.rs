@@ -37,7 +37,7 @@ pub(super) struct Register {
     pub(super) name: Ident,
     pub(super) ty: Type,
     pub(super) format: Format,
-    /// A parameter is a reference, a scratch register a value.
+    /// Whether it is a parameter, which is a reference, and no scratch register, which is a value.
     pub(super) parameter: bool,
     pub(super) mutable: bool,
 }
@@ -83,22 +83,22 @@ pub(super) struct Size {
     pub(super) width: Dim,
     pub(super) signed: bool,
     pub(super) fraction: Linear,
-    /// Has it a point, so that shifts move that and floor nothing?
+    /// Whether it has a point, so that shifts move that and floor nothing.
     pub(super) fixed: bool,
-    /// May its lowest fraction bits be dropped without being asked?
+    /// Whether its lowest fraction bits may be dropped without `floor(..)`.
     pub(super) floors: bool,
 }
 
 #[derive(Clone)]
 pub(super) enum NumberKind {
-    /// In units of the lowest fraction bit.
+    /// A constant, in units of the lowest fraction bit.
     Constant(i64),
-    /// The bits from the first on, as many as the number has.
+    /// Bits of a register from the first on, as many as the number has.
     Word(Rc<Register>, Linear),
     Truth(Box<Bit>),
-    /// Times `2^n`.
+    /// The number times `2^n`.
     Shifted(Box<Number>, Linear),
-    /// `floor(x / 2^n)`.
+    /// The number without its `n` lowest bits: `floor(x / 2^n)`.
     Dropped(Box<Number>, Linear),
     /// The same bits, with the point elsewhere.
     Pointed(Box<Number>),
@@ -135,7 +135,7 @@ pub(super) enum Update {
     Xor,
 }
 
-/// What an update takes: a part of a sum.
+/// What an update adds: one term of a sum.
 #[derive(Clone)]
 pub(super) enum Term {
     Number(Number),
@@ -145,7 +145,7 @@ pub(super) enum Term {
 #[derive(Clone)]
 pub(super) struct Statement {
     pub(super) kind: StatementKind,
-    /// What errors underline.
+    /// The source text that errors underline.
     pub(super) source: TokenStream,
 }
 
@@ -155,7 +155,7 @@ pub(super) enum StatementKind {
     Swap(Rc<Register>, Rc<Register>),
     Call {
         path: Path,
-        /// Is it the inverse of the function that is named?
+        /// Whether the inverse of the function that is named is called.
         inverse: bool,
         /// Registers, whether they may be changed, and their names as they stand there.
         arguments: Vec<(Rc<Register>, bool, Ident)>,
@@ -167,7 +167,7 @@ pub(super) enum StatementKind {
         reversed: bool,
         body: Vec<Statement>,
     },
-    /// Computes, uses and undoes.
+    /// Runs the first statements, then the second, then the inverses of the first.
     Within(Vec<Statement>, Vec<Statement>),
     /// A scratch register, and what it is there for.
     Scratch(Rc<Register>, Vec<Statement>),
@@ -222,7 +222,7 @@ impl Statement {
     }
 }
 
-/// The inverses, in reverse order.
+/// The inverses of the statements, in reverse order.
 pub(super) fn inverse(statements: &[Statement]) -> Vec<Statement> {
     statements.iter().rev().map(Statement::inverse).collect()
 }

@@ -29,7 +29,7 @@ use qrt_core::syntax::codes;
 use scope::Scope;
 use track::Tracker;
 
-/// What the attribute turns an item into.
+/// What the attribute expands an item to.
 pub(crate) fn expand(arguments: &TokenStream, item: TokenStream) -> TokenStream {
     let offer = term::offer(&item);
     let (tokens, problems) = expanded(arguments, item);
@@ -64,7 +64,7 @@ fn expanded(arguments: &TokenStream, item: TokenStream) -> (TokenStream, Problem
     (tokens, problems)
 }
 
-/// A function without anything wrong.
+/// The routine of a function, if nothing is wrong with it.
 fn understood(function: &syn::ItemFn, problems: &mut Problems) -> Option<Routine> {
     let signature = signature::read(function, problems);
     let mut scope = Scope {

@@ -292,7 +292,7 @@ impl Scope {
         Some(Number { kind, size, source })
     }
 
-    /// A sum, flattened.
+    /// Reads a sum as a flat list of terms.
     pub(super) fn sum(
         &mut self,
         parts: Vec<(bool, Number)>,
@@ -470,7 +470,7 @@ fn constant(units: i64, fraction: u32, source: TokenStream) -> Number {
     Number { kind, size, source }
 }
 
-/// A whole constant.
+/// A constant that is a whole number.
 pub(super) fn units(units: i64) -> Number {
     constant(units, 0, quote!(#units))
 }

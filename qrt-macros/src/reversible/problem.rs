@@ -11,7 +11,7 @@ pub(super) struct Problems {
 }
 
 impl Problems {
-    /// Adds one. `place` is underlined.
+    /// Adds a problem. The tokens of `place` are underlined.
     #[cfg_attr(test, track_caller)]
     pub(super) fn add(&mut self, code: &str, place: impl ToTokens, message: &str, help: &str) {
         #[cfg(test)]
@@ -32,7 +32,7 @@ impl Problems {
         self.found.len()
     }
 
-    /// As errors of the compiler, in the order of the text.
+    /// The problems as errors of the compiler, in the order of the text.
     pub(super) fn tokens(&self) -> TokenStream {
         self.found
             .iter()
@@ -40,7 +40,7 @@ impl Problems {
             .collect()
     }
 
-    /// The messages.
+    /// The messages of all problems.
     #[cfg(test)]
     pub(super) fn messages(&self) -> Vec<String> {
         self.found.iter().map(ToString::to_string).collect()

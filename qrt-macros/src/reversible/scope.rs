@@ -29,7 +29,7 @@ pub(super) struct Scope {
 }
 
 impl Scope {
-    /// The register of a name.
+    /// The register that a name stands for; reports a name that stands for none.
     pub(super) fn register(&mut self, name: &Ident) -> Option<Rc<Register>> {
         let mut latest_first = self.registers.iter().rev();
         let found = latest_first.find(|register| register.name == *name);
@@ -146,8 +146,8 @@ impl Scope {
         least
     }
 
-    /// Is a number never negative? Where that depends on the routine's constants, it is demanded
-    /// of them, with this message.
+    /// Whether a number is never negative. Where that depends on the routine's constants, it is
+    /// demanded of them, with this message.
     pub(super) fn holds(&mut self, number: &Linear, message: &str) -> bool {
         let least = self.least(number);
         if let Some(known) = least.known() {
@@ -167,12 +167,12 @@ impl Scope {
         true
     }
 
-    /// Is a number never negative, whatever the constants are?
+    /// Whether a number is never negative, whatever the constants are.
     pub(super) fn certain(&self, number: &Linear) -> bool {
         self.least(number).never_negative()
     }
 
-    /// Have two places no bit in common, for certain?
+    /// Whether two places have no bit in common for certain.
     pub(super) fn apart(&self, a: &Place, b: &Place) -> bool {
         if a.register.name != b.register.name {
             return true;
@@ -252,7 +252,7 @@ impl Scope {
     }
 }
 
-/// Where source text begins.
+/// The span where source text begins.
 pub(super) fn begin(source: &TokenStream) -> Span {
     let first = source.clone().into_iter().next();
     first.map_or_else(Span::call_site, |token| token.span())

@@ -224,7 +224,7 @@ pub(super) fn format(ty: &Type, constants: &[Ident], problems: &mut Problems) ->
     })
 }
 
-/// Complains about a type.
+/// Reports a type that is not the format of a register.
 #[cfg_attr(test, track_caller)]
 fn no_format<T>(ty: &Type, problems: &mut Problems) -> Option<T> {
     let shown = type_text(ty);

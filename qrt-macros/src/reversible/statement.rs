@@ -89,7 +89,7 @@ impl Scope {
         })
     }
 
-    /// Complains about a declaration.
+    /// Reports a declaration that is not one of a scratch register.
     #[cfg_attr(test, track_caller)]
     fn no_scratch<T>(&mut self, place: impl ToTokens, message: &str) -> Option<T> {
         let help = "write `let mut t: UInt<8> = 0;`";

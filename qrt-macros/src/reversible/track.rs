@@ -1,9 +1,9 @@
-//! What is left in each register: that scratch is zero again, and that what a `within!` read is
-//! there when it is undone.
+//! What each register holds: that scratch registers are zero again, and that what a `within!` read
+//! is there when it is undone.
 //!
 //! A register's content is named by the list of changes that made it. A statement that is the
 //! inverse of the last of them, and reads what that read, takes it off the list again; additions
-//! may be taken back in any order, and so may exclusive ors. What is left at the end of a scratch
+//! may be undone in any order, and so may exclusive ors. What is left at the end of a scratch
 //! register's scope has never been uncomputed.
 
 use super::dim::Linear;
@@ -14,7 +14,7 @@ use proc_macro2::TokenStream;
 use qrt_core::syntax::codes;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-/// Changes that may be taken back in any order have one class.
+/// Changes that may be undone in any order have one class.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Class {
     Sum,
@@ -22,20 +22,20 @@ enum Class {
     Other,
 }
 
-/// A change that has not been taken back.
+/// A change that has not been undone.
 #[derive(Clone)]
 struct Change {
     /// What was done, and to what: equal for equal effects.
     key: String,
-    /// The key of what would take it back.
+    /// The key of the change that would undo this one.
     undone_by: String,
-    /// The two without what they read.
+    /// The two keys without the registers that are read.
     effects: [String; 2],
     class: Class,
     source: TokenStream,
 }
 
-/// Names of registers' contents.
+/// A number for each content that a register can have.
 #[derive(Default)]
 struct Names(HashMap<String, u64>);
 
@@ -162,7 +162,7 @@ impl Frame {
         true
     }
 
-    /// What has been changed and not been taken back.
+    /// The registers that have been changed and not been restored.
     fn left(&self) -> BTreeSet<String> {
         let left = self
             .changes
@@ -255,7 +255,7 @@ impl<'a> Tracker<'a> {
         }
     }
 
-    /// Of a statement that contains others: what is left of these.
+    /// The effect of a statement that contains others: the changes that are left of these.
     fn compound(
         &mut self,
         statement: &Statement,

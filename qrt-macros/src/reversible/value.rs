@@ -28,10 +28,10 @@ pub(super) enum Value {
     Word(View),
 }
 
-/// Some bits of a register.
+/// Some bits of a register, as an operation reads them.
 #[derive(Clone)]
 pub(super) struct View {
-    /// A reference to the register.
+    /// The tokens of a reference to the register.
     register: TokenStream,
     /// Its [`qrt_circuit::Word`], where all of it is read.
     whole: Option<TokenStream>,

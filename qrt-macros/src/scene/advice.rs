@@ -167,7 +167,7 @@ fn help(what: &What) -> Option<String> {
     Some(help.to_owned())
 }
 
-/// How so many elements are written.
+/// How a list of so many elements is written.
 fn of_length(count: usize) -> Option<String> {
     let form = match count {
         2 => "write `(a, b)`",
@@ -183,7 +183,7 @@ fn one_of(words: &[&str]) -> String {
     format!("write {}", listed(&words, "or"))
 }
 
-/// A word of scenes as it is in tokens.
+/// A word of scenes as it is spelled in tokens.
 fn spelled(word: &str) -> String {
     word.replace('-', "_")
 }

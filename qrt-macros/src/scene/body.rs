@@ -7,7 +7,7 @@ use proc_macro2::Delimiter;
 use qrt_core::syntax::tree::{Entry, Node, Span, Value};
 use qrt_core::syntax::{codes, listed, nearest};
 
-/// What begins an entry.
+/// The words that an entry can begin with.
 pub(super) const ENTRIES: [&str; 17] = [
     "name",
     "camera",
@@ -35,7 +35,7 @@ const REPEATED: [&str; 6] = ["quad", "triangle", "mesh", "depth", "const", "for"
 pub(crate) struct Origin {
     /// `quad`, `triangle`, `mesh` or `depth`.
     pub(crate) kind: &'static str,
-    /// Its label.
+    /// The author's label; none if there is none.
     pub(crate) label: Option<String>,
     /// The loops' variables, such as `i = 3`; empty outside of loops.
     pub(crate) pass: String,
@@ -45,17 +45,17 @@ pub(crate) struct Origin {
 #[derive(Debug, Default)]
 pub(crate) struct Body {
     pub(crate) reader: Reader,
-    /// All but materials, primitives and depths.
+    /// All entries but materials, primitives and depths.
     pub(crate) blocks: Vec<Entry>,
     pub(super) materials: Vec<Entry>,
     pub(super) geometry: Vec<Node>,
     pub(super) depths: Vec<Node>,
-    /// Of each element of `geometry`.
+    /// The origin of each element of `geometry`.
     pub(crate) primitives: Vec<Origin>,
-    /// Of each element of `depths`.
+    /// The origin of each element of `depths`.
     pub(crate) rays: Vec<Origin>,
     pub(super) labels: Vec<(String, Span)>,
-    /// Passes of loops so far.
+    /// How many passes loops have taken so far.
     pub(super) passes: usize,
 }
 
@@ -108,7 +108,7 @@ impl Body {
                 }
                 "for" => {
                     at = self.repeat(tokens, at);
-                    // A comma may follow, as behind a match arm with braces.
+                    // A comma may follow, as after a match arm with braces.
                     is_separated = tokens.get(at).is_none_or(|next| !next.is_sign(','));
                 }
                 _ => {
@@ -262,7 +262,7 @@ impl Body {
         fault.help(format!("write `{}`", example(key).unwrap_or(key)));
     }
 
-    /// What follows the colon behind `first`.
+    /// What follows the colon after `first`.
     fn after_colon<'t>(&mut self, first: &Token, rest: &'t [Token]) -> Option<&'t [Token]> {
         if let [colon, rest @ ..] = rest
             && colon.is_sign(':')

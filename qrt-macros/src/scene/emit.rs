@@ -1,4 +1,4 @@
-//! What a scene is in Rust: a type, and the checked scene behind a function of it.
+//! What a scene is in Rust: a type, and the checked scene as a function of it.
 
 use super::{Header, Parsed, Source};
 use proc_macro2::{Literal, TokenStream};

@@ -85,7 +85,7 @@ impl Expression {
         self.pieces.push((start..self.text.len(), place));
     }
 
-    /// The tokens of these bytes; behind the end, the last one.
+    /// The place of the tokens of these bytes; beyond the end, that of the last token.
     pub(crate) fn place(&self, bytes: &Range<usize>) -> Option<Span> {
         let touched = |range: &Range<usize>| range.start < bytes.end && bytes.start < range.end;
         let mut touched = self.pieces.iter().filter(|(range, _)| touched(range));
@@ -167,7 +167,7 @@ pub(crate) fn number(
     }
 }
 
-/// As [`number`], its value.
+/// As [`number`], but the value alone.
 pub(crate) fn value(
     tokens: &[Token],
     names: &Names,

@@ -9,7 +9,7 @@ use std::fmt::Write as _;
 /// One thing that is wrong, at a place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Fault {
-    /// Stable code.
+    /// The stable code of the fault: `QRT0700`.
     pub(crate) code: &'static str,
     place: tree::Span,
     message: String,
@@ -25,31 +25,31 @@ pub(crate) struct Fault {
 }
 
 impl Fault {
-    /// As found in a loop.
+    /// Says in which pass of a loop the fault was found.
     pub(crate) fn in_pass(&mut self, pass: &str) -> &mut Self {
         self.repeats = true;
         self.note(format!("where {pass}"))
     }
 
-    /// With a line of its own behind the message.
+    /// Adds a note on a line of its own after the message.
     pub(crate) fn note(&mut self, note: impl Into<String>) -> &mut Self {
         self.notes.push(note.into());
         self
     }
 
-    /// With another place that matters.
+    /// Adds another place that matters, and why.
     pub(crate) fn also(&mut self, place: tree::Span, why: impl Into<String>) -> &mut Self {
         self.also = Some((place, why.into()));
         self
     }
 
-    /// With the right thing to write.
+    /// Adds the right thing to write.
     pub(crate) fn help(&mut self, help: impl Into<String>) -> &mut Self {
         self.help = Some(help.into());
         self
     }
 
-    /// With the text of another report, which has its own codes.
+    /// Adds the text of another report, which has its own codes.
     pub(crate) fn body(&mut self, body: String) -> &mut Self {
         self.body = Some(body);
         self
@@ -60,7 +60,7 @@ impl Fault {
         table.ends(self.place)
     }
 
-    /// What the compiler shows.
+    /// The text that the compiler shows.
     pub(crate) fn text(&self, table: &Table) -> String {
         if let Some(body) = &self.body {
             return format!("{}\n\n{}", self.message, body.trim_end());
@@ -87,7 +87,7 @@ impl Fault {
     }
 }
 
-/// All that is wrong.
+/// All faults of the macro's input.
 #[derive(Debug, Default)]
 pub(crate) struct Faults(Vec<Fault>);
 
@@ -117,12 +117,12 @@ impl Faults {
         &mut self.0[index]
     }
 
-    /// How many there are.
+    /// How many faults there are.
     pub(crate) fn count(&self) -> usize {
         self.0.len()
     }
 
-    /// In the order of their places; of what loops repeat, the first.
+    /// The faults in the order of their places; of those that loops repeat, the first.
     pub(crate) fn finalize(mut self) -> Vec<Fault> {
         self.0
             .sort_by_key(|fault| (fault.place.start, fault.place.end, fault.code));
@@ -133,7 +133,7 @@ impl Faults {
         self.0
     }
 
-    /// Those of another scene of the same input as well.
+    /// Adds the faults of another scene of the same input.
     pub(crate) fn append(&mut self, mut other: Self) {
         self.0.append(&mut other.0);
     }

@@ -7,7 +7,7 @@ use proc_macro2::Delimiter;
 use qrt_core::syntax::tree::{Node, Value};
 
 impl Body {
-    /// What follows `film:`.
+    /// Reads what follows `film:`.
     pub(super) fn film(&mut self, first: &Token, rest: &[Token]) -> Node {
         let Some(place) = place_of(rest) else {
             self.form(first.place(), "`film` has no value", "film");
@@ -59,7 +59,7 @@ fn sides(tokens: &[Token]) -> Option<(Vec<Token>, Vec<Token>)> {
     (!width.is_empty() && !height.is_empty()).then_some((width, height))
 }
 
-/// `digits` and the digits behind the `x` that `text` begins with.
+/// `digits`, and the digits after the `x` that `text` begins with.
 fn split_x(digits: &str, text: &str) -> Option<(String, String)> {
     let after = text.strip_prefix('x')?.replace('_', "");
     let is_number = after.bytes().all(|byte| byte.is_ascii_digit());

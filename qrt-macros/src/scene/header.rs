@@ -9,13 +9,13 @@ use syn::parse::Parser as _;
 /// What a scene is called, and what stands before that.
 #[derive(Debug)]
 pub(crate) struct Header {
-    /// Attributes and docs.
+    /// The attributes and doc comments in front of the scene.
     pub(crate) attributes: TokenStream,
-    /// `pub` and the like.
+    /// The visibility of the scene's type: `pub` and the like.
     pub(crate) visibility: TokenStream,
-    /// The name of its type.
+    /// The name of the scene's type.
     pub(crate) name: Ident,
-    /// Where its path stands, if it has one.
+    /// Where the path of the scene's file stands, if it has one.
     pub(super) path: Option<Span>,
 }
 
@@ -28,7 +28,7 @@ impl Header {
         conditions.map(quote::ToTokens::into_token_stream).collect()
     }
 
-    /// The scene's name, unless it says another: `cornell-box` for `CornellBox`.
+    /// The scene's name unless its entries give another: `cornell-box` for `CornellBox`.
     pub(crate) fn scene_name(&self) -> String {
         let text = self.name.to_string();
         let text = text.strip_prefix("r#").unwrap_or(&text).replace('_', "-");

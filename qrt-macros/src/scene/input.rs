@@ -86,7 +86,7 @@ pub(super) fn flatten(stream: TokenStream, out: &mut Vec<TokenTree>) {
     }
 }
 
-/// What follows a scene's name.
+/// What follows a scene's name: its entries, or a file.
 enum Rest<'t> {
     Body(&'t [Token]),
     Path(&'t str, Span),
@@ -111,7 +111,7 @@ impl<'t> Input<'t> {
         self.trees[start..self.at].iter().cloned().collect()
     }
 
-    /// Reports what stands here in place of `expected`, and goes on behind the next braces.
+    /// Reports what stands here in place of `expected`, and goes on after the next braces.
     #[cfg_attr(test, track_caller)]
     fn fail<T>(&mut self, code: &'static str, expected: &str) -> Option<T> {
         let last = self.tokens.last().map(Token::place).unwrap_or_default();
@@ -200,7 +200,7 @@ impl<'t> Input<'t> {
         Some((parsed, valid.filter(|_| is_sound)))
     }
 
-    /// The scene of a file.
+    /// Reads the scene of a file.
     fn file(&mut self, header: Header, path: &Path, root: &Path) -> Read {
         match load_below(root, path, &[]) {
             Ok(loaded) => {
@@ -260,7 +260,7 @@ impl<'t> Input<'t> {
         None
     }
 
-    /// The braces behind the name, or `from` and a path.
+    /// What follows the name: braces, or `from` and a path.
     fn rest(&mut self) -> Option<Rest<'t>> {
         let token = self.peek();
         if let Some(inner) = token.and_then(|token| token.group(Delimiter::Brace)) {

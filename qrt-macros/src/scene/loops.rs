@@ -7,11 +7,11 @@ use proc_macro2::Delimiter;
 use qrt_core::syntax::codes;
 use qrt_core::syntax::tree::Span;
 
-/// Passes that all loops of a scene take together.
+/// The most passes that all loops of a scene take together.
 pub(crate) const MAX_PASSES: usize = 100_000;
 
 impl Body {
-    /// `const NAME: f64 = value;`
+    /// Reads `const NAME: f64 = value;`.
     pub(super) fn constant(&mut self, tokens: &[Token], at: usize) -> usize {
         let stop = |token: &Token| token.is_sign(';') || token.is_sign(',');
         let end = (at + 1..tokens.len())
@@ -143,7 +143,7 @@ impl Body {
         Some(Passes::Counted(from, to + f64::from(u8::from(inclusive))))
     }
 
-    /// An end of a range.
+    /// One end of a range, which must be a whole number.
     fn whole(&mut self, tokens: &[Token]) -> Option<f64> {
         let reader = &mut self.reader;
         let end = value(tokens, &reader.names, &reader.later, &mut reader.faults)?;

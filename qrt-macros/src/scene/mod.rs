@@ -41,7 +41,7 @@ pub(crate) struct Parsed {
     pub(crate) header: Header,
     /// The labels of its primitives, by their number in the scene; none for a scene of a file.
     pub(crate) primitives: Vec<Origin>,
-    /// The labels of its rays, likewise.
+    /// The labels of its rays, by the number of bounces before each; none for a scene of a file.
     pub(crate) rays: Vec<Origin>,
     source: Source,
 }
@@ -50,9 +50,9 @@ pub(crate) struct Parsed {
 enum Source {
     /// The tokens of the macro themselves.
     Tokens(Box<Written>),
-    /// A file.
+    /// A scene file, and what was read from it.
     File(Box<Loaded>),
-    /// What could not be read.
+    /// Nothing, since the scene could not be read.
     Nothing,
 }
 

@@ -9,9 +9,9 @@ use qrt_core::syntax::{codes, nearest};
 /// What a name of the author's own stands for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Meaning {
-    /// A number.
+    /// The number that the name stands for.
     Number(f64),
-    /// What could not be read: nothing is said of what depends on it.
+    /// A value that could not be read: nothing is said of what depends on it.
     Faulty,
 }
 
@@ -39,7 +39,7 @@ impl Names {
         nearest(text, self.0.iter().map(|name| name.text.as_str()))
     }
 
-    /// How many there are: to [`Names::keep`] later.
+    /// How many names there are, to [`Names::keep`] later.
     pub(crate) fn count(&self) -> usize {
         self.0.len()
     }
@@ -151,7 +151,7 @@ impl Names {
     }
 }
 
-/// As a constant's name.
+/// Another name than `text`, spelled as constants usually are.
 fn other(text: &str) -> String {
     let upper = text.to_uppercase();
     if upper == text {

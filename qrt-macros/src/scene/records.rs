@@ -105,7 +105,7 @@ fn fields<'t>(tokens: &'t [Token], faults: &mut Faults) -> Vec<&'t [Token]> {
     let mut end = 0;
     for mut part in split_fields(tokens) {
         end += part.len() + 1;
-        // A colon behind the first belongs to another key.
+        // A colon after the first belongs to another key.
         while let Some(at) = (2..part.len().saturating_sub(1)).find(|&at| {
             part[at].word().is_some()
                 && matches!(part[at + 1].kind, Kind::Sign(':', false))

@@ -18,7 +18,7 @@ use std::collections::BTreeMap;
 /// A macro's input, and the functions that it names as far as they are known.
 #[derive(Debug)]
 pub(crate) struct Asked {
-    /// What the author has written.
+    /// The tokens that the author has written.
     pub(super) input: TokenStream,
     functions: Vec<(TokenStream, TokenStream)>,
 }
@@ -86,7 +86,7 @@ fn name(path: &TokenStream) -> String {
     text.chars().filter(|letter| *letter != ' ').collect()
 }
 
-/// The paths that stand behind `value: fn`.
+/// Finds the paths that stand after `value: fn`.
 fn paths(tokens: TokenStream, found: &mut Vec<TokenStream>) {
     let mut trees = Vec::new();
     super::input::flatten(tokens, &mut trees);

@@ -7,9 +7,9 @@ use qrt_core::syntax::tree;
 /// A token and its place.
 #[derive(Clone, Debug)]
 pub(crate) struct Token {
-    /// What it is.
+    /// What the token is.
     pub(crate) kind: Kind,
-    /// Number of its first span, and of its last: a group has two.
+    /// The number of the token's first span, and of its last: a group has two.
     pub(crate) first: usize,
     pub(crate) last: usize,
 }
@@ -38,7 +38,7 @@ impl PartialEq for Token {
 }
 
 impl Token {
-    /// Where it stands.
+    /// The place of the token in the input.
     pub(crate) fn place(&self) -> tree::Span {
         place(self.first, self.last)
     }
@@ -53,7 +53,7 @@ impl Token {
         matches!(&self.kind, Kind::Sign(own, _) if *own == sign)
     }
 
-    /// The word that it is.
+    /// The word, if the token is one.
     pub(crate) fn word(&self) -> Option<&str> {
         match &self.kind {
             Kind::Word(word) => Some(word),
@@ -86,7 +86,7 @@ impl Token {
         }
     }
 
-    /// What this is, for "expected a value, found ...".
+    /// What the token is, for "expected a value, found ...".
     pub(crate) fn found(&self) -> String {
         match &self.kind {
             Kind::Word(text) | Kind::Other(text) => format!("`{text}`"),

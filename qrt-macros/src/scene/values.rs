@@ -1,4 +1,4 @@
-//! Values and records: what stands behind a key, as nodes of the tree that YAML becomes too.
+//! Values and records: what stands after a key, as nodes of the tree that YAML becomes too.
 
 use super::expression::{Expression, number};
 use super::fault::Faults;
@@ -12,13 +12,13 @@ use qrt_core::syntax::tree::{Entry, Node, Scalar, Span, Value};
 /// Reads values; keeps what later readers and reports need.
 #[derive(Debug, Default)]
 pub(crate) struct Reader {
-    /// What is wrong so far.
+    /// All that has been found wrong so far.
     pub(crate) faults: Faults,
-    /// Names that stand for numbers.
+    /// The author's names that stand for numbers here.
     pub(crate) names: Names,
-    /// Constants that are defined somewhere.
+    /// The names of all constants of the scene, also of those that are defined later.
     pub(crate) later: Vec<String>,
-    /// Functions that stand for values.
+    /// The functions that stand for values, by name.
     pub(crate) terms: Terms,
     /// The expressions: a node of source `n` is number `n - 1`.
     pub(crate) expressions: Vec<Expression>,
@@ -29,22 +29,22 @@ pub(crate) struct Reader {
 /// What kind of value a key has.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Sort {
-    /// Numbers, points, colours.
+    /// Numbers, points and colours.
     Plain,
-    /// One of a few words.
+    /// One of the words that the key allows.
     Word,
     /// A text in quotes.
     Text,
     /// An expression in the variables of a BSDF.
     Expression,
-    /// One of those, or three.
+    /// One such expression, or three: red, green and blue.
     Channels,
-    /// `|u, v| (x, y, z)`
+    /// A map from the unit square to directions: `|u, v| (x, y, z)`.
     Map,
 }
 
 impl Sort {
-    /// Of the value of `key` in a record that is called `record`.
+    /// The kind of value that `key` has in a record that is called `record`.
     fn of(record: &str, key: &str) -> Self {
         match (record, key) {
             ("bsdf", "map") => Self::Map,
@@ -61,18 +61,18 @@ impl Sort {
     }
 }
 
-/// A text, as in quotes.
+/// A node of a text, as in quotes.
 pub(crate) fn text(text: &str, span: Span) -> Node {
     scalar(text.to_owned(), true, span)
 }
 
-/// A number or a word; with `quoted`, a text.
+/// A node of a number or a word; with `quoted`, of a text.
 pub(crate) fn scalar(text: String, quoted: bool, span: Span) -> Node {
     let value = Value::Scalar(Scalar { text, quoted });
     Node { span, value }
 }
 
-/// In place of what could not be read.
+/// A node in place of what could not be read, which has been reported.
 pub(crate) fn faulty(span: Span) -> Node {
     let value = Value::Unread;
     Node { span, value }
@@ -256,7 +256,7 @@ impl Reader {
                 .help("write `value: fn my_term`, or `value: fn my_module::my_term`");
             return faulty(place);
         };
-        // Of the errors of a term the compiler knows.
+        // The errors of a term have been reported to the compiler.
         let Some(channels) = channels.clone() else {
             return faulty(place);
         };

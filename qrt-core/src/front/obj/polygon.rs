@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3};
 /// More corners than a face that is not convex may have: cutting ears takes up to their cube.
 const MAX_CONCAVE: usize = 256;
 
-/// An area, as a part of the square of the longest edge, that is rounding alone.
+/// An area, as a fraction of the square of the longest edge, that is rounding alone.
 const NO_AREA: f64 = 1e-14;
 
 fn no_area() -> ObjError {

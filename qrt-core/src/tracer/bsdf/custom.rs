@@ -8,7 +8,7 @@ use crate::tracer::compiled::{Angles, Compiled};
 use crate::valid::CustomBsdf;
 use crate::valid::bsdf::weight_bound;
 
-/// One such surface, for one depth.
+/// One surface with a BSDF of the author's own, for one depth.
 #[derive(Clone, Debug)]
 pub(super) struct CustomLobe<const C: usize> {
     /// `phi`, unless the depth's map replaces it. Of its density, `1 / J(u, v)`, the square tells,
@@ -16,7 +16,7 @@ pub(super) struct CustomLobe<const C: usize> {
     pub(super) direction: Option<Compiled>,
     /// Weights of the channels.
     weight: Compiled,
-    /// The greatest weights.
+    /// The greatest weight per channel.
     pub(super) weight_bound: [f64; C],
     pub(super) asks_for_angles: bool,
 }

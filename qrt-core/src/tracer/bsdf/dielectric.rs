@@ -11,7 +11,7 @@ use crate::valid::{Scatter, Surface};
 /// All dielectric surfaces.
 #[derive(Clone, Debug)]
 pub(super) struct DielectricLobe {
-    /// By surface: `1 / ior` and `ior`, the index on the side opposite to the normal.
+    /// For each surface `1 / ior` and `ior`, the index on the side opposite to the normal.
     refraction: Vec<[f64; 2]>,
 }
 

@@ -10,11 +10,11 @@ use std::ops::Range;
 #[derive(Clone, Debug)]
 pub(crate) struct Emitters<const C: usize> {
     surfaces: Range<u32>,
-    /// By surface: what its front emits, 0 or more.
+    /// The radiance that the front of each surface emits, 0 or more.
     radiance: Vec<[f64; C]>,
 }
 
-/// Does `surface` emit in any channel?
+/// Whether `surface` emits in any channel.
 pub(crate) fn emits(surface: &Surface) -> bool {
     surface.radiance.iter().any(|&channel| channel > 0.0)
 }
@@ -33,7 +33,7 @@ impl<const C: usize> Emitters<C> {
         }
     }
 
-    /// By surface: what its front emits.
+    /// The radiance that the front of each surface emits.
     pub(crate) fn radiance(&self) -> &[[f64; C]] {
         &self.radiance
     }

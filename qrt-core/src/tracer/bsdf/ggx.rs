@@ -20,11 +20,11 @@ use std::f64::consts::{FRAC_1_PI, PI};
 /// All GGX surfaces: they differ in their tint, the reflectance, and in roughness.
 #[derive(Clone, Debug)]
 pub(super) struct GgxLobe {
-    /// By surface: alpha, above 0 and at most 1.
+    /// The roughness alpha of each surface, above 0 and at most 1.
     roughness: Vec<[f64; 1]>,
-    /// The least of them.
+    /// The least roughness of these surfaces.
     least_alpha: f64,
-    /// Does it sample by its own map?
+    /// Whether the lobe samples by its own map.
     pub(super) has_map: bool,
 }
 
@@ -63,7 +63,7 @@ impl GgxLobe {
         Scattered { direction, weight }
     }
 
-    /// By the own map: `D(h) G1(o) / (4 cos_o)`.
+    /// The density of directions by the own map: `D(h) G1(o) / (4 cos_o)`, per steradian.
     pub(super) fn density<A: Arith>(
         &self,
         cx: &mut A,

@@ -24,7 +24,7 @@ pub(super) struct DepthMap {
 /// A sample of the map.
 #[derive(Clone, Copy)]
 pub(super) struct Mapped<R> {
-    /// In the local frame.
+    /// The sampled direction in the local frame.
     pub(super) direction: [R; 3],
     /// `J |phi_z| / pi`: the weight of a white Lambertian.
     pub(super) factor: R,
@@ -47,7 +47,7 @@ impl DepthMap {
         }
     }
 
-    /// Does it replace the maps that materials have of their own?
+    /// Whether it replaces the maps that materials have of their own.
     pub(super) fn replaces(&self) -> bool {
         match self.map {
             Map::Auto => false,
@@ -63,7 +63,7 @@ impl DepthMap {
         }
     }
 
-    /// Is [`Mapped::factor`] always 1?
+    /// Whether [`Mapped::factor`] is always 1.
     pub(super) fn is_projected(&self) -> bool {
         self.compiled.constant(3) == Some(1.0)
     }

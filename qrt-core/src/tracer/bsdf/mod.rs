@@ -45,7 +45,7 @@ enum Lobe<'a, const C: usize> {
 }
 
 impl<const C: usize> Lobe<'_, C> {
-    /// Does it take directions from the depth's map ([`Sample::mapped`])?
+    /// Whether the lobe takes directions from the depth's map ([`Sample::mapped`]).
     fn uses_map(&self) -> bool {
         match self {
             Self::Lambertian => true,
@@ -56,7 +56,7 @@ impl<const C: usize> Lobe<'_, C> {
         }
     }
 
-    /// Does it ask for the cosine of the arriving ray, which then must have unit length?
+    /// Whether the lobe reads the cosine of the arriving ray, which then must have unit length.
     fn asks_for_angles(&self) -> bool {
         match self {
             // A mirror keeps a direction's length for whoever asks next.
@@ -123,7 +123,7 @@ impl Square {
 struct Sample<'a, A: Arith, const C: usize> {
     at: &'a Vertex<A>,
     square: &'a Square,
-    /// By the depth's map; zeros unless a lobe uses it.
+    /// The direction by the depth's map; zeros unless a lobe uses it.
     mapped: Mapped<A::Real>,
     /// The viewer's direction in the local frame; zeros unless a lobe asks for it.
     outgoing: Vector<A>,
@@ -135,7 +135,7 @@ struct Sample<'a, A: Arith, const C: usize> {
 #[derive(Clone, Debug)]
 pub(crate) struct ScatterStage<const C: usize> {
     square: Square,
-    /// By surface.
+    /// The factor of the weight of each surface, per channel.
     tint: Vec<[f64; C]>,
     /// Surfaces that differ in tables alone share their lobe.
     lambertian: Range<u32>,
@@ -144,9 +144,9 @@ pub(crate) struct ScatterStage<const C: usize> {
     ggx: (Range<u32>, GgxLobe),
     phong: Vec<(u32, PhongLobe<C>)>,
     custom: Vec<(u32, CustomLobe<C>)>,
-    /// Does any lobe use the depth's map?
+    /// Whether any lobe uses the depth's map.
     uses_map: bool,
-    /// Does any lobe ask for angles to the arriving ray?
+    /// Whether any lobe reads angles to the arriving ray.
     pub(crate) asks_for_angles: bool,
 }
 
@@ -329,7 +329,8 @@ impl<const C: usize> ScatterStage<C> {
     }
 }
 
-/// Takes `new` where `mask` holds. The first candidate needs no choice.
+/// Replaces the direction and weight by `new` where `mask` holds. The first candidate needs no
+/// choice.
 #[inline(always)]
 fn choose<A: Arith, const C: usize>(
     cx: &mut A,

@@ -24,7 +24,7 @@ pub(super) struct PhongLobe<const C: usize> {
     diffuse: [f64; C],
     specular: [f64; C],
     exponent: f64,
-    /// Does it sample by its own map? One column cannot hold two parts.
+    /// Whether the lobe samples by its own map. One column cannot hold two parts.
     pub(super) has_map: bool,
     /// p, the base's fraction of the columns.
     base_fraction: f64,

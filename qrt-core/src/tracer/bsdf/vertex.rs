@@ -11,9 +11,9 @@ pub(crate) struct Vertex<A: Arith> {
     pub(crate) tangent: Vector<A>,
     pub(crate) bitangent: Vector<A>,
     pub(crate) normal: Vector<A>,
-    /// `arriving.normal`
+    /// The dot product of the arriving direction and the surface's normal.
     pub(crate) cos_theta: A::Real,
-    /// Does the viewer see the front?
+    /// Whether the viewer sees the front of the surface.
     pub(crate) front: A::Bool,
     pub(crate) surface: A::Index,
     /// The paths still wanted.

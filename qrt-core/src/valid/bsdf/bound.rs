@@ -3,7 +3,7 @@
 use crate::expr::{Domain, Expr, Interval, Variable, Variables};
 use std::collections::BinaryHeap;
 
-/// A box, by its upper bound.
+/// A part of the domain, ordered by its upper bound.
 struct Candidate {
     bound: f64,
     domain: Domain,
@@ -26,8 +26,9 @@ impl Ord for Candidate {
     }
 }
 
-/// An upper bound of `e`, and of 0, over the whole domain: always the box of the highest bound is
-/// halved, until a value is known that is nearly as high or the effort is spent.
+/// An upper bound of `e`, and of 0, over the whole domain: the part of the highest bound is halved
+/// again and again, until a value is known that is nearly as high or the allowed number of steps is
+/// used up.
 pub(super) fn supremum(e: &Expr) -> f64 {
     const EFFORT: usize = 4096;
     const CLOSE: f64 = 1.0 + 1e-4;

@@ -10,8 +10,8 @@ const NEGATIVE: f64 = -1e-12;
 /// The energy that a BSDF may gain by the quadrature's error.
 const GAIN: f64 = 2e-3;
 
-/// Directions towards the viewer, and turns of the surface's frame about its normal, that make a
-/// difference to `f`: `(cos_o, turn)`.
+/// Directions towards the viewer, and rotations of the surface's frame about its normal, that make
+/// a difference to `f`: `(cos_o, turn)`.
 fn viewers(f: &Expr) -> Vec<(f64, f64)> {
     let set = f.variables(f.root());
     let oblique = set.contains(Variable::CosA);
@@ -47,7 +47,7 @@ fn seen(at: Variables, direction: [f64; 3], (cos_o, turn): (f64, f64)) -> Variab
     }
 }
 
-/// The value is finite and not negative.
+/// Checks that the value is finite and not negative.
 pub(super) fn value(map: &[Expr; 3], f: &Expr, path: &Path) -> Option<Problem> {
     let viewers = viewers(f);
     let mut room = Vec::new();
@@ -142,7 +142,7 @@ impl<'a> Quadrature<'a> {
         self.rule(rule).iter().map(light).sum()
     }
 
-    /// No viewer sees more light leave than arrives: `integral f |phi_z| J du dv <= 1`.
+    /// Checks that no viewer sees more light leave than arrives: `integral f |phi_z| J du dv <= 1`.
     pub(super) fn energy(&self, f: &Expr, path: &Path) -> Option<Problem> {
         let mut worst: Option<(f64, (f64, f64))> = None;
         for viewer in viewers(f) {

@@ -7,9 +7,10 @@ use glam::DVec3;
 
 /// How far from length 1 a direction may be.
 const OFF_SPHERE: f64 = 1e-9;
-/// By what part a stated Jacobian may differ from the map's.
+/// The fraction by which a stated Jacobian may differ from the map's.
 const OFF_JACOBIAN: f64 = 1e-6;
-/// A cross product, as a part of the lengths' product, that is rounding: the slopes are parallel.
+/// A cross product, as a fraction of the lengths' product, that is rounding: the partial
+/// derivatives are parallel.
 const PARALLEL: f64 = 1e-10;
 
 const CENTRES: usize = 52;
@@ -37,7 +38,7 @@ pub(super) fn points() -> impl Iterator<Item = Variables> {
     })
 }
 
-/// The slopes of a map with respect to u and to v.
+/// The partial derivatives of a map with respect to u and to v.
 struct Slopes([[Expr; 2]; 3]);
 
 impl Slopes {
@@ -51,8 +52,8 @@ impl Slopes {
     }
 }
 
-/// The map is finite, has finite slopes, stays on the sphere, is no mere line, and reaches no
-/// direction twice.
+/// Checks that the map is finite, has finite partial derivatives, stays on the sphere, is no mere
+/// line, and reaches no direction twice.
 pub(super) fn map(map: &[Expr; 3]) -> Option<Problem> {
     let root = Path::root().key("map");
     let slopes = Slopes::of(map);
@@ -138,7 +139,7 @@ fn twice(map: &[Expr; 3], slopes: &Slopes) -> Option<Variables> {
     covered.iter().find(often).map(|(_, _, place)| *place)
 }
 
-/// A stated Jacobian is that of the map.
+/// Checks that a stated Jacobian is that of the map.
 pub(super) fn jacobian(map: &[Expr; 3], stated: &Expr) -> Option<Problem> {
     let slopes = Slopes::of(map);
     let right = |at: &Variables| {

@@ -97,14 +97,14 @@ struct Coder<'a> {
     program: &'a Program,
     names: &'a Names,
     lines: Vec<Line>,
-    /// Tables.
+    /// The tables that the code looks up, as text of Rust.
     statics: String,
     variables: HashMap<RegisterId, Variable>,
     temporaries: usize,
 }
 
 impl Coder<'_> {
-    /// A variable that is `value`.
+    /// Binds a new variable to `value`, and returns its name.
     fn bind(&mut self, value: &str) -> String {
         self.temporaries += 1;
         let name = format!("t{}", self.temporaries);
@@ -136,7 +136,7 @@ impl Coder<'_> {
         }
     }
 
-    /// The register holds the number's lowest bits.
+    /// Says that the register holds the number's lowest bits.
     fn set(&mut self, id: RegisterId, number: Number) {
         let register = self.register(id);
         let (width, signed) = (register.width, signed(register.ty));
@@ -158,7 +158,7 @@ impl Coder<'_> {
         self.variables.insert(id, Variable::Number(number));
     }
 
-    /// The register holds 1 where the truth holds.
+    /// Says that the register holds 1 where the truth holds.
     fn set_truths(&mut self, id: RegisterId, mut truths: String) {
         let register = self.register(id);
         if register.width == 1 && !signed(register.ty) {

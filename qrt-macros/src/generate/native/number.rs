@@ -38,7 +38,7 @@ impl Coder<'_> {
         Number { text, range }
     }
 
-    /// The lowest 32 bits.
+    /// The variable of a number's lowest 32 bits, in lanes of 32 bits.
     pub(super) fn ints(&mut self, a: &Number) -> String {
         if a.range.narrow() {
             a.text.clone()
@@ -55,7 +55,7 @@ impl Coder<'_> {
         }
     }
 
-    /// Times `2^by`.
+    /// The number times `2^by`.
     pub(super) fn left(&mut self, a: Number, by: u32) -> Number {
         if by == 0 {
             return a;
@@ -103,7 +103,7 @@ impl Coder<'_> {
         Number { text, range }
     }
 
-    /// Is this bit set?
+    /// Whether bit `index` of the number is set, as code for a truth per lane.
     pub(super) fn number_bit(&mut self, a: &Number, index: u32) -> String {
         let sign = a.range.right(index).within(Range::new(-1, 0));
         let narrow = a.range.narrow();

@@ -8,16 +8,16 @@ pub(super) struct Range {
 }
 
 impl Range {
-    /// Any number.
+    /// The range of all numbers.
     pub(super) const ALL: Self = Self::new(i64::MIN, i64::MAX);
-    /// What 32 bits hold.
+    /// The range of the numbers that 32 bits hold.
     pub(super) const INTS: Self = Self::new(i32::MIN as i64, i32::MAX as i64);
 
     pub(super) const fn new(low: i64, high: i64) -> Self {
         Self { low, high }
     }
 
-    /// What `width` bits hold, as 64 bits read them.
+    /// The range of what `width` bits hold, as 64 bits read them.
     pub(super) fn of(width: u32, signed: bool) -> Self {
         if width >= 64 {
             return Self::ALL;
@@ -29,7 +29,7 @@ impl Range {
         Self::new(0, (u64::MAX >> (64 - width)).cast_signed())
     }
 
-    /// Do 32 bits hold it?
+    /// Whether 32 bits hold every number of the range.
     pub(super) fn narrow(self) -> bool {
         self.within(Self::INTS)
     }
@@ -88,12 +88,12 @@ impl Range {
         Self::new(self.low >> by, self.high >> by)
     }
 
-    /// Numbers in both.
+    /// The range of the numbers that are in both.
     pub(super) fn intersection(self, other: Self) -> Self {
         Self::new(self.low.max(other.low), self.high.min(other.high))
     }
 
-    /// What lanes of 32 bits make of it.
+    /// The range after lanes of 32 bits have cut its numbers.
     pub(super) fn cut(self) -> Self {
         if self.narrow() { self } else { Self::INTS }
     }

@@ -4,7 +4,7 @@ use super::content::{Path, Value};
 use crate::reversible::ir::Format;
 use qrt_core::expr::{Domain, Expr, Interval, Node, Variable, VariableSet};
 
-/// Parts of the domain that a proof looks at before it gives up.
+/// The most parts of the domain that a proof looks at before it gives up.
 const PARTS: usize = 2048;
 
 /// The least and the greatest number of a format whose widths are known.
@@ -21,7 +21,7 @@ pub(super) fn of_format(format: &Format) -> Option<Interval> {
     Some(Interval { lo, hi })
 }
 
-/// What the lowest bit stands for.
+/// The number that the lowest bit of a format stands for.
 pub(super) fn unit(format: &Format) -> Option<f64> {
     let fraction = format.fraction.known()?;
     Some(2_f64.powi(-(fraction as i32)))
@@ -60,7 +60,7 @@ fn lone(expression: &Expr) -> Option<Variable> {
     }
 }
 
-/// Is a register's number, its rounding included, always within `room`, where `path` leads?
+/// Whether a register's number, its rounding included, is always within `room` where `path` leads.
 pub(super) fn fits(value: &Value, room: Interval, domain: &Domain, path: &Path) -> bool {
     if within(value.run, room) {
         return true;
@@ -92,7 +92,7 @@ pub(super) fn within(range: Interval, room: Interval) -> bool {
     room.lo <= range.lo && range.hi <= room.hi
 }
 
-/// Can the comparisons of a path hold somewhere in a part of the domain?
+/// Whether the comparisons of a path can hold somewhere in a part of the domain.
 fn possible(path: &Path, part: &Domain) -> bool {
     path.iter().all(|(less, holds)| {
         let [a, b] = [&less.0, &less.1].map(|e| e.range(part).unwrap_or(Interval::ALL));

@@ -1,10 +1,10 @@
 //! What a register holds: a sum of expressions, each where some comparisons hold.
 //!
-//! What is subtracted again leaves the sum, so that scratch that was uncomputed is 0.
+//! What is subtracted again leaves the sum, so that a scratch register that was uncomputed is 0.
 
 use qrt_core::expr::{Expr, Interval};
 
-/// `.0 < .1`
+/// The comparison `.0 < .1`.
 #[derive(Clone, PartialEq)]
 pub(super) struct Less(pub(super) Expr, pub(super) Expr);
 
@@ -14,11 +14,11 @@ pub(super) type Path = Vec<(Less, bool)>;
 /// A number that is computed.
 #[derive(Clone)]
 pub(super) struct Value {
-    /// Exactly.
+    /// The number without any rounding, as an expression.
     pub(super) expr: Expr,
-    /// What rounding may have added.
+    /// An interval of what rounding may have added to it.
     pub(super) error: Interval,
-    /// What a machine's register may hold.
+    /// An interval of what a machine's register may hold.
     pub(super) run: Interval,
 }
 
@@ -45,7 +45,7 @@ struct Part {
 pub(super) struct Content(Vec<Part>);
 
 impl Content {
-    /// Of a register that was not zero before.
+    /// The content of a register that was not zero before.
     pub(super) fn of(value: Value) -> Self {
         let part = Part {
             subtracted: false,
@@ -76,7 +76,7 @@ impl Content {
         });
     }
 
-    /// It, and where `path` leads, `other` in its stead.
+    /// This content, and where `path` leads, `other` in its place.
     pub(super) fn replaced(&self, other: &Self, path: &Path) -> Self {
         let mut parts = other.within(path);
         // Elsewhere: the first comparisons are as on the path, and the next is not.
@@ -106,7 +106,7 @@ impl Content {
 }
 
 impl Part {
-    /// It, where `path` leads; `None` if it was not added there.
+    /// The part where `path` leads; `None` if it was not added there.
     fn seen_from(&self, path: &Path) -> Option<Self> {
         let mut own = Path::new();
         for (less, holds) in &self.path {
@@ -122,7 +122,7 @@ impl Part {
         })
     }
 
-    /// It, once its first comparison is known.
+    /// The part once its first comparison is known.
     fn inner(&self) -> Self {
         Self {
             path: self.path[1..].to_vec(),

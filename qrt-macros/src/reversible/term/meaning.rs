@@ -25,16 +25,16 @@ const MAX_PARTS: usize = 200;
 pub(super) struct Meaning<'a> {
     pub(super) registers: BTreeMap<String, Content>,
     pub(super) domain: Domain,
-    /// The branches around.
+    /// The branches around the statement that is being read.
     pub(super) path: Path,
     /// The loops around, and their passes.
     pub(super) loops: Vec<(Ident, i64)>,
     name: Ident,
     steps: usize,
-    /// Is something too long, so that the rest would be, too?
+    /// Whether something is too long, so that the rest would be, too.
     ended: bool,
     problems: &'a mut Problems,
-    /// Problems that are known, by what they say and where.
+    /// Problems that have been reported, by what they say and where.
     said: BTreeSet<String>,
 }
 
@@ -224,7 +224,7 @@ impl<'a> Meaning<'a> {
         self.check(register, &value, source)
     }
 
-    /// That a register holds its number, whatever the variables are.
+    /// Checks that a register holds its number, whatever the variables are.
     fn check(&mut self, register: &Register, value: &Value, source: &TokenStream) -> Option<()> {
         if self.problems.count() > 0 {
             return None;

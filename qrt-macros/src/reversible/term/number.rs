@@ -10,7 +10,7 @@ use proc_macro2::TokenStream;
 use qrt_core::expr::{Expr, Interval};
 
 impl Meaning<'_> {
-    /// What a number of an expression is.
+    /// The value of a number of an expression.
     pub(super) fn number(&mut self, number: &Number) -> Option<Value> {
         let fraction = self.known(&number.size.fraction)?;
         // A number is its units times 2^-fraction, and so are those that it is made of.
@@ -184,7 +184,7 @@ impl Meaning<'_> {
         both
     }
 
-    /// Complains about bits.
+    /// Reports an operation on bits, which are no numbers.
     #[cfg_attr(test, track_caller)]
     pub(super) fn no_number<T>(&mut self, source: &TokenStream) -> Option<T> {
         let shown = text(source);

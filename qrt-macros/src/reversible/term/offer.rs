@@ -41,7 +41,7 @@ pub(crate) fn offer(item: &TokenStream) -> TokenStream {
     }
 }
 
-/// Is a parameter called like a variable, and a number with a point that is only read?
+/// Whether a parameter is called like a variable, and is a number with a point that is only read.
 fn is_variable(input: &FnArg) -> bool {
     let FnArg::Typed(input) = input else {
         return false;
@@ -58,7 +58,7 @@ fn is_variable(input: &FnArg) -> bool {
         && format.path.segments.last().is_some_and(fixed)
 }
 
-/// The variable of a name.
+/// The variable that has this name, if there is one.
 pub(super) fn variable(name: &Ident) -> Option<Variable> {
     let mut all = Variable::ALL.into_iter();
     all.find(|variable| name == variable.name())
