@@ -14,11 +14,11 @@ pub(crate) struct Draws<'a> {
     pub(crate) count: u64,
     /// By channel, whether anything is to be counted: its amplitude is 0 if not.
     pub(crate) counted: [bool; 3],
-    /// N, the ids of a channel.
+    /// N, the number of indices of a channel.
     pub(crate) total: u64,
 }
 
-/// What was drawn of a pixel.
+/// The estimates that were drawn of a pixel.
 pub(crate) struct Drawn {
     /// By draw and channel.
     pub(crate) amplitudes: Vec<[f64; 3]>,

@@ -1,4 +1,4 @@
-//! The plots.
+//! The plots of `qrt trade`.
 
 use super::fronts::fronts;
 use super::setting::Sweep;
@@ -264,8 +264,8 @@ fn price(trade: &Trade) -> Figure {
             x: Axis::bits("fraction bits"),
             y: Axis::log("one call of the oracle"),
             series: vec![
-                of("Toffoli", |row| row.spent.toffoli),
-                of("qubits", |row| row.spent.qubits),
+                of("Toffoli", |row| row.cost.toffoli),
+                of("qubits", |row| row.cost.qubits),
             ],
         },
         says: "Gates and qubits of the dearest channel's oracle.",
