@@ -186,7 +186,7 @@ fn repetitions(trade: &Trade) -> Figure {
             y: Axis::log("E_T: RMSE / mean radiance"),
             series: all,
         },
-        says: "The same queries spent on more phase bits (larger) or on more repetitions (again), with \
+        says: "The same queries used for more phase bits (larger) or on more repetitions (again), with \
                the scene's estimator and with the others that count with a register.",
     }
 }
@@ -268,7 +268,7 @@ fn price(trade: &Trade) -> Figure {
                 of("qubits", |row| row.cost.qubits),
             ],
         },
-        says: "Gates and qubits of the dearest channel's oracle.",
+        says: "Gates and qubits of the most expensive channel's oracle.",
     }
 }
 
