@@ -48,7 +48,7 @@ pub struct Tile {
     pub height: u32,
     /// Linear RGB, row by row.
     pub pixels: Vec<[f64; 3]>,
-    /// Oracle queries spent on each pixel.
+    /// Oracle queries that each pixel used.
     pub queries: Vec<u64>,
     /// Good indices of each pixel's channels; 0 where none are counted.
     pub good: Vec<[u64; 3]>,

@@ -69,7 +69,7 @@ pub struct LookupTable {
 
 /// Some S next to each other.
 struct Row {
-    /// From y, in steps.
+    /// The distance from y, in steps.
     distance: f64,
     /// The fractions that they span.
     low: f64,

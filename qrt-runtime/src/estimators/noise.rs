@@ -70,7 +70,7 @@ fn survives(each: f64, times: u64) -> f64 {
 }
 
 impl fmt::Display for Noise {
-    /// As it is written on the command line.
+    /// The noise as it is written on the command line.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,

@@ -8,15 +8,15 @@ use std::fmt;
 /// Errors at the asked confidence, in units of the mean radiance.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ErrorParts {
-    /// Of a finite number of paths.
+    /// The error of a finite number of paths.
     pub paths: f64,
-    /// Of comparing with a finite number of thresholds.
+    /// The error of comparing with a finite number of thresholds.
     pub comparators: f64,
-    /// Of numbers of finite width.
+    /// The error of numbers of finite width.
     pub width: f64,
-    /// Of estimating amplitudes from measurements.
+    /// The error of estimating amplitudes from measurements.
     pub counting: f64,
-    /// Of all of them together, which is no sum of theirs.
+    /// The error of all of them together, which is not their sum.
     pub total: f64,
 }
 

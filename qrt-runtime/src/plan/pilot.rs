@@ -46,10 +46,10 @@ pub(super) struct Pilot<'a> {
     pub(super) pixels: Vec<[u32; 2]>,
     /// Runs of an estimator for every channel and sign of the paths' error.
     pub(super) draws: u64,
-    /// Of a path's colour, by channel.
+    /// The bound of a path's colour, by channel.
     pub(super) bound: [f64; 3],
     pub(super) comparator_bits: u32,
-    /// Of the comparators that were chosen.
+    /// The errors of the comparators that were chosen.
     pub(super) comparator_errors: Errors,
     /// The best known value of every channel.
     pub(super) values: Means,

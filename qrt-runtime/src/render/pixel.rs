@@ -29,7 +29,7 @@ const PARTS: u64 = 1 << 12;
 pub(super) struct Totals {
     colour: [Sum; 3],
     good: [u64; 3],
-    /// Of the luminance, where it is counted.
+    /// The counts of the luminance, where it is counted.
     segments: Segments,
     /// Queries that primary hits took.
     queries: u64,

@@ -20,9 +20,9 @@ pub(crate) struct Draws<'a> {
 
 /// The estimates that were drawn of a pixel.
 pub(crate) struct Drawn {
-    /// By draw and channel.
+    /// The estimated amplitudes, by draw and channel.
     pub(crate) amplitudes: Vec<[f64; 3]>,
-    /// Of all draws and channels.
+    /// The queries of all draws and channels together.
     pub(crate) queries: u64,
 }
 

@@ -13,7 +13,7 @@ const BLOCK: usize = 256;
 pub(crate) struct Sum {
     /// The sum of the whole blocks.
     total: f64,
-    /// Of the block under way.
+    /// The sums of the block under way.
     lanes: [f64; LANES],
     /// Path indices of the block under way.
     filled: usize,

@@ -30,7 +30,7 @@ pub struct Row {
     pub cost: CallCost,
     /// The mean radiance over pixels and channels.
     pub mean: f64,
-    /// As [`ERRORS`], relative to the mean.
+    /// The errors in the order of [`ERRORS`], relative to the mean.
     pub errors: [Band; ERRORS.len()],
     /// Wall time of a pixel.
     pub seconds: f64,

@@ -53,7 +53,7 @@ struct Rules {
 /// How the failure probability is divided among the query depths.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Failures {
-    /// The same for each.
+    /// The same failure probability for each query depth.
     Equal,
     /// In proportion to the multiple: the deeper, the more.
     ByMultiple,
