@@ -1,10 +1,10 @@
 //! Whether an asked accuracy is kept, and at what price.
 //!
-//! `cargo bench --bench accuracy` asks four scenes for three errors each, renders what the plan says
-//! on the circuit's numbers, and compares with 2^20 paths of another seed. It fails unless the asked
-//! share of channels is within the asked error, at no more than twice the queries of the best parameters
-//! that a sweep by hand finds: every register and number of repetitions, over any number of paths.
-//! A name alone asks the scenes whose names hold it.
+//! `cargo bench --bench accuracy` asks four scenes for three errors each, renders what the plan
+//! says on the circuit's numbers, and compares with 2^20 paths of another seed. It fails unless the
+//! asked fraction of channels is within the asked error, at no more than twice the queries of the
+//! best parameters that a sweep by hand finds: every register and number of repetitions, over any
+//! number of paths. A name alone asks the scenes whose names hold it.
 
 // A bench that cannot run has nothing to report.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
@@ -39,10 +39,10 @@ const TRUTH: (u32, u64) = (20, 77);
 const SEED: u64 = 1;
 /// Path bits of the sweep.
 const PATHS: [u32; 5] = [12, 14, 16, 18, 20];
-/// Pictures over which the sweep's shares are averaged.
+/// Pictures over which the sweep's fractions are averaged.
 const DRAWS: u64 = 4;
-/// What the share of the first of them may lack for the others to be tried: more than three standard
-/// deviations of so many channels.
+/// What the fraction of the first of them may lack for the others to be tried: more than three
+/// standard deviations of so many channels.
 const LACK: f64 = 0.02;
 
 fn scene(name: &str, error: f64) -> ValidScene {
@@ -70,14 +70,15 @@ fn scene(name: &str, error: f64) -> ValidScene {
     validate(scene, &Meshes::default()).unwrap()
 }
 
-/// Of `values`, the share that is within `error` of the truth.
+/// Of `values`, the fraction that is within `error` of the truth.
 fn share(values: &[[f64; 3]], truth: &[[f64; 3]], error: f64) -> f64 {
     let pairs = values.iter().flatten().zip(truth.iter().flatten());
     let within = pairs.filter(|(a, b)| (*a - *b).abs() <= error).count();
     within as f64 / (3 * truth.len()) as f64
 }
 
-/// The fewest queries a pixel with which counting over one of `means` keeps the error, and the parameters.
+/// The fewest queries a pixel with which counting over one of `means` keeps the error, and the
+/// parameters.
 fn by_hand(
     means: &[Means],
     truth: &Means,

@@ -2,12 +2,12 @@
 //!
 //! `cargo bench --bench gates` prints lane-gates a second and core: gates times the states that
 //! each is executed on. The lists are what the compiler makes: a product of 16 bits and a
-//! comparison, wide and lean, whose rows the nearest caches hold; and the Cornell box for all three
-//! channels, of more than half a million gates, under either strategy. Each is computed and
-//! uncomputed. Beside them stands what the processor's loads and stores allow a machine that
-//! executes one Toffoli after the other from the nearest cache, measured in the same run: sequences
-//! of gates that go through registers together exceed it. Then come nanoseconds an operation takes
-//! a lane on the fixed machine.
+//! comparison, out of place and in place, whose rows the nearest caches hold; and the Cornell box
+//! for all three channels, of more than half a million gates, under either strategy. Each is
+//! computed and uncomputed. Beside them stands what the processor's loads and stores allow a
+//! machine that executes one Toffoli after the other from the nearest cache, measured in the same
+//! run: sequences of gates that go through registers together exceed it. Then come nanoseconds an
+//! operation takes a lane on the fixed machine.
 //!
 //! It fails where a promise is broken: 3e11 lane-gates a second and core with vectors of 256 bits
 //! or more, and simple operations on numbers of up to 32 bits in an eighth of a nanosecond.
@@ -62,8 +62,8 @@ fn main() -> ExitCode {
     let wide = InstructionSet::widest() != InstructionSet::Portable;
     let mut slowest = f64::INFINITY;
     let lists = [
-        ("product, wide", product(Style::OutOfPlace)),
-        ("product, lean", product(Style::InPlace)),
+        ("product, out of place", product(Style::OutOfPlace)),
+        ("product, in place", product(Style::InPlace)),
         ("box, keep", cornell_box("keep")),
         ("box, scoped", cornell_box("scoped")),
     ];

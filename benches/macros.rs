@@ -1,13 +1,13 @@
 //! What `qrt!` costs a crate that uses it: how long it takes to build, and how much it writes.
 //!
-//! `cargo bench --bench macros` makes a crate that depends on `qrt` alone, with a scene from a file,
-//! the Cornell box, and prints the seconds of its first build (all dependencies, nothing optimised),
-//! of a build after the scene was changed, and of the expansion of its macros; and the bytes that
-//! they expand to.
+//! `cargo bench --bench macros` makes a crate that depends on `qrt` alone, with a scene from a
+//! file, the Cornell box, and prints the seconds of its first build (all dependencies, nothing
+//! optimised), of a build after the scene was changed, and of the expansion of its macros; and the
+//! bytes that they expand to.
 //!
 //! It fails where a promise is broken, on two cores with nothing else to do: the first build takes
-//! less than 90 seconds, the next one less than 3, the expansion less than half a second, and what is
-//! written is less than 2 MB.
+//! less than 90 seconds, the next one less than 3, the expansion less than half a second, and what
+//! is written is less than 2 MB.
 
 // A bench that cannot run has nothing to report.
 #![allow(clippy::unwrap_used, clippy::expect_used)]

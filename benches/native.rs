@@ -5,8 +5,8 @@
 //! scene, paths a second of one core by each, and how many times as fast the code is. Both compute
 //! all three channels of every path, and the same bits.
 //!
-//! It fails where a promise is broken: on the Cornell box, with AVX-512 and with AVX2, the code is at
-//! least 1.5 times as fast as the interpreted program.
+//! It fails where a promise is broken: on the Cornell box, with AVX-512 and with AVX2, the code is
+//! at least 1.5 times as fast as the interpreted program.
 
 // A bench that cannot run has nothing to report.
 #![allow(clippy::unwrap_used, clippy::expect_used)]

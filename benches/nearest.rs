@@ -10,8 +10,8 @@
 //! * against 22.5 sqrt(N) + 1.4 (log2 N)^2, after which Durr & Hoyer (1996) have found the minimum
 //!   with probability 1/2;
 //!
-//! the rays whose nearest face was missed, beside the bound on their share; Toffolis and qubits of
-//! a query; and the exponents that fit best. It fails where a promise is broken.
+//! the rays whose nearest face was missed, beside the bound on their fraction; Toffolis and qubits
+//! of a query; and the exponents that fit best. It fails where a promise is broken.
 
 // A bench that cannot run has nothing to report.
 #![allow(clippy::unwrap_used, clippy::expect_used)]

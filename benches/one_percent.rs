@@ -1,10 +1,10 @@
 //! What counting costs beside tracing, at an error of one percent.
 //!
 //! `cargo bench --bench one_percent` asks the Cornell box for an error of 1 % of its mean with
-//! probability 95 %, takes the parameters that are chosen for it, and renders a film of 8 x 8 pixels with
-//! and without counting; `-- 64` renders all 64 x 64, which takes ten minutes. Times are those of the
-//! processor, where the system tells. Fails if drawing measurements and estimating from them
-//! take longer than tracing the paths.
+//! probability 95 %, takes the parameters that are chosen for it, and renders a film of 8 x 8
+//! pixels with and without counting; `-- 64` renders all 64 x 64, which takes ten minutes. Times
+//! are those of the processor, where the system tells. Fails if drawing measurements and estimating
+//! from them take longer than tracing the paths.
 
 // A bench that cannot run has nothing to report.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
@@ -60,7 +60,7 @@ fn main() {
     assert!(counting < traced, "counting takes longer than tracing");
 }
 
-/// Seconds that all cores together have spent on this process, where the system tells: what others
+/// Seconds that all cores together have worked on this process, where the system tells: what others
 /// do at the same time does not count.
 fn processor_seconds() -> Option<f64> {
     let stat = std::fs::read_to_string("/proc/self/stat").ok()?;

@@ -9,7 +9,7 @@
 //! * what each of the compiler's passes is worth;
 //! * Toffolis and qubits over the number of quads P, rays D, path bits log2 R, comparator bits
 //!   log2 C and fraction bits w, each with the exponent of a power of it that fits best, and the
-//!   share of the cost by which that misses (root mean square).
+//!   fraction of the cost by which that misses (root mean square).
 //!
 //! It fails where a promise is broken: what the box may cost, and how the cost may grow.
 
@@ -74,7 +74,7 @@ fn main() -> ExitCode {
     promises.exit()
 }
 
-/// An oracle, measured.
+/// What was measured of an oracle.
 struct Measured {
     cost: Cost,
     qubits: u64,

@@ -1,7 +1,7 @@
 //! Every scene of the independent renderer, at every depth, with 2^18 paths a pixel.
 //!
 //! `cargo bench --bench references [-- PATH_BITS]` prints how far qrt's pictures are from the
-//! reference, as shares of the reference's mean, and fails where a promise is broken.
+//! reference, as fractions of the reference's mean, and fails where a promise is broken.
 
 // A bench that cannot run has nothing to report.
 #![allow(clippy::unwrap_used, clippy::expect_used)]

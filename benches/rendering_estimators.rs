@@ -1,7 +1,7 @@
 //! The estimators that quantum rendering brought: coverage, convergence, and the time they take.
 //!
-//! Promises, each asserted: at 95 % asked, intervals hold S/N in 94 % of the runs or more, for a
-//! uniform in [0, 1] and at its extremes; the error that 95 % of the runs keep falls as 1/queries;
+//! Promises, each asserted: at a confidence of 95 %, the coverage is 94 % or more, for a
+//! uniform in [0, 1] and at its extremes; the 95th-percentile error falls as 1/queries;
 //! queries x error is what the table says; an estimate of 10^4 queries takes half a millisecond
 //! at most.
 
@@ -14,7 +14,7 @@ use qrt_core::scene::{Counting, Estimator, Window};
 use qrt_runtime::estimators::{Device, Noise, Problem, Settings, estimator};
 use qrt_runtime::random::Stream;
 
-/// The estimators, and the most that queries x error at 95 % may be.
+/// The estimators, and the most that queries x 95th-percentile error may be.
 const ESTIMATORS: [(Estimator, f64); 3] = [
     (Estimator::Qss, 5.1),
     (Estimator::Qcoin, 11.5),
@@ -31,7 +31,8 @@ fn settings(phase_bits: u32) -> Settings {
     Settings::of(&counting).unwrap()
 }
 
-/// Absolute errors in ascending order, and the share of the intervals that hold a.
+/// Absolute errors in ascending order, and the coverage: the fraction of the intervals that contain
+/// a.
 fn measure(
     name: Estimator,
     settings: &Settings,
@@ -70,14 +71,17 @@ fn main() {
         println!("{name}");
         println!("  intervals of 95 %, 10000 runs of 1023 queries, hold S/N in");
         for total in [1_u64 << 40, 16] {
-            let (_, share) = measure(name, &settings(10), 10_000, total, uniform(total));
-            println!("    N = {total:<14} uniform   {:.2} %", 100.0 * share);
-            assert!(share >= 0.94);
+            let (_, coverage) = measure(name, &settings(10), 10_000, total, uniform(total));
+            println!("    N = {total:<14} uniform   {:.2} %", 100.0 * coverage);
+            assert!(coverage >= 0.94);
             for amplitude in [0.0, 1e-6, 0.5, 1.0 - 1e-6, 1.0] {
                 let good = (amplitude * total as f64).round() as u64;
-                let (_, share) = measure(name, &settings(10), 10_000, total, |_| good);
-                println!("    N = {total:<14} {amplitude:<9} {:.2} %", 100.0 * share);
-                assert!(share >= 0.94);
+                let (_, coverage) = measure(name, &settings(10), 10_000, total, |_| good);
+                println!(
+                    "    N = {total:<14} {amplitude:<9} {:.2} %",
+                    100.0 * coverage
+                );
+                assert!(coverage >= 0.94);
             }
         }
         println!("  queries   95 % of errors   x queries   mean x queries   RMSE x queries");

@@ -1,10 +1,10 @@
 //! Quantum counting on amplitudes, beside other people's simulators.
 //!
-//! `cargo bench --bench statevector` counts the good ids of n bits with a register of t bits, n + t =
-//! 8 + 8 to 10 + 10, from one list of gates (Hadamards, controlled powers of the Grover iterate,
-//! inverse Fourier transform): on the dense machine, the sparse one, and by the reduced and the
-//! subspace models. It prints seconds, and how far each is from the closed form. Beside them stand
-//! figures of other simulators: measured on the same list in the same run by
+//! `cargo bench --bench statevector` counts the good indices of n bits with a register of t bits,
+//! n + t = 8 + 8 to 10 + 10, from one list of gates (Hadamards, controlled powers of the Grover
+//! iterate, inverse Fourier transform): on the dense machine, the sparse one, and by the reduced
+//! and the subspace models. It prints seconds, and how far each is from the closed form. Beside
+//! them stand figures of other simulators: measured on the same list in the same run by
 //! `benches/peers/counting.py`, where there is a `python3` that can install them, and those of
 //! another machine (2 cores of a Zen 5), measured on a list like it.
 //!
@@ -59,7 +59,7 @@ const MEASURED: [(&str, &str, f64); 2] = [
     ("qsim", "qsim, this run", 1e-2),
 ];
 
-/// An id is good where an odd number of these hold, each a conjunction of the id's bits.
+/// An index is good where an odd number of these hold, each a conjunction of the index's bits.
 const MONOMIALS: [&[u32]; 4] = [&[0, 1], &[2, 3, 4], &[0, 3, 6, 7], &[1, 2, 5, 7]];
 
 struct Problem {

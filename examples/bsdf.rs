@@ -68,7 +68,7 @@ qrt! {
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!(
-        "the scene: {} qubits, {} Toffolis, {} operations from a path's id to its colours",
+        "the scene: {} qubits, {} Toffolis, {} operations from a path's index to its colours",
         Draped::QUBITS,
         Draped::TOFFOLI,
         Draped::OPERATIONS

@@ -7,7 +7,7 @@
 //! A lamp before a coloured wall is compiled to a circuit; around it come the Grover iterate, its
 //! controlled powers and the inverse Fourier transform. All of it runs on amplitudes, ancillas
 //! included. Beside what the circuit measures stands the distribution that `qrt render` draws from,
-//! which knows only how many ids are good.
+//! which knows only how many indices are good.
 
 use qrt::core::oracle::Oracle;
 use qrt::core::scene::Window;

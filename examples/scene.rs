@@ -48,7 +48,7 @@ qrt! {
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!(
-        "{} qubits, {} Toffolis, {} operations from a path's id to its colours",
+        "{} qubits, {} Toffolis, {} operations from a path's index to its colours",
         Steps::QUBITS,
         Steps::TOFFOLI,
         Steps::OPERATIONS

@@ -56,7 +56,7 @@ pub(crate) fn quads(quads: u32) -> String {
     text
 }
 
-/// The power of x that fits points (x, y) best; its residual is a share of y.
+/// The power of x that fits points (x, y) best; its residual is a fraction of y.
 pub(crate) fn fit(points: impl Iterator<Item = [f64; 2]>) -> Fit {
     Fit::of(points.map(|[x, y]| (x.ln(), y.ln()))).expect("points of several x")
 }

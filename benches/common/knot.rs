@@ -12,8 +12,8 @@ const TUBE: f64 = 0.065;
 
 /// The knot that goes twice around the axis while it goes three times around the tube, as an OBJ
 /// file: `2 * around * along` triangles that face outward, in a box of about 1 x 0.4 x 1 around the
-/// y axis, resting on y = 0. `around` corners make a section of the tube, `along` sections the knot;
-/// fewer than three of either are none.
+/// y axis, resting on y = 0. `around` corners make a section of the tube, `along` sections the
+/// knot; fewer than three of either are none.
 pub(crate) fn torus_knot(around: u32, along: u32) -> String {
     let mut vertices = Vec::new();
     for section in 0..along {

@@ -1,4 +1,4 @@
-//! How often intervals hold what they say.
+//! The coverage of the estimators' intervals.
 
 use super::expected::{Expected, Verdicts};
 use super::runs::Run;
@@ -16,7 +16,7 @@ const AMPLITUDES: [Option<f64>; 6] = [
     Some(1.0),
 ];
 
-/// Bits of the ids, and of the phase registers whose queries may be spent.
+/// Bits of the indices, and of the phase registers whose queries may be used.
 const SIZES: [(u32, u32); 4] = [(4, 5), (40, 5), (40, 8), (40, 12)];
 
 /// Prints how often the intervals of each estimator hold the amplitude, at least, over all sizes.
@@ -33,8 +33,8 @@ pub(crate) fn table(names: &[Estimator], quick: bool, verdicts: &mut Verdicts) {
                 let total = 1_u64 << ids;
                 let problem = |run: u32| {
                     let even = (f64::from(run) + 0.5) / f64::from(runs);
-                    let share = amplitude.unwrap_or(even);
-                    let good = (share * total as f64).round() as u64;
+                    let fraction = amplitude.unwrap_or(even);
+                    let good = (fraction * total as f64).round() as u64;
                     Problem { good, total }
                 };
                 let run = Run {

@@ -11,10 +11,10 @@ pub(crate) struct Expected {
     pub(crate) repetitions: u32,
     /// Slope of the root mean square error, and how far off it may be.
     rmse_slope: Option<(f64, f64)>,
-    /// The same of the 95 % quantile of the error.
+    /// The same of the 95th-percentile error.
     q95_slope: Option<(f64, f64)>,
-    /// Queries times error at 95 %, amplitudes spread evenly and [`KNOWN_FROM`] queries or more: the
-    /// range that is known. It is kept if the geometric mean is within a fifth of it.
+    /// Queries times 95th-percentile error, amplitudes spread evenly and [`KNOWN_FROM`] queries or
+    /// more: the range that is known. It is kept if the geometric mean is within a fifth of it.
     cost: Option<(f64, f64)>,
     /// Errors with so heavy a tail that the mean square needs many runs.
     heavy: bool,
@@ -79,7 +79,7 @@ impl Expected {
                 cost: Some((1.9, 2.9)),
                 ..unknown
             },
-            // 3.7 to 3.9 measured by others (16 shots at each depth).
+            // 3.7 to 3.9 measured by others (16 shots at each query depth).
             Estimator::Mlae => Self {
                 rmse_slope: Some((-1.0, 0.15)),
                 q95_slope: LINEAR,
@@ -87,14 +87,14 @@ impl Expected {
                 ..unknown
             },
             // 4.1 to 4.4 measured by others (20 shots at once). A failure is as likely at the
-            // first depth as at the last: the mean square has no such slope.
+            // first query depth as at the last: the mean square has no such slope.
             Estimator::Iqae => Self {
                 q95_slope: Some((-1.0, 0.15)),
                 cost: Some((4.1, 4.4)),
                 ..unknown
             },
             // No figure in this unit is known. With ratios of at least 3 and so few queries the
-            // first depths still tell.
+            // first query depths still tell.
             Estimator::Miqae => Self {
                 rmse_slope: Some((-1.0, 0.15)),
                 q95_slope: Some((-1.0, 0.2)),
@@ -143,10 +143,10 @@ impl Verdicts {
         points: &[Point],
         quick: bool,
     ) {
-        // At amplitudes of a few thousandths the first rounds of methods that narrow an angle down from
-        // the whole quarter turn find nothing: up to some hundred queries their error is the amplitude
-        // itself, then it falls more steeply (or, in mlae's tail, more slowly) than it will. What is
-        // asked of them on pixels is in the table, and no slope.
+        // At amplitudes of a few thousandths the first rounds of methods that narrow an angle down
+        // from the whole quarter turn find nothing: up to some hundred queries their error is the
+        // amplitude itself, then it falls more steeply (or, in mlae's tail, more slowly) than it
+        // will. What is asked of them on pixels is in the table, and no slope.
         let at_once = [
             Estimator::MonteCarlo,
             Estimator::Paper,

@@ -1,11 +1,12 @@
-//! What every estimator's queries buy, and whether its intervals hold what they promise.
+//! What every estimator's queries buy, and whether its intervals have the coverage that they
+//! promise.
 //!
 //! `cargo bench --bench estimators` runs every estimator that there is
 //!
 //! * on amplitudes spread evenly over [0, 1], and on the pixels of the Cornell box, at 63 to 8,191
-//!   queries: the root mean square error, the error that 95 % of the runs keep, the slopes of both
+//!   queries: the root mean square error, the 95th-percentile error, the slopes of both
 //!   on logarithmic axes, and queries times error;
-//! * 10,000 times on each of a few kinds of amplitudes, among many ids and few: how often its
+//! * 10,000 times on each of a few kinds of amplitudes, among many indices and few: how often its
 //!   interval holds the amplitude;
 //!
 //! prints both as Markdown tables, and fails where a figure is not within the range that
@@ -92,7 +93,7 @@ fn main() -> ExitCode {
         }
     }
 
-    println!("\n### How often intervals hold the amplitude\n");
+    println!("\n### Coverage of the intervals\n");
     coverage::table(&names, asked.quick, &mut verdicts);
     println!("\n{verdicts}");
     println!("{:.0} seconds", begin.elapsed().as_secs_f64());

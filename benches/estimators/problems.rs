@@ -15,7 +15,7 @@ pub(crate) enum Problems {
     Pixels { film: u32, list: Vec<Problem> },
 }
 
-/// Ids where amplitudes are spread evenly.
+/// Indices where amplitudes are spread evenly.
 const IDS: u64 = 1 << 40;
 
 impl Problems {
@@ -60,9 +60,9 @@ impl Problems {
     pub(crate) fn problem(&self, run: u32, runs: u32) -> Problem {
         match self {
             Self::Even => {
-                let share = (f64::from(run) + 0.5) / f64::from(runs);
+                let fraction = (f64::from(run) + 0.5) / f64::from(runs);
                 Problem {
-                    good: (share * IDS as f64) as u64,
+                    good: (fraction * IDS as f64) as u64,
                     total: IDS,
                 }
             }
@@ -76,10 +76,10 @@ impl fmt::Display for Problems {
         match self {
             Self::Even => write!(f, "Amplitudes spread evenly over [0, 1]"),
             Self::Pixels { film, list } => {
-                let shares = list.iter().map(|p| p.good as f64 / p.total as f64);
-                let mut shares: Vec<f64> = shares.collect();
-                shares.sort_by(f64::total_cmp);
-                let at = |percent: usize| shares[(shares.len() - 1) * percent / 100];
+                let fractions = list.iter().map(|p| p.good as f64 / p.total as f64);
+                let mut fractions: Vec<f64> = fractions.collect();
+                fractions.sort_by(f64::total_cmp);
+                let at = |percent: usize| fractions[(fractions.len() - 1) * percent / 100];
                 write!(
                     f,
                     "Pixels of the Cornell box, {film} x {film}, amplitudes of {:.4} ({:.4} to \

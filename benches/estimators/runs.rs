@@ -27,7 +27,7 @@ pub(crate) struct Outcome {
 
 /// What many runs with the same settings found.
 pub(crate) struct Point {
-    /// Queries that might be spent, and the mean of those that were.
+    /// Queries that might be used, and the mean of those that were.
     pub(crate) asked: u64,
     pub(crate) queries: f64,
     pub(crate) rmse: f64,
@@ -114,7 +114,7 @@ impl fmt::Display for Point {
     }
 }
 
-/// The slopes of the RMSE and of the 95 % quantile over the queries that were spent.
+/// The slopes of the RMSE and of the 95th-percentile error over the queries that were used.
 pub(crate) fn slopes(points: &[Point]) -> (f64, f64) {
     let of = |value: fn(&Point) -> f64| {
         let logarithms = points.iter().map(|p| (p.queries.ln(), value(p).ln()));
@@ -123,7 +123,7 @@ pub(crate) fn slopes(points: &[Point]) -> (f64, f64) {
     (of(|p| p.rmse), of(|p| p.q95))
 }
 
-/// The geometric mean of queries times error at 95 %, of points of at least `from` queries.
+/// The geometric mean of queries times 95th-percentile error, of points of at least `from` queries.
 pub(crate) fn cost(points: &[Point], from: u64) -> f64 {
     let known = points.iter().filter(|point| point.asked >= from);
     let costs: Vec<f64> = known.map(|p| (p.queries * p.q95).ln()).collect();
@@ -148,7 +148,7 @@ fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
     })
 }
 
-/// What 95 % of the values do not exceed. Sorts them.
+/// The 95th percentile of the values. Sorts them.
 pub(crate) fn quantile_95(values: &mut [f64]) -> f64 {
     values.sort_by(f64::total_cmp);
     values[(values.len() * 19).div_ceil(20) - 1]

@@ -58,7 +58,7 @@ impl Canvas {
         let _ = writeln!(self.body, "{element}");
     }
 
-    /// A text.
+    /// Adds a text at a point, in units of the drawing.
     pub fn text(&mut self, class: &str, at: [f64; 2], text: &str) {
         self.text_and(class, at, text, "");
     }
@@ -100,7 +100,7 @@ impl Canvas {
         ));
     }
 
-    /// A line.
+    /// Adds a line between two points.
     pub fn line(&mut self, class: &str, from: [f64; 2], to: [f64; 2]) {
         self.path(class, &polyline(&[from, to]));
     }
@@ -123,7 +123,7 @@ impl Canvas {
         ));
     }
 
-    /// A circle.
+    /// Adds a circle with a centre and a radius.
     pub fn circle(&mut self, class: &str, [x, y]: [f64; 2], radius: f64) {
         let [x, y, r] = [x, y, radius].map(number);
         self.push(format_args!(

@@ -35,8 +35,8 @@ const PALETTE: [(&str, [&str; 2]); 20] = [
     ("s6", ["#2b7f9e", "#63c5e0"]),
 ];
 
-/// What drawings look like, in a class of their own so that a page may hold them, too. Two series of
-/// one colour differ in their marks, which are filled or hollow.
+/// What drawings look like, in a class of their own so that a page may hold them, too. Two series
+/// of one colour differ in their marks, which are filled or hollow.
 const RULES: &str = "\
 .drawing{font:14px system-ui,-apple-system,'Segoe UI','DejaVu Sans',sans-serif}
 .drawing text{fill:$ink;stroke:none}.drawing .soft{fill:$soft}.drawing .page{fill:$page}

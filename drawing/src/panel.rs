@@ -1,4 +1,4 @@
-//! Linear axes.
+//! Panels with linear axes.
 
 use crate::canvas::{Canvas, polyline};
 

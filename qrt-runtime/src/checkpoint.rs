@@ -48,9 +48,9 @@ pub struct Tile {
     pub height: u32,
     /// Linear RGB, row by row.
     pub pixels: Vec<[f64; 3]>,
-    /// Oracle queries spent on each pixel.
+    /// Oracle queries that each pixel used.
     pub queries: Vec<u64>,
-    /// Good ids of each pixel's channels; 0 where none are counted.
+    /// Good indices of each pixel's channels; 0 where none are counted.
     pub good: Vec<[u64; 3]>,
 }
 
@@ -163,7 +163,8 @@ impl Checkpoint {
     /// Adds a finished tile.
     ///
     /// # Errors
-    /// If the tile does not lie in the crop or its vectors don't fill it, or if it can't be written.
+    /// If the tile does not lie in the crop or its vectors don't fill it, or if it can't be
+    /// written.
     pub fn append(&mut self, tile: &Tile) -> Result<(), CheckpointError> {
         let area = tile.area_within(self.crop);
         if area != Some(tile.pixels.len() as u64) || area != Some(tile.queries.len() as u64) {

@@ -15,7 +15,7 @@ macro_rules! named {
         }
 
         impl $Enum {
-            /// All values.
+            /// All values, in the order of their definition.
             pub const ALL: [Self; [$($name),+].len()] = [$(Self::$Value),+];
 
             /// The name by which it is written.

@@ -11,8 +11,8 @@
 //!
 //! The generator is Philox4x32-10 (Salmon, Moraes, Dror & Shaw, *Parallel random numbers: as easy
 //! as 1, 2, 3*, SC 2011): a keyed bijection of 128-bit counters that passes `BigCrush`. The key is
-//! the seed; the phase register is `[block (low), y, x, channel + 256 * block (high)]`, so that no two
-//! streams of one seed ever share a phase register. What is drawn for a path reads the part of its pixel's
+//! the seed; the counter is `[block (low), y, x, channel + 256 * block (high)]`, so that no two
+//! streams of one seed ever share a counter. What is drawn for a path reads the part of its pixel's
 //! stream that begins at block `path 2^16`.
 
 const MULTIPLIERS: [u32; 2] = [0xD251_1F53, 0xCD9E_8D57];
@@ -69,7 +69,8 @@ impl Stream {
         }
     }
 
-    /// The part of the stream that belongs to `path` alone: 2^17 draws, for ids below 2^40.
+    /// The part of the stream that belongs to `path` alone: 2^17 draws, for path indices below
+    /// 2^40.
     pub fn of_path(seed: u64, x: u32, y: u32, channel: u8, path: u64) -> Self {
         Self {
             block: path << 16,
@@ -77,7 +78,7 @@ impl Stream {
         }
     }
 
-    /// 64 random bits.
+    /// The next 64 random bits of the stream.
     pub fn next_u64(&mut self) -> u64 {
         if let Some(spare) = self.spare.take() {
             return spare;

@@ -20,7 +20,7 @@ impl Scratch {
         self.0.join(name)
     }
 
-    /// What is in the folder, sorted.
+    /// The names of the files in the folder, sorted.
     pub(crate) fn names(&self) -> Vec<String> {
         let entries = fs::read_dir(&self.0).unwrap();
         let mut names: Vec<String> = entries

@@ -1,4 +1,4 @@
-//! What several commands take.
+//! Arguments that several commands have.
 
 use super::failure::Failure;
 use clap::Args;

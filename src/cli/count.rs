@@ -26,14 +26,14 @@ const WINDOWS: [(Window, &str); 2] = [
 const MAX_LISTED_BITS: u32 = 16;
 /// Outcomes on either side of the peak.
 const PEAK_REACH: u64 = 16;
-/// Above this many ids the posterior is not added up id by id.
+/// Above this many indices the posterior is not added up index by index.
 const MAX_POSTERIOR_IDS: u64 = 1 << 16;
-/// Numbers of good ids shown of a posterior.
+/// Numbers of good indices shown of a posterior.
 const LIKELIEST: usize = 10;
 
 /// The distribution of quantum counting's outcomes, and draws from it
 ///
-/// S of N ids are good. A phase register of T = 2^t phases reads y in 0..=T/2 (y and T - y are
+/// S of N indices are good. A phase register of T = 2^t phases reads y in 0..=T/2 (y and T - y are
 /// one outcome), which estimates theta = asin(sqrt(S/N))/pi by y/T, and S by N sin^2(pi y/T).
 #[derive(Clone, Debug, Args)]
 #[command(after_help = "\
@@ -42,10 +42,10 @@ Examples:
   qrt count --good 300 --total 1000 --phase-bits 20 --window sine --shots 5 --seed 1
   qrt count --good 1 --total 1048576 --phase-bits 16 --outcomes 20,41 --json")]
 pub(crate) struct CountArgs {
-    /// S, the number of good ids
+    /// S, the number of good indices
     #[arg(long, value_name = "S")]
     good: u64,
-    /// N, the number of ids
+    /// N, the number of indices
     #[arg(long, value_name = "N")]
     total: u64,
     /// t, of T = 2^t, in 1..=40

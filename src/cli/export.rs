@@ -42,7 +42,7 @@ const BYTES_A_GATE: u64 = 28;
 
 /// Write a pixel's circuit as OpenQASM, for other programs
 ///
-/// The oracle flips the signs of the pixel's good ids. It computes the colours of all paths,
+/// The oracle flips the signs of the pixel's good indices. It computes the colours of all paths,
 /// compares, flips and uncomputes, with X, CNOT, Toffoli and Z gates. The pixel's position is built
 /// in. The Grover iterate is the oracle and a reflection. Counting is all of it: the window on the
 /// phase register, 2^t - 1 controlled iterates, the inverse Fourier transform, and the
@@ -51,7 +51,8 @@ const BYTES_A_GATE: u64 = 28;
 /// The text is flat: registers, gates, measurements, a line each. Qiskit, Q#, Cirq and MQT Core
 /// read both languages, pytket version 2, PennyLane version 3 without `include` and measurements.
 /// Bit 0 of every register is its least significant. Every qubit starts at zero. For the oracle and
-/// the iterate, prepare the id yourself, for example with Hadamards.
+/// the iterate, prepare the index (its path and its comparator) yourself, for example with
+/// Hadamards.
 #[derive(Clone, Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -100,15 +101,15 @@ fn part_name(part: Part) -> &'static str {
 fn about(part: Part) -> &'static [&'static str] {
     match part {
         Part::Oracle => &[
-            "Flips the sign of each good id: of a path whose colour exceeds the comparator's threshold.",
+            "Flips the sign of each good index: of a path whose colour exceeds the comparator's threshold.",
         ],
         Part::Grover => &[
-            "G = H O_0 H O_f: rotates the plane of good and other ids by theta turns, where",
-            "sin(pi theta)^2 = S/N for S good ids of N. Its global phase is included.",
+            "G = H O_0 H O_f: rotates the plane of good and other indices by theta turns, where",
+            "sin(pi theta)^2 = S/N for S good indices of N. Its global phase is included.",
         ],
         Part::Counting => &[
             "Reads y into outcome: y/2^t or 1 - y/2^t is about theta, in turns, where",
-            "sin(pi theta)^2 = S/N for S good ids of N.",
+            "sin(pi theta)^2 = S/N for S good indices of N.",
         ],
     }
 }
@@ -117,7 +118,7 @@ fn pixel(text: &str) -> Result<[u32; 2], String> {
     numbers(text, "two whole numbers, such as 10,20")
 }
 
-/// What is written.
+/// A circuit that is written, and what is said of it.
 struct Exported<'a> {
     args: &'a ExportArgs,
     scene: &'a ValidScene,

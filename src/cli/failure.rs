@@ -15,16 +15,16 @@ use std::{fmt, io};
 /// How a command fails.
 #[derive(Debug)]
 pub(crate) enum Failure {
-    /// The command line asks for what there isn't.
+    /// The command line asks for what does not exist or does not go together.
     Usage(String),
     /// The scene is wrong.
     Scene(Box<Report>),
-    /// The job failed.
+    /// The job failed, for this reason.
     Job(String),
 }
 
 impl Failure {
-    /// 2 for the command line and the scene, 1 for the job.
+    /// The exit code: 2 for the command line and the scene, 1 for the job.
     pub(crate) fn exit_code(&self) -> ExitCode {
         ExitCode::from(match self {
             Self::Usage(_) | Self::Scene(_) => 2,
@@ -32,7 +32,7 @@ impl Failure {
         })
     }
 
-    /// The file system says no.
+    /// A failure of the file system, with the file's name.
     pub(crate) fn file(path: &Path, error: &io::Error) -> Self {
         Self::Job(format!("`{}`: {error}", path.display()))
     }

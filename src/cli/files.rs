@@ -29,7 +29,7 @@ pub(crate) fn named_after(scene: &Path, extension: &str) -> PathBuf {
     name.into()
 }
 
-/// A device or a pipe: what is there and is no file.
+/// Whether `path` is a device or a pipe: it exists and is no ordinary file.
 pub(crate) fn is_device(path: &Path) -> bool {
     fs::metadata(path).is_ok_and(|found| !found.is_file())
 }

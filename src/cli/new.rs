@@ -11,7 +11,7 @@ use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 const TEMPLATE: &str = include_str!("new.yaml");
-/// What the template's author called it.
+/// The line of the template that names the scene.
 const NAME: &str = "name: first-scene";
 
 /// Write a small commented scene to start from

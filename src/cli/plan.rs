@@ -6,11 +6,11 @@ use qrt_core::valid::ValidScene;
 use qrt_runtime::plan::{Figures, Options, Plan, plan};
 use serde_json::{Value, json};
 
-/// Chooses the parameters of a scene that asks for an accuracy, and says on standard error which, unless
-/// all is to be `quiet`.
+/// Chooses the parameters of a scene that asks for an accuracy, and says on standard error which,
+/// unless all is to be `quiet`.
 ///
 /// # Errors
-/// An accuracy that cannot be kept.
+/// An accuracy that no parameters keep.
 pub(crate) fn of(
     scene: &ValidScene,
     options: &Options<'_>,
@@ -46,7 +46,7 @@ pub(crate) fn json(figures: &Figures) -> Value {
             "total": parts.total,
         },
         "queries": figures.queries,
-        "toffoli": figures.spent.map(|spent| spent.toffoli),
-        "qubits": figures.spent.map(|spent| spent.qubits),
+        "toffoli": figures.cost.map(|cost| cost.toffoli),
+        "qubits": figures.cost.map(|cost| cost.qubits),
     })
 }

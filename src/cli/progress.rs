@@ -1,4 +1,4 @@
-//! The progress bar.
+//! The progress bar on standard error.
 
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use qrt_runtime::workers::Progress;

@@ -68,8 +68,8 @@ const GUESSES: [(Guess, &str); 2] = [
 /// picture. The same scene, seed and estimator give the same bytes, on any machine and any number
 /// of threads.
 ///
-/// For a scene that asks for an `accuracy`, the cheapest parameters that keep it are chosen first, and the
-/// plan is shown.
+/// For a scene that asks for an `accuracy`, the cheapest parameters that keep it are chosen first,
+/// and the plan is shown.
 ///
 /// Ctrl-C stops and keeps what is finished in FILE.qrt-partial, beside the picture; the exit code
 /// is then 1. With --resume the same command goes on from there, to the same bytes.
@@ -90,7 +90,7 @@ pub(crate) struct RenderArgs {
     /// What traces the paths
     #[arg(long, value_parser = choice(MODELS, Model::name), default_value = "real")]
     model: Model,
-    /// How the good ids are counted; exact takes them all, without noise [default: the scene's]
+    /// How the good indices are counted; exact takes them all, without noise [default: the scene's]
     #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(Estimator::NAMES))]
     estimator: Option<String>,
     /// How pixels get their colours

@@ -12,7 +12,7 @@ use std::path::Path;
 /// Writes the statistics of a picture as JSON.
 ///
 /// # Errors
-/// What the file system says.
+/// A file that cannot be written.
 pub(crate) fn write(
     path: &Path,
     scene: &ValidScene,
@@ -95,7 +95,7 @@ pub(crate) fn paths_per_second(rendered: &Rendered) -> f64 {
     traced as f64 / rendered.seconds.max(1e-9)
 }
 
-/// Exact below 2^64; above, to 16 digits.
+/// A count as a JSON number: exact below 2^64; above, to 16 digits.
 fn whole(value: u128) -> Value {
     u64::try_from(value).map_or_else(|_| json!(value as f64), |value| json!(value))
 }

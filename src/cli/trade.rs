@@ -13,13 +13,14 @@ use std::path::PathBuf;
 
 /// Measure what a scene's accuracy costs, parameter by parameter
 ///
-/// Turns the scene's parameters around their values, one at a time, and every estimator with every number
-/// of queries; renders a sample of its pixels under each setting; and writes to DIR: trade.csv, one
-/// row a setting, plots (.svg), and index.html, which shows tables and plots together.
+/// Varies the scene's parameters around their values, one at a time, and every estimator with every
+/// number of queries; renders a sample of its pixels under each setting; and writes to DIR:
+/// trade.csv, one row a setting, plots (.svg), and index.html, which shows tables and plots
+/// together.
 ///
-/// Every part of a pixel's error is measured: of paths (e_r), comparators (e_c), the width of numbers
-/// (e_w), counting (e_t) and the length of paths (e_d), as a root mean square over pixels and
-/// channels, relative to the mean radiance; and the total of all but the last.
+/// Every part of a pixel's error is measured: of paths (e_r), comparators (e_c), the width of
+/// numbers (e_w), counting (e_t) and the length of paths (e_d), as a root mean square over pixels
+/// and channels, relative to the mean radiance; and the total of all but the last.
 ///
 /// Rows are written as they are finished. After Ctrl-C, the same command goes on from there.
 #[derive(Clone, Debug, Args)]

@@ -21,7 +21,7 @@ const CHANNELS: [&str; 3] = ["red", "green", "blue"];
 ///
 /// Runs the same paths on all three models. The oracle's integers (fixed) and its circuit (gates)
 /// must agree bit for bit, in every path's colour and in how many comparators it exceeds; every
-/// qubit that the circuit borrows must be zero again; the phase must be turned for exactly the
+/// qubit that the circuit borrows must be zero again; the phase must be flipped for exactly the
 /// comparators below the colour. How far floating point (real) is from the integers is measured:
 /// E_W, the error that the registers' width leaves in a pixel.
 ///
@@ -58,7 +58,7 @@ pub(crate) struct VerifyArgs {
 /// Answers on standard output.
 ///
 /// # Errors
-/// A wrong scene, an interruption, and whatever does not hold.
+/// A wrong scene, an interruption, and a check that failed.
 pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
     let loaded = args.scene.load()?;
     let cancel = interrupt::cancel_on_interrupt()?;
@@ -100,7 +100,7 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
     }
 }
 
-/// What does not hold.
+/// The defect or the first mismatch in words, if the check failed.
 fn fault(report: &Report) -> Option<String> {
     if let Some(defect) = &report.defect {
         return Some(defect.to_string());
@@ -153,7 +153,7 @@ fn text(args: &VerifyArgs, scene: &ValidScene, report: &Report, seconds: f64) ->
     } else {
         line("every borrowed qubit zero again", "yes, on every path");
         line(
-            "phases turned as compared",
+            "phases flipped as compared",
             "yes, for every colour and comparator tried",
         );
         let agree = match report.mismatched {

@@ -1,5 +1,5 @@
-//! No room imports from a room above it: crates by their manifests, and the modules of a crate by
-//! what their code names of `crate::`. Tests may look anywhere.
+//! No module imports from a module above it: crates by their manifests, and the modules of a crate
+//! by what their code names of `crate::`. Tests may look anywhere.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -15,7 +15,7 @@ const CRATES: &[(&str, &[&str])] = &[
 ];
 
 /// Sources of a crate, and its modules, each above all those before it.
-const ROOMS: &[(&str, &[&str])] = &[
+const MODULES: &[(&str, &[&str])] = &[
     (
         "qrt-core/src",
         &[
@@ -73,8 +73,8 @@ fn no_crate_uses_one_above_it() {
 #[test]
 fn no_module_imports_from_one_above_it() {
     let mut wrong = BTreeSet::new();
-    for (folder, order) in ROOMS {
-        let place = |module: &str| order.iter().position(|room| *room == module);
+    for (folder, order) in MODULES {
+        let place = |module: &str| order.iter().position(|name| *name == module);
         for (from, imports) in imports(Path::new(folder)) {
             if place(&from).is_none() {
                 wrong.insert(format!(

@@ -1,10 +1,10 @@
 //! What the book shows of the command is what the command says, and its scenes are scenes.
 //!
 //! Every ```` ```console ```` block of every page is executed, page by page, in a folder of its own
-//! that holds a copy of `scenes-yaml`. A line that begins with `$ ` is a command for `sh`; the lines
-//! below it are what it must say, standard error and all, where a line `...` stands for any lines.
-//! `QRT_BLESS=1 cargo test --test book listings` writes what the commands say into the pages, but
-//! for commands with a `...`, whose differences are told.
+//! that holds a copy of `scenes-yaml`. A line that begins with `$ ` is a command for `sh`; the
+//! lines below it are what it must say, standard error and all, where a line `...` stands for any
+//! lines. `QRT_BLESS=1 cargo test --test book listings` writes what the commands say into the
+//! pages, but for commands with a `...`, whose differences are told.
 //!
 //! Every ```` ```yaml ```` block must be accepted, every ```` ```yaml,wrong ```` refused. A block
 //! without some of the blocks that a scene needs gets them from a scene with the materials `white`

@@ -92,7 +92,7 @@ fn fits(oracle: &std::sync::Arc<Oracle>, every: usize) -> Result<usize, String> 
                         "path {id} of {pixel:?}: colour {colour} of channel {c}"
                     ));
                 }
-                // A colour is a share of its proven bound.
+                // A colour is a fraction of its proven bound.
                 if !(0..=1 << oracle.fraction).contains(&colour) {
                     return Err(format!(
                         "path {id} of {pixel:?}: colour {colour} out of bounds"
@@ -181,7 +181,7 @@ fn width_error(name: &str, fraction: u32) -> f64 {
     sum / (3 * real[0].len()) as f64
 }
 
-/// E_W halves with every bit: rounding does, and so does the share of paths that pass an edge on
+/// E_W halves with every bit: rounding does, and so does the fraction of paths that pass an edge on
 /// its other side. Four bits are sixteen times less; by the chance of few paths, at least four.
 fn shrinks(name: &str) {
     let errors = [10, 14, 18, 22, 26].map(|fraction| width_error(name, fraction));

@@ -15,7 +15,7 @@ use std::collections::HashSet;
 use std::fs;
 use std::sync::atomic::AtomicBool;
 
-/// A lamp before a wall, of fewer paths and comparators: 2^5 ids.
+/// A lamp before a wall, of fewer paths and comparators: 2^5 indices.
 fn wall() -> String {
     let scene = include_str!("../../examples/lit-wall.yaml");
     let small = scene.replace("path_bits: 5", "path_bits: 3");
@@ -42,7 +42,7 @@ fn exported(folder: &Folder, arguments: &str) -> (Circuit, Value) {
     (Circuit::read(&text), serde_json::from_str(&answer).unwrap())
 }
 
-/// By channel: good ids, and all, of a pixel.
+/// By channel: good indices, and all, of a pixel.
 fn counts(folder: &Folder, [x, y]: [u32; 2], seed: &str) -> [[u64; 2]; 3] {
     let render = format!(
         "render wall.yaml --model fixed --estimator exact -q --seed {seed} --crop {x},{y},1,1 \
@@ -100,7 +100,8 @@ fn the_counting_circuit_measures_what_counting_draws() {
     assert!(different.len() > 3, "pixels are alike: {different:?}");
 }
 
-/// With the known good ids' signs turned once more, the id is what it was before the oracle.
+/// With the known good indices' phases flipped once more, the index is what it was before the
+/// oracle.
 #[test]
 fn the_oracle_turns_the_signs_of_the_good_ids_and_no_others() {
     let folder = folder();
@@ -172,7 +173,7 @@ fn the_iterate_is_the_circuits_own_amplitude_by_amplitude() {
                 assert_eq!(circuit.qubits, export.qubits());
                 let mut direct = Dense::new(export.qubits()).unwrap();
                 let mut read = Dense::new(export.qubits()).unwrap();
-                // A different amplitude for every id: no symmetry hides a gate.
+                // A different amplitude for every index: no symmetry hides a gate.
                 for machine in [&mut direct, &mut read] {
                     let ids = if part == Part::Counting {
                         &[][..]

@@ -126,7 +126,7 @@ fn of_every_other_scene_at_full_width() {
     }
 }
 
-/// Whose ids are the coordinates themselves, side by side.
+/// Whose path indices are the coordinates themselves, side by side.
 const LATTICE: &str = "sampling={ sequence: product-lattice, path_bits: 4, \
                        depths: [{ bits: [1, 1] }, { bits: [1, 1] }] }";
 

@@ -309,7 +309,8 @@ fn a_circuit_that_leaves_something_behind_is_refused() {
     for gate in (0..last).step_by(last / 20) {
         let mut tampered = parts.clone();
         tampered[2].gates.remove(gate);
-        // Some gates do nothing for so few rays; the last one is an X or a copy of the ray's id.
+        // Some gates do nothing for so few rays; the last one is an X or a copy of the ray's path
+        // index.
         if gate > last / 2 {
             assert!(
                 ask(tampered).is_err(),

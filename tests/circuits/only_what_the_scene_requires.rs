@@ -78,7 +78,7 @@ fn count(program: &Program, kind: impl Fn(&Op) -> bool) -> usize {
     program.ops.iter().filter(|op| kind(op)).count()
 }
 
-/// Constant products are for the film's rays (which are affine in the sample) and for slopes.
+/// Constant products are for the film's rays (which are affine in the sample) and for cos_theta.
 #[test]
 fn axis_aligned_walls_cost_no_constant_products() {
     let scales = |program: &Program| {

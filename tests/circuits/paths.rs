@@ -41,7 +41,7 @@ pub(crate) fn film(oracle: &Oracle) -> Vec<[u32; 2]> {
         .collect()
 }
 
-/// By channel, of every path: its colour and its count; pixel by pixel, and by id.
+/// By channel, of every path: its colour and its count; pixel by pixel, and by path index.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Paths {
     pub(crate) colours: [Vec<i64>; 3],
@@ -69,7 +69,7 @@ pub(crate) fn paths(machine: &OracleMachine, pixels: &[[u32; 2]]) -> Result<Path
     Ok(paths)
 }
 
-/// The program's inputs for a path: its id, and no comparator.
+/// The program's inputs for a path: its index, and no comparator.
 pub(crate) fn inputs(oracle: &Oracle, id: u64) -> Vec<u64> {
     let inputs = oracle.program.inputs.iter();
     inputs

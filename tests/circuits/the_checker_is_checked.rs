@@ -2,8 +2,8 @@
 //!
 //! Verification is only as good as what it catches. Here circuits are tampered with, in every way
 //! that a compiler could get them wrong. A simulation of its own, which shares nothing with the
-//! machines, runs each of them on every path of the scene; verification must object to exactly those
-//! circuits that do something wrong on one of them, and for the right reason.
+//! machines, runs each of them on every path of the scene; verification must object to exactly
+//! those circuits that do something wrong on one of them, and for the right reason.
 
 use super::paths::simulator::{States, qubits};
 use super::paths::{CORNER, film, inputs, number, oracle, paths, word};
@@ -289,7 +289,7 @@ fn a_wrong_table_entry_is_caught_if_it_changes_a_path() {
             changed[column][entry] ^= 1 << (k % 3);
             *columns = changed.into();
         }
-        // What another table leaves behind may be wider.
+        // The garbage of another table may be wider.
         let op = &program.ops[place];
         let width = lower::scratch_width(op, |id| program.width(id));
         if let Some(scratch) = op.scratch() {

@@ -49,7 +49,7 @@ fn off(a: &[f64], b: &[f64]) -> f64 {
     differences.fold(0.0, f64::max)
 }
 
-/// By pixel and channel: which ids (path below, comparator above) the fixed machine calls good.
+/// By pixel and channel: which indices (path below, comparator above) the fixed machine calls good.
 fn tables(scene: &ValidScene) -> Vec<[Vec<bool>; 3]> {
     let oracle = oracle(scene);
     let machine = OracleMachine::fixed(oracle.clone(), SEED, true);
@@ -120,8 +120,8 @@ fn gives_it_too_where_work_is_uncomputed_early() {
     is_the_distribution(&["circuit.uncompute=scoped", "comparator.at=edges"], 3);
 }
 
-/// O_0 turns the signs of all but `|0...0>`. With that of `|0...0>` alone the ids that are *not*
-/// good are counted.
+/// O_0 flips the phases of all but `|0...0>`. With that of `|0...0>` alone the indices that are
+/// *not* good are counted.
 #[test]
 fn counts_the_others_where_the_reflection_has_the_other_sign() {
     let scene = written(WALL, &[]);

@@ -1,8 +1,8 @@
 //! What stands for the whole oracle is the whole oracle.
 //!
-//! Machines run compute and uncompute once a path, and the comparison apart: a path's good ids are
-//! then known without trying its comparators. Here all of it runs as one circuit on every basis
-//! state (id, comparator).
+//! Machines run compute and uncompute once a path, and the comparison apart: a path's good indices
+//! are then known without trying its comparators. Here all of it runs as one circuit on every basis
+//! state (index, comparator).
 
 use super::paths::{CORNER, inputs, number, oracle, paths};
 use crate::common::scene::written;
@@ -59,7 +59,7 @@ fn whole(scene: &ValidScene, oracle: &Oracle, pixels: &[[u32; 2]]) -> Vec<[u64; 
                 let held = contents(&oracle.program, &inputs(oracle, *id), &words);
                 let colour = number(oracle.channels[c].colour, &held.registers);
                 let count = number(oracle.channels[c].count, &held.registers);
-                // AxisPermuted where y < count, ...
+                // Flipped where y < count, ...
                 assert_eq!(
                     turned,
                     i128::from(*y) < i128::from(count),

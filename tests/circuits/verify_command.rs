@@ -25,7 +25,7 @@ fn a_reader_learns_what_was_checked_and_that_it_holds() {
     );
     for words in [
         "every borrowed qubit zero again   yes",
-        "phases turned as compared         yes",
+        "phases flipped as compared        yes",
         "fixed and gates agree             yes, bit for bit",
         "fixed against real: E_W",
         "% of the mean, with 8 fraction bits",

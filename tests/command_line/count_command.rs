@@ -160,7 +160,10 @@ S/N           0.5
 
 #[test]
 fn questions_without_an_answer_are_refused() {
-    refused("--good 3 --total 2 --phase-bits 4", "3 good ids out of 2");
+    refused(
+        "--good 3 --total 2 --phase-bits 4",
+        "3 good indices out of 2",
+    );
     refused("--good 0 --total 0 --phase-bits 4", "at least 1");
     refused("--good 1 --total 2 --phase-bits 0", "0 is not in 1..=40");
     refused("--good 1 --total 2 --phase-bits 41", "41 is not in 1..=40");

@@ -183,7 +183,7 @@ fn passes_lead_from_nothing_done_to_the_circuit() {
 }
 
 #[test]
-fn the_dearest_channel_is_shown_unless_one_is_asked_for() {
+fn the_most_expensive_channel_is_shown_unless_one_is_asked_for() {
     // Only red light is reflected: the other channels need no products.
     let set = "materials.floor.lambertian.albedo=[0.7, 1, 0]";
     let scene = ["floor.yaml", "--set", set];
@@ -197,8 +197,8 @@ fn the_dearest_channel_is_shown_unless_one_is_asked_for() {
         .map(|answer| number(&answer["gates"]["toffoli"]));
     let most = *costs.iter().max().unwrap();
     assert!(costs.iter().any(|&cost| cost < most), "{costs:?}");
-    let dearest = &all[costs.iter().position(|&cost| cost == most).unwrap()];
-    assert_eq!(&json(&folder(), &scene), dearest);
+    let most_expensive = &all[costs.iter().position(|&cost| cost == most).unwrap()];
+    assert_eq!(&json(&folder(), &scene), most_expensive);
 }
 
 #[test]

@@ -362,7 +362,8 @@ fn an_accuracy_takes_the_knobs_that_keep_it_and_says_which() {
             "{parameter}"
         );
     }
-    // The same parameters whatever the seed and the threads; the same picture as of the parameters alone.
+    // The same parameters whatever the seed and the threads; the same picture as of the parameters
+    // alone.
     let other = [
         "--seed",
         "5",

@@ -15,7 +15,7 @@ fn stats(folder: &Folder, name: &str) -> Value {
 }
 
 #[test]
-fn first_hits_are_searched_for_and_the_picture_is_the_same() {
+fn primary_hits_are_searched_for_and_the_picture_is_the_same() {
     let folder = folder();
     let said: Vec<String> = ["classical", "exhaustive", "grover"]
         .into_iter()

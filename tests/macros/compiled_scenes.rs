@@ -1,5 +1,5 @@
-//! What `qrt!` compiles is the circuit of the scene: the same program, computed and undone, the same
-//! numbers on every machine, and the same picture.
+//! What `qrt!` compiles is the circuit of the scene: the same program, computed and undone, the
+//! same numbers on every machine, and the same picture.
 
 use qrt::core::inspect::Inspection;
 use qrt::core::oracle::{Options as Compile, Oracle};
@@ -121,8 +121,8 @@ fn paths(machine: &OracleMachine, pixel: [u32; 2]) -> Vec<[[i64; 3]; 2]> {
     paths
 }
 
-/// All paths of a pixel, as native code by each instruction set, against the fixed machine; and some
-/// of them one basis state at a time.
+/// All paths of a pixel, as native code by each instruction set, against the fixed machine; and
+/// some of them one basis state at a time.
 fn computes_what_the_fixed_machine_does<C: NativeOracle>(pixel: [u32; 2]) {
     let oracle: Arc<Oracle> = C::oracle().unwrap().into();
     let fixed = paths(&OracleMachine::fixed(oracle.clone(), 3, true), pixel);

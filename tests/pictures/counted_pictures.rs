@@ -30,7 +30,7 @@ fn exact_is_the_mean_of_the_paths_and_asks_no_oracle() {
 }
 
 /// `|a~ - a| <= 2 pi sqrt(a (1 - a))/T + pi^2/T^2` with probability at least 8/pi^2 (Brassard,
-/// Hoyer, Mosca & Tapp, theorem 12); half a comparator's step, and half an id, come on top.
+/// Hoyer, Mosca & Tapp, theorem 12); half a comparator's step, and half an index, come on top.
 #[test]
 fn counted_pixels_keep_the_bound_in_the_promised_share() {
     let phases = 256.0;

@@ -1,9 +1,9 @@
 //! The real model's pictures are those of an independent renderer.
 //!
-//! What may differ is known: a randomly shifted digital net is unbiased, and two seeds say how far a
-//! picture is from its limit. With A and B of two seeds, the error of their mean has the mean square
-//! `|A - B|^2 / 4`; the reference has its own standard error. A right picture's distance from the
-//! reference is about the root of the sum of both, a wrong one's is not.
+//! What may differ is known: a randomly shifted digital net is unbiased, and two seeds say how far
+//! a picture is from its limit. With A and B of two seeds, the error of their mean has the mean
+//! square `|A - B|^2 / 4`; the reference has its own standard error. A right picture's distance
+//! from the reference is about the root of the sum of both, a wrong one's is not.
 
 use super::independent::{self, Picture, Reference, SIDE, mean, rms_difference, traced};
 use qrt_core::valid::ValidScene;
@@ -36,7 +36,7 @@ fn measure(scene: &ValidScene) -> Measured {
     }
 }
 
-/// Is this the reference's picture, as far as the errors of both can tell?
+/// Whether this is the reference's picture, as far as the errors of both can tell.
 fn compare(ours: &Measured, theirs: &Reference) -> Result<(), String> {
     let level = mean(&theirs.picture);
     let noise = rms_difference(

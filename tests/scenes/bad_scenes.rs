@@ -101,9 +101,9 @@ fn a_file_that_cannot_be_read_is_an_error_like_others() {
 }
 
 /// Codes that no scene file gets from its checks: the first two only scenes that are built in Rust,
-/// the third only a file of 256 MiB, the fourth only where the OBJ library disagrees with the checks
-/// before it, the last ones only when the scene's circuit is compiled. The unit tests of `valid`, of
-/// the OBJ reader and of `oracle`, and `inspect_command`, show them.
+/// the third only a file of 256 MiB, the fourth only where the OBJ library disagrees with the
+/// checks before it, the last ones only when the scene's circuit is compiled. The unit tests of
+/// `valid`, of the OBJ reader and of `oracle`, and `inspect_command`, show them.
 const ELSEWHERE: [&str; 9] = [
     codes::DUPLICATE_NAME,
     codes::BSDF_CHANNELS,

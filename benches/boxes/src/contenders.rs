@@ -25,7 +25,7 @@ pub struct Triangle {
 }
 
 impl Triangle {
-    /// All of `geometry`.
+    /// All triangles of `geometry`.
     pub fn all(geometry: &Geometry) -> Vec<Self> {
         let mut triangles = Vec::new();
         for (label, corners) in geometry.corners.iter().enumerate() {
@@ -196,7 +196,7 @@ pub struct Doubles {
 }
 
 impl Doubles {
-    /// Over `triangles`.
+    /// A hierarchy over `triangles`.
     pub fn new(triangles: &[Triangle]) -> Self {
         let mut triangles = triangles.to_vec();
         let tree = bvh::bvh::Bvh::build(&mut triangles);

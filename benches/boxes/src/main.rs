@@ -1,7 +1,7 @@
 //! Our hierarchy of boxes against crates that have one, on the rays of the same paths.
 //!
 //! `cargo run --release --manifest-path benches/boxes/Cargo.toml` prints million rays a second of
-//! one core that find the nearest of 65,536 triangles, and the share of rays for which a crate's
+//! one core that find the nearest of 65,536 triangles, and the fraction of rays for which a crate's
 //! triangle is ours. It fails where a crate is faster.
 
 // A bench that cannot run has nothing to report.
@@ -71,7 +71,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// Is the first of `contenders` the fastest?
+/// Whether the first of `contenders` is the fastest.
 fn compare(contenders: &[(&str, Find)], rays: &[SingleRay]) -> bool {
     let mut best = vec![f64::INFINITY; contenders.len()];
     let mut found = vec![Vec::new(); contenders.len()];

@@ -11,9 +11,9 @@ use std::cell::RefCell;
 /// Rays by the order in which paths have them.
 #[derive(Default)]
 pub struct Rays {
-    /// From the camera.
+    /// The rays from the camera.
     pub primary: Vec<SingleRay>,
-    /// From a surface.
+    /// The rays from a surface.
     pub bounced: Vec<SingleRay>,
 }
 

@@ -9,17 +9,17 @@ pub enum Scale {
     Bits,
 }
 
-/// An axis.
+/// An axis of a plot: its label and its scale.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
-    /// What it measures.
+    /// What the axis measures, as text beside it.
     pub label: String,
-    /// See [`Scale`].
+    /// How values become places on the axis.
     pub scale: Scale,
 }
 
 impl Axis {
-    /// Of decades.
+    /// An axis of decades.
     pub fn log(label: &str) -> Self {
         Self {
             label: label.to_owned(),
@@ -27,7 +27,7 @@ impl Axis {
         }
     }
 
-    /// Of bits.
+    /// An axis of bits.
     pub fn bits(label: &str) -> Self {
         Self {
             label: label.to_owned(),

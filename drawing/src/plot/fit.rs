@@ -1,7 +1,7 @@
 //! Power laws by least squares, with how sure they are.
 
-/// `y = 10^at_mean (x / 10^mean)^slope`, fitted to log10 y over log10 x by least squares; all points
-/// count alike.
+/// `y = 10^at_mean (x / 10^mean)^slope`, fitted to log10 y over log10 x by least squares; all
+/// points count alike.
 ///
 /// ```
 /// use qrt_drawing::Fit;
@@ -11,7 +11,7 @@
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fit {
-    /// The slope.
+    /// The exponent: the slope of log10 y over log10 x.
     pub slope: f64,
     /// Half the width of the slope's interval at 95 % (Student's t); infinite for two points.
     pub slope_band: f64,
@@ -19,9 +19,9 @@ pub struct Fit {
     pub residual: f64,
     /// The mean of the points' log10 x.
     mean: f64,
-    /// The line there.
+    /// log10 y of the line at the mean.
     at_mean: f64,
-    /// Points.
+    /// How many points were fitted.
     count: f64,
     /// Sum of squares of log10 x about its mean.
     spread: f64,
@@ -115,8 +115,8 @@ mod tests {
         }
     }
 
-    /// Anscombe's first quartet (*Graphs in Statistical Analysis*, 1973): y = 3.00 + 0.500 x, with a
-    /// standard error of the slope of 0.118.
+    /// Anscombe's first quartet (*Graphs in Statistical Analysis*, 1973): y = 3.00 + 0.500 x, with
+    /// a standard error of the slope of 0.118.
     #[test]
     fn a_published_regression_is_reproduced() {
         let x = [10.0, 8.0, 13.0, 9.0, 11.0, 14.0, 6.0, 4.0, 12.0, 7.0, 5.0];

@@ -17,10 +17,10 @@ use crate::Canvas;
 /// A plot on logarithmic axes.
 ///
 /// It is a title, two [`Axis`] and any number of [`Series`]: points with error bars, which
-/// may be joined, or have a power law fitted to them ([`Fit`]), drawn with its confidence band. Each
-/// series is named where it ends and in the legend; it has a colour and a shape of its own, so that
-/// it is told apart in print, too. What a logarithm has no place for (zero, infinity, NaN) is left
-/// out.
+/// may be joined, or have a power law fitted to them ([`Fit`]), drawn with its confidence band.
+/// Each series is named where it ends and in the legend; it has a colour and a shape of its own, so
+/// that it is told apart in print, too. What a logarithm has no place for (zero, infinity, NaN) is
+/// left out.
 ///
 /// ```
 /// use qrt_drawing::{Axis, Drawn, Plot, Series};
@@ -40,7 +40,7 @@ pub struct Plot {
     pub title: String,
     /// From left to right.
     pub x: Axis,
-    /// Upwards.
+    /// The axis that points upwards.
     pub y: Axis,
     /// What is drawn, the first one in the first style.
     pub series: Vec<Series>,

@@ -1,4 +1,4 @@
-//! What is drawn.
+//! The series of points that a plot draws.
 
 use super::{Axis, Fit};
 
@@ -15,7 +15,7 @@ pub struct Point {
 /// What is drawn through the points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Drawn {
-    /// Nothing.
+    /// The points alone, without a line.
     Points,
     /// Lines from each to the next.
     Joined,

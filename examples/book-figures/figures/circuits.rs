@@ -23,7 +23,7 @@ fn inspected(scene: &ValidScene) -> Inspection {
 fn figures(inspection: &Inspection) -> String {
     let total = inspection.total();
     format!(
-        "{} Toffoli, {} qubits, depth {}",
+        "{} Toffoli, {} qubits, Toffoli depth {}",
         grouped(total.toffoli),
         grouped(u64::from(inspection.qubits)),
         grouped(inspection.toffoli_depth)

@@ -5,7 +5,7 @@ use qrt::core::scene::{Comparator, ComparatorAt};
 use qrt::drawing::{Canvas, Panel, minus, number, polyline, ticks};
 use qrt::runtime::counting::Comparators;
 
-/// c: eight comparators.
+/// c, for eight comparators.
 const BITS: u32 = 3;
 
 /// The error of edges and midpoints over the colour.

@@ -6,7 +6,7 @@ use qrt::drawing::{Canvas, Panel, number, ticks};
 use qrt::runtime::counting::{PhaseDistribution, posterior};
 use qrt::runtime::random::Stream;
 
-/// theta = 1/3: three of four ids are good.
+/// theta = 1/3: three of four indices are good.
 const GOOD: [u64; 2] = [3, 4];
 /// T = 1024.
 const PHASE_BITS: u32 = 10;
@@ -154,7 +154,7 @@ pub(super) fn posteriors() -> Figure {
     panel.axes(
         &mut canvas,
         [&tenths, &levels],
-        ["share of good ids S/N", "posterior density"],
+        ["fraction of good indices S/N", "posterior density"],
     );
     let truth = panel.at([TRUE as f64 / IDS as f64, 0.0])[0];
     canvas.line(

@@ -7,12 +7,12 @@ use qrt::drawing::{Canvas, Panel, number, polyline, ticks};
 use qrt::runtime::machines::statevector::{Dense, StateVector, StateVectorError, fold};
 use std::f64::consts::PI;
 
-/// An oracle of `2^bits` ids, the first of them good.
+/// An oracle of `2^bits` indices, the first of them good.
 fn oracle(bits: u32, good: u64) -> PhaseOracle {
     PhaseOracle::table(bits, |id| id < good).expect("an oracle")
 }
 
-/// Probabilities of a good id after 0, 1, ... iterations.
+/// Probabilities of a good index after 0, 1, ... iterations.
 fn turned(bits: u32, good: usize, iterations: usize) -> Result<Vec<f64>, StateVectorError> {
     let oracle = oracle(bits, good as u64);
     let iterate = GroverIterate::new(&oracle);
@@ -31,7 +31,7 @@ fn turned(bits: u32, good: usize, iterations: usize) -> Result<Vec<f64>, StateVe
     Ok(found)
 }
 
-/// The plane of good and bad ids.
+/// The plane of good and bad indices.
 pub(super) fn plane() -> Figure {
     const BITS: u32 = 6;
     const GOOD: usize = 3;
@@ -55,12 +55,12 @@ pub(super) fn plane() -> Figure {
     canvas.text(
         "mid",
         [origin[0] + radius - 6.0, origin[1] + 24.0],
-        "bad ids",
+        "bad indices",
     );
     canvas.upright(
         "",
         [origin[0] - 16.0, origin[1] - radius + 30.0],
-        "good ids",
+        "good indices",
     );
 
     let angles: Vec<f64> = probabilities
@@ -94,9 +94,9 @@ pub(super) fn plane() -> Figure {
         .map(|p| format!("{:.1}", 100.0 * p))
         .collect();
     let says = format!(
-        "The state in the plane of bad ids (to the right) and good ids (up), as a state vector of \
+        "The state in the plane of bad indices (to the right) and good indices (up), as a state vector of \
          6 qubits gives it after 0 to 3 iterations, S = 3, N = 64: at angles of {} degrees; a good \
-         id is measured with {} %.",
+         index is measured with {} %.",
         degrees.join(", "),
         good.join(", ")
     );

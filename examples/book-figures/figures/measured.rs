@@ -137,9 +137,9 @@ pub(super) fn estimators_error() -> Figure {
     estimators(
         "even",
         "q95",
-        "Error that 95 % of runs keep: amplitudes even over [0, 1]",
-        "error of S/N that 95 % keep",
-        "The error of an estimated amplitude that 95 % of runs keep, over queries.",
+        "95th-percentile error: amplitudes even over [0, 1]",
+        "95th-percentile error of S/N",
+        "The 95th-percentile error of an estimated amplitude, over queries.",
     )
 }
 
@@ -157,9 +157,9 @@ pub(super) fn estimators_pixels() -> Figure {
     estimators(
         "pixels",
         "q95",
-        "Error that 95 % of runs keep: pixels of the Cornell box",
-        "error of S/N that 95 % keep",
-        "The error that 95 % of runs keep on the amplitudes of the Cornell box's pixels, 64 x 64, \
+        "95th-percentile error: pixels of the Cornell box",
+        "95th-percentile error of S/N",
+        "The 95th-percentile error of the amplitudes of the Cornell box's pixels, 64 x 64, \
          which are mostly small, over queries.",
     )
 }

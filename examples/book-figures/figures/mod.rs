@@ -52,7 +52,7 @@ impl Figure {
     }
 }
 
-/// Makes a figure.
+/// A function that makes a figure.
 pub(crate) type Make = fn() -> Figure;
 
 /// All figures, by the names of their files.

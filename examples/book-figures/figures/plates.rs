@@ -1,10 +1,10 @@
 //! A scene with a known answer at any length of paths: two parallel plates, half of each aglow.
 //!
-//! Between infinite plates at distance 1 that scatter with the cosine, each bounce moves a path along
-//! x by an independent step of density `1 / (2 (1 + x^2)^(3/2))`, whose characteristic function is
-//! `w K_1(w)`. Beyond x = c both plates shine with radiance 1, and all reflect the share RHO. So a
-//! path's expected colour is a sum of probabilities that so many steps lead beyond c, each of them
-//! one integral.
+//! Between infinite plates at distance 1 that scatter with the cosine, each bounce moves a path
+//! along x by an independent step of density `1 / (2 (1 + x^2)^(3/2))`, whose characteristic
+//! function is `w K_1(w)`. Beyond x = c both plates shine with radiance 1, and all reflect the
+//! fraction RHO. So a path's expected colour is a sum of probabilities that so many steps lead
+//! beyond c, each of them one integral.
 
 use super::{Figure, scene};
 use qrt::core::valid::ValidScene;

@@ -26,7 +26,7 @@ pub enum CheckpointError {
     /// Another process is writing to it.
     #[error("`{}` is being written by another render", .path.display())]
     InUse { path: PathBuf },
-    /// Some other file.
+    /// The file is no checkpoint.
     #[error("`{}` is not a checkpoint of qrt", .path.display())]
     Foreign { path: PathBuf },
     /// Written by another version of this format.

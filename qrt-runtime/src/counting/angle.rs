@@ -10,17 +10,17 @@ pub(crate) struct Angle(Double);
 
 impl Angle {
     /// # Errors
-    /// No ids, or more good ids than ids.
+    /// No indices, or more good indices than indices.
     pub(crate) fn of(good: u64, total: u64) -> Result<Self, CountingError> {
         check_counts(good, total)?;
         Ok(Self(theta_of(good, total)))
     }
 
-    /// The angle, in turns of pi, whose sine is `|a - reference| / max(reference, 1 - reference)` for
-    /// a = S/N: what the shifted circuit turns by, in [0, 1/2]. `reference` is in [0, 1].
+    /// The angle, in turns of pi, whose sine is `|a - reference| / max(reference, 1 - reference)`
+    /// for a = S/N: what the shifted circuit turns by, in [0, 1/2]. `reference` is in [0, 1].
     ///
     /// # Errors
-    /// No ids, or more good ids than ids.
+    /// No indices, or more good indices than indices.
     pub(crate) fn shifted(good: u64, total: u64, reference: f64) -> Result<Self, CountingError> {
         check_counts(good, total)?;
         let reference = Double::from(reference);

@@ -1,4 +1,4 @@
-//! Binomial numbers: how many of n independent ids are good.
+//! Binomial numbers: how many of n independent indices are good.
 //!
 //! Classical Monte Carlo with n paths sees only this count, so that one draw replaces n. Few
 //! expected successes are counted off by inversion; many by transformed rejection (Hoermann, *The
@@ -10,11 +10,11 @@ use std::f64::consts::TAU;
 
 use crate::random::Stream;
 
-/// Draws the number of good ids among `trials` drawn with replacement from `total`, of which
+/// Draws the number of good indices among `trials` drawn with replacement from `total`, of which
 /// `good` are good. `good <= total`, `total > 0`.
 pub(crate) fn draw(trials: u64, good: u64, total: u64, stream: &mut Stream) -> u64 {
-    let share = |part: u64| part as f64 / total as f64;
-    draw_with(trials, share(good), share(total - good), stream)
+    let fraction = |part: u64| part as f64 / total as f64;
+    draw_with(trials, fraction(good), fraction(total - good), stream)
 }
 
 /// Draws the number of successes among `trials` with probability `p` each, where `q = 1 - p` is

@@ -1,16 +1,16 @@
-//! From a path's colour to good ids, and from an amplitude to a pixel.
+//! From a path's colour to good indices, and from an amplitude to a pixel.
 //!
-//! An id of the oracle is a path and a comparator y of C = 2^c. It is good when the path's colour
-//! x exceeds the comparator's threshold, so that the fraction of good ids is the mean colour over
-//! the colour scale, rounded path by path. With h = scale / C:
+//! An index of the oracle is a path index and a comparator y of C = 2^c. It is good when the path's
+//! colour x exceeds the comparator's threshold, so that the fraction of good indices is the mean
+//! colour over the colour scale, rounded path by path. With h = scale / C:
 //!
 //! * `midpoints`, thresholds `(y + 1/2) h`: `|h #{y: x > (y + 1/2) h} - x| <= h/2`;
 //! * `edges`, thresholds `y h` (the paper's): `#{y: x > y h} = ceil(x/h)`, too large by an error in
 //!   [0, h).
 //!
 //! Thresholds are the `f64` nearest to their definition, and the comparison is strict: exact at
-//! every boundary. A count is a product, a truncation and a comparison, without a branch: it runs for
-//! every path.
+//! every boundary. A count is a product, a truncation and a comparison, without a branch: it runs
+//! for every path.
 
 use qrt_core::scene::{Comparator, ComparatorAt};
 
@@ -26,7 +26,7 @@ pub const MAX_COMPARATOR_BITS: u32 = 30;
 /// use qrt_runtime::counting::Comparators;
 /// let comparators = Comparators::new(8.0, Comparator { bits: 3, at: ComparatorAt::Midpoints })?;
 /// assert_eq!(comparators.good(2.5), 2); // above 0.5 and 1.5; 2.5 itself is not exceeded
-/// assert_eq!(comparators.pixel(5, 16), 2.5); // 5 of 2 paths' 16 ids
+/// assert_eq!(comparators.pixel(5, 16), 2.5); // 5 of 2 paths' 16 indices
 /// # Ok::<(), qrt_runtime::counting::CountingError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,8 +53,8 @@ impl Comparators {
         }
         let step = scale / (1_u64 << bits) as f64;
         let inverse = if scale == 0.0 { 0.0 } else { 1.0 / step };
-        let sound = scale == 0.0 || (scale > 0.0 && step.is_normal() && inverse.is_normal());
-        if !sound || !scale.is_finite() {
+        let ok = scale == 0.0 || (scale > 0.0 && step.is_normal() && inverse.is_normal());
+        if !ok || !scale.is_finite() {
             return Err(CountingError::ScaleOutOfRange(scale));
         }
         let start = match at {
@@ -79,7 +79,7 @@ impl Comparators {
         Ok([r?, g?, b?])
     }
 
-    /// C, the number of comparators, and of ids per path.
+    /// C, the number of comparators, and of indices per path.
     pub fn count(&self) -> u64 {
         1 << self.bits
     }
@@ -104,7 +104,7 @@ impl Comparators {
         at as u32 + u32::from(at < count && x > threshold)
     }
 
-    /// Good ids of all `colours`' paths.
+    /// Good indices of all `colours`' paths.
     pub fn good_total(&self, colours: &[f64]) -> u64 {
         colours
             .iter()
@@ -112,7 +112,7 @@ impl Comparators {
             .sum()
     }
 
-    /// The pixel for `good` of `total` ids: `scale * good / total`.
+    /// The pixel for `good` of `total` indices: `scale * good / total`.
     pub fn pixel(&self, good: u64, total: u64) -> f64 {
         self.scale * (good as f64 / total as f64)
     }

@@ -1,7 +1,7 @@
 //! The exact distribution of what quantum counting measures, P(theta~ | theta).
 //!
-//! With S good ids among N, the Grover iterate has the eigenphases +-theta turns, where
-//! `theta = asin(sqrt(S/N)) / pi` in [0, 1/2], and the uniform superposition of ids holds both
+//! With S good indices among N, the Grover iterate has the eigenphases +-theta turns, where
+//! `theta = asin(sqrt(S/N)) / pi` in [0, 1/2], and the uniform superposition of indices holds both
 //! equally. The phase register cannot tell them apart: outcomes y and T - y mean the same
 //! `theta~ = y/T`, and are folded onto `y = 0 ..= T/2`. With the kernel K of a single phase,
 //!
@@ -62,7 +62,7 @@ impl Phase {
         }
     }
 
-    /// The phase of `good` among `total` ids.
+    /// The phase of `good` among `total` indices.
     pub(crate) fn of(good: u64, total: u64, register: &Register) -> Self {
         Self::new(theta_of(good, total), register)
     }
@@ -116,7 +116,7 @@ fn roots(register: &Register, phase: Phase, y: u64) -> (f64, f64) {
 /// ```
 /// use qrt_core::scene::Window;
 /// use qrt_runtime::counting::PhaseDistribution;
-/// // Half of the ids are good: theta = 1/4 is on the grid, and is always read.
+/// // Half of the indices are good: theta = 1/4 is on the grid, and is always read.
 /// let distribution = PhaseDistribution::new(8, 16, 3, Window::Rect)?;
 /// assert_eq!(distribution.probability(2), 1.0);
 /// # Ok::<(), qrt_runtime::counting::CountingError>(())
@@ -129,7 +129,7 @@ pub struct PhaseDistribution {
 }
 
 impl PhaseDistribution {
-    /// The distribution for `good` among `total` ids.
+    /// The distribution for `good` among `total` indices.
     ///
     /// # Errors
     ///

@@ -1,4 +1,4 @@
-//! What counting refuses.
+//! Errors of counting: sizes and outcomes that it refuses.
 
 /// The largest phase register.
 pub const MAX_PHASE_BITS: u32 = 40;
@@ -9,15 +9,15 @@ pub const MAX_REPETITIONS: u32 = 1_000_000;
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CountingError {
-    /// There are no ids.
-    #[error("the total number of ids is 0; it must be at least 1")]
+    /// There are no indices.
+    #[error("the total number of indices is 0; it must be at least 1")]
     NoIds,
-    /// More good ids than ids.
-    #[error("{good} good ids out of {total}: there cannot be more good ids than ids")]
+    /// More good indices than indices.
+    #[error("{good} good indices out of {total}: there cannot be more good indices than indices")]
     MoreGoodThanTotal {
-        /// Good ids.
+        /// S, the number of good indices that was given.
         good: u64,
-        /// All ids.
+        /// N, the number of all indices that was given.
         total: u64,
     },
     /// The amplitude is not in [0, 1].
@@ -35,7 +35,7 @@ pub enum CountingError {
          0..={largest}"
     )]
     OutcomeOutOfRange {
-        /// The outcome.
+        /// The outcome y that was given.
         outcome: u64,
         /// The largest outcome, T/2.
         largest: u64,
@@ -43,15 +43,15 @@ pub enum CountingError {
     /// Nothing was measured, so nothing can be inferred.
     #[error("no outcome to infer anything from")]
     NoOutcomes,
-    /// No number of good ids could have given these outcomes.
-    #[error("no number of good ids could have given these outcomes")]
+    /// No number of good indices could have given these outcomes.
+    #[error("no number of good indices could have given these outcomes")]
     ImpossibleOutcomes,
-    /// More ids than can be gone through one by one.
-    #[error("{total} ids are too many to go through one by one; at most {most}")]
+    /// More indices than can be gone through one by one.
+    #[error("{total} indices are too many to go through one by one; at most {most}")]
     TooManyIds {
-        /// All ids.
+        /// N, the number of all indices.
         total: u64,
-        /// The most that can be.
+        /// The most that can be gone through.
         most: u64,
     },
     /// A comparator register that is not in `0..=30` bits.

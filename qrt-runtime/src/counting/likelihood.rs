@@ -1,4 +1,4 @@
-//! Maximum likelihood over the number of good ids.
+//! Maximum likelihood over the number of good indices.
 //!
 //! The paper's estimator: uniform prior over the N+1 values of theta_S, B outcomes, the likeliest
 //! S. `L(S) = sum_y c_y ln P(y | theta_S)`, in logarithms throughout; where P is zero (theta_S on
@@ -42,28 +42,28 @@ const PLACES: usize = 8;
 /// Zeros closer than this, in steps of the register, hardly leave room for a peak.
 const SLIVER: f64 = 1.0 / 16.0;
 
-/// The likeliest number of good ids.
+/// The likeliest number of good indices.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MaximumLikelihood {
     /// S. Where several are equally likely to the last bit, the one farthest from N/2 (and the
-    /// smaller of two as far), so that counting the bad ids instead mirrors the answer.
+    /// smaller of two as far), so that counting the bad indices instead mirrors the answer.
     pub good: u64,
     /// ln of the probability of the outcomes, in their order, given S.
     pub ln_likelihood: f64,
 }
 
-/// The number of good ids among `total` under which `outcomes` (folded, `0 ..= T/2`, in any order)
-/// are likeliest.
+/// The number of good indices among `total` under which `outcomes` (folded, `0 ..= T/2`, in any
+/// order) are likeliest.
 ///
 /// # Errors
 ///
-/// No outcomes, an outcome beyond T/2, no ids, a register out of range, or outcomes that no number
-/// of good ids could have given.
+/// No outcomes, an outcome beyond T/2, no indices, a register out of range, or outcomes that no
+/// number of good indices could have given.
 ///
 /// ```
 /// use qrt_core::scene::Window;
 /// use qrt_runtime::counting::maximum_likelihood;
-/// // T = 8: outcome 2 is theta = 1/4, half of the ids.
+/// // T = 8: outcome 2 is theta = 1/4, half of the indices.
 /// assert_eq!(maximum_likelihood(&[2, 2, 2], 1000, 3, Window::Rect)?.good, 500);
 /// # Ok::<(), qrt_runtime::counting::CountingError>(())
 /// ```
@@ -86,7 +86,7 @@ pub(super) fn likeliest(
     Search::new(likelihood, total).run()
 }
 
-/// ln of the probability of `outcomes`, in their order, given `good` of `total` ids; negative
+/// ln of the probability of `outcomes`, in their order, given `good` of `total` indices; negative
 /// infinity where it is zero.
 ///
 /// # Errors
@@ -104,7 +104,7 @@ pub fn ln_likelihood(
     Ok(likelihood.at(Phase::of(good, total, &likelihood.register)))
 }
 
-/// The most ids over which [`posterior`] is computed.
+/// The most indices over which [`posterior`] is computed.
 const MAX_POSTERIOR_IDS: u64 = 1 << 24;
 
 /// P(S | outcomes) for S = 0 ..= `total` and a prior that is uniform over them: N+1 numbers that
@@ -112,12 +112,12 @@ const MAX_POSTERIOR_IDS: u64 = 1 << 24;
 ///
 /// # Errors
 ///
-/// As [`maximum_likelihood`], and more than 2^24 ids.
+/// As [`maximum_likelihood`], and more than 2^24 indices.
 ///
 /// ```
 /// use qrt_core::scene::Window;
 /// use qrt_runtime::counting::posterior;
-/// // T = 4, read as 1: half of the four ids, or, less likely, one or three of them.
+/// // T = 4, read as 1: half of the four indices, or, less likely, one or three of them.
 /// let posterior = posterior(&[1], 4, 2, Window::Rect)?;
 /// assert_eq!(posterior[0], 0.0);
 /// assert!(posterior[2] > posterior[1]);
@@ -221,7 +221,7 @@ struct Search<'a> {
     likelihood: &'a Likelihood,
     total: u64,
     best: MaximumLikelihood,
-    /// B.
+    /// B, the number of outcomes.
     shots: f64,
     visited: HashSet<u64>,
 }

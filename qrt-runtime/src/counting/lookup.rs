@@ -1,10 +1,11 @@
-//! The look-up table of quantum supersampling: from what the phase register reads to the good ids.
+//! The look-up table of quantum supersampling: from what the phase register reads to the good
+//! indices.
 //!
 //! Johnston (*Quantum supersampling*, SIGGRAPH 2016 talks; Johnston, Harrigan & Gimeno-Segovia,
 //! *Programming quantum computers*, 2019, chapter 11) tabulates P(y | S): a column for every
-//! reading y, a row for every S. A column's largest entry says which S is looked up, and its share
-//! of the column how much that can be trusted, his *confidence map*. The entries are known before
-//! anything is rendered, for they depend on N and the register alone.
+//! reading y, a row for every S. A column's largest entry says which S is looked up, and its
+//! fraction of the column how much that can be trusted, his *confidence map*. The entries are known
+//! before anything is rendered, for they depend on N and the register alone.
 //!
 //! Here y and T - y, whose columns are equal, are one column. A column is computed when it is first
 //! read. Where it has too many rows, they are gathered: near y all S of an eighth of a step are a
@@ -22,7 +23,7 @@ use super::error::CountingError;
 use super::kernel::Register;
 use super::likelihood::maximum_likelihood;
 
-/// Up to this many ids every S is a row of its own.
+/// Up to this many indices every S is a row of its own.
 const FEW_IDS: u64 = 1024;
 /// Steps from y within which rows are not averages.
 const NEAR: u64 = 16;
@@ -38,15 +39,15 @@ pub struct Column {
     pub good: u64,
     /// ln P(y | S) of that S; negative infinity if y is not read for any S.
     pub ln_likelihood: f64,
-    /// Its share of the column: the confidence map. The probability of this S if all were equally
-    /// likely before.
+    /// Its fraction of the column: the confidence map. The probability of this S if all were
+    /// equally likely before.
     pub certainty: f64,
-    /// The fractions S/N within the distance from y that is needed to gather the asked share of the
-    /// column.
+    /// The fractions S/N within the distance from y that is needed to gather the asked fraction of
+    /// the column.
     pub interval: (f64, f64),
 }
 
-/// The look-up table for N ids and a phase register of `T = 2^phase_bits`.
+/// The look-up table for N indices and a phase register of `T = 2^phase_bits`.
 ///
 /// ```
 /// use qrt_runtime::counting::LookupTable;
@@ -68,7 +69,7 @@ pub struct LookupTable {
 
 /// Some S next to each other.
 struct Row {
-    /// From y, in steps.
+    /// The distance from y, in steps.
     distance: f64,
     /// The fractions that they span.
     low: f64,
@@ -85,7 +86,7 @@ impl LookupTable {
     ///
     /// # Errors
     ///
-    /// No ids, or a register out of range.
+    /// No indices, or a register out of range.
     pub fn new(
         total: u64,
         phase_bits: u32,
@@ -103,7 +104,7 @@ impl LookupTable {
         })
     }
 
-    /// N.
+    /// N, the number of all indices.
     pub fn total(&self) -> u64 {
         self.total
     }
@@ -311,7 +312,7 @@ mod tests {
     }
 
     /// Johnston's table for 4 x 4 subpixels and 4 phase qubits, and others, entry by entry: the
-    /// largest of each column, its share, and the rows around it.
+    /// largest of each column, its fraction, and the rows around it.
     #[test]
     fn columns_are_those_of_the_whole_table() {
         for (total, bits) in [(16, 4), (16, 2), (64, 7), (1, 3), (7, 1), (1000, 5)] {
@@ -374,7 +375,7 @@ mod tests {
         }
     }
 
-    /// Registers and ids of any size: one reading is one column, quickly.
+    /// Registers and indices of any size: one reading is one column, quickly.
     #[test]
     fn no_size_is_too_large() {
         for total in [1, 2, 1000, 1 << 30, 1 << 60] {

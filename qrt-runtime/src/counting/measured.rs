@@ -1,7 +1,8 @@
-//! The id register once the phase register has been read.
+//! The qubits of the index once the phase register has been read.
 //!
-//! Before the inverse Fourier transform the phase register holds j with probability `w_j^2`, and the ids
-//! have been turned j times: whoever measures them finds a good one with probability
+//! Before the inverse Fourier transform the phase register holds j with probability `w_j^2`, and
+//! the index's state has been turned j times: whoever measures it finds a good index with
+//! probability
 //!
 //! ```text
 //! sum_j w_j^2 sin^2((2j + 1) pi theta) = 1/2 - 1/2 sum_j w_j^2 cos((4j + 2) pi theta),
@@ -12,7 +13,7 @@
 use qrt_core::scene::Window;
 use std::f64::consts::{PI, TAU};
 
-/// The probability that the id measured after phase estimation is good.
+/// The probability that the index measured after phase estimation is good.
 pub(crate) fn good_id(theta: f64, phase_bits: u32, window: Window) -> f64 {
     let size = (1_u64 << phase_bits) as f64;
     let x = PI * theta;

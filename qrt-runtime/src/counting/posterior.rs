@@ -1,16 +1,17 @@
-//! The posterior over the number of good ids, and its mean.
+//! The posterior over the number of good indices, and its mean.
 //!
-//! The prior is uniform over S in `0 ..= N`. Up to 2^12 ids, sums go over every S. Beyond, over
+//! The prior is uniform over S in `0 ..= N`. Up to 2^12 indices, sums go over every S. Beyond, over
 //! cells: the steps between neighbouring outcomes y of the phase register.
 //!
-//! * *Near* an observed outcome, cell by cell: the integers one by one where they are few, otherwise
-//!   by Gauss and Legendre's quadrature in theta, in panels as fine as B repetitions demand.
+//! * *Near* an observed outcome, cell by cell: the integers one by one where they are few,
+//!   otherwise by Gauss and Legendre's quadrature in theta, in panels as fine as B repetitions
+//!   demand.
 //! * *Far* from all outcomes P(y) is a smooth envelope times a fast square of a sine: with B = 1
 //!   the envelope falls with the square of the distance only, and what lies beyond any number of
 //!   cells counts. There the sine is averaged over a step, and the envelope integrated over panels
 //!   that grow with the distance.
 //!
-//! Logarithms throughout, relative to the likeliest S; cells that hold less than exp(-60) of the
+//! Logarithms throughout, relative to the likeliest S; cells that have less than exp(-60) of the
 //! likeliest are left out.
 
 use qrt_core::scene::Window;
@@ -43,9 +44,9 @@ const NODES: [(f64, f64); 4] = [
 /// The posterior of S/N after outcomes of the phase register.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Posterior {
-    /// Its mean.
+    /// The posterior's mean of S/N, in [0, 1].
     pub mean: f64,
-    /// The likeliest values that hold the asked probability, and what lies between them.
+    /// The likeliest values of S/N that have the asked posterior mass, and what lies between them.
     pub interval: (f64, f64),
 }
 
@@ -126,7 +127,7 @@ struct Integral<'a> {
     total: u64,
     /// ln L of the likeliest S.
     top: f64,
-    /// B.
+    /// B, the number of outcomes.
     shots: f64,
     pieces: Vec<Piece>,
 }
@@ -149,7 +150,7 @@ impl Integral<'_> {
         }
     }
 
-    /// Integers per step.
+    /// How many integers S lie in a step of the register there.
     fn density(&self, steps: f64) -> f64 {
         let half = self.half() as f64;
         let place = steps.min(half - steps) / half;
@@ -272,7 +273,8 @@ impl Integral<'_> {
     fn panel(&mut self, cell: u64, start: f64, width: f64) {
         let value = |place: f64| self.likelihood.at(Phase::at(cell, place));
         // Many repetitions leave most of a cell empty.
-        let is_empty = |share: f64| value(start + share * width) < self.top + NEGLIGIBLE - 8.0;
+        let is_empty =
+            |fraction: f64| value(start + fraction * width) < self.top + NEGLIGIBLE - 8.0;
         if self.shots > 64.0 && [0.1, 0.5, 0.9].into_iter().all(is_empty) {
             return;
         }

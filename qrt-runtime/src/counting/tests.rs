@@ -1,4 +1,4 @@
-//! What counting promises.
+//! Tests of what counting promises.
 
 mod draws;
 mod high_precision;

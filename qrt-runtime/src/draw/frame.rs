@@ -4,11 +4,11 @@ use qrt_core::compile::StageName;
 use qrt_core::inspect::{CHANNELS, Frame, FrameBox, Inspection, Part, grouped};
 use qrt_drawing::{Canvas, SMALL, text_width};
 
-/// Between wires.
+/// The distance between wires, in units of the drawing.
 const ROW: f64 = 34.0;
-/// Between boxes.
+/// The distance between the middles of boxes.
 const COLUMN: f64 = 50.0;
-/// Of a box.
+/// The width of a box.
 const BOX: f64 = 36.0;
 /// Of a box beyond its outermost wires.
 const RIM: f64 = 13.0;
@@ -30,7 +30,7 @@ pub fn frame(inspection: &Inspection, scene: &str) -> Canvas {
         CHANNELS[inspection.channel]
     );
     let figures = format!(
-        "{} qubits, {} Toffoli, {} AND measured, depth {}",
+        "{} qubits, {} Toffoli, {} AND measured, Toffoli depth {}",
         grouped(u64::from(inspection.qubits)),
         grouped(total.toffoli),
         grouped(total.and_measured),

@@ -1,4 +1,5 @@
-//! Drawings of an inspected oracle: the call in the paper's frame, and which register has which qubits.
+//! Drawings of an inspected oracle: the call in the paper's frame, and which register has which
+//! qubits.
 
 mod frame;
 mod registers;

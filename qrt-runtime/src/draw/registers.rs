@@ -28,7 +28,7 @@ pub fn registers(inspection: &Inspection, scene: &str) -> Canvas {
         CHANNELS[inspection.channel]
     );
     let figures = format!(
-        "{} qubits at the most, {} Toffoli, depth {}; {} registers in a layout of {} qubits",
+        "{} qubits at the most, {} Toffoli, Toffoli depth {}; {} registers in a layout of {} qubits",
         grouped(u64::from(inspection.qubits)),
         grouped(total.toffoli),
         grouped(inspection.toffoli_depth),
@@ -146,7 +146,7 @@ impl<'a> Map<'a> {
         ]
     }
 
-    /// Draws the registers, and returns the names that have room on them.
+    /// Draws the registers, and returns the names that fit on them.
     fn lifetimes(&self, canvas: &mut Canvas) -> Vec<([f64; 2], String)> {
         let lifetimes = &self.inspection.layout.lifetimes;
         let all = lifetimes.len() <= MOST;

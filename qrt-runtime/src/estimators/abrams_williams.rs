@@ -27,11 +27,11 @@ const STAGES: u32 = 200;
 /// The mean is magnified, and not its square root: unlike with Grover's iterate, the error does not
 /// fall with sqrt(a) for small a.
 ///
-/// Interval: the stages' Clopper-Pearson intervals, intersected. Half of what may fail is the last
-/// one's, and of the other half a stage has the square of its share of the queries: what fails
-/// early errs most, and is made least probable, so that the root mean square error falls as
-/// 1/queries, too. The interval holds S/N with the asked probability at least, whatever S is. With
-/// an error, stages go on until its half-width is at most that.
+/// Interval: the stages' Clopper-Pearson intervals, intersected. Half of the failure probability is
+/// the last one's, and of the other half a stage has the square of its fraction of the queries:
+/// what fails early errs most, and is made least probable, so that the root mean square error falls
+/// as 1/queries, too. The coverage is at least the asked confidence, whatever S is. With an error,
+/// stages go on until its half-width is at most that.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AbramsWilliams {
     settings: Settings,
@@ -55,10 +55,10 @@ impl AmplitudeEstimator for AbramsWilliams {
         } = self.settings;
         let start = device.usage();
         let failure = 0.5 * (1.0 - confidence);
-        // The squares of shares add up to one at most: stages take FEWEST tosses or more.
+        // The squares of fractions add up to one at most: stages take FEWEST tosses or more.
         let failing = |each: u64| {
-            let share = (each.saturating_mul(FEWEST) as f64 / queries as f64).min(1.0);
-            failure * share * share
+            let fraction = (each.saturating_mul(FEWEST) as f64 / queries as f64).min(1.0);
+            failure * fraction * fraction
         };
         let tosses = |failing: f64| {
             let tosses = TOSSES * libm::log(2.0 / failing);

@@ -25,7 +25,7 @@ fn settings(queries: u64) -> Settings {
     }
 }
 
-/// From one query to 2^50, from one id to 2^60, and with an error that is asked; on good and bad
+/// From one query to 2^50, from one index to 2^60, and with an error that is asked; on good and bad
 /// devices.
 #[test]
 fn no_estimate_leaves_its_bounds_or_its_queries() {

@@ -1,13 +1,13 @@
-//! Exact intervals of a binomial share.
+//! Exact intervals of a binomial fraction.
 //!
 //! Clopper & Pearson, *The use of confidence or fiducial limits illustrated in the case of the
-//! binomial* (1934): the shares under which what was seen, or more of it, has probability at least
-//! half of what may fail, on either side. They hold for every number of shots.
+//! binomial* (1934): the fractions under which what was seen, or more of it, has probability at
+//! least half of the failure probability, on either side. They are exact for every number of shots.
 
 use super::normal::normal_quantile;
 use crate::counting::binomial::ln_probability;
 
-/// The interval of the share of hits, that fails with probability at most `failure`. To a
+/// The interval of the fraction of hits, that fails with probability at most `failure`. To a
 /// hundredth of its width, and mostly far better, for up to 2^50 shots.
 pub(super) fn clopper_pearson(hits: u64, shots: u64, failure: f64) -> (f64, f64) {
     let (low, _) = lower_limit(hits, shots, 0.5 * failure);
@@ -15,7 +15,7 @@ pub(super) fn clopper_pearson(hits: u64, shots: u64, failure: f64) -> (f64, f64)
     (low, high)
 }
 
-/// The share p under which `hits` or more among `shots` have probability `failure` < 1/2, and
+/// The fraction p under which `hits` or more among `shots` have probability `failure` < 1/2, and
 /// 1 - p.
 fn lower_limit(hits: u64, shots: u64, failure: f64) -> (f64, f64) {
     if hits == 0 {
@@ -64,7 +64,7 @@ fn logistic(logit: f64) -> (f64, f64) {
     )
 }
 
-/// ln(p'/p) of two shares and what is missing to 1, by the smaller of which they differ.
+/// ln(p'/p) of two fractions and what is missing to 1, by the smaller of which they differ.
 fn ln_ratio(next: (f64, f64), now: (f64, f64)) -> f64 {
     if now.0 < now.1 {
         libm::log(next.0 / now.0)

@@ -50,7 +50,7 @@ impl Coin {
     }
 
     /// Tosses that leave an interval of some half-width `error`, but for a probability of
-    /// `failure`, on a device with `noise` and `total` ids: Hoeffding's, twice.
+    /// `failure`, on a device with `noise` and `total` indices: Hoeffding's, twice.
     pub(super) fn tosses_for(&self, error: f64, failure: f64, noise: Noise, total: u64) -> u64 {
         let reach = noise.coin_intact(self.queries, total) * self.queries as f64 * error;
         // A float beyond 2^64, or infinity, becomes the largest integer.
@@ -82,7 +82,7 @@ impl Coin {
         self.reference + self.slope * libm::sin(turned / self.queries as f64)
     }
 
-    /// The fraction under which the share of heads is the likeliest.
+    /// The fraction of good indices under which the measured fraction of heads is the likeliest.
     pub(super) fn estimate(&self, tosses: &Tosses) -> f64 {
         self.amplitude(tosses.angle(tosses.heads as f64 / tosses.shots as f64))
     }
@@ -128,7 +128,7 @@ pub(super) fn most_queries(noise: Noise) -> u64 {
     (most - 1) | 1
 }
 
-/// What both intervals hold; the first, if nothing is in both.
+/// The fractions that are in both intervals; `known`, if none is in both.
 pub(super) fn intersection(known: (f64, f64), found: (f64, f64)) -> (f64, f64) {
     let (low, high) = (known.0.max(found.0), known.1.min(found.1));
     if low < high { (low, high) } else { known }

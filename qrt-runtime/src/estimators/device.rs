@@ -1,9 +1,9 @@
 //! What estimators measure on.
 //!
-//! The Grover iterate turns the uniform state of the ids by twice the angle `pi theta`, where
-//! `sin^2(pi theta) = S/N`, in the plane of the good and the bad ids. So the outcome of every circuit
-//! that estimators run has a probability in closed form, from which it is drawn. `theta` is known to
-//! 104 bits: a shot after 2^40 iterations has the right probability to better than 1e-15.
+//! The Grover iterate turns the uniform state of the indices by twice the angle `pi theta`, where
+//! `sin^2(pi theta) = S/N`, in the plane of the good and the bad indices. So the outcome of every
+//! circuit that estimators run has a probability in closed form, from which it is drawn. `theta` is
+//! known to 104 bits: a shot after 2^40 iterations has the right probability to better than 1e-15.
 
 mod shifted;
 
@@ -18,13 +18,13 @@ pub const MAX_ITERATIONS: u64 = 1 << 44;
 /// What is to be estimated. Known to the device, and not to the estimator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Problem {
-    /// S, the good ids.
+    /// S, the number of good indices, in `0..=N`.
     pub good: u64,
-    /// N, all ids.
+    /// N, the number of all indices, at least 1.
     pub total: u64,
 }
 
-/// Qubits of an id among `total`, which is at least 1.
+/// Qubits of an index among `total`, which is at least 1.
 pub(super) fn id_bits(total: u64) -> u32 {
     u64::BITS - (total - 1).leading_zeros()
 }
@@ -34,13 +34,14 @@ pub(super) fn id_bits(total: u64) -> u32 {
 pub struct Usage {
     /// Applications of the oracle.
     pub queries: u64,
-    /// Measurements.
+    /// How many measurements were made.
     pub shots: u64,
-    /// The most queries in one shot.
+    /// The query depth: the most queries in one shot.
     pub depth: u64,
     /// Times that something was asked.
     pub rounds: u64,
-    /// Measured ids that turned out to be good: each is one of the good ids, all equally likely.
+    /// Measured indices that turned out to be good: each is one of the good indices, all equally
+    /// likely.
     pub good_ids: u64,
 }
 
@@ -58,7 +59,7 @@ impl<'a> Device<'a> {
     /// A device for a problem; what it answers is drawn from `stream`.
     ///
     /// # Errors
-    /// No ids, more good ids than ids, or noise out of range.
+    /// No indices, more good indices than indices, or noise out of range.
     pub fn new(
         problem: Problem,
         noise: Noise,
@@ -75,12 +76,12 @@ impl<'a> Device<'a> {
         })
     }
 
-    /// N, the number of ids.
+    /// N, the number of indices.
     pub fn total(&self) -> u64 {
         self.problem.total
     }
 
-    /// What was spent up to now.
+    /// What was used up to now.
     pub fn usage(&self) -> Usage {
         self.usage
     }
@@ -120,14 +121,14 @@ impl<'a> Device<'a> {
         self.usage.rounds += 1;
     }
 
-    /// S, by going through all ids: N queries.
+    /// S, by going through all indices: N queries.
     pub fn every_id(&mut self) -> u64 {
         self.spend(self.problem.total, 1);
         self.usage.good_ids += self.problem.good;
         self.problem.good
     }
 
-    /// The good ids among `shots` that are drawn at random, with replacement: one query each.
+    /// The good indices among `shots` that are drawn at random, with replacement: one query each.
     pub fn paths(&mut self, shots: u64) -> u64 {
         self.spend(shots, 1);
         let Problem { good, total } = self.problem;
@@ -136,10 +137,10 @@ impl<'a> Device<'a> {
         found
     }
 
-    /// The good ids among `shots` that are measured after `iterations` Grover iterations each:
+    /// The good indices among `shots` that are measured after `iterations` Grover iterations each:
     /// `iterations` queries a shot, but one query where there are none, as [`Device::paths`].
     ///
-    /// An id is good with probability `sin^2((2k + 1) pi theta)`.
+    /// An index is good with probability `sin^2((2k + 1) pi theta)`.
     ///
     /// # Errors
     /// More iterations than [`MAX_ITERATIONS`].
@@ -156,12 +157,12 @@ impl<'a> Device<'a> {
     }
 
     /// How many of `shots` states have returned to the beginning after `iterations` Grover
-    /// iterations: the preparation is undone, and all qubits of the id read zero. `iterations`
-    /// queries a shot, for the preparation of all ids takes none.
+    /// iterations: the preparation is undone, and all qubits of the index read zero. `iterations`
+    /// queries a shot, for the preparation of all indices takes none.
     ///
     /// A state returns with probability `cos^2(2k pi theta)`: what is between preparation and its
     /// inverse turns by `2k pi theta`. A state that noise has destroyed, or that is read wrongly,
-    /// reads zero as often as any other id, once in N.
+    /// reads zero as often as any other index, once in N.
     ///
     /// # Errors
     /// More iterations than [`MAX_ITERATIONS`].
@@ -178,13 +179,13 @@ impl<'a> Device<'a> {
         Ok(binomial::draw_with(shots, p, q, self.stream))
     }
 
-    /// The probability that a state survives `queries` and all its id's bits are read rightly.
+    /// The probability that a state survives `queries` and all bits of its index are read rightly.
     fn intact(&self, queries: u64) -> f64 {
         let bits = id_bits(self.problem.total);
         self.noise.intact(queries) * self.noise.read_rightly(bits)
     }
 
-    /// Of `shots` measured ids, those that are good, if without noise one is with probability
+    /// Of `shots` measured indices, those that are good, if without noise one is with probability
     /// `good` = (p, 1 - p) after `queries`.
     fn measured_ids(&mut self, queries: u64, good: (f64, f64), shots: u64) -> u64 {
         let (p, q) = if self.noise == Noise::NONE {
@@ -241,7 +242,7 @@ impl<'a> Device<'a> {
             raw.min(size - raw)
         };
         let outcomes = (0..repetitions).map(|_| outcome()).collect();
-        // The ids are measured, too.
+        // The indices are measured, too.
         let theta = distribution.theta();
         let p = good_id(theta, phase_bits, window);
         self.measured_ids(size - 1, (p, 1.0 - p), u64::from(repetitions));

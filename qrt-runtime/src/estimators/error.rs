@@ -1,4 +1,4 @@
-//! What estimators refuse.
+//! Errors of estimators: settings and problems that they refuse.
 
 use super::MAX_ITERATIONS;
 use crate::counting::CountingError;
@@ -10,7 +10,7 @@ pub enum EstimatorError {
     /// Quantum counting cannot be done as asked.
     #[error(transparent)]
     Counting(#[from] CountingError),
-    /// No query may be spent.
+    /// The settings allow no query.
     #[error("an estimator needs at least one query")]
     NoQueries,
     /// The asked error is not in (0, 1).

@@ -1,8 +1,8 @@
-//! `exact`: without estimating.
+//! `exact`: the true count, without an estimate.
 
 use super::{AmplitudeEstimator, Device, Estimate, EstimatorError};
 
-/// `exact`: S itself. Counts every id, N queries, without error: the picture without counting
+/// `exact`: S itself. Counts every index, N queries, without error: the picture without counting
 /// noise.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Exact;

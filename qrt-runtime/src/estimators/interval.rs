@@ -1,15 +1,15 @@
 //! Intervals at the asked confidence: from a posterior, and from outcomes of the phase register.
 //!
 //! For the latter, with q(w) the largest probability, over all theta and T, of an outcome more than
-//! w steps from T theta, the lower and the upper median of B outcomes are both on one side of T theta and
-//! farther than w only if more than half of the outcomes are farther:
+//! w steps from T theta, the lower and the upper median of B outcomes are both on one side of T
+//! theta and farther than w only if more than half of the outcomes are farther:
 //!
 //! ```text
 //! P(a median off by more than w, both on one side) <= P(Binomial(B, q(w)) > B/2).
 //! ```
 //!
-//! The w at which that is what may fail gives an interval from the lower median less w to the upper
-//! median plus w.
+//! The w at which that is the asked failure probability gives an interval from the lower median
+//! less w to the upper median plus w.
 
 use super::clopper_pearson::clopper_pearson;
 use qrt_core::scene::Window;
@@ -20,16 +20,16 @@ const MOST_OFF: f64 = 0.499;
 /// Beyond this many steps theta is anywhere: a register has fewer.
 const ANYWHERE: f64 = 1e13;
 
-/// The share of what may fail that regions of highest density leave out.
+/// The fraction of the failure probability that regions of highest density leave out.
 ///
 /// Such a region fails as often as it says on average over the prior, whatever was measured and
-/// when it stopped; at a given amplitude it may fail more often. Measured, at a nominal 5 %: 9 %
-/// for adaptive depths at an amplitude of 1/2, where every depth gives good and bad ids alike. With
-/// 2/5 of what may fail, that is 5 %, and the average near 2 %.
+/// when it stopped; at a given amplitude its coverage may be lower. Measured, at a nominal 5 %: 9 %
+/// for adaptive query depths at an amplitude of 1/2, where every query depth gives good and bad
+/// indices alike. With 2/5 of the failure probability, that is 5 %, and the average near 2 %.
 const CAUTION: f64 = 0.4;
 
-/// What a region of highest density must hold of the posterior to hold the amplitude with the
-/// probability `confidence` where it does so least.
+/// The posterior mass that a region of highest density must have for a coverage of `confidence`
+/// even at the amplitude where the coverage is least.
 pub(super) fn credible_content(confidence: f64) -> f64 {
     1.0 - CAUTION * (1.0 - confidence)
 }
@@ -37,12 +37,12 @@ pub(super) fn credible_content(confidence: f64) -> f64 {
 /// w, in steps of the register, for B = `repetitions` and any theta and T.
 pub(super) fn median_steps(window: Window, repetitions: u32, confidence: f64) -> f64 {
     let shots = u64::from(repetitions);
-    // The share q under which more than half of the shots have the probability that may fail: a
-    // lower limit of Clopper and Pearson's.
+    // The probability q of a shot that is off under which more than half of the shots are off with
+    // the failure probability: a lower limit of Clopper and Pearson's.
     let failure = (1.0 - confidence).min(0.49);
-    let (share, _) = clopper_pearson(shots / 2 + 1, shots, 2.0 * failure);
+    let (fraction, _) = clopper_pearson(shots / 2 + 1, shots, 2.0 * failure);
     // Less the roundings of the limit and of the tails.
-    let allowed = share * (1.0 - 1e-6);
+    let allowed = fraction * (1.0 - 1e-6);
     let mut whole = 1.0;
     while beyond(window, whole, 0.0) > allowed {
         whole *= 2.0;
@@ -77,8 +77,8 @@ pub(super) fn median_steps(window: Window, repetitions: u32, confidence: f64) ->
 /// With T theta f steps above a grid point, f in [0, 1/2], outcomes within are those from
 /// `1 - whole` to `whole` for f >= off, to `whole - 1` for f < off. Over either range of f what is
 /// beyond is largest at one of its ends. A finite register with the rectangular window has less
-/// beyond than an infinite one, for its kernel is larger everywhere near; with the sine window it has
-/// less than twice as much.
+/// beyond than an infinite one, for its kernel is larger everywhere near; with the sine window it
+/// has less than twice as much.
 fn beyond(window: Window, whole: f64, off: f64) -> f64 {
     let both = |above: f64, f: f64| tail(window, above - f, f) + tail(window, whole + f, f);
     let few = both(whole, 0.0).max(both(whole, off));
@@ -90,8 +90,8 @@ fn beyond(window: Window, whole: f64, off: f64) -> f64 {
     finite * few.max(many)
 }
 
-/// The kernel of an infinite register, summed over the distances x = d, d + 1, ... from a phase that
-/// is f steps off the grid: `sin^2(pi f)/(pi x)^2` for the rectangular window, and
+/// The kernel of an infinite register, summed over the distances x = d, d + 1, ... from a phase
+/// that is f steps off the grid: `sin^2(pi f)/(pi x)^2` for the rectangular window, and
 /// `cos^2(pi f)/2/(pi (x^2 - 1/4))^2` for the sine window.
 fn tail(window: Window, distance: f64, f: f64) -> f64 {
     match window {

@@ -1,15 +1,16 @@
-//! Estimators: from queries of the oracle to the fraction of good ids.
+//! Estimators: from queries of the oracle to the fraction of good indices.
 //!
 //! One trait, one unit and one result, so that estimators can be compared.
 //!
-//! * [`Device`]: what is asked and answered. An estimator knows of the good ids only what it
+//! * [`Device`]: what is asked and answered. An estimator knows of the good indices only what it
 //!   measures here, and here queries are counted and noise is added.
-//! * [`Settings`]: what is wanted: an error, a confidence, the queries that may be spent.
+//! * [`Settings`]: what is wanted: an error, a confidence, the queries that may be used.
 //! * [`Estimate`]: the fraction, its interval, and what they took.
 //!
 //! The unit is the query: one application of the oracle. A shot after k Grover iterations takes k
-//! queries, for the id that it measures is evaluated classically; without iterations it is a path
-//! of classical Monte Carlo, which is one query, too. Phase estimation with T phases takes T-1.
+//! queries, for the index that it measures is evaluated classically; without iterations it is a
+//! path of classical Monte Carlo, which is one query, too. Phase estimation with T phases takes
+//! T-1.
 
 mod abrams_williams;
 mod bayes;
@@ -62,14 +63,14 @@ pub struct Estimate {
     pub amplitude: f64,
     /// The likeliest S, where the estimator finds an integer.
     pub good: Option<u64>,
-    /// Holds S/N with at least the probability [`Estimate::confidence`]; how it is obtained is
-    /// said with each estimator.
+    /// The interval of S/N, in [0, 1]. Its coverage is at least [`Estimate::confidence`]; how it is
+    /// obtained is said with each estimator.
     pub interval: (f64, f64),
-    /// The interval's confidence.
+    /// The coverage that was asked of the interval, in (0, 1).
     pub confidence: f64,
     /// Applications of the oracle.
     pub queries: u64,
-    /// Measurements.
+    /// How many measurements were made.
     pub shots: u64,
     /// The most queries between preparation and measurement: how long the device must stay
     /// coherent.
@@ -84,7 +85,7 @@ pub struct Estimate {
     pub candidates: Option<u32>,
 }
 
-/// An estimator of the fraction of good ids.
+/// An estimator of the fraction of good indices.
 pub trait AmplitudeEstimator {
     /// One run: measures on `device`, and estimates from what it answers. Queries that the device
     /// was asked before this run are not the estimate's.

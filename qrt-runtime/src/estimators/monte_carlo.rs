@@ -3,15 +3,15 @@
 use super::{AmplitudeEstimator, Device, Estimate, EstimatorError, Settings};
 use crate::counting::binomial;
 
-/// `monte-carlo`: the fraction of good ids among `queries` drawn at random, with replacement.
+/// `monte-carlo`: the fraction of good indices among `queries` drawn at random, with replacement.
 ///
 /// Interval: all a whose Kullback-Leibler divergence from the fraction is at most
-/// `ln(2/(1 - confidence))/n` (Chernoff's bound, for either side half of what may fail), which holds
-/// for every n and a. Where an error is asked, n is the smallest that Hoeffding's inequality
-/// allows, `ln(2/(1 - confidence)) / (2 error^2)`, if that is less than the queries.
+/// `ln(2/(1 - confidence))/n` (Chernoff's bound, for either side half of the failure probability),
+/// which is valid for every n and a. Where an error is asked, n is the smallest that Hoeffding's
+/// inequality allows, `ln(2/(1 - confidence)) / (2 error^2)`, if that is less than the queries.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MonteCarlo {
-    /// Ids drawn.
+    /// How many indices are drawn, at least 1.
     queries: u64,
     confidence: f64,
 }

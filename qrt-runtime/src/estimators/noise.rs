@@ -7,14 +7,14 @@ use std::str::FromStr;
 
 /// What goes wrong on a device.
 ///
-/// *Depolarising*: with this probability a query leaves the whole register, ids and counter, in the
-/// maximally mixed state, where it stays. A shot of k queries is intact with probability
-/// `(1 - depolarising)^k`; otherwise every outcome is equally likely: an id is good with
-/// probability S/N, and a phase register reads anything.
+/// *Depolarising*: with this probability a query leaves all qubits, those of the index and of the
+/// phase register, in the maximally mixed state, where it stays. A shot of k queries is intact with
+/// probability `(1 - depolarising)^k`; otherwise every outcome is equally likely: an index is good
+/// with probability S/N, and a phase register reads anything.
 ///
-/// *Readout*: with this probability each measured bit is read wrongly. On a phase register the bits are
-/// flipped. An id that is read wrongly is another id, and is taken to be good with probability S/N:
-/// neighbours of an id are not modelled.
+/// *Readout*: with this probability each measured bit is read wrongly. On a phase register the bits
+/// are flipped. An index that is read wrongly is another index, and is taken to be good with
+/// probability S/N: neighbours of an index are not modelled.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Noise {
     /// Probability that a query destroys the state.
@@ -24,7 +24,7 @@ pub struct Noise {
 }
 
 impl Noise {
-    /// A perfect device.
+    /// The noise of a perfect device: none.
     pub const NONE: Self = Self {
         depolarising: 0.0,
         readout: 0.0,
@@ -46,8 +46,8 @@ impl Noise {
         survives(self.depolarising, queries)
     }
 
-    /// The probability that a shot of the shifted circuit among `total` ids survives `queries`, and
-    /// that its ids and its coin are read rightly.
+    /// The probability that a shot of the shifted circuit among `total` indices survives `queries`,
+    /// and that its index and its coin are read rightly.
     pub fn coin_intact(&self, queries: u64, total: u64) -> f64 {
         self.intact(queries) * self.read_rightly(id_bits(total) + 1)
     }
@@ -70,7 +70,7 @@ fn survives(each: f64, times: u64) -> f64 {
 }
 
 impl fmt::Display for Noise {
-    /// As it is written on the command line.
+    /// The noise as it is written on the command line.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,

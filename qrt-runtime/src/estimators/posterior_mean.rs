@@ -9,9 +9,9 @@ use qrt_core::scene::Estimator;
 /// scene, and the mean of S/N under a prior uniform over S in `0 ..= N`: of all estimates, the one
 /// of least mean square error over that prior.
 ///
-/// Interval: the amplitudes of highest posterior density that hold the asked confidence, cautiously,
-/// and what lies between them; extended to the interval of `paper`, which holds the amplitude with
-/// the asked confidence whatever it is, where a posterior does so on average only.
+/// Interval: the amplitudes of highest posterior density that have the asked posterior mass,
+/// cautiously, and what lies between them; extended to the interval of `paper`, whose coverage is
+/// the asked confidence at every amplitude, where a posterior's is so on average only.
 ///
 /// Takes B (T - 1) queries, whatever `queries` says; known noise plays no part in its likelihood.
 #[derive(Clone, Copy, Debug, PartialEq)]

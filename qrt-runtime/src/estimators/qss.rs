@@ -10,19 +10,20 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// Tables that one estimator keeps.
 const TABLES: usize = 8;
 
-/// `qss`: phase estimation of the Grover iterate, and a look-up table from what the phase register reads
-/// to the estimate (Johnston, *Quantum supersampling*, SIGGRAPH 2016 talks; Johnston, Harrigan &
-/// Gimeno-Segovia, *Programming quantum computers*, 2019, chapter 11). See [`LookupTable`].
+/// `qss`: phase estimation of the Grover iterate, and a look-up table from what the phase register
+/// reads to the estimate (Johnston, *Quantum supersampling*, SIGGRAPH 2016 talks; Johnston,
+/// Harrigan & Gimeno-Segovia, *Programming quantum computers*, 2019, chapter 11). See
+/// [`LookupTable`].
 ///
 /// Johnston runs the circuit once a pixel, and so does B = 1. He has no rule for B > 1; here each
 /// reading is looked up, and the lower median of the readings counts.
 ///
 /// Interval: the fractions around the reading that gather `confidence` of its column. That is a
 /// probability if all S were equally likely before, and so for S/N uniform in [0, 1]. For one given
-/// S it may be less: halfway between two readings a single reading's interval of 95 % holds S/N
-/// with probability 0.90. Known noise flattens the table: a register that is destroyed, or that has
-/// a bit read wrongly, is taken to read anything. As soon as that is as probable as what may fail,
-/// intervals are wide.
+/// S it may be less: halfway between two readings the coverage of a single reading's interval of
+/// 95 % is 0.90. Known noise flattens the table: a register that is destroyed, or that has
+/// a bit read wrongly, is taken to read anything. As soon as the probability of that reaches the
+/// failure probability, intervals are wide.
 #[derive(Debug)]
 pub struct Supersampling {
     counting: WindowedCounting,
@@ -39,10 +40,10 @@ impl Supersampling {
         })
     }
 
-    /// The table for N ids, made when it is first wanted.
+    /// The table for N indices, made when it is first wanted.
     ///
     /// # Errors
-    /// No ids.
+    /// No indices.
     pub fn table(&self, total: u64) -> Result<Arc<LookupTable>, EstimatorError> {
         let mut tables = self.tables.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(table) = tables.iter().find(|table| table.total() == total) {

@@ -12,10 +12,10 @@ use std::sync::LazyLock;
 const LAST: u64 = 3;
 
 /// `qcoin`: the quantum coin method (Shimada & Hachisuka, *Quantum coin method for numerical
-/// integration*, Computer Graphics Forum 39(6), 2020), a hybrid of classical and quantum steps after
-/// Abrams & Williams.
+/// integration*, Computer Graphics Forum 39(6), 2020), a hybrid of classical and quantum steps
+/// after Abrams & Williams.
 ///
-/// A coin that shows heads with probability a is tossed L times: classical paths. The share of
+/// A coin that shows heads with probability a is tossed L times: classical paths. The fraction of
 /// heads leaves an interval for a. Every further step tosses L coins of [`Device::shifted`], whose
 /// reference is the interval's end, and that take twice the queries of the step before; each step
 /// halves the interval. K steps take at most `L (2^K - 1)` queries.
@@ -24,15 +24,14 @@ const LAST: u64 = 3;
 /// `m omega`. (The authors' limits, `sin(pi/2^(k+1))/2` after step k, are that to first order. They
 /// shift by the lower end always, and by f - E itself; here the end nearer to 1/2 and the full
 /// scale of f - E save up to half of a step's queries.) L is the smallest number with which all
-/// steps' limits hold but for half of what may fail; K is as large as the queries allow. With known
-/// noise the limits are Clopper-Pearson's, for the same share of what may fail. The authors
-/// leave L to experiment: with their 4 tosses, a step
-/// misses for some a as often as not. The last
-/// step tosses as often as queries are left.
+/// steps' limits hold but for half of the failure probability; K is as large as the queries allow.
+/// With known noise the limits are Clopper-Pearson's, for the same half of the failure probability.
+/// The authors leave L to experiment: with their 4 tosses, a step misses for some a as often as
+/// not. The last step tosses as often as queries are left.
 ///
-/// Interval: the Clopper-Pearson interval of the last step's tosses, for the other half of what may
-/// fail, within the limits. It holds S/N with the asked probability at least, whatever S is. With
-/// an error, steps go on until the interval's half-width is at most that.
+/// Interval: the Clopper-Pearson interval of the last step's tosses, for the other half of the
+/// failure probability, within the limits. The coverage is at least the asked confidence, whatever
+/// S is. With an error, steps go on until the interval's half-width is at most that.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct QuantumCoin {
     settings: Settings,
@@ -126,7 +125,7 @@ fn steps(queries: u64, tosses: u64) -> u32 {
     u64::BITS - (queries / tosses).leading_zeros() + 2
 }
 
-/// A bound of the probability with which the share of heads in L tosses is off by more than pi/8
+/// A bound of the probability with which the fraction of heads in L tosses is off by more than pi/8
 /// in its angle, whatever the probability of heads is. From 65 tosses on it is Chernoff's, with the
 /// Kullback-Leibler divergence bounded from below by that of Bhattacharyya, `-2 ln cos(pi/8)`.
 fn step_fails(tosses: u64) -> f64 {

@@ -28,7 +28,7 @@ fn run(name: Estimator, settings: &Settings, problem: Problem, noise: Noise, run
         .unwrap()
 }
 
-/// The share of runs whose interval holds S/N.
+/// The coverage: the fraction of runs whose interval contains S/N.
 fn coverage(name: Estimator, settings: &Settings, amplitude: Option<f64>, noise: Noise) -> f64 {
     let (runs, total) = (500, 1_u64 << 40);
     let estimator = estimator(name, settings).unwrap();
@@ -49,12 +49,12 @@ fn coverage(name: Estimator, settings: &Settings, amplitude: Option<f64>, noise:
 }
 
 #[test]
-fn intervals_hold_what_is_estimated() {
+fn intervals_have_their_coverage() {
     for name in ESTIMATORS {
         for amplitude in [None, Some(0.0), Some(1e-6), Some(0.5), Some(1.0)] {
-            let share = coverage(name, &settings(9), amplitude, Noise::NONE);
+            let fraction = coverage(name, &settings(9), amplitude, Noise::NONE);
             // Four standard deviations of 500 runs.
-            assert!(share > 0.95 - 0.039, "{name} {amplitude:?}: {share}");
+            assert!(fraction > 0.95 - 0.039, "{name} {amplitude:?}: {fraction}");
         }
     }
 }
@@ -71,8 +71,8 @@ fn known_noise_leaves_coins_their_intervals() {
     };
     for name in COINS {
         for amplitude in [None, Some(0.02)] {
-            let share = coverage(name, &settings, amplitude, noise);
-            assert!(share > 0.95 - 0.039, "{name} {amplitude:?}: {share}");
+            let fraction = coverage(name, &settings, amplitude, noise);
+            assert!(fraction > 0.95 - 0.039, "{name} {amplitude:?}: {fraction}");
         }
     }
 }
@@ -181,7 +181,7 @@ fn supersampling_looks_up_what_is_likeliest() {
     }
 }
 
-/// Halfway between two readings, the intervals of 95 % hold S/N with 0.90; the sum is over the
+/// Halfway between two readings, the coverage of the intervals of 95 % is 0.90; the sum is over the
 /// readings themselves.
 #[test]
 fn supersampling_covers_least_between_its_readings() {

@@ -16,13 +16,13 @@ pub struct Settings {
     pub repetitions: u32,
     /// The phase register's window, for `posterior-mean`, which leaves it open.
     pub window: Window,
-    /// The most queries that may be spent, for estimators that decide themselves what they measure;
+    /// The most queries that may be used, for estimators that decide themselves what they measure;
     /// at least 1. (T - 1) B in a scene, so that all estimators cost the same.
     pub queries: u64,
     /// The error at which they stop, as the interval's half-width, in (0, 1); none: when the
-    /// queries are spent.
+    /// queries are used.
     pub error: Option<f64>,
-    /// The probability with which intervals hold S/N, in (0, 1).
+    /// The asked coverage: the probability with which the interval contains S/N, in (0, 1).
     pub confidence: f64,
     /// Noise that an estimator with a likelihood reckons with. What a device suffers is said where
     /// it is made, and may differ.

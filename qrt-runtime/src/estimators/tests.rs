@@ -86,11 +86,11 @@ fn intervals_cover_as_often_as_they_say() {
                 covered += f64::from(u8::from(low - 1e-12 <= truth && truth <= high + 1e-12));
                 confidence = found.confidence;
             }
-            let share = covered / f64::from(runs);
+            let fraction = covered / f64::from(runs);
             let deviation = (confidence * (1.0 - confidence) / f64::from(runs)).sqrt();
             assert!(
-                share >= confidence - 4.0 * deviation,
-                "{name:?} B={repetitions}: {share}"
+                fraction >= confidence - 4.0 * deviation,
+                "{name:?} B={repetitions}: {fraction}"
             );
         }
     }
@@ -160,8 +160,8 @@ fn what_cannot_be_estimated_is_refused_with_what_can() {
     }
 }
 
-/// The share of good ids after k iterations, against the closed form; with noise, against its
-/// mixture with a random id.
+/// The fraction of good indices after k iterations, against the closed form; with noise, against
+/// its mixture with a random index.
 #[test]
 fn devices_measure_what_the_iterate_gives() {
     let problem = Problem {
@@ -180,7 +180,7 @@ fn devices_measure_what_the_iterate_gives() {
         let mut device = Device::new(problem, noise, &mut stream).unwrap();
         for k in [0_u64, 1, 2, 3, 5, 17] {
             let shots = 100_000;
-            let share = device.iterated(k, shots).unwrap() as f64 / shots as f64;
+            let fraction = device.iterated(k, shots).unwrap() as f64 / shots as f64;
             let ideal = libm::sin((2 * k + 1) as f64 * theta).powi(2);
             // Ten bits are read, and k times the state may be destroyed.
             let right = (1.0 - noise.depolarising).powi(k as i32) * (1.0 - noise.readout).powi(10);
@@ -191,8 +191,8 @@ fn devices_measure_what_the_iterate_gives() {
             };
             let deviation = (expected * (1.0 - expected) / shots as f64).sqrt();
             assert!(
-                (share - expected).abs() < 5.0 * deviation,
-                "{k}: {share}, {expected}"
+                (fraction - expected).abs() < 5.0 * deviation,
+                "{k}: {fraction}, {expected}"
             );
         }
         assert_eq!(device.usage().queries, 100_000 * (1 + 1 + 2 + 3 + 5 + 17));

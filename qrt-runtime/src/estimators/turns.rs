@@ -6,7 +6,7 @@
 
 use std::f64::consts::PI;
 
-/// Half a turn: theta where all ids are good.
+/// Half a turn: theta where all indices are good.
 pub(super) const HALF: u64 = 1 << 63;
 
 /// Turns to radians, of angles in units of 2^-64 turns.

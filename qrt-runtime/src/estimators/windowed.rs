@@ -48,7 +48,8 @@ impl WindowedCounting {
         device.phases(self.phase_bits, self.window, self.repetitions)
     }
 
-    /// What `outcomes` say about the good ids among `total`; [`Self::repetitions`] plays no part.
+    /// What `outcomes` say about the good indices among `total`; [`Self::repetitions`] plays no
+    /// part.
     ///
     /// # Errors
     ///

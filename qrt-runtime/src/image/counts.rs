@@ -15,11 +15,11 @@ pub struct Count {
     pub y: u32,
     /// 0, 1, 2: r, g, b.
     pub channel: usize,
-    /// Linear radiance.
+    /// The channel's value: linear radiance, at least 0.
     pub value: f64,
-    /// Good ids, S; the real model counts none.
+    /// Good indices, S; the real model counts none.
     pub good: Option<u64>,
-    /// All ids, N.
+    /// N, the number of all indices.
     pub total: u64,
     /// Radiance of S = N.
     pub scale: f64,

@@ -23,7 +23,7 @@ const LONGEST_KEY: usize = 31 - PREFIX.len();
 pub struct Metadata(Vec<(String, String)>);
 
 impl Metadata {
-    /// No metadata.
+    /// Metadata without any key.
     pub fn new() -> Self {
         Self::default()
     }
@@ -53,7 +53,7 @@ impl Metadata {
         Ok(())
     }
 
-    /// A key's value.
+    /// The value of a key, if the key is set.
     pub fn get(&self, key: &str) -> Option<&str> {
         self.iter()
             .find_map(|(k, value)| (k == key).then_some(value))

@@ -179,7 +179,7 @@ pub enum ImageError {
     /// Not a number of stops between -1,000 and 1,000.
     #[error("an exposure of {exposure} stops; it must lie between -1000 and 1000")]
     Exposure { exposure: f64 },
-    /// EXR is linear.
+    /// An exposure for EXR, which is linear.
     #[error(
         "an EXR picture keeps linear radiance and has no exposure: leave it out, or write a `.png`"
     )]
@@ -191,7 +191,7 @@ pub enum ImageError {
         height: u32,
         pixels: usize,
     },
-    /// NaN or infinite.
+    /// An exposure that is NaN or infinite.
     #[error(
         "pixel ({x}, {y}), channel {}, is {value}, which is no radiance",
         channel_name(*.channel)

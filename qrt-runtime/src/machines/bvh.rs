@@ -3,8 +3,8 @@
 //! Trying every face is what the circuit does, and what the real machine does while faces are few.
 //! For a mesh it narrows the faces down: a ray walks a tree of boxes, eight to a node, and only the
 //! faces of the leaves it reaches are tried, eight at once. What is tried runs through
-//! [`qrt_core::tracer::cross`] with the same constants, and ties go to the face that a loop over all
-//! faces would have kept: the result is the loop's, bit for bit.
+//! [`qrt_core::tracer::cross`] with the same constants, and ties go to the face that a loop over
+//! all faces would have kept: the result is the loop's, bit for bit.
 
 mod beam;
 mod build;
@@ -49,7 +49,8 @@ enum Child {
 pub(crate) struct Bvh {
     nodes: Vec<Node>,
     packets: Vec<Packet>,
-    /// By face, in the order of [`Geometry::faces`]: does it hide an emitter at the same distance?
+    /// By face, in the order of [`Geometry::faces`]: whether it hides an emitter at the same
+    /// distance.
     hides_emitter: Vec<bool>,
     emits: Vec<bool>,
     labels: Vec<u32>,

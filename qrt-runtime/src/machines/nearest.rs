@@ -17,18 +17,18 @@ use std::sync::Arc;
 /// A face that a ray meets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Candidate {
-    /// Its distance, in ulps.
+    /// The face's distance, in ulps.
     pub distance: i64,
-    /// Its number.
+    /// The face's number.
     pub primitive: u32,
 }
 
 /// A path's first ray, and the nearest that is known of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Asked {
-    /// Column and row.
+    /// Column and row of the path's pixel.
     pub pixel: [u32; 2],
-    /// The path.
+    /// The path's index.
     pub id: u64,
     /// What marked faces are nearer than.
     pub best: Option<Candidate>,
@@ -82,14 +82,14 @@ struct GatesCircuit {
 /// Basis states, a lane each.
 #[derive(Default)]
 struct RayBlock {
-    /// By input: id, primitive, and the nearest so far.
+    /// By input: path index, primitive, and the nearest so far.
     inputs: [Vec<u64>; 4],
     /// Lanes in turn that belong to one ray: whose, and how many.
     runs: Vec<(Asked, usize)>,
 }
 
 impl NearestMachine {
-    /// The fixed machine.
+    /// The oracle on the fixed machine.
     pub fn fixed(oracle: Arc<NearestOracle>, seed: u64) -> Self {
         let words: Vec<Word> = oracle.outputs().into_iter().flatten().collect();
         let fixed = Box::new(Fixed::new(&oracle.program, &words));
@@ -103,7 +103,7 @@ impl NearestMachine {
         }
     }
 
-    /// The gates machine.
+    /// The oracle on the gates machine.
     ///
     /// # Errors
     /// If the circuit is none: a defect of qrt.
@@ -147,7 +147,7 @@ impl NearestMachine {
         })
     }
 
-    /// The oracle.
+    /// The oracle that the machine runs.
     pub fn oracle(&self) -> &NearestOracle {
         &self.oracle
     }
@@ -221,9 +221,9 @@ impl NearestMachine {
                         Ok::<(), Defect>(())
                     },
                 )?;
-                let turned = self.oracle.nearer.is_some_and(|bit| bit.inverted);
+                let inverted = self.oracle.nearer.is_some_and(|bit| bit.inverted);
                 for (mark, bit) in marks.iter_mut().zip(&bits) {
-                    *mark = (*bit == 1) != turned;
+                    *mark = (*bit == 1) != inverted;
                 }
                 Ok(())
             }

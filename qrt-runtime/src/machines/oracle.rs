@@ -2,12 +2,12 @@
 //! pixels.
 //!
 //! All hand over, path by path, how many thresholds the path's colour exceeds: of a path's `2^c`
-//! ids, that many are good.
+//! indices, that many are good.
 //!
 //! The gates machine runs compute and uncompute once per path, and looks at every qubit between
 //! paths. The comparator enters the oracle only in the block between the two, which reads nothing
 //! else but the colour. So this block is run apart, for *every* pair of a colour and a comparator:
-//! which ids have their sign turned follows exactly, `2^c` times cheaper than path by path.
+//! which indices have their phase flipped follows exactly, `2^c` times cheaper than path by path.
 
 mod defect;
 mod flips;
@@ -38,8 +38,8 @@ pub struct OracleMachine {
     oracle: Arc<Oracle>,
     seed: u64,
     primary_hits: Option<Box<dyn PrimaryHits>>,
-    /// What is read of every path: by channel the count, then, where they are wanted, by channel the
-    /// colour, and last the count of the luminance, where the oracle has it.
+    /// What is read of every path: by channel the count, then, where they are wanted, by channel
+    /// the colour, and last the count of the luminance, where the oracle has it.
     outputs: Vec<Operand>,
     machine: Machine,
 }
@@ -60,11 +60,12 @@ enum Machine {
     },
 }
 
-/// A run of paths of one pixel, finished: by channel, and path by path in the order of ids.
+/// A run of paths of one pixel, finished: by channel, and path by path in the order of path
+/// indices.
 pub struct Finished<'a> {
     /// The pixel's place in the list that was given.
     pub pixel: usize,
-    /// The first path.
+    /// The path index of the first path.
     pub first_id: u64,
     /// By channel: how many thresholds each path's colour exceeds, at most `2^c`.
     pub good: [&'a [i64]; 3],
@@ -110,9 +111,9 @@ impl OracleMachine {
         }
     }
 
-    /// The native machine: the oracle's program as code, `C`, which gives the same bits as the fixed
-    /// machine. Where there are no vectors for it (there are for AVX-512 and AVX2) but the fixed
-    /// machine has some, such as NEON, this is the fixed machine itself.
+    /// The native machine: the oracle's program as code, `C`, which gives the same bits as the
+    /// fixed machine. Where there are no vectors for it (there are for AVX-512 and AVX2) but the
+    /// fixed machine has some, such as NEON, this is the fixed machine itself.
     pub fn native<C: NativeOracle>(oracle: Arc<Oracle>, seed: u64, colours: bool) -> Self {
         let widest = InstructionSet::widest();
         if widest == InstructionSet::Neon {
@@ -173,12 +174,12 @@ impl OracleMachine {
     }
 
     /// With what finds the primary hits, if they are inputs of the oracle.
-    pub fn with_first_hits(mut self, primary_hits: Box<dyn PrimaryHits>) -> Self {
+    pub fn with_primary_hits(mut self, primary_hits: Box<dyn PrimaryHits>) -> Self {
         self.primary_hits = Some(primary_hits);
         self
     }
 
-    /// The oracle.
+    /// The oracle that the machine runs.
     pub fn oracle(&self) -> &Oracle {
         &self.oracle
     }
@@ -197,7 +198,7 @@ impl OracleMachine {
     }
 
     /// Runs the paths `ids` of every pixel (column, row), and hands them over in the order of
-    /// pixels and ids.
+    /// pixels and path indices.
     ///
     /// # Errors
     /// The first defect that shows.
@@ -278,7 +279,7 @@ impl OracleMachine {
     }
 
     fn run(&self, block: &mut OracleBlock, parameters: &[Vec<u64>]) -> Result<(), Defect> {
-        self.find_first_hits(block)?;
+        self.find_primary_hits(block)?;
         let spans: Vec<Span<'_>> = block
             .runs
             .iter()
@@ -316,7 +317,7 @@ impl OracleMachine {
     }
 
     /// Finds the paths' primary hits, where they are inputs of the oracle.
-    fn find_first_hits(&self, block: &mut OracleBlock) -> Result<(), Defect> {
+    fn find_primary_hits(&self, block: &mut OracleBlock) -> Result<(), Defect> {
         block.queries.clear();
         block.queries.resize(block.runs.len(), 0);
         if self.oracle.nearest.is_none() {

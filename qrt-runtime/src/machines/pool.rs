@@ -2,7 +2,7 @@
 
 use std::sync::{Mutex, PoisonError};
 
-/// What was made for work that is over, for work to come.
+/// A pool of objects that were made for work that is over, to be used again by work to come.
 pub(super) struct Pool<T>(Mutex<Vec<T>>);
 
 impl<T> Pool<T> {

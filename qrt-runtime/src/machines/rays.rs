@@ -10,9 +10,9 @@ use qrt_core::tracer::{Arith, NO_FACE, Nearest, Ray};
 /// A ray in stage units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SingleRay {
-    /// Where it starts.
+    /// The point at which the ray starts, in stage units.
     pub origin: [f64; 3],
-    /// Where it goes.
+    /// The direction in which the ray goes, of any length.
     pub direction: [f64; 3],
     /// The plane it leaves; [`qrt_core::tracer::NO_PLANE`] from the camera.
     pub from: u32,

@@ -30,7 +30,7 @@ pub enum Points {
     Independent {
         /// Bits of each coordinate, by dimension.
         bits: Vec<u32>,
-        /// Paths a pixel.
+        /// The paths of a pixel.
         paths: u64,
     },
 }
@@ -72,7 +72,7 @@ impl Points {
     }
 }
 
-/// Spreads an id over all 64 bits, so that it can key a hash beside a seed.
+/// Spreads a path index over all 64 bits, so that it can key a hash beside a seed.
 fn mixed(id: u64) -> u64 {
     (id + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15).rotate_left(29)
 }
@@ -82,7 +82,7 @@ fn mixed(id: u64) -> u64 {
 pub struct PixelSum {
     /// Sum of the paths' colours, in radiance: red, green, blue.
     pub colour: [f64; 3],
-    /// Good ids per channel: pairs of a path and a comparator that its colour exceeds. Zero
+    /// Good indices per channel: pairs of a path and a comparator that its colour exceeds. Zero
     /// unless counted.
     pub good: [u64; 3],
 }
@@ -92,7 +92,7 @@ pub struct PixelSum {
 pub struct PathBlock<'a> {
     /// The pixel's place in the list that was asked for.
     pub pixel: usize,
-    /// Red, green, blue of each path, in the order of ids.
+    /// Red, green, blue of each path, in the order of path indices.
     pub colours: [&'a [f64]; 3],
 }
 
@@ -124,7 +124,7 @@ impl Real {
         })
     }
 
-    /// With other lanes.
+    /// The same machine with other vector instructions.
     pub fn with_simd(mut self, simd: Simd) -> Self {
         self.simd = simd;
         self
@@ -160,12 +160,12 @@ impl Real {
     }
 
     /// Traces every path of `pixels` (column, row) and hands over their colours, block by block:
-    /// a pixel's blocks come in the order of ids.
+    /// a pixel's blocks come in the order of path indices.
     pub fn trace(&self, pixels: &[[u32; 2]], finished: impl FnMut(PathBlock<'_>)) {
         self.trace_range(pixels, 0..self.points.paths(), finished);
     }
 
-    /// As [`Real::trace`], of each pixel the paths whose ids are in `ids`.
+    /// As [`Real::trace`], of each pixel the paths whose indices are in `ids`.
     pub fn trace_range(
         &self,
         pixels: &[[u32; 2]],
@@ -178,7 +178,7 @@ impl Real {
             row: [0.0; BLOCK],
         };
         let mut colours = [[0.0; BLOCK]; 3];
-        // A block holds a run of one pixel's ids, or all ids of several pixels.
+        // A block holds a run of one pixel's path indices, or all those of several pixels.
         let mut filled = 0;
         let mut runs: Vec<(usize, std::ops::Range<usize>)> = Vec::new();
         for (number, &pixel) in pixels.iter().enumerate() {
@@ -237,8 +237,8 @@ impl Real {
     /// Runs `work` with this machine's lanes.
     pub(super) fn dispatch<F: WithSimd>(&self, work: F) -> F::Output {
         match self.simd {
-            // This crate's unit tests do without: each instruction set is a tracer to compile. So do
-            // browsers: it would be a tracer to load, and not all of them know the widest.
+            // This crate's unit tests do without: each instruction set is a tracer to compile. So
+            // do browsers: it would be a tracer to load, and not all of them know the widest.
             #[cfg(not(any(test, target_arch = "wasm32")))]
             Simd::Widest => pulp::Arch::new().dispatch(work),
             #[cfg(any(test, target_arch = "wasm32"))]

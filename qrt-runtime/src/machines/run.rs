@@ -30,15 +30,15 @@ pub enum RunError {
     /// A state has another number of contents than the program has inputs.
     #[error("state {state} does not hold {expected} contents, one an input")]
     Inputs {
-        /// The state's place.
+        /// The state's place in the list that was given, from 0.
         state: usize,
-        /// What the program has.
+        /// How many inputs the program has.
         expected: usize,
     },
     /// A state's content has more bits than its register.
     #[error("state {state} holds more than fits into `{register}`")]
     TooWide {
-        /// The state's place.
+        /// The state's place in the list that was given, from 0.
         state: usize,
         /// The register's name.
         register: String,
@@ -49,16 +49,16 @@ pub enum RunError {
     /// The lowering made a list of gates that is no circuit: a defect of qrt.
     #[error(transparent)]
     Gate(InvalidGate),
-    /// A register is not given back.
-    #[error("`{register}` is never given back")]
+    /// A register is not freed.
+    #[error("`{register}` is never freed")]
     Kept {
         /// The register's name.
         register: String,
     },
-    /// A register is given back that is not zero, or is undone after its operands have changed.
-    #[error("`{register}` is given back, and is not zero from state {state}")]
+    /// A register is freed that is not zero, or is undone after its operands have changed.
+    #[error("`{register}` is freed, and is not zero from state {state}")]
     Dirty {
-        /// The state's place.
+        /// The state's place in the list that was given, from 0.
         state: usize,
         /// The register's name, or the qubit.
         register: String,
@@ -69,7 +69,7 @@ pub enum RunError {
 /// what its operation computes at that moment.
 ///
 /// # Errors
-/// If a state does not fit the program, or the program leaves something behind.
+/// If a state does not fit the program, or the program leaves garbage in a register.
 pub fn on_definition(
     program: &Program,
     states: &[impl AsRef<[u64]>],
@@ -120,7 +120,7 @@ fn on_blocks(
 /// instead, and must be zero.
 ///
 /// # Errors
-/// If a state does not fit the program, or the program leaves something behind.
+/// If a state does not fit the program, or the program leaves garbage in a register.
 pub fn on_fixed(
     program: &Program,
     states: &[impl AsRef<[u64]>],
@@ -151,7 +151,7 @@ pub fn on_fixed(
 /// zero after it.
 ///
 /// # Errors
-/// If a state does not fit the program, or the program leaves something behind.
+/// If a state does not fit the program, or the program leaves garbage in a register.
 pub fn on_gates(
     program: &Program,
     states: &[impl AsRef<[u64]>],
@@ -187,7 +187,7 @@ fn name(program: &Program, register: RegisterId) -> String {
     program.registers[register.index()].name.clone()
 }
 
-/// Registers that a routine has changed in place and given back: computed by nothing.
+/// Registers that a routine has changed in place and freed: computed by nothing.
 fn own(program: &Program) -> Vec<RegisterId> {
     let zero = |op: &Op| match op {
         Op::Add {
@@ -230,7 +230,7 @@ mod tests {
     use qrt_circuit::format::{Reg, UInt};
     use qrt_circuit::{Declaration, Machine, Recorder, Style, Type, When};
 
-    /// A scratch register that is given back with what a state holds.
+    /// A scratch register that is freed with what a state holds.
     fn leaves() -> Program {
         let mut m = Recorder::new(Style::InPlace);
         let a: Reg<_, UInt<4>> = Reg::input(&mut m, "a");

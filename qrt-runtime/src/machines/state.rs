@@ -6,16 +6,16 @@ use qrt_circuit::{
 use qrt_core::oracle::compiled::CompiledOracle;
 use qrt_core::sampling::SamplingError;
 
-/// A register that was not what it must be when it was undone or given back.
+/// A register that was not what it must be when it was undone or freed.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "`{register}` held {held} when it was undone, and not {expected}: something it was computed \
      from, or itself, was changed"
 )]
 pub struct Unclean {
-    /// What it is called.
+    /// The register's name.
     pub register: String,
-    /// What it held.
+    /// The register's content when it was undone.
     pub held: u64,
     /// What it had to hold, so that the inverse leaves 0.
     pub expected: u64,
@@ -41,7 +41,7 @@ pub struct State {
 }
 
 impl State {
-    /// Without registers.
+    /// A state without registers.
     pub fn new() -> Self {
         Self::of(Recorder::new(Style::InPlace), &[])
     }
@@ -56,8 +56,8 @@ impl State {
         state
     }
 
-    /// For the path of pixel (column, row) of a compiled oracle that the lowest bits of `path` name, and the register of
-    /// its id.
+    /// A state for one path of pixel (column, row) of a compiled oracle, and the register of the
+    /// path's index: the lowest bits of `path`.
     ///
     /// # Errors
     /// A sequence that cannot be made; a checked scene's can.
@@ -104,7 +104,7 @@ impl State {
         }
     }
 
-    /// Has everything been undone as it must be?
+    /// Whether everything has been undone as it must be.
     ///
     /// # Errors
     /// The first register that was not.
@@ -112,7 +112,7 @@ impl State {
         self.unclean.clone().map_or(Ok(()), Err)
     }
 
-    /// Makes room for new registers, which hold 0.
+    /// Adds new registers, which hold 0.
     fn declared(&mut self) {
         let registers = &self.recorder.program().registers;
         let known = self.contents.widths.len();
@@ -121,7 +121,7 @@ impl State {
         self.contents.registers.resize(registers.len(), 0);
     }
 
-    /// Runs what was recorded last.
+    /// Runs the operations that were recorded last.
     fn run(&mut self) {
         let program = self.recorder.program();
         let Some(instruction) = program.instructions.last() else {

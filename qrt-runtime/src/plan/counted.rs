@@ -25,7 +25,7 @@ impl Pilot<'_> {
             let none = vec![vec![[0.0; 3]; self.pixels.len()]; self.draws as usize];
             return Ok((none, 0.0));
         }
-        // As many ids as the scene will have, or almost: more make no difference.
+        // As many indices as the scene will have, or almost: more make no difference.
         let total = 1_u64 << (COMPARED + self.comparator_bits);
         let good_of = |value: &[f64; 3]| -> [u64; 3] {
             std::array::from_fn(|c| match self.bound[c] {

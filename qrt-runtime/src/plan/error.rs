@@ -10,7 +10,7 @@ use qrt_core::sampling::SamplingError;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum PlanError {
-    /// The scene asks for an accuracy that no parameters reach, or that cannot be shown: why.
+    /// The scene asks for an accuracy that no parameters keep, or that cannot be shown: why.
     #[error("the scene's `accuracy` cannot be kept: {0}")]
     Unreachable(String),
     /// The sequence of paths can't be made.

@@ -5,31 +5,31 @@ use qrt_core::oracle::CallCost;
 use qrt_core::scene::{Accuracy, Estimator, Sequence};
 use std::fmt;
 
-/// Errors that hold with the asked confidence, in units of the mean radiance.
+/// Errors at the asked confidence, in units of the mean radiance.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ErrorParts {
-    /// Of a finite number of paths.
+    /// The error of a finite number of paths.
     pub paths: f64,
-    /// Of comparing with a finite number of thresholds.
+    /// The error of comparing with a finite number of thresholds.
     pub comparators: f64,
-    /// Of numbers of finite width.
+    /// The error of numbers of finite width.
     pub width: f64,
-    /// Of estimating amplitudes from measurements.
+    /// The error of estimating amplitudes from measurements.
     pub counting: f64,
-    /// Of all of them together, which is no sum of theirs.
+    /// The error of all of them together, which is not their sum.
     pub total: f64,
 }
 
 /// What a plan chose, and what it expects.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Figures {
-    /// What was asked.
+    /// The error and the confidence that were asked.
     pub accuracy: Accuracy,
     /// The mean radiance over pixels and channels of the picture, as far as it was tried.
     pub mean: f64,
     /// Pixels that were tried, and those of the film.
     pub pixels: [u64; 2],
-    /// How path ids become points; as the scene says.
+    /// How path indices become points; as the scene says.
     pub sequence: Sequence,
     /// Chosen: R = 2^path_bits.
     pub path_bits: u32,
@@ -39,20 +39,21 @@ pub struct Figures {
     pub fraction: Option<u32>,
     /// Chosen: C = 2^comparator_bits.
     pub comparator_bits: u32,
-    /// What will count.
+    /// The estimator that will count.
     pub estimator: Estimator,
     /// Chosen: T = 2^phase_bits.
     pub phase_bits: u32,
     /// Chosen: B, the runs of the counting circuit.
     pub repetitions: u32,
-    /// The share of channels that is expected to be within the asked error.
+    /// The fraction of channels that is expected to be within the asked error.
     pub within: f64,
     /// The errors behind it, in units of the mean radiance.
     pub parts: ErrorParts,
     /// Queries of a pixel, all channels together, on average.
     pub queries: f64,
-    /// One call of the dearest channel's oracle; none where the scene has no circuit.
-    pub spent: Option<CallCost>,
+    /// The cost of one call of the most expensive channel's oracle; none where the scene has no
+    /// circuit.
+    pub cost: Option<CallCost>,
 }
 
 impl fmt::Display for Figures {
@@ -102,7 +103,7 @@ impl fmt::Display for Figures {
             )?;
         }
         let queries = grouped(self.queries.round() as u64);
-        match self.spent {
+        match self.cost {
             Some(CallCost { qubits, toffoli }) => writeln!(
                 f,
                 "  {queries} queries a pixel x {} Toffoli = {:.2e}, on {} qubits",

@@ -2,7 +2,7 @@
 //!
 //! `accuracy: { error, confidence }` asks that a channel of a pixel be within `error` times the
 //! picture's mean radiance of its limit (infinitely many paths of the scene's length, real numbers,
-//! nothing counted) with probability `confidence`: that share of a picture's channels is.
+//! nothing counted) with probability `confidence`: that fraction of a picture's channels is.
 //!
 //! # How parameters are chosen
 //!
@@ -14,14 +14,15 @@
 //! * *width*: the circuit's counts against those of real numbers on the same paths;
 //! * *counting*: runs of the estimator on each channel's own S/N.
 //!
-//! They are added up channel by channel, run by run, so that what counts is how they really combine.
-//! Parameters will do if the share of channels that are off by more, and 1.64 times its standard error
-//! over pixels (what another sample, or one picture's luck, may add), stay below 1 - confidence.
+//! They are added up channel by channel, run by run, so that what counts is how they really
+//! combine. Parameters will do if the fraction of channels that are off by more, and 1.64 times its
+//! standard error over pixels (what another sample, or one picture's luck, may add), stay below
+//! 1 - confidence.
 //!
-//! Among parameters that will do, the product of queries and Toffolis is made least: queries against the
-//! width of numbers. A path bit costs a qubit and no Toffoli, but twice the time of a simulation;
-//! path bits are added as long as each, or each of up to three together, saves an eighth of the
-//! queries. Comparators are so many that they take a twentieth of the error.
+//! Among parameters that will do, the product of queries and Toffolis is made least: queries
+//! against the width of numbers. A path bit costs a qubit and no Toffoli, but twice the time of a
+//! simulation; path bits are added as long as each, or each of up to three together, saves an
+//! eighth of the queries. Comparators are so many that they take a twentieth of the error.
 //!
 //! The seed of a picture plays no part: a scene always gets the same parameters.
 
@@ -58,7 +59,7 @@ pub struct Options<'a> {
 pub struct Plan {
     /// The scene with the chosen parameters in place of its accuracy.
     pub scene: ValidScene,
-    /// What was chosen, and what is expected of it.
+    /// The parameters that were chosen, and the errors and costs that are expected of them.
     pub figures: Figures,
 }
 

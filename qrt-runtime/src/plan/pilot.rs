@@ -46,18 +46,18 @@ pub(super) struct Pilot<'a> {
     pub(super) pixels: Vec<[u32; 2]>,
     /// Runs of an estimator for every channel and sign of the paths' error.
     pub(super) draws: u64,
-    /// Of a path's colour, by channel.
+    /// The bound of a path's colour, by channel.
     pub(super) bound: [f64; 3],
     pub(super) comparator_bits: u32,
-    /// Of the comparators that were chosen.
+    /// The errors of the comparators that were chosen.
     pub(super) comparator_errors: Errors,
     /// The best known value of every channel.
     pub(super) values: Means,
     /// By path bits, from [`FEWEST`] on; of a lattice the only one.
     nets: Vec<Errors>,
-    /// What estimators were off by, by phase bits and repetitions. Counting is tried only where paths
-    /// alone keep the asked error, and so [`Self::values`] do: what more paths change of them hardly
-    /// changes this.
+    /// What estimators were off by, by phase bits and repetitions. Counting is tried only where
+    /// paths alone keep the asked error, and so [`Self::values`] do: what more paths change of them
+    /// hardly changes this.
     pub(super) counted: Mutex<BTreeMap<(u32, u32), Runs>>,
     workers: Workers<'a>,
 }
@@ -77,7 +77,7 @@ impl<'a> Pilot<'a> {
             .clamp(4.0, 64.0) as u64;
         if (draws * pixels.len() as u64) as f64 * failing < 3.0 {
             return Err(unreachable(format!(
-                "{} tries on each of {} pixels cannot show that at most a share of {failing:.1e} fails",
+                "{} tries on each of {} pixels cannot show that at most a fraction of {failing:.1e} fails",
                 draws,
                 pixels.len()
             )));
@@ -240,8 +240,8 @@ impl<'a> Pilot<'a> {
         Comparators::rgb(self.bound, comparator)
     }
 
-    /// The error of numbers with so many fraction bits, and what a call costs with so many paths; none where there
-    /// is no circuit.
+    /// The error of numbers with so many fraction bits, and what a call costs with so many paths;
+    /// none where there is no circuit.
     pub(super) fn width(
         &self,
         path_bits: u32,
@@ -274,11 +274,11 @@ impl<'a> Pilot<'a> {
     }
 }
 
-/// The `share` quantile of the sizes of errors.
-pub(super) fn quantile(errors: &[[f64; 3]], share: f64) -> f64 {
+/// The `level` quantile of the sizes of errors.
+pub(super) fn quantile(errors: &[[f64; 3]], level: f64) -> f64 {
     let mut sizes: Vec<f64> = errors.iter().flatten().map(|e| e.abs()).collect();
     sizes.sort_by(f64::total_cmp);
-    let at = (share * sizes.len() as f64).ceil() as usize;
+    let at = (level * sizes.len() as f64).ceil() as usize;
     sizes
         .get(at.clamp(1, sizes.len().max(1)) - 1)
         .copied()

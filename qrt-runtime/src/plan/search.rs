@@ -284,7 +284,7 @@ fn finish(
             within: 1.0 - failing,
             parts,
             queries: counted.map_or(0.0, |c| c.queries),
-            spent: width.map(|(.., spent)| spent),
+            cost: width.map(|(.., cost)| cost),
         },
     })
 }

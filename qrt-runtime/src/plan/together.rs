@@ -2,7 +2,7 @@
 
 use super::pilot::{Errors, Pilot};
 
-/// Standard errors that are kept free: one-sided, 95 %.
+/// The margin in standard errors, for a one-sided confidence of 95 %.
 const MARGIN: f64 = 1.645;
 
 /// Whether channels are within the asked error as often as was asked, with what may be bad luck.
@@ -12,7 +12,7 @@ pub(super) fn will_do(pilot: &Pilot<'_>, others: &[&Errors], counted: Option<&[E
     failing + MARGIN * deviation / pixels.sqrt() <= 1.0 - pilot.accuracy.confidence
 }
 
-/// The share of channels beyond the asked error, and how it varies from pixel to pixel.
+/// The fraction of channels beyond the asked error, and how it varies from pixel to pixel.
 pub(super) fn failing(
     pilot: &Pilot<'_>,
     others: &[&Errors],
@@ -21,17 +21,17 @@ pub(super) fn failing(
     let error = pilot.accuracy.error;
     let (mut sum, mut squares, mut count) = (0.0, 0.0, 0.0);
     each_total(pilot, others, counted, |total| {
-        let share = total.iter().filter(|e| e.abs() > error).count() as f64 / 3.0;
-        sum += share;
-        squares += share * share;
+        let fraction = total.iter().filter(|e| e.abs() > error).count() as f64 / 3.0;
+        sum += fraction;
+        squares += fraction * fraction;
         count += 1.0;
     });
     let mean: f64 = sum / count;
     (mean, (squares / count - mean * mean).max(0.0).sqrt())
 }
 
-/// All errors of a pixel together, run by run. The first of `others`, the difference of two nets, has
-/// either sign.
+/// All errors of a pixel together, run by run. The first of `others`, the difference of two nets,
+/// has either sign.
 pub(super) fn each_total(
     pilot: &Pilot<'_>,
     others: &[&Errors],

@@ -36,7 +36,7 @@ pub enum RenderError {
     Crop {
         /// x, y, width, height.
         crop: [u32; 4],
-        /// Width, height.
+        /// The film's width and height, in pixels.
         film: [u32; 2],
     },
     /// More paths than a 64-bit word counts.
@@ -53,7 +53,7 @@ pub enum RenderError {
     /// A picture that doesn't fit into memory.
     #[error("there is not enough memory for {pixels} pixels")]
     Memory {
-        /// Its pixels.
+        /// How many pixels it has.
         pixels: u64,
     },
     /// A bound on a path's colour so large that sums over paths would overflow.
@@ -83,7 +83,8 @@ pub enum RenderError {
          `fixed` or `gates`"
     )]
     SearchModel,
-    /// An estimator that counts the ids of a superposition, where every path is searched by itself.
+    /// An estimator that counts the indices of a superposition, where every path is searched by
+    /// itself.
     #[error(
         "the estimator `{0}` counts paths in superposition, and primary hits are searched for path \
          by path: use `exact`, or find primary hits classically"
@@ -127,14 +128,14 @@ pub enum RenderError {
         /// The bound, in radiance.
         bound: f64,
     },
-    /// Cancelled.
+    /// The picture was cancelled before it was finished.
     #[error("interrupted after {finished} of {pixels} pixels{}", kept(.checkpoint.as_deref()))]
     Interrupted {
         /// Pixels that are finished.
         finished: u64,
         /// Pixels of the picture.
         pixels: u64,
-        /// What is finished, if it is kept.
+        /// The checkpoint that keeps the finished tiles, if there is one.
         checkpoint: Option<PathBuf>,
     },
 }

@@ -5,7 +5,7 @@ use super::{Options, RenderError};
 use crate::checkpoint::{Checkpoint, Header, Tile};
 use crate::image::Image;
 
-/// What is finished.
+/// The part of the picture that is finished.
 pub(super) struct Film {
     crop: [u32; 4],
     pub(super) image: Image,

@@ -8,8 +8,8 @@
 //! ```
 //!
 //! Under any other, each path's colour is compared with the C comparators of its channel, as the
-//! oracle does it; the good among all `N = R C` ids are counted, and the estimator learns of their
-//! number S only what its measurements tell:
+//! oracle does it; the good among all `N = R C` indices are counted, and the estimator learns of
+//! their number S only what its measurements tell:
 //!
 //! ```text
 //! pixel = scale a~,      a~ an estimate of S/N
@@ -18,17 +18,17 @@
 //! with `scale` the proven bound of a path's colour in that channel. A channel that is proven
 //! black takes no queries.
 //!
-//! [`Visibility`] says how a path's primary hit is found: by the tracer like all others, or path by path
-//! with an oracle of nearest hits, whose queries are then the picture's.
+//! [`Visibility`] says how a path's primary hit is found: by the tracer like all others, or path by
+//! path with an oracle of nearest hits, whose queries are then the picture's.
 //!
-//! A scene that asks for an `accuracy` is rendered with the parameters that [`crate::plan`] chooses for
-//! it.
+//! A scene that asks for an `accuracy` is rendered with the parameters that [`crate::plan`] chooses
+//! for it.
 //!
 //! # What a picture depends on
 //!
 //! On the scene, the seed, the estimator and the version of qrt. Not on the number of threads, the
 //! size of tiles, the crop, the instruction set, or on whether it was interrupted: sums are added
-//! in an order that ids decide, and draws are keyed by pixel and channel.
+//! in an order that path indices decide, and draws are keyed by pixel and channel.
 //!
 //! ```
 //! use qrt_core::front::parse;
@@ -94,8 +94,8 @@ named! {
         /// A run of counting for each channel, as in the paper.
         #[default]
         ThreeRuns = "three-runs",
-        /// One run, of the luminance; the colour comes from the paths that it measures. A third of the
-        /// queries, and colours with the noise of that many paths.
+        /// One run, of the luminance; the colour comes from the paths that it measures. A third of
+        /// the queries, and colours with the noise of that many paths.
         OneRun = "one-run",
     }
 }
@@ -105,8 +105,8 @@ named! {
 pub struct Options<'a> {
     /// Keys the shifts of the digital net and every draw; 0 unless set.
     pub seed: u64,
-    /// x, y, width and height in pixels of the part of the film to render, from its top left corner;
-    /// all of it unless set.
+    /// x, y, width and height in pixels of the part of the film to render, from its top left
+    /// corner; all of it unless set.
     pub crop: Option<[u32; 4]>,
     /// What traces the paths.
     pub model: Model,
@@ -126,8 +126,8 @@ pub struct Options<'a> {
     pub simd: Simd,
     /// Width and height of the tiles in pixels; chosen by the number of paths unless set.
     pub tile: Option<[u32; 2]>,
-    /// Where finished tiles are kept until the picture is finished; they are not kept unless set. It
-    /// stays when the picture is finished, too: remove it when the picture is safe.
+    /// Where finished tiles are kept until the picture is finished; they are not kept unless set.
+    /// It stays when the picture is finished, too: remove it when the picture is safe.
     pub checkpoint: Option<PathBuf>,
     /// Go on from the checkpoint, if there is one. Otherwise it is replaced.
     pub resume: bool,
@@ -153,8 +153,8 @@ pub struct Rendered {
     /// `exact`, which sums over all paths and asks no oracle. Where primary hits are searched for:
     /// those of the oracle of nearest hits, all paths together.
     pub queries: Vec<u64>,
-    /// S, the good ids of every pixel's channels, as the image's pixels; none of the real model,
-    /// which has no ids but paths.
+    /// S, the good indices of every pixel's channels, as the image's pixels; none of the real
+    /// model, which compares with no comparators.
     pub good: Option<Vec<[u64; 3]>>,
     /// What traced the paths.
     pub model: Model,
@@ -179,7 +179,7 @@ pub struct Rendered {
     pub plan: Option<Figures>,
     /// The proven bound on a path's colour per channel: the radiance of S = N.
     pub bound: [f64; 3],
-    /// N, the ids of a pixel's channel: paths times comparators.
+    /// N, the indices of a pixel's channel: paths times comparators.
     pub ids: u64,
     /// Paths of the picture.
     pub paths: u64,
@@ -187,7 +187,7 @@ pub struct Rendered {
     pub resumed_paths: u64,
     /// Wall time of tracing and counting, in seconds.
     pub seconds: f64,
-    /// Threads that worked.
+    /// How many threads worked.
     pub threads: usize,
 }
 
@@ -257,8 +257,8 @@ pub fn render(scene: &ValidScene, options: &Options<'_>) -> Result<Rendered, Ren
 /// [`OracleMachine::native`].
 ///
 /// # Errors
-/// As [`render`]; and a [`CompiledError`] where that circuit does not do what is asked, or is not run
-/// at all: under [`Model::Real`], which is the default.
+/// As [`render`]; and a [`CompiledError`] where that circuit does not do what is asked, or is not
+/// run at all: under [`Model::Real`], which is the default.
 pub fn render_compiled<C: NativeOracle>(options: &Options<'_>) -> Result<Rendered, RenderError> {
     let scene = C::scene();
     if scene.scene().accuracy.is_some() {
@@ -317,7 +317,8 @@ impl<'a> Request<'a> {
         }
     }
 
-    /// What traces the paths, and what is searched for their primary hits, if they are searched for.
+    /// What traces the paths, and what is searched for their primary hits, if they are searched
+    /// for.
     fn source(&self) -> Result<(Source, Option<Searched>), RenderError> {
         let Options { seed, model, .. } = *self.options;
         if self.options.visibility != Visibility::Classical {

@@ -1,16 +1,16 @@
 //! Colour from one run of counting instead of three.
 //!
-//! The luminance alone is counted. A good id that an estimator measures is a path and a comparator
-//! below its luminance, so that paths are measured with probabilities proportional to their
-//! luminance; each is evaluated classically, without a query. The pixel is the luminance times the
-//! mean of these paths' colours over their luminances:
+//! The luminance alone is counted. A good index that an estimator measures is a path and a
+//! comparator below its luminance, so that paths are measured with probabilities proportional to
+//! their luminance; each is evaluated classically, without a query. The pixel is the luminance
+//! times the mean of these paths' colours over their luminances:
 //!
 //! ```text
 //! E[rgb_i / Y_i] = sum_i (Y_i / sum_j Y_j) (rgb_i / Y_i) = mean(rgb) / mean(Y).
 //! ```
 //!
-//! Its luminance is as good as counting makes it. Its colour has the error of so many samples as good
-//! ids were measured, which is none where all paths have one colour.
+//! Its luminance is as good as counting makes it. Its colour has the error of so many samples as
+//! good indices were measured, which is none where all paths have one colour.
 
 use super::RenderError;
 use super::pixel::{Pixels, Source};
@@ -26,8 +26,8 @@ use std::ops::Range;
 const SEGMENT: u64 = 256;
 /// Sums that are kept, at most.
 const SEGMENTS: u64 = 1 << 12;
-/// Measured ids that are looked at, at most; a colour is then known to a part in a hundred of its
-/// paths' spread.
+/// Measured indices that are looked at, at most; a colour is then known to a part in a hundred of
+/// its paths' spread.
 const MEASURED: u64 = 1 << 13;
 
 /// How the luminance is counted.
@@ -37,7 +37,7 @@ pub(super) struct OneRun {
     segment: u64,
 }
 
-/// What the paths of a pixel add up to: by segment, good ids of the luminance.
+/// What the paths of a pixel add up to: by segment, good indices of the luminance.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Segments {
     sums: Vec<u64>,
@@ -135,7 +135,7 @@ impl OneRun {
         Ok((colour, estimate.queries))
     }
 
-    /// Hands over the colours of the paths of these good ids, which are in order.
+    /// Hands over the colours of the paths of these good indices, which are in order.
     fn paths_of(
         &self,
         pixels: &Pixels,
@@ -163,7 +163,7 @@ impl OneRun {
         Ok(())
     }
 
-    /// Traces paths again: by path, the good ids of its luminance and its colour.
+    /// Traces paths again: by path, the good indices of its luminance and its colour.
     fn trace(
         &self,
         pixels: &Pixels,

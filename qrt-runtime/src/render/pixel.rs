@@ -29,7 +29,7 @@ const PARTS: u64 = 1 << 12;
 pub(super) struct Totals {
     colour: [Sum; 3],
     good: [u64; 3],
-    /// Of the luminance, where it is counted.
+    /// The counts of the luminance, where it is counted.
     segments: Segments,
     /// Queries that primary hits took.
     queries: u64,
@@ -37,7 +37,7 @@ pub(super) struct Totals {
     stray: [(u64, f64); 3],
 }
 
-/// A finished pixel.
+/// A finished pixel: its colour, its counts and its queries.
 pub(super) struct Pixel {
     pub(super) colour: [f64; 3],
     pub(super) queries: u64,
@@ -63,7 +63,7 @@ pub(super) struct Pixels {
     counter: Option<Counter>,
 }
 
-/// Counts good ids: pairs of a path and a comparator that its colour exceeds.
+/// Counts good indices: pairs of a path and a comparator that its colour exceeds.
 struct Counter {
     comparators: [Comparators; 3],
     estimator: Box<dyn AmplitudeEstimator + Send + Sync>,
@@ -191,7 +191,7 @@ impl Pixels {
             let end = ((n + 1) * part).min(self.paths);
             self.part(pixel, n * part..end, traced)
         });
-        // In the order of ids, whichever was first.
+        // In the order of path indices, whichever was first.
         let totals: Vec<Option<Totals>> = totals.collect::<Result<_, _>>()?;
         let Some(totals) = totals.into_iter().collect::<Option<Vec<Totals>>>() else {
             return Ok(None);
@@ -333,7 +333,7 @@ impl Pixels {
 }
 
 impl Totals {
-    /// Adds the totals of later ids.
+    /// Adds the totals of later path indices.
     fn append(&mut self, later: &Self) {
         self.segments.append(&later.segments);
         self.queries += later.queries;

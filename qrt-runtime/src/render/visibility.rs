@@ -2,8 +2,8 @@
 //!
 //! Under [`Visibility::Grover`] that is a search of its own for every path, with an oracle of
 //! nearest hits (Lanzagorta & Uhlmann 2005; Alves 2019; Santos 2024), and integration is classical:
-//! paths are taken one by one, and the pixel is their mean. What follows the primary hit is traced as
-//! ever, by the same program but for its first intersection, which is given: see
+//! paths are taken one by one, and the pixel is their mean. What follows the primary hit is traced
+//! as ever, by the same program but for its first intersection, which is given: see
 //! [`qrt_core::oracle::Oracle::given_primary_hit`].
 
 use super::{Model, Options, RenderError};
@@ -39,9 +39,9 @@ pub enum Visibility {
 /// What was searched, and what a query of it costs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Searched {
-    /// P: the faces.
+    /// P, the number of faces.
     pub faces: u64,
-    /// N: the basis states of a face's number.
+    /// N, the number of basis states of a face's number: a power of two.
     pub states: u64,
     /// The bound on the probability that a ray's nearest face is missed; 0 if all are asked about.
     pub failure: f64,
@@ -138,5 +138,5 @@ pub(super) fn machine(
         NearestMachine::fixed(nearest, seed)
     };
     let primary_hits: Box<dyn PrimaryHits> = Box::new(FoundHits::new(nearest, method, seed));
-    Ok((machine.with_first_hits(primary_hits), Some(searched)))
+    Ok((machine.with_primary_hits(primary_hits), Some(searched)))
 }

@@ -14,15 +14,15 @@ pub(crate) struct Draws<'a> {
     pub(crate) count: u64,
     /// By channel, whether anything is to be counted: its amplitude is 0 if not.
     pub(crate) counted: [bool; 3],
-    /// N, the ids of a channel.
+    /// N, the number of indices of a channel.
     pub(crate) total: u64,
 }
 
-/// What was drawn of a pixel.
+/// The estimates that were drawn of a pixel.
 pub(crate) struct Drawn {
-    /// By draw and channel.
+    /// The estimated amplitudes, by draw and channel.
     pub(crate) amplitudes: Vec<[f64; 3]>,
-    /// Of all draws and channels.
+    /// The queries of all draws and channels together.
     pub(crate) queries: u64,
 }
 

@@ -1,7 +1,7 @@
 //! What the paths of a film's pixels sum to, without a picture: for those who measure errors.
 //!
-//! All sums are over pixels that are given, in an order that ids decide, so that they do not depend
-//! on the number of threads. Work is done on the threads of the pool that calls.
+//! All sums are over pixels that are given, in an order that path indices decide, so that they do
+//! not depend on the number of threads. Work is done on the threads of the pool that calls.
 
 mod drawn;
 mod error;

@@ -1,8 +1,8 @@
 //! Which pixels stand for a film.
 
 /// `count` pixels of a film, different ones and in its row-by-row order; all of them if it has no
-/// more. They are multiples of a step that is about the golden section of the film, so that rows and
-/// columns are met evenly whatever the number.
+/// more. They are multiples of a step that is about the golden section of the film, so that rows
+/// and columns are met evenly whatever the number.
 pub fn spread(film: [u32; 2], count: u64) -> Vec<[u32; 2]> {
     let width = u64::from(film[0]);
     let area = width * u64::from(film[1]);

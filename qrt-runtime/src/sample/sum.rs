@@ -1,21 +1,21 @@
-//! Sums over the paths of a pixel, in an order that ids alone decide.
+//! Sums over the paths of a pixel, in an order that path indices alone decide.
 //!
-//! Floating-point sums depend on their order. Here it is: ids are cut into blocks of 256; within a
-//! block, eight sums take every eighth id and are then added in pairs; blocks are added in order.
-//! So the sum doesn't depend on how the paths were handed over, and its rounding error grows with
-//! the number of blocks, not of paths.
+//! Floating-point sums depend on their order. Here it is: path indices are cut into blocks of 256;
+//! within a block, eight sums take every eighth path index and are then added in pairs; blocks are
+//! added in order. So the sum doesn't depend on how the paths were handed over, and its rounding
+//! error grows with the number of blocks, not of paths.
 
 const LANES: usize = 8;
 const BLOCK: usize = 256;
 
-/// A sum of colours, handed over in the order of their ids.
+/// A sum of colours, handed over in the order of their path indices.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Sum {
-    /// Of whole blocks.
+    /// The sum of the whole blocks.
     total: f64,
-    /// Of the block under way.
+    /// The sums of the block under way.
     lanes: [f64; LANES],
-    /// Ids of the block under way.
+    /// Path indices of the block under way.
     filled: usize,
 }
 
@@ -50,7 +50,7 @@ impl Sum {
         self.total + (((a + e) + (c + g)) + ((b + f) + (d + h)))
     }
 
-    /// Adds a sum over later ids. To be used on block boundaries.
+    /// Adds a sum over later path indices. To be used on block boundaries.
     pub(crate) fn append(&mut self, later: &Self) {
         self.total = self.value() + later.value();
         self.lanes = [0.0; LANES];

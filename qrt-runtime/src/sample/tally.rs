@@ -15,7 +15,7 @@ const RUN: u64 = 1 << 15;
 pub struct Tally {
     /// By channel: the sum of their colours, in radiance.
     pub colour: [f64; 3],
-    /// By register of comparators, and by channel: the good ids.
+    /// By register of comparators, and by channel: the good indices.
     pub good: Vec<[u64; 3]>,
 }
 
@@ -33,8 +33,8 @@ impl Tally {
     }
 }
 
-/// The paths `ids` of `pixels` in real arithmetic; counted against each of `comparators`, channel by
-/// channel.
+/// The paths `ids` of `pixels` in real arithmetic; counted against each of `comparators`, channel
+/// by channel.
 ///
 /// # Errors
 /// See [`SampleError`].

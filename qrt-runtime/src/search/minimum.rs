@@ -62,7 +62,7 @@ impl Search {
         self.best
     }
 
-    /// Queries so far.
+    /// How many queries were used so far.
     pub fn queries(&self) -> u64 {
         self.queries
     }

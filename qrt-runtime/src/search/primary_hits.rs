@@ -39,9 +39,9 @@ named! {
 /// How the nearest face is found.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Method {
-    /// By asking about every face: P queries.
+    /// By asking the oracle about every face: P queries a ray.
     Exhaustive,
-    /// By searching for it.
+    /// By Grover's search for the nearest face.
     Grover(Rounds, Guess),
 }
 

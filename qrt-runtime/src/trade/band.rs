@@ -7,7 +7,7 @@ const RESAMPLED: usize = 400;
 /// Keys these draws: of all tables the same, so that they are comparable.
 const KEY: u64 = 0xB007_57AA;
 
-/// A root mean square, with its interval at 95 %: the percentile bootstrap over pixels (Efron, 1979).
+/// A root mean square, with its 95 % interval: the percentile bootstrap over pixels (Efron, 1979).
 /// All are relative to the mean radiance.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Band {
@@ -59,8 +59,8 @@ impl Band {
 mod tests {
     use super::*;
 
-    /// The mean square of n exponential variables has a relative standard deviation of 1/sqrt(n), so
-    /// its root has half of that.
+    /// The mean square of n exponential variables has a relative standard deviation of 1/sqrt(n),
+    /// so its root has half of that.
     #[test]
     fn the_interval_is_as_wide_as_the_sample_says() {
         let mut stream = Stream::new(5, 0, 0, 0);

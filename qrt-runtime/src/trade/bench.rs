@@ -51,14 +51,14 @@ struct Traced {
     means: Means,
     /// By pixel and channel: S.
     good: Vec<[u64; 3]>,
-    /// Wall time.
+    /// The wall time, in seconds.
     seconds: f64,
 }
 
 #[derive(Clone)]
 struct Built {
     oracle: Arc<Oracle>,
-    spent: CallCost,
+    cost: CallCost,
 }
 
 impl<'a> Bench<'a> {
@@ -133,7 +133,7 @@ impl<'a> Bench<'a> {
         Ok(Some(Row {
             setting,
             queries: estimated.queries as f64 / pixels / self.effort.draws as f64,
-            spent: built.spent,
+            cost: built.cost,
             mean,
             errors: [
                 Band::of_difference(&real.means, &truth, mean),
@@ -184,7 +184,7 @@ impl<'a> Bench<'a> {
         };
         let built = Built {
             oracle: Arc::new(oracle),
-            spent: call_cost(&channels),
+            cost: call_cost(&channels),
         };
         // One is large, and rows of a circuit stand together, but for the scene's own.
         self.circuits.retain(|(of, _)| *of == circuit_key(&own));

@@ -39,12 +39,12 @@ pub enum TradeError {
     )]
     Black,
     /// The scene's parameters cannot be varied.
-    #[error("the scene's parameters cannot be turned: {}", first(.0))]
+    #[error("the scene's parameters cannot be varied: {}", first(.0))]
     Parameters(Vec<Problem>),
     /// A file cannot be written or read.
     #[error("`{}`: {source}", .path.display())]
     File {
-        /// The file.
+        /// The file that cannot be written or read.
         path: PathBuf,
         /// What the file system says.
         source: io::Error,
@@ -56,13 +56,13 @@ pub enum TradeError {
         .path.display()
     )]
     Differs {
-        /// The table.
+        /// The table's file.
         path: PathBuf,
-        /// What differs.
+        /// What differs, such as the scene.
         what: String,
-        /// What the table says of it.
+        /// The value that the table has of it.
         found: String,
-        /// What was asked for.
+        /// The value that was asked for.
         asked: String,
     },
     /// The table that is there cannot be read.
@@ -71,9 +71,9 @@ pub enum TradeError {
         .path.display()
     )]
     Unreadable {
-        /// The table.
+        /// The table's file.
         path: PathBuf,
-        /// From 1.
+        /// The number of the line, from 1.
         line: usize,
     },
 }

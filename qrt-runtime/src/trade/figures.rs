@@ -1,4 +1,4 @@
-//! The plots.
+//! The plots of `qrt trade`.
 
 use super::fronts::fronts;
 use super::setting::Sweep;
@@ -9,7 +9,7 @@ use qrt_drawing::{Axis, Drawn, Plot, Point, Series};
 
 /// A plot, and what is said of it.
 pub(super) struct Figure {
-    /// Of its file, without the extension.
+    /// The name of its file, without the extension.
     pub(super) name: &'static str,
     pub(super) plot: Plot,
     /// What to see there.
@@ -186,7 +186,7 @@ fn repetitions(trade: &Trade) -> Figure {
             y: Axis::log("E_T: RMSE / mean radiance"),
             series: all,
         },
-        says: "The same queries spent on more phase bits (larger) or on more repetitions (again), with \
+        says: "The same queries used for more phase bits (larger) or for more repetitions (again), with \
                the scene's estimator and with the others that count with a register.",
     }
 }
@@ -264,11 +264,11 @@ fn price(trade: &Trade) -> Figure {
             x: Axis::bits("fraction bits"),
             y: Axis::log("one call of the oracle"),
             series: vec![
-                of("Toffoli", |row| row.spent.toffoli),
-                of("qubits", |row| row.spent.qubits),
+                of("Toffoli", |row| row.cost.toffoli),
+                of("qubits", |row| row.cost.qubits),
             ],
         },
-        says: "Gates and qubits of the dearest channel's oracle.",
+        says: "Gates and qubits of the most expensive channel's oracle.",
     }
 }
 

@@ -28,7 +28,7 @@ pub(super) const PRICES: [(&str, &str, &str, Price); 4] = [
         |row| row.toffoli_x_queries(),
     ),
     ("front-qubits", "qubits", "qubits of the oracle", |row| {
-        row.spent.qubits as f64
+        row.cost.qubits as f64
     }),
     (
         "front-seconds",

@@ -11,7 +11,7 @@ use qrt_core::valid::MAX_NET_DEPTHS;
 
 /// Keys the reference's shifts, beside the seed.
 const REFERENCE: u64 = 0x5265_6665_7265_6e63;
-/// Of a deeper ray's share in what all deeper rays bring, where depths end.
+/// Where depths end: what one more ray brings, as a fraction of what all deeper rays bring.
 const NEGLIGIBLE: f64 = 0.02;
 /// Depths beyond the scene's own, at most.
 const DEEPER: usize = 16;
@@ -38,7 +38,7 @@ impl Bench<'_> {
             path_bits: bits,
             depths: depths(&self.parameters.sampling, rays),
         };
-        // Ids need not be counted here.
+        // Nothing is counted here, so one comparator bit will do.
         parameters.comparator.bits = 1;
         let scene = self
             .scene

@@ -1,8 +1,8 @@
 //! Speed against accuracy, measured.
 //!
-//! [`trade`] turns the parameters of a scene one at a time, and estimators and queries together, renders
-//! a sample of its pixels under each setting, and writes what that cost and how far it is from the
-//! picture's limit: a table, plots and a page that shows both.
+//! [`trade`] varies the parameters of a scene one at a time, and estimators and queries together,
+//! renders a sample of its pixels under each setting, and writes what that cost and how far it is
+//! from the picture's limit: a table, plots and a page that shows both.
 //!
 //! # Errors
 //!
@@ -16,11 +16,11 @@
 //! | `E_C` | S of the same paths in real arithmetic | the exact mean of these paths |
 //! | `E_W` | S of the circuit's numbers | S of the same paths and comparators in real arithmetic |
 //! | `E_T` | what the estimator says | S/N |
-//! | `E_D` | paths of D rays | paths so long that almost nothing more comes, on the same ids |
+//! | `E_D` | paths of D rays | paths so long that almost nothing more comes, same path indices |
 //! | total | what the estimator says | the exact mean over far more paths, of D rays |
 //!
-//! The total is measured, too: it is no sum of the others. `E_D` is not in it, for it changes with no
-//! other parameter than the length of paths. Intervals are a bootstrap's over pixels.
+//! The total is measured, too: it is no sum of the others. `E_D` is not in it, for it changes with
+//! no other parameter than the length of paths. Intervals are a bootstrap's over pixels.
 
 //!
 //! # The table
@@ -28,14 +28,14 @@
 //! `trade.csv` begins with a line that names what its rows depend on: version, scene hash, seed,
 //! pixels, quick. Its columns:
 //!
-//! * the setting: `sweep` (the parameter that the row is about), `model`, `estimator`, `phase_bits`,
-//!   `repetitions`, `sequence`, `path_bits`, `depths`, `fraction`, `comparator_bits`, `uncompute`,
-//!   `nearest`;
-//! * its price: `queries` of a pixel, all channels together, on average; `toffoli` and `qubits` of one
-//!   call of the dearest channel's oracle, as `qrt inspect` counts them (a phase register's own
-//!   qubits are not among them); `toffoli_x_queries`;
+//! * the setting: `sweep` (the parameter that the row is about), `model`, `estimator`,
+//!   `phase_bits`, `repetitions`, `sequence`, `path_bits`, `depths`, `fraction`, `comparator_bits`,
+//!   `uncompute`, `nearest`;
+//! * its price: `queries` of a pixel, all channels together, on average; `toffoli` and `qubits` of
+//!   one call of the most expensive channel's oracle, as `qrt inspect` counts them (a phase
+//!   register's own qubits are not among them); `toffoli_x_queries`;
 //! * `mean`: the mean radiance, over pixels and channels, that errors are relative to;
-//! * `e_r`, `e_c`, `e_w`, `e_t`, `e_d`, `e_total`, each followed by the ends of its interval at 95 %
+//! * `e_r`, `e_c`, `e_w`, `e_t`, `e_d`, `e_total`, each followed by the ends of its 95 % interval
 //!   (`e_r_low`, `e_r_high`, ...);
 //! * `seconds`: wall time of tracing and counting a pixel. It alone differs from run to run.
 //!
@@ -83,7 +83,7 @@ pub struct Options<'a> {
     pub workers: Workers<'a>,
 }
 
-/// What was measured.
+/// What the measurement of a scene's parameters found.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trade {
     /// The scene's name.
@@ -121,8 +121,8 @@ impl Trade {
     }
 }
 
-/// Measures a scene's parameters and writes `trade.csv`, plots and `index.html` to `folder`, which is made
-/// if it is not there. A table that an interrupted run has left is gone on with.
+/// Measures a scene's parameters and writes `trade.csv`, plots and `index.html` to `folder`, which
+/// is made if it is not there. A table that an interrupted run has left is gone on with.
 ///
 /// # Errors
 /// See [`TradeError`].

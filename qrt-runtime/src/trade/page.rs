@@ -105,8 +105,8 @@ fn own(out: &mut String, row: &Row) {
          <th>95&nbsp;%</th><th class=\"left\">of</th></tr>",
         escaped(&differs(&row.setting)),
         grouped(row.queries.round() as u64),
-        grouped(row.spent.toffoli),
-        grouped(row.spent.qubits),
+        grouped(row.cost.toffoli),
+        grouped(row.cost.qubits),
     );
     for ((name, band), meaning) in ERRORS.iter().zip(row.errors).zip(MEANINGS) {
         let _ = writeln!(
@@ -158,8 +158,8 @@ fn table(out: &mut String, rows: &[&Row], name: impl Fn(&Row) -> String) {
             out,
             "<td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{:.3}</td></tr>",
             grouped(row.queries.round() as u64),
-            grouped(row.spent.toffoli),
-            grouped(row.spent.qubits),
+            grouped(row.cost.toffoli),
+            grouped(row.cost.qubits),
             grouped(row.toffoli_x_queries().round() as u64),
             1e3 * row.seconds
         );

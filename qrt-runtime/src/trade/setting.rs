@@ -39,13 +39,13 @@ pub struct Setting {
     pub sweep: Sweep,
     /// What traces the paths.
     pub model: Model,
-    /// How good ids are counted.
+    /// How good indices are counted.
     pub estimator: Estimator,
     /// t, of T = 2^t phases.
     pub phase_bits: u32,
     /// B, the runs of the counting circuit.
     pub repetitions: u32,
-    /// How path ids become points.
+    /// How path indices become points.
     pub sequence: Sequence,
     /// R = 2^path_bits.
     pub path_bits: u32,

@@ -32,7 +32,7 @@ pub(super) fn text(trade: &Trade) -> String {
         let _ = writeln!(
             out,
             "          {:.0} queries a pixel, {} Toffoli, {} qubits",
-            row.queries, row.spent.toffoli, row.spent.qubits
+            row.queries, row.cost.toffoli, row.cost.qubits
         );
     }
     let slopes = slopes(trade);

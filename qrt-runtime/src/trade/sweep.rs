@@ -1,5 +1,5 @@
-//! Which settings are measured: around the scene's own, one parameter at a time, and every estimator with
-//! every number of queries.
+//! Which settings are measured: around the scene's own, one parameter at a time, and every
+//! estimator with every number of queries.
 
 use super::setting::{Setting, Sweep};
 use crate::render::Model;

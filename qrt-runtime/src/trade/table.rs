@@ -16,21 +16,21 @@ pub const ERRORS: [&str; 6] = ["e_r", "e_c", "e_w", "e_t", "e_d", "e_total"];
 
 /// Columns of figures before and after those of errors.
 const FIGURES: [&str; 5] = ["queries", "toffoli", "qubits", "toffoli_x_queries", "mean"];
-/// All columns.
+/// How many columns the table has.
 const COLUMNS: usize = KEY.len() + FIGURES.len() + 3 * ERRORS.len() + 1;
 
-/// A finished row.
+/// A finished row of the table: one setting, and what was measured of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Row {
-    /// What it is about.
+    /// The setting that the row is about.
     pub setting: Setting,
     /// Queries of a pixel, all channels together.
     pub queries: f64,
     /// Qubits and Toffolis of one call of the oracle.
-    pub spent: CallCost,
+    pub cost: CallCost,
     /// The mean radiance over pixels and channels.
     pub mean: f64,
-    /// As [`ERRORS`], relative to the mean.
+    /// The errors in the order of [`ERRORS`], relative to the mean.
     pub errors: [Band; ERRORS.len()],
     /// Wall time of a pixel.
     pub seconds: f64,
@@ -39,14 +39,14 @@ pub struct Row {
 impl Row {
     /// Toffolis of all queries of a pixel.
     pub fn toffoli_x_queries(&self) -> f64 {
-        self.spent.toffoli as f64 * self.queries
+        self.cost.toffoli as f64 * self.queries
     }
 
     fn line(&self) -> String {
         let mut values = self.setting.values().to_vec();
         values.push(number(self.queries));
-        values.push(self.spent.toffoli.to_string());
-        values.push(self.spent.qubits.to_string());
+        values.push(self.cost.toffoli.to_string());
+        values.push(self.cost.qubits.to_string());
         values.push(number(self.toffoli_x_queries()));
         values.push(number(self.mean));
         for Band { value, low, high } in self.errors {
@@ -76,7 +76,7 @@ impl Row {
         Some(Self {
             setting,
             queries: float(0)?,
-            spent: CallCost {
+            cost: CallCost {
                 toffoli: cells[1].parse().ok()?,
                 qubits: cells[2].parse().ok()?,
             },

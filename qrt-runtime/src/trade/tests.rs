@@ -95,15 +95,15 @@ fn the_total_is_measured_against_the_limit() {
     // Independent parts add up in squares, and none cancels another altogether.
     assert!(total <= r + c + w + t && total > 0.3 * (r * r + c * c + w * w + t * t).sqrt());
     assert_eq!(row.queries, 3.0 * 31.0);
-    assert_eq!(row.toffoli_x_queries(), 93.0 * row.spent.toffoli as f64);
+    assert_eq!(row.toffoli_x_queries(), 93.0 * row.cost.toffoli as f64);
     // What `render` makes of the same pixels is what was measured.
     let parameters = row.setting.parameters(&scene(LIT).parameters());
     let same = scene(LIT).with_parameters(parameters).unwrap();
     let inspected =
         qrt_core::inspect::Inspection::new(&same, None, qrt_core::oracle::Options::default())
             .unwrap();
-    assert_eq!(row.spent.toffoli, inspected.total().toffoli);
-    assert_eq!(row.spent.qubits, u64::from(inspected.qubits));
+    assert_eq!(row.cost.toffoli, inspected.total().toffoli);
+    assert_eq!(row.cost.qubits, u64::from(inspected.qubits));
 }
 
 #[test]

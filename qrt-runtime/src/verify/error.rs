@@ -32,7 +32,7 @@ pub enum VerifyError {
     /// The threads can't be started.
     #[error(transparent)]
     Threads(#[from] ThreadsError),
-    /// Cancelled.
+    /// The check was cancelled before it was finished.
     #[error("interrupted after {finished} of {pixels} pixels")]
     Interrupted {
         /// Pixels that were compared.

@@ -2,8 +2,8 @@
 //!
 //! * `fixed` and `gates` must agree bit for bit: in every path's colour, and in how many
 //!   thresholds it exceeds.
-//! * The gates machine must return every qubit but the id to zero, and turn the signs of exactly
-//!   the good ids.
+//! * The gates machine must return every qubit but those of the path index to zero, and flip the
+//!   phases of exactly the good indices.
 //! * A count must be the number of thresholds below the colour, counted from their definition.
 //! * `fixed` and `real` differ by E_W, the error of a finite width: measured, pixel by pixel.
 
@@ -69,7 +69,7 @@ pub struct Mismatch {
     pub thresholds: i64,
 }
 
-/// What was found.
+/// What the check of a scene's circuit found.
 #[derive(Clone, Debug, Default)]
 pub struct Report {
     /// Pixels, as columns and rows.
@@ -88,15 +88,15 @@ pub struct Report {
     pub mismatches: Vec<Mismatch>,
     /// What the circuit did wrong, if it did.
     pub defect: Option<Defect>,
-    /// Per channel: the mean radiance of the pixels, by the real machine. This and what follows is 0 if there
-    /// is a defect.
+    /// Per channel: the mean radiance of the pixels, by the real machine. This and what follows is
+    /// 0 if there is a defect.
     pub mean: [f64; 3],
     /// Per channel: E_W, the root mean square over pixels of fixed less real.
     pub width_error: [f64; 3],
     /// Per channel: the greatest difference of a pixel, in radiance.
     pub greatest: [f64; 3],
-    /// Share of (path, channel) pairs whose colours differ by more than a hundredth of the scale:
-    /// paths that met something else.
+    /// Fraction of (path, channel) pairs whose colours differ by more than a hundredth of the
+    /// scale: paths that met something else.
     pub parted: f64,
 }
 
@@ -114,8 +114,8 @@ impl Report {
     }
 }
 
-/// Runs a scene on all three machines; one that asks for an accuracy with the parameters that are chosen
-/// for it.
+/// Runs a scene on all three machines; one that asks for an accuracy with the parameters that are
+/// chosen for it.
 ///
 /// # Errors
 /// A scene without a circuit, and an interruption. What the machines find is in the report.

@@ -29,13 +29,13 @@ impl Found {
     }
 }
 
-/// Adds mismatches to those that are reported one by one, as long as there is room.
+/// Adds mismatches to those that are reported one by one, up to their greatest number.
 pub(super) fn show(shown: &mut Vec<Mismatch>, more: Vec<Mismatch>) {
     let room = SHOWN.saturating_sub(shown.len());
     shown.extend(more.into_iter().take(room));
 }
 
-/// The three machines.
+/// The three machines, made ready for one scene.
 pub(super) struct Trio<'a> {
     pub(super) oracle: &'a Oracle,
     pub(super) real: &'a Real,

@@ -95,7 +95,7 @@ pub(super) fn json(shown: &Shown<'_>) -> Value {
     })
 }
 
-/// In the order of their offsets' first use.
+/// The registers, in the order of their offsets' first use.
 fn registers(shown: &Shown<'_>) -> Vec<Value> {
     let inspection = shown.inspection;
     let program = &inspection.whole;

@@ -24,8 +24,8 @@ use std::path::{Path, PathBuf};
 /// colours of all paths in superposition, compare and flip the phase, uncompute. Nothing is
 /// rendered.
 ///
-/// A scene that asks for an `accuracy` is shown with the parameters that are chosen for it, and the plan
-/// with what is expected of it.
+/// A scene that asks for an `accuracy` is shown with the parameters that are chosen for it, and the
+/// plan with what is expected of it.
 ///
 /// A scene's `budget` is checked; beyond it the figures are still shown and the exit code is 2.
 #[derive(Clone, Debug, Args)]
@@ -58,12 +58,12 @@ pub(crate) struct InspectArgs {
 
 pub(super) const CHANNEL_CHOICES: [(usize, &str); 3] = [(0, "Red"), (1, "Green"), (2, "Blue")];
 
-/// `r`, `g` or `b`.
+/// A channel by its name: `r`, `g` or `b`.
 pub(super) fn channel_name(channel: usize) -> &'static str {
     CHANNELS[channel]
 }
 
-/// What is shown.
+/// What `qrt inspect` shows.
 struct Shown<'a> {
     scene: &'a ValidScene,
     inspection: &'a Inspection,
@@ -119,7 +119,7 @@ pub(crate) fn run(args: &InspectArgs) -> Result<(), Failure> {
 /// That `scene`, under whatever parameters, has a circuit, and one within its budget.
 ///
 /// # Errors
-/// What stands in the way, at its place in the scene.
+/// The problem that stands in the way, at its place in the scene.
 pub(super) fn check_circuit(loaded: &Loaded, scene: &ValidScene) -> Result<(), Failure> {
     if scene.scene().budget.is_none() {
         return Ok(());
@@ -132,7 +132,7 @@ pub(super) fn check_circuit(loaded: &Loaded, scene: &ValidScene) -> Result<(), F
 /// That one call of the oracle is within the scene's budget.
 ///
 /// # Errors
-/// What is beyond it.
+/// The figures that are beyond the budget.
 pub(super) fn keep_budget(loaded: &Loaded, inspection: &Inspection) -> Result<(), Failure> {
     let spent = CallCost {
         qubits: u64::from(inspection.qubits),

@@ -7,7 +7,7 @@ use qrt_core::inspect::{BlockFigures, CHANNELS, Inspection, Part, Stage, grouped
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-/// Of a row's name, with its branches.
+/// The width in columns of a row's name, with its branches.
 const NAME: usize = 28;
 
 /// The figures; with `planes`, each plane of each search.
@@ -82,13 +82,13 @@ fn name(name: &str) -> String {
 
 /// A row of the table of costs.
 fn row(out: &mut String, branch: &str, name: &str, cost: Cost, all: u64, qubits: Option<u32>) {
-    let share = match all {
+    let percent = match all {
         0 => String::new(),
         _ => format!("{:.1}", 100.0 * cost.toffoli as f64 / all as f64),
     };
     let _ = writeln!(
         out,
-        "{:<NAME$}{:>14}{share:>6}{:>14}{:>15}{:>12}{:>11}",
+        "{:<NAME$}{:>14}{percent:>6}{:>14}{:>15}{:>12}{:>11}",
         format!("{branch}{name}"),
         grouped(cost.toffoli),
         grouped(cost.and_measured),
@@ -234,7 +234,7 @@ fn passes(out: &mut String, shown: &Shown<'_>) {
     let all = shown.passes.first().map_or(0, |first| first.toffoli);
     let mut before = all;
     for pass in shown.passes {
-        let share = match all {
+        let percent = match all {
             0 => String::new(),
             _ => format!("{:.1}", 100.0 * pass.toffoli as f64 / all as f64),
         };
@@ -245,7 +245,7 @@ fn passes(out: &mut String, shown: &Shown<'_>) {
         };
         let _ = writeln!(
             out,
-            "{:<NAME$}{:>14}{share:>6}{:>14}{:>15}{change:>20}",
+            "{:<NAME$}{:>14}{percent:>6}{:>14}{:>15}{change:>20}",
             format!("  {}", pass.name),
             grouped(pass.toffoli),
             grouped(pass.ops),

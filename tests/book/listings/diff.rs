@@ -2,8 +2,8 @@
 
 use std::fmt::Write as _;
 
-/// The lines of both, those of `expected` alone after `-`, those of `found` alone after `+`; of what
-/// they share, two lines about each difference.
+/// The lines of both, those of `expected` alone after `-`, those of `found` alone after `+`; of
+/// what they share, two lines about each difference.
 pub(crate) fn diff(expected: &[&str], found: &[&str]) -> String {
     let (m, n) = (expected.len(), found.len());
     // Lengths of the longest common subsequences of what follows.

@@ -19,7 +19,8 @@ pub(crate) fn check_test(place: &Place) -> Result<(), String> {
     }
 }
 
-/// Whether a symbol is that of a test. Where code defines it, an example's of the same name is none.
+/// Whether a symbol is that of a test. Where code defines it, an example's of the same name is
+/// none.
 fn is_test(text: &str, symbol: &str) -> bool {
     let lines = lines(text);
     let found = |wanted| {

@@ -27,7 +27,7 @@ fn packed(bits: impl Iterator<Item = bool>) -> Vec<u64> {
 }
 
 impl States {
-    /// Before `circuit`, in every pixel and path: the id, and zeros.
+    /// Before `circuit`, in every pixel and path: the path index, and zeros.
     pub(crate) fn new(oracle: &Oracle, circuit: &Circuit, seed: u64, pixels: &[[u32; 2]]) -> Self {
         let paths = 1_usize << oracle.points.path_bits();
         let count = pixels.len() * paths;

@@ -1,4 +1,4 @@
-//! Extremes of counting: good ids, counters, repetitions.
+//! Extremes of counting: good indices, phase registers, repetitions.
 
 use super::Extreme;
 use qrt::core::scene::{Counting, Estimator, Window};
@@ -6,7 +6,7 @@ use qrt::runtime::counting::PhaseDistribution;
 use qrt::runtime::estimators::{Estimate, Problem, estimate};
 use qrt::runtime::random::Stream;
 
-/// One run of an estimator; it must be sound whatever was asked.
+/// One run of an estimator; its result must be valid whatever was asked.
 fn run(name: Estimator, problem: Problem, bits: u32, repetitions: u32, seed: u64) -> Estimate {
     let counting = Counting {
         phase_bits: bits,
@@ -28,8 +28,8 @@ fn truth(problem: Problem) -> f64 {
     problem.good as f64 / problem.total as f64
 }
 
-/// Many estimates; the share whose interval holds the truth, and the largest error of the median
-/// run.
+/// Many estimates; the coverage: the fraction whose interval contains the truth, and the largest
+/// error of the median run.
 fn ends() -> Extreme {
     let (mut runs, mut covered, mut worst) = (0, 0, (0.0_f64, ""));
     for &name in Estimator::ALL {
@@ -95,7 +95,7 @@ fn grids() -> Extreme {
     )
 }
 
-/// Draws from counters of all sizes.
+/// Draws from phase registers of all sizes.
 fn registers() -> Extreme {
     let mut least = 1.0_f64;
     for bits in [1, 2, 8, 20, 30, 40] {
@@ -153,7 +153,7 @@ fn budgets() -> Extreme {
         if name == Estimator::Exact {
             continue;
         }
-        // One query: nothing sensible, but sound.
+        // One query: nothing sensible, but a valid result.
         run(name, problem, 1, 1, 0);
         let found = run(name, problem, 30, 1, 0);
         assert!(found.queries < 1 << 30, "{name}");

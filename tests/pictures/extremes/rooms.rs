@@ -1,7 +1,7 @@
 //! Extremes of scenes, under all three models.
 //!
-//! Most happens in a furnace: a closed room whose walls all glow and reflect alike, where a path of D
-//! rays brings `Le (1 - rho^D) / (1 - rho)` wherever the camera looks. A leak, a lost hit or a
+//! Most happens in a furnace: a closed room whose walls all glow and reflect alike, where a path of
+//! D rays brings `Le (1 - rho^D) / (1 - rho)` wherever the camera looks. A leak, a lost hit or a
 //! rounding error shows.
 
 use super::Extreme;
@@ -191,7 +191,7 @@ fn grazing() -> Extreme {
     )
 }
 
-/// AxisPermuted by 30 degrees about z and 20 about x.
+/// Turned by 30 degrees about z and 20 about x.
 fn askew([x, y, z]: Point) -> Point {
     let [s, c] = [0.5, 0.75_f64.sqrt()];
     let [x, y] = [c * x - s * y, s * x + c * y];

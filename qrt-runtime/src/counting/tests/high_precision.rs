@@ -75,7 +75,7 @@ impl Exact {
             }
             Window::Sine => {
                 let points = size.add(&one, P, RM);
-                // 0/0 half a step off the grid (T = 2, a quarter of the ids): a step aside.
+                // 0/0 half a step off the grid (T = 2, a quarter of the indices): a step aside.
                 let turn = turn.add(&BigFloat::from_f64(1e-50, P), P, RM);
                 let omega = turn.mul(&int(2), P, RM).div(&size, P, RM);
                 let step = self.pi.div(&points, P, RM);
@@ -318,7 +318,7 @@ fn peak_and_tails_of_large_registers_sum_to_one() {
                 let register = Register::new(bits, window);
                 let phase = Phase::of(good, total, &register);
                 let (cell, f) = (phase.cell, phase.offset);
-                // Small terms first; the other phase's share is taken out with its kernel.
+                // Small terms first; the other phase's part is taken out with its kernel.
                 let mut sum = 0.0;
                 for k in (0..=reach).rev() {
                     sum += register.weight(k as i64, f);

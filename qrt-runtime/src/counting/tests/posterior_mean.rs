@@ -75,7 +75,7 @@ fn means_are_those_of_beta_distributions() {
     assert!((end..end + 0.25).contains(&found.interval.1), "{found:?}");
 }
 
-/// Registers of 40 bits, a million repetitions, 2^60 ids.
+/// Registers of 40 bits, a million repetitions, 2^60 indices.
 #[test]
 fn extremes_have_means_near_the_truth() {
     let total = 1_u64 << 60;

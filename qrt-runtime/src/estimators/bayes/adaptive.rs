@@ -1,26 +1,26 @@
-//! `adaptive-bayes`: every depth is chosen from what is known.
+//! `adaptive-bayes`: every query depth is chosen from what is known.
 
 use super::posterior::Posterior;
 use super::{Goal, depth};
 use crate::estimators::{AmplitudeEstimator, Device, Estimate, EstimatorError, Settings};
 
-/// `adaptive-bayes`: single shots, each at the depth that is expected to sharpen the posterior most
-/// per query; the posterior mean. The default, and the most accurate here.
+/// `adaptive-bayes`: single shots, each at the query depth that is expected to sharpen the
+/// posterior most per query; the posterior mean. The default, and the most accurate here.
 ///
 /// The prior is uniform in the amplitude. The likelihood is that of the device, with the noise that
-/// is known. Depth is chosen greedily from the whole posterior, multimodal as it is, as in adaptive
-/// phase estimation (Wiebe & Granade, *Efficient Bayesian phase estimation*, 2016) and Bayesian
-/// amplitude estimation (Ramôa & Santos, *Bayesian quantum amplitude estimation*, 2024), with the
-/// expected variance computed, not sampled; the posterior is a quadrature, not a cloud of
+/// is known. Query depth is chosen greedily from the whole posterior, multimodal as it is, as in
+/// adaptive phase estimation (Wiebe & Granade, *Efficient Bayesian phase estimation*, 2016) and
+/// Bayesian amplitude estimation (Ramôa & Santos, *Bayesian quantum amplitude estimation*, 2024),
+/// with the expected variance computed, not sampled; the posterior is a quadrature, not a cloud of
 /// particles, which could lose a mode.
 ///
-/// Interval: the amplitudes of highest posterior density that hold all but 2/5 of what may fail at
-/// the asked confidence, and what lies between them. On average over the prior it holds the
-/// amplitude more often than asked, whatever was measured and whenever it stopped; at an amplitude
-/// of 1/2, where it does so least, about as often.
+/// Interval: the amplitudes of highest posterior density that leave out 2/5 of the failure
+/// probability at the asked confidence, and what lies between them. On average over the prior its
+/// coverage is above the asked confidence, whatever was measured and whenever it stopped; at an
+/// amplitude of 1/2, where the coverage is least, it is about the asked confidence.
 ///
 /// Stops early where the asked error is reached or a single S is left (all others together below
-/// 10^-12). Never spends more than the queries allowed.
+/// 10^-12). Never uses more queries than allowed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AdaptiveBayes {
     goal: Goal,

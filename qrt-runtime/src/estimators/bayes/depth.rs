@@ -11,10 +11,10 @@ use super::support::turned;
 use crate::estimators::{MAX_ITERATIONS, Noise};
 
 /// k times the width of the posterior to aim at. Measured over a uniform in [0, 1]: from 0.10 to
-/// 0.14, queries times error at 95 % are within 5 % of their least; at 0.2, one run in a thousand
-/// ends at another mode, with errors a hundred times as large.
+/// 0.14, queries times 95th-percentile error are within 5 % of their least; at 0.2, one run in a
+/// thousand ends at another mode, with errors a hundred times as large.
 const BEST: f64 = 0.12;
-/// Depths tried, as shares of that.
+/// Query depths tried, as fractions of that.
 const AROUND: [f64; 24] = [
     0.60, 0.64, 0.68, 0.72, 0.76, 0.80, 0.83, 0.86, 0.89, 0.92, 0.95, 0.98, 1.0, 1.03, 1.06, 1.09,
     1.12, 1.15, 1.18, 1.21, 1.25, 1.29, 1.34, 1.40,
@@ -24,11 +24,11 @@ const AROUND: [f64; 24] = [
 const CLOSELY: usize = 4;
 /// Otherwise every second one.
 const EVERY: usize = 2;
-/// Where the best is below this, every depth up to it is tried.
+/// Where the best is below this, every query depth up to it is tried.
 const SHALLOW: u64 = 6;
 /// The standard deviation over the width, above which there is more than one mode.
 const ONE_MODE: f64 = 1.15;
-/// What share of the variance a round of several shots at one depth is to take.
+/// What fraction of the variance a round of several shots at one query depth is to take.
 const ROUND: f64 = 0.3;
 
 /// What to measure next.
@@ -38,12 +38,13 @@ pub(super) struct Measurement {
     pub(super) shots: u64,
 }
 
-/// The depth, near the one that fits the posterior's width, whose shot is expected to sharpen the
-/// posterior most per query: the largest growth of `1/sigma`, where sigma^2 is the expected
-/// variance over all modes. So of the depths that sharpen one mode, that is preferred which rules
-/// out others. At most `left` queries, which is at least one.
+/// The query depth, near the one that fits the posterior's width, whose shot is expected to sharpen
+/// the posterior most per query: the largest growth of `1/sigma`, where sigma^2 is the expected
+/// variance over all modes. So of the query depths that sharpen one mode, that is preferred which
+/// rules out others. At most `left` queries, which is at least one.
 ///
-/// Where noise or [`MAX_ITERATIONS`] forbid the fitting depth, several shots are taken at once.
+/// Where noise or [`MAX_ITERATIONS`] forbid the fitting query depth, several shots are taken at
+/// once.
 pub(super) fn choose(posterior: &mut Posterior, noise: &Noise, left: u64) -> Measurement {
     let width = posterior.width();
     let deepest = left.min(MAX_ITERATIONS).min(posterior.deepest() as u64);
@@ -53,7 +54,7 @@ pub(super) fn choose(posterior: &mut Posterior, noise: &Noise, left: u64) -> Mea
     if goal < SHALLOW as f64 {
         candidates.extend(0..=SHALLOW.min(deepest));
     } else {
-        candidates.extend(AROUND.map(|share| ((goal * share) as u64).min(deepest)));
+        candidates.extend(AROUND.map(|fraction| ((goal * fraction) as u64).min(deepest)));
         candidates.dedup();
         if posterior.variance().sqrt() < ONE_MODE * width {
             let place = posterior.mean_position();
@@ -93,8 +94,8 @@ pub(super) fn choose(posterior: &mut Posterior, noise: &Noise, left: u64) -> Mea
     }
 }
 
-/// The depth beyond which noise destroys more than depth gains: `r^2 k`, the information per query
-/// where r = (1 - p)^k of all shots are intact, is largest at half of 1/p.
+/// The query depth beyond which noise destroys more than a greater one gains: `r^2 k`, the
+/// information per query where r = (1 - p)^k of all shots are intact, is largest at half of 1/p.
 pub(super) fn useful(noise: &Noise) -> f64 {
     if noise.depolarising > 0.0 {
         -0.5 / libm::log1p(-noise.depolarising.min(0.999_999))
@@ -103,11 +104,11 @@ pub(super) fn useful(noise: &Noise) -> f64 {
     }
 }
 
-/// The depth that fits the width: [`BEST`], or, towards the end, one that leaves no useless rest.
-/// `room` is width times the queries that are left. (From a dynamic programme over normal
+/// The query depth that fits the width: [`BEST`], or, towards the end, one that leaves no useless
+/// rest. `room` is width times the queries that are left. (From a dynamic programme over normal
 /// posteriors: one shot up to 0.27, two up to 0.55, three up to 0.85.)
 fn fitting(room: f64, width: f64) -> f64 {
-    let share = if room < 0.27 {
+    let fraction = if room < 0.27 {
         room
     } else if room < 0.55 {
         0.45 * room
@@ -116,10 +117,10 @@ fn fitting(room: f64, width: f64) -> f64 {
     } else {
         BEST
     };
-    if width > 0.0 { share / width } else { 0.0 }
+    if width > 0.0 { fraction / width } else { 0.0 }
 }
 
-/// The growth of 1/sigma per query, if a share `rest` of the variance remains.
+/// The growth of 1/sigma per query, if a fraction `rest` of the variance remains.
 fn per_query(rest: f64, iterations: u64) -> f64 {
     (1.0 / rest.max(1e-12).sqrt() - 1.0) / iterations.max(1) as f64
 }

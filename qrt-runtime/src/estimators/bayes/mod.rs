@@ -4,8 +4,8 @@
 //! posterior of theta = asin(sqrt(S/N))/pi, held coarse to fine around every mode, and where few S
 //! are left, over these.
 //!
-//! * [`AdaptiveBayes`] chooses every depth from it;
-//! * [`RandomDepth`] draws its depths at random.
+//! * [`AdaptiveBayes`] chooses every query depth from it;
+//! * [`RandomDepth`] draws its query depths at random.
 
 mod adaptive;
 mod depth;

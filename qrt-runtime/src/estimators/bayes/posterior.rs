@@ -1,4 +1,4 @@
-//! What is known of theta after shots at several depths.
+//! What is known of theta after shots at several query depths.
 
 use super::support::{self, Support};
 use crate::estimators::device::id_bits;
@@ -18,14 +18,14 @@ const UNLIKELIEST: f64 = 1e-30;
 /// Factors between two rescalings of a product.
 const FACTORS: usize = 8;
 
-/// Shots at one depth.
+/// Shots at one query depth.
 #[derive(Clone, Copy, Debug)]
 struct Shots {
     /// 2k + 1.
     multiple: u64,
     good: u64,
     bad: u64,
-    /// The share of shots that noise spares.
+    /// The fraction of shots that noise spares.
     intact: f64,
 }
 
@@ -38,7 +38,7 @@ struct Shots {
 pub(super) struct Posterior {
     total: u64,
     noise: Noise,
-    /// Bits of an id.
+    /// Bits of an index.
     bits: u32,
     support: Support,
     shots: Vec<Shots>,
@@ -58,13 +58,14 @@ pub(super) struct Posterior {
     cosines: Vec<f64>,
 }
 
-/// The posterior if every shot counted half, which depths are chosen by.
+/// The posterior if every shot counted half, which query depths are chosen by.
 ///
 /// What single shots at the best phase measure is as likely under one mode as under another, so
-/// that a wrong mode may come to seem certain; at an amplitude of 1/2, where every depth gives good
-/// and bad ids alike, nothing measured later would contradict it. Half as certain, the choice keeps
-/// testing other modes: errors of many standard deviations become rare, at the price of a tenth of
-/// the queries. (Bayesian amplitude estimation's annealing, Ramôa & Santos 2024, has the same aim.)
+/// that a wrong mode may come to seem certain; at an amplitude of 1/2, where every query depth
+/// gives good and bad indices alike, nothing measured later would contradict it. Half as certain,
+/// the choice keeps testing other modes: errors of many standard deviations become rare, at the
+/// price of a tenth of the queries. (Bayesian amplitude estimation's annealing, Ramôa & Santos
+/// 2024, has the same aim.)
 #[derive(Clone, Debug, Default)]
 struct Tempered {
     mass: Vec<f64>,
@@ -143,7 +144,7 @@ impl Posterior {
         slope * self.width() < 4.0 * error
     }
 
-    /// The share of shots with so many iterations that noise spares.
+    /// The fraction of shots with so many iterations that noise spares.
     pub(super) fn intact(&self, iterations: u64) -> f64 {
         if self.noise == Noise::NONE || iterations == 0 {
             1.0
@@ -164,7 +165,7 @@ impl Posterior {
         0.25 * (most * most - self.information).max(0.0).sqrt()
     }
 
-    /// The expected variance after one more shot, as a share of the present; of the posterior in
+    /// The expected variance after one more shot, as a fraction of the present; of the posterior in
     /// which shots count half.
     ///
     /// With `C = E[c]` and `D = E[(x - mean) c]` of `c = 1 - 2 P(good)`, a shot leaves
@@ -320,7 +321,7 @@ impl Posterior {
             .update(&self.mass, &self.prior, &self.deviations);
     }
 
-    /// The mean fraction of good ids.
+    /// The mean fraction of good indices.
     pub(super) fn mean_amplitude(&self) -> f64 {
         let mean: f64 = (self.mass.iter().enumerate())
             .map(|(index, mass)| mass * self.support.amplitude(index, self.total))
@@ -406,8 +407,8 @@ fn rescale(mass: &mut [f64]) {
     }
 }
 
-/// Many shots of one depth: logarithms, relative to the likeliest point, so that what large counts
-/// multiply is small.
+/// Many shots of one query depth: logarithms, relative to the likeliest point, so that what large
+/// counts multiply is small.
 fn multiply_many(shots: Shots, cosines: &[f64], mass: &mut [f64]) {
     let (good, bad) = (shots.good as f64, shots.bad as f64);
     // P(good) = (1 - c)/2, at its likeliest where c is this.

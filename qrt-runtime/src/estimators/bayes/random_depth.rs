@@ -1,4 +1,4 @@
-//! `random-depth`: depths drawn at random from a growing range.
+//! `random-depth`: query depths drawn at random from a growing range.
 
 use super::posterior::Posterior;
 use super::{Goal, depth};
@@ -9,13 +9,13 @@ use crate::estimators::{
 /// `random-depth`: single shots after a number of iterations drawn uniformly from a range that
 /// grows from shot to shot, and the posterior mean.
 ///
-/// After Lu & Lin, *Random-depth quantum amplitude estimation* (2023): with the fixed depths of
-/// MLAE there are critical amplitudes, at which a depth tells nothing and the likelihood has two
-/// equal peaks; random depths have none. Theirs maximise the likelihood of many shots per range;
-/// here every shot has a depth of its own, the range grows by a factor of 1.09 with each, and the
-/// estimate is the mean of the whole posterior under a prior uniform in the amplitude. What was
-/// measured does not decide what is measured next, except when to stop, and that the range does
-/// not grow while more modes are left than can be held.
+/// After Lu & Lin, *Random-depth quantum amplitude estimation* (2023): with the fixed query depths
+/// of MLAE there are critical amplitudes, at which a query depth tells nothing and the likelihood
+/// has two equal peaks; random query depths have none. Theirs maximise the likelihood of many shots
+/// per range; here every shot has a query depth of its own, the range grows by a factor of 1.09
+/// with each, and the estimate is the mean of the whole posterior under a prior uniform in the
+/// amplitude. What was measured does not decide what is measured next, except when to stop, and
+/// that the range does not grow while more modes are left than can be held.
 ///
 /// Interval and stopping as with `adaptive-bayes`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,7 +23,7 @@ pub struct RandomDepth {
     goal: Goal,
 }
 
-/// What the range of depths grows by with each shot.
+/// What the range of query depths grows by with each shot.
 const GROWTH: f64 = 1.09;
 
 impl RandomDepth {

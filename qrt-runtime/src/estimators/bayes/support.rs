@@ -28,7 +28,7 @@ pub(super) enum Support {
 }
 
 impl Support {
-    /// All that `total` ids allow.
+    /// All that `total` indices allow.
     pub(super) fn whole(total: u64) -> Self {
         let grid = Self::Grid {
             level: FIRST_LEVEL,
@@ -62,7 +62,7 @@ impl Support {
         }
     }
 
-    /// The fraction of good ids at the lower and the upper end of a point's cell.
+    /// The fraction of good indices at the lower and the upper end of a point's cell.
     pub(super) fn ends(&self, index: usize, total: u64) -> (f64, f64) {
         match self {
             Self::Grid { level, .. } => {
@@ -76,7 +76,7 @@ impl Support {
         }
     }
 
-    /// The fraction of good ids at a point.
+    /// The fraction of good indices at a point.
     pub(super) fn amplitude(&self, index: usize, total: u64) -> f64 {
         match self {
             Self::Grid { .. } => amplitude(self.position(index)),
@@ -157,7 +157,7 @@ impl Support {
     }
 
     /// The prior's mass at each point, up to a common factor. The prior is uniform over the
-    /// integers; on a grid, uniform in the fraction of good ids.
+    /// integers; on a grid, uniform in the fraction of good indices.
     pub(super) fn prior(&self) -> Vec<f64> {
         match self {
             Self::Integers(integers) => vec![1.0; integers.len()],

@@ -55,7 +55,7 @@ fn over_every_count(total: u64, noise: Noise, shots: &[(u64, u64, u64)]) -> (f64
     (amplitude / mass, (second / mass - x * x).sqrt())
 }
 
-/// Depths as they come, many modes included; six thousand S against a grid. What holds less
+/// Query depths as they come, many modes included; six thousand S against a grid. What holds less
 /// than 10^-8 is dropped, which leaves that much of a variance out; a
 /// grid gives S = 0 and S = N half of their weight.
 #[test]
@@ -105,7 +105,7 @@ fn posteriors_equal_sums_over_every_count() {
 }
 
 /// Before the first shot: x = pi theta has density sin 2x on [0, pi/2] and variance pi^2/16 - 1/2.
-/// A good or a bad id at k = 0 makes that `2 sin 2x sin^2 x` or its mirror image, with variance
+/// A good or a bad index at k = 0 makes that `2 sin 2x sin^2 x` or its mirror image, with variance
 /// 15 pi^2/256 - 1/2.
 #[test]
 fn expected_variances_are_those_of_the_prior_in_closed_form() {
@@ -120,7 +120,7 @@ fn expected_variances_are_those_of_the_prior_in_closed_form() {
     assert!((posterior.variance() - after).abs() < 1e-5);
 }
 
-/// An exact answer where there are few ids, and the queries end there.
+/// An exact answer where there are few indices, and the queries end there.
 #[test]
 fn few_ids_are_counted_exactly() {
     for name in [Estimator::AdaptiveBayes, Estimator::RandomDepth] {
@@ -147,7 +147,8 @@ fn few_ids_are_counted_exactly() {
     }
 }
 
-/// Queries times error at 95 %, within what is stated; here of few runs, with room for chance.
+/// Queries times 95th-percentile error, within what is stated; here of few runs, with room for
+/// chance.
 #[test]
 fn errors_fall_with_the_queries() {
     for (name, most) in [
@@ -175,8 +176,8 @@ fn errors_fall_with_the_queries() {
     }
 }
 
-/// Depths of 2^40 and more, batches, known noise and asked errors: within the budget, inside [0, 1],
-/// and where they should be.
+/// Query depths of 2^40 and more, batches, known noise and asked errors: within the budget, inside
+/// [0, 1], and where they should be.
 #[test]
 fn extremes_hold() {
     for name in [Estimator::AdaptiveBayes, Estimator::RandomDepth] {

@@ -2,7 +2,7 @@
 //!
 //! Grover's mean algorithm, as Abrams & Williams simplified it, makes the *amplitude* of one basis
 //! state equal to the mean of f - E, so that amplitude amplification magnifies the distance from a
-//! reference E. They rotate a qubit by f(id) - E. The oracle here flips a phase, and the same
+//! reference E. They rotate a qubit by f(index) - E. The oracle here flips a phase, and the same
 //! amplitude comes of one qubit more, the *coin*:
 //!
 //! ```text
@@ -10,7 +10,7 @@
 //! R(phi) |0> = cos(phi) |0> + sin(phi) |1>,    sin^2(phi) = 1 / (1 + |1 - 2E|).
 //! ```
 //!
-//! With good ids, a = S/N of all, the oracle's mean sign is 1 - 2a. The coin's 0 contributes
+//! With good indices, a = S/N of all, the oracle's mean sign is 1 - 2a. The coin's 0 contributes
 //! `cos^2(phi)`, with the sign that is not that of 1 - 2E, so that the two cancel at a = E:
 //!
 //! ```text
@@ -38,8 +38,8 @@ impl Device<'_> {
     /// that give heads: all bits 0 if m is odd, any other outcome if m is even. At least one query.
     ///
     /// Without noise the probability is `sin^2(m omega)` with
-    /// `sin(omega) = |a - E| / max(E, 1 - E)`, a = S/N. On a state that noise destroyed, the ids
-    /// and the coin read 0 with probability 1/(2N). Outcomes that are read wrongly count as
+    /// `sin(omega) = |a - E| / max(E, 1 - E)`, a = S/N. On a state that noise destroyed, the
+    /// index and the coin read 0 with probability 1/(2N). Outcomes that are read wrongly count as
     /// destroyed.
     ///
     /// # Errors
@@ -95,7 +95,7 @@ mod tests {
     use crate::estimators::{Noise, Problem};
     use crate::random::Stream;
 
-    /// Amplitudes of n ids and the coin, which is the highest qubit. All gates are real.
+    /// Amplitudes of n indices and the coin, which is the highest qubit. All gates are real.
     struct State {
         ids: u32,
         amplitudes: Vec<f64>,
@@ -125,7 +125,7 @@ mod tests {
             (0..self.ids).for_each(|qubit| self.gate(qubit, [[h, h], [h, -h]]));
         }
 
-        /// The circuit W of this module's page, with the first `good` ids good.
+        /// The circuit W of this module's page, with the first `good` indices good.
         fn shifted(&mut self, good: usize, reference: f64) {
             let tilt = (1.0 - 2.0 * reference).abs();
             let (sine, cosine) = ((1.0 / (1.0 + tilt)).sqrt(), (tilt / (1.0 + tilt)).sqrt());
@@ -145,7 +145,7 @@ mod tests {
         }
     }
 
-    /// The state vector, gate by gate, against the closed form; all S of up to 16 ids.
+    /// The state vector, gate by gate, against the closed form; all S of up to 16 indices.
     #[test]
     fn the_circuit_measures_what_is_drawn_from() {
         for ids in 0..=4 {
@@ -182,8 +182,8 @@ mod tests {
         }
     }
 
-    /// Shares of heads, and with noise their mixture with those of the maximally mixed state of
-    /// four ids and a coin.
+    /// Fractions of heads, and with noise their mixture with those of the maximally mixed state of
+    /// four indices and a coin.
     #[test]
     fn heads_are_drawn_with_and_without_noise() {
         let problem = Problem { good: 3, total: 16 };

@@ -1,14 +1,15 @@
-//! Ranges of the angle, and the depth at which they can be halved.
+//! Ranges of the angle, and the query depth at which they can be halved.
 //!
-//! The share of good ids after k iterations, `sin^2((2k+1) pi theta)`, tells theta only where it is
-//! monotone: `m theta` between two multiples of half a turn, m = 2k+1. Those are its *sections*. An
-//! arc of angles is measured best at the largest m that keeps the whole arc within one section.
+//! The fraction of good indices after k iterations, `sin^2((2k+1) pi theta)`, tells theta only
+//! where it is monotone: `m theta` between two multiples of half a turn, m = 2k+1. Those are its
+//! *sections*. An arc of angles is measured best at the largest m that keeps the whole arc within
+//! one section.
 //!
 //! To find it is a problem of integers: the largest m for which no multiple of half a turn lies
 //! inside `(m low, m high)`. Tried downwards, that can take as many steps as m is large (around
-//! theta = 1/3, say). But the number of all m in a range that will do is a difference of two sums of
-//! `floor((a i + b) / 2^63)`, which Euclid's algorithm adds up in logarithmic time; so the largest is
-//! found by bisection.
+//! theta = 1/3, say). But the number of all m in a range that will do is a difference of two sums
+//! of `floor((a i + b) / 2^63)`, which Euclid's algorithm adds up in logarithmic time; so the
+//! largest is found by bisection.
 
 use crate::estimators::turns::{HALF, amplitude, of_sine_squared};
 
@@ -22,7 +23,7 @@ pub(super) struct Arc {
 /// Which multiples of theta a circuit can show.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Multiples {
-    /// 2k+1, by measuring the id after k iterations.
+    /// 2k+1, by measuring the index after k iterations.
     Odd,
     /// All: 2k also, by measuring whether the state has returned.
     All,
@@ -45,7 +46,7 @@ const SLACK: u64 = 1 << 14;
 const TRIED: u64 = 64;
 
 impl Arc {
-    /// All angles.
+    /// The arc of all angles: half a turn.
     pub(super) const ALL: Self = Self { low: 0, high: HALF };
 
     pub(super) fn width(self) -> u64 {
@@ -116,10 +117,11 @@ impl Arc {
         floors(self.low, 0) - floors(self.high, HALF - 1) + 2 * i128::from(count)
     }
 
-    /// The angles of a section of `multiple` at which the share of good ids is in `shares`.
-    pub(super) fn of_shares(multiple: u64, section: u64, shares: (f64, f64)) -> Self {
+    /// The angles of a section of `multiple` at which the fraction of good indices is in
+    /// `fractions`.
+    pub(super) fn of_shares(multiple: u64, section: u64, fractions: (f64, f64)) -> Self {
         let start = u128::from(section) << 63;
-        let offsets = (of_sine_squared(shares.0), of_sine_squared(shares.1));
+        let offsets = (of_sine_squared(fractions.0), of_sine_squared(fractions.1));
         let (near, far) = if section.is_multiple_of(2) {
             offsets
         } else {
@@ -225,9 +227,9 @@ mod tests {
         ) {
             let multiple = (1 << power) + 1;
             let section = (product(multiple, angle) >> 63) as u64;
-            let share = crate::estimators::turns::sine_squared(multiple.wrapping_mul(angle)).0;
-            let shares = ((share - low).max(0.0), (share + high).min(1.0));
-            let arc = Arc::of_shares(multiple, section, shares);
+            let fraction = crate::estimators::turns::sine_squared(multiple.wrapping_mul(angle)).0;
+            let fractions = ((fraction - low).max(0.0), (fraction + high).min(1.0));
+            let arc = Arc::of_shares(multiple, section, fractions);
             prop_assert!(arc.low <= angle && angle <= arc.high);
             prop_assert_eq!(arc.section(multiple), Some(section));
         }

@@ -4,18 +4,19 @@ use super::{Failures, Goal, Iterative, Multiples, Rules};
 use crate::estimators::Settings;
 
 impl Iterative {
-    /// `miqae`: modified iterative quantum amplitude estimation (Fukuzawa, Ho, Irani & Zion, *Modified
-    /// iterative quantum amplitude estimation is asymptotically optimal*, 2022), with Clopper-Pearson
-    /// intervals.
+    /// `miqae`: modified iterative quantum amplitude estimation (Fukuzawa, Ho, Irani & Zion,
+    /// *Modified iterative quantum amplitude estimation is asymptotically optimal*, 2022), with
+    /// Clopper-Pearson intervals.
     ///
-    /// Odd multiples of theta, each at least three times the one before. What may fail at a multiple m
-    /// is `(2/3) m / m_max` of what may fail at all, `m_max = pi / (4 error)`: errors at shallow depths,
-    /// which would be large, are made rare, and cost little. The logarithm of the logarithm in the
-    /// cost of [`Iterative::iqae`] is gone, and the root mean square error falls with 1/queries.
+    /// Odd multiples of theta, each at least three times the one before. The failure probability at
+    /// a multiple m is `(2/3) m / m_max` of the whole failure probability,
+    /// `m_max = pi / (4 error)`: errors at shallow query depths, which would be large, are made
+    /// rare, and cost little. The logarithm of the logarithm in the cost of [`Iterative::iqae`] is
+    /// gone, and the root mean square error falls with 1/queries.
     ///
-    /// Interval: the last arc; at 95 % asked, 98 to 99 % are held.
+    /// Interval: the last arc. At a confidence of 95 %, the coverage is 98 to 99 %.
     ///
-    /// Noise is not reckoned with: shares are taken for those of a perfect device.
+    /// Noise is not reckoned with: fractions are taken for those of a perfect device.
     pub fn miqae(settings: &Settings) -> Self {
         Self {
             goal: Goal::new(settings, 5.5),

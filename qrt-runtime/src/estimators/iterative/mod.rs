@@ -1,10 +1,10 @@
 //! Estimation by ever narrower arcs: `iqae`, `miqae` and `chebyshev`.
 //!
 //! All three keep an arc of angles that holds theta, measure at the deepest multiple of theta that
-//! still tells all angles of the arc apart, and turn the exact interval of the measured share into
-//! a narrower arc. They differ in the multiples that they may use, in how much deeper the next
-//! measurement must be, in how many shots they take at once, and in how they divide what may fail
-//! among the depths: those are the [`Rules`], and each estimator says its own.
+//! still tells all angles of the arc apart, and turn the exact interval of the measured fraction
+//! into a narrower arc. They differ in the multiples that they may use, in how much deeper the next
+//! measurement must be, in how many shots they take at once, and in how they divide the failure
+//! probability among the query depths: those are the [`Rules`], and each estimator says its own.
 //!
 //! An arc replaces the one before it only as far as both agree; where they don't, which happens
 //! only when an interval has failed, the later one stands, as published.
@@ -43,17 +43,17 @@ struct Rules {
     ratio: u64,
     /// Shots taken at once.
     shots: u64,
-    /// How what may fail is divided among the depths.
+    /// How the failure probability is divided among the query depths.
     failures: Failures,
     /// Once as many shots would leave less than this many times the error, a tenth of those taken
-    /// at the depth are taken next.
+    /// at the query depth are taken next.
     late: Option<f64>,
 }
 
-/// How what may fail is divided among the depths.
+/// How the failure probability is divided among the query depths.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Failures {
-    /// The same for each.
+    /// The same failure probability for each query depth.
     Equal,
     /// In proportion to the multiple: the deeper, the more.
     ByMultiple,
@@ -62,9 +62,9 @@ enum Failures {
 /// What is left for a late phase is worth at least so many shots.
 const FEW_SHOTS: u64 = 5;
 
-/// What is taken off what may fail, because a depth's interval is looked at after every batch of
-/// shots, which the published methods that divide it equally leave out. Without it, 92 % of the
-/// intervals hold a = 1/2 at worst where 95 % are asked; with it, 95 %.
+/// What is taken off the failure probability, because a query depth's interval is looked at after
+/// every batch of shots, which the published methods that divide it equally leave out: a factor.
+/// Without it, the coverage at a confidence of 95 % is 92 % at worst, at a = 1/2; with it, 95 %.
 const LOOKS: f64 = 0.6;
 
 /// What is wanted, as this family understands it.
@@ -72,14 +72,14 @@ const LOOKS: f64 = 0.6;
 struct Goal {
     /// Half-width of the interval of S/N at which to stop.
     error: f64,
-    /// The most queries.
+    /// The most queries that all query depths together may use.
     queries: u64,
     confidence: f64,
 }
 
 impl Goal {
-    /// The asked error; without one, the error that a method reaches with the queries there are. Its
-    /// `cost` is queries times error: about what most runs take.
+    /// The asked error; without one, the error that a method reaches with the queries there are.
+    /// Its `cost` is queries times error: about what most runs take.
     fn new(settings: &Settings, cost: f64) -> Self {
         let reachable = (cost / settings.queries as f64).clamp(1e-15, 0.499);
         Self {
@@ -97,18 +97,18 @@ impl Goal {
 }
 
 impl Rules {
-    /// What may fail at a depth.
+    /// The failure probability at a query depth.
     fn failure(&self, goal: &Goal, multiple: u64) -> f64 {
         let all = 1.0 - goal.confidence;
         let ratio = self.ratio as f64;
         let deepest = goal.deepest().max(1.0);
-        let share = match self.failures {
-            // As many depths as there can be.
+        let fraction = match self.failures {
+            // As many query depths as there can be.
             Failures::Equal => LOOKS / (1.0 + (libm::log(deepest) / libm::log(ratio)).floor()),
             // A geometric series, the last term of which is at most 1.
             Failures::ByMultiple => (1.0 - 1.0 / ratio) * (multiple as f64 / deepest).min(1.0),
         };
-        all * share
+        all * fraction
     }
 
     /// A multiple of which nothing is measured yet.
@@ -147,15 +147,15 @@ impl Rules {
                 break;
             }
             depth.measure(device, shots)?;
-            let shares = clopper_pearson(depth.hits, depth.shots, depth.failure);
-            let measured = Arc::of_shares(depth.multiple, section, depth.sines(shares));
+            let fractions = clopper_pearson(depth.hits, depth.shots, depth.failure);
+            let measured = Arc::of_shares(depth.multiple, section, depth.sines(fractions));
             arc = measured.intersection(arc).unwrap_or(measured);
         }
         let (low, high) = arc.amplitudes();
         Ok(device.estimate(start, 0.5 * (low + high), (low, high), goal.confidence))
     }
 
-    /// The shots for which the queries must suffice, for a depth to be worth measuring.
+    /// The shots for which the queries must suffice, for a query depth to be worth measuring.
     fn least_shots(&self) -> u64 {
         if self.late.is_some() {
             self.shots.min(FEW_SHOTS)
@@ -170,7 +170,7 @@ impl Rules {
             return self.shots;
         };
         // Carried over to S/N.
-        let (from, to) = (depth.share(arc.low), depth.share(arc.high));
+        let (from, to) = (depth.fraction(arc.low), depth.fraction(arc.high));
         let reachable = depth.widest * 2.0 * arc.error() / (to - from).abs();
         if reachable < late * goal.error {
             (depth.shots / 10).clamp(1, self.shots)
@@ -184,9 +184,9 @@ impl Rules {
 #[derive(Clone, Copy, Debug)]
 struct Depth {
     multiple: u64,
-    /// What may fail.
+    /// The failure probability of these measurements, in (0, 1).
     failure: f64,
-    /// The largest half-width of the share's interval after one batch of shots.
+    /// The largest half-width of the fraction's interval after one batch of shots.
     widest: f64,
     shots: u64,
     hits: u64,
@@ -197,7 +197,7 @@ impl Depth {
         self.multiple % 2 == 1
     }
 
-    /// Queries a shot.
+    /// Queries that one shot uses, at least 1.
     fn cost(&self) -> u64 {
         (self.multiple / 2).max(1)
     }
@@ -213,7 +213,7 @@ impl Depth {
         Ok(())
     }
 
-    /// From shares of hits to `sin^2` of the multiple: odd ones show it, even ones what remains.
+    /// From fractions of hits to `sin^2` of the multiple: odd ones show it, even ones what remains.
     fn sines(&self, (low, high): (f64, f64)) -> (f64, f64) {
         if self.is_odd() {
             (low, high)
@@ -223,7 +223,7 @@ impl Depth {
     }
 
     /// `sin^2` of the multiple of an angle.
-    fn share(&self, angle: u64) -> f64 {
+    fn fraction(&self, angle: u64) -> f64 {
         super::turns::sine_squared(self.multiple.wrapping_mul(angle)).0
     }
 }

@@ -13,7 +13,7 @@ fn settings(queries: u64, error: Option<f64>) -> Settings {
     }
 }
 
-/// Runs on a uniform in [0, 1]: the mean of the queries, the share of runs within the error.
+/// Runs on a uniform in [0, 1]: the mean of the queries, the fraction of runs within the error.
 fn mean_queries(estimator: &dyn AmplitudeEstimator, error: f64, runs: u32) -> (f64, f64) {
     let (mut queries, mut within) = (0.0, 0.0);
     for run in 0..runs {
@@ -31,9 +31,10 @@ fn mean_queries(estimator: &dyn AmplitudeEstimator, error: f64, runs: u32) -> (f
     (queries, within)
 }
 
-/// Rall & Fuller measure 3.99/error on average at 95 %, for an error of the amplitude's root. (Their
-/// method as published, run on roots uniform in [0, 1], takes 4.05/error in this unit.) Here it
-/// is a tenth more, for intervals that hold though they are looked at often.
+/// Rall & Fuller measure 3.99/error on average at a confidence of 95 %, for an error of the
+/// amplitude's root. (Their method as published, run on roots uniform in [0, 1], takes 4.05/error
+/// in this unit.) Here it is a tenth more, for intervals that keep their coverage though they are
+/// looked at often.
 #[test]
 fn chebyshev_takes_the_published_queries() {
     let error = 1e-4;
@@ -66,9 +67,9 @@ fn iterations_keep_the_published_bounds() {
     }
 }
 
-/// What may fail at all depths together is what may fail.
+/// The failure probabilities at all query depths add up to the whole failure probability.
 #[test]
-fn failures_add_up_to_what_may_fail() {
+fn failures_add_up_to_the_failure_probability() {
     let goal = Goal::new(&settings(1, Some(1e-6)), 1.0);
     for (failures, ratio) in [(Failures::Equal, 2), (Failures::ByMultiple, 3)] {
         let rules = Rules {
@@ -110,14 +111,14 @@ fn returns_of_the_state_are_even_multiples() {
         let mut device = Device::new(problem, noise, &mut stream).unwrap();
         for k in [0_i32, 1, 2, 3, 5, 17] {
             let shots = 100_000;
-            let share = device.returned(k as u64, shots).unwrap() as f64 / shots as f64;
+            let fraction = device.returned(k as u64, shots).unwrap() as f64 / shots as f64;
             let right = (1.0 - depolarising).powi(k);
             let ideal = libm::cos(f64::from(2 * k) * angle).powi(2);
             let expected = right * ideal + (1.0 - right) / 1024.0;
             let deviation = (expected * (1.0 - expected) / shots as f64).sqrt();
             assert!(
-                (share - expected).abs() <= 5.0 * deviation + 1e-12,
-                "{k}: {share}, {expected}"
+                (fraction - expected).abs() <= 5.0 * deviation + 1e-12,
+                "{k}: {fraction}, {expected}"
             );
         }
         assert_eq!(device.usage().queries, 100_000 * (1 + 2 + 3 + 5 + 17));

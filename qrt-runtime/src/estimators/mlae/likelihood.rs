@@ -1,6 +1,6 @@
 //! How likely what was measured is under each angle.
 //!
-//! With h_j good ids among n_j after k_j iterations, m_j = 2 k_j + 1,
+//! With h_j good indices among n_j after k_j iterations, m_j = 2 k_j + 1,
 //!
 //! ```text
 //! L(theta) = sum_j h_j ln p_j + (n_j - h_j) ln(1 - p_j),
@@ -28,7 +28,7 @@ pub(super) struct Level {
     pub(super) intact: f64,
 }
 
-/// A share and what is missing to 1, each to its own precision.
+/// A fraction and its complement to 1, each to its own precision.
 type Share = (f64, f64);
 
 impl Level {
@@ -47,12 +47,12 @@ impl Level {
         )
     }
 
-    fn share(&self, angle: u64, any: Share) -> Share {
+    fn fraction(&self, angle: u64, any: Share) -> Share {
         self.mixed(sine_squared(self.multiple.wrapping_mul(angle)), any)
     }
 
-    /// An upper bound of the term over angles in `low ..= high`, given the shares of all ids at
-    /// both ends.
+    /// An upper bound of the term over angles in `low ..= high`, given the fractions of all indices
+    /// at both ends.
     fn bound(&self, low: u64, high: u64, any: (Share, Share)) -> f64 {
         let (least, most) = self.ideal_range(low, high);
         let least = self.mixed(least, any.0);
@@ -97,7 +97,7 @@ impl Level {
     /// The derivative of the term by the angle in radians.
     fn slope(&self, angle: u64) -> f64 {
         let any = sine_squared(angle);
-        let (p, q) = self.share(angle, any);
+        let (p, q) = self.fraction(angle, any);
         let double = |(sine, cosine): Share, positive: bool| {
             let product = 2.0 * (sine * cosine).sqrt();
             if positive { product } else { -product }
@@ -116,14 +116,14 @@ impl Level {
 
     /// ln of the probability of the hits.
     fn ln_probability(&self, angle: u64) -> f64 {
-        let (p, q) = self.share(angle, sine_squared(angle));
+        let (p, q) = self.fraction(angle, sine_squared(angle));
         if p <= 0.0 || q <= 0.0 {
             return self.term((p, q));
         }
         ln_probability(self.shots as f64, p, self.hits as f64)
     }
 
-    /// The angle nearest to the middle of `low .. high`, and inside, at which this level's share
+    /// The angle nearest to the middle of `low .. high`, and inside, at which this level's fraction
     /// turns round.
     fn turning_point(&self, low: u64, high: u64) -> Option<u64> {
         let multiple = u128::from(self.multiple);
@@ -141,7 +141,7 @@ impl Level {
         (low < angle && angle < high).then_some(angle)
     }
 
-    /// Whether shares under different angles differ enough to matter at all.
+    /// Whether fractions under different angles differ enough to matter at all.
     fn tells(&self) -> bool {
         self.shots as f64 * self.intact * self.intact > 1e-3
     }
@@ -170,12 +170,12 @@ impl Likelihood {
         self.levels.iter().all(|level| level.intact >= 1.0)
     }
 
-    /// L, relative to what any shares at all could reach.
+    /// L, relative to what any fractions at all could reach.
     pub(super) fn at(&self, angle: u64) -> f64 {
         let any = sine_squared(angle);
         self.levels
             .iter()
-            .map(|level| level.term(level.share(angle, any)))
+            .map(|level| level.term(level.fraction(angle, any)))
             .sum()
     }
 
@@ -201,7 +201,7 @@ impl Likelihood {
             .sum()
     }
 
-    /// Good ids and shots, where there was nothing but paths.
+    /// Good indices and shots, where there was nothing but paths.
     pub(super) fn paths(&self) -> Option<(u64, u64)> {
         match self.levels[..] {
             [level] if level.multiple == 1 => Some((level.hits, level.shots)),

@@ -19,22 +19,22 @@ use search::{Found, search};
 /// Yamamoto, *Amplitude estimation without phase estimation*, 2020).
 ///
 /// Shots after 0, 1, 2, 4, ... Grover iterations, the exponential schedule, and the angle under
-/// which all that was measured is likeliest. How many shots are taken at each depth is said at
-/// [`Mlae::SHOTS`]; what doubling leaves of the queries makes one last depth.
+/// which all that was measured is likeliest. How many shots are taken at each query depth is said
+/// at [`Mlae::SHOTS`]; what doubling leaves of the queries makes one last query depth.
 ///
 /// Interval: all angles whose ln likelihood is at most [`Mlae::REACH`] times half the square of
 /// the normal quantile below the largest, from the first to the last of them
 /// ([`Estimate::candidates`] says how many ranges they form). That the ratio follows a chi-square
 /// distribution (Wilks) is an asymptotic statement, and here shots are few; the factor is
-/// measured: at 95 % asked, 95 to 97 % are held. Where the queries suffice for paths alone, it is
-/// Clopper & Pearson's interval.
+/// measured: at a confidence of 95 %, the coverage is 95 to 97 %. Where the queries suffice for
+/// paths alone, it is Clopper & Pearson's interval.
 ///
-/// Where an error is asked, depths go only as deep as needed on average, and beyond while the
+/// Where an error is asked, query depths go only as deep as needed on average, and beyond while the
 /// interval is too wide.
 ///
-/// Known noise enters the likelihood and the schedule: depths are limited to where a query tells
-/// most about theta, `1/(2 d)` for a depolarising probability d, and shots grow by the square of
-/// the share of shots that are lost.
+/// Known noise enters the likelihood and the schedule: query depths are limited to where a query
+/// tells most about theta, `1/(2 d)` for a depolarising probability d, and shots grow by the square
+/// of the fraction of shots that are lost.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mlae {
     queries: u64,

@@ -1,13 +1,13 @@
-//! Which depths are measured, and how often.
+//! Which query depths are measured, and how often.
 
 use super::Mlae;
 use crate::estimators::{MAX_ITERATIONS, Noise};
 
-/// The depths and shots of maximum likelihood estimation on a device with known noise.
+/// The query depths and shots of maximum likelihood estimation on a device with known noise.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Schedule {
     noise: Noise,
-    /// Bits of an id.
+    /// Bits of an index.
     bits: u32,
     /// The deepest that is worth measuring.
     cap: u64,
@@ -56,7 +56,7 @@ impl Schedule {
         let spent = cost(&levels);
         let left = (u128::from(queries) - spent) as u64;
         if deepest == self.cap && deepest > 0 {
-            // No deeper: more shots at every depth.
+            // No deeper: more shots at every query depth.
             let factor = u128::from(queries) / spent;
             for level in &mut levels {
                 level.1 = (u128::from(level.1) * factor) as u64;
@@ -80,7 +80,7 @@ impl Schedule {
         let depth = (deepest + deepest / 2 + 1).min(self.cap);
         let shots = self.shots(depth, 0);
         if depth == 0 || depth == deepest {
-            // As much again, at the same depth.
+            // As much again, at the same query depth.
             let shots = spent.min(left) / depth.max(1);
             return (shots > 0).then_some((depth, shots));
         }
@@ -100,7 +100,7 @@ impl Schedule {
             .collect()
     }
 
-    /// Shots at a depth, with so many deeper ones to come.
+    /// Shots at a query depth, with so many deeper ones to come.
     fn shots(&self, depth: u64, deeper: u32) -> u64 {
         let intact = self.intact(depth);
         let shots = (Mlae::SHOTS + Mlae::MORE_SHOTS * u64::from(deeper)) as f64;

@@ -21,9 +21,9 @@ const MOST_PARTS: usize = 20_000;
 pub(super) struct Found {
     /// The likeliest angle.
     pub(super) angle: u64,
-    /// The smallest and the largest angle at most `reach` below.
+    /// The smallest angle at which the likelihood is at most `reach` below its largest value.
     pub(super) low: u64,
-    /// See `low`.
+    /// The largest such angle.
     pub(super) high: u64,
     /// Separate ranges of such angles.
     pub(super) ranges: u32,

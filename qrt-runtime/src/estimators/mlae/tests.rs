@@ -65,23 +65,23 @@ proptest! {
     }
 }
 
-/// One binomial: the share itself, and the ends where n KL(h/n, p) is the reach.
+/// One binomial: the fraction itself, and the ends where n KL(h/n, p) is the reach.
 #[test]
 fn paths_alone_give_their_share() {
     for (hits, shots) in [(3, 10), (0, 7), (7, 7), (1, 1_000_000), (1 << 49, 1 << 51)] {
         let found = search(&likelihood(&[(0, hits, shots)], 1.0), 1.92);
         let (h, n) = (hits as f64, shots as f64);
-        let share = amplitude(found.angle);
+        let fraction = amplitude(found.angle);
         assert!(
-            (share - h / n).abs() <= 1e-3 * (h / n).sqrt() / n.sqrt(),
-            "{share}"
+            (fraction - h / n).abs() <= 1e-3 * (h / n).sqrt() / n.sqrt(),
+            "{fraction}"
         );
         let (low, high) = (amplitude(found.low), amplitude(found.high));
         for end in [low, high] {
             if end > 1e-9 && end < 1.0 - 1e-9 {
-                let part = |count: f64, share: f64| match count {
+                let part = |count: f64, fraction: f64| match count {
                     0.0 => 0.0,
-                    _ => count * libm::log(count / n / share),
+                    _ => count * libm::log(count / n / fraction),
                 };
                 let kl = part(h, end) + part(n - h, 1.0 - end);
                 assert!((kl - 1.92).abs() < 1e-3 * n.sqrt().min(100.0), "{kl}");
@@ -91,8 +91,8 @@ fn paths_alone_give_their_share() {
     }
 }
 
-/// Whatever the depth: all phases are measured as they are expected, and the angle is found to
-/// far less than a section of the deepest.
+/// Whatever the query depth: all phases are measured as they are expected, and the angle is found
+/// to far less than a section of the deepest.
 #[test]
 fn the_peak_is_found_at_any_depth() {
     let truth = of_sine_squared(0.2371);
@@ -144,7 +144,7 @@ fn schedules_keep_to_the_queries_and_use_them() {
     let levels = Schedule::new(Noise::NONE, 20).levels(1000);
     let depths: Vec<u64> = levels.iter().map(|level| level.0).collect();
     assert_eq!(depths, [0, 1, 2, 4, 8, 16, 32, 3]);
-    // Depths stop at 1 / (2 d).
+    // Query depths stop at 1 / (2 d).
     let levels = Schedule::new("depolarising=0.01".parse().unwrap(), 20).levels(1_000_000);
     assert_eq!(levels.last().map(|level| level.0), Some(49));
 }

@@ -19,9 +19,9 @@ const MOST_RAYS: usize = 16;
 /// What walks keep from one to the next: memory.
 #[derive(Default)]
 pub(super) struct Scratch {
-    /// A lone ray's.
+    /// The stack of a lone ray.
     pub(super) stack: Stack,
-    /// A beam's: numbers of nodes and their children, as `WIDE node + child`.
+    /// The stack of a beam: numbers of nodes and their children, as `WIDE node + child`.
     beam_stack: Vec<(f64, u32)>,
     lines: Vec<Line>,
     /// The lanes whose rays were asked for, and what they meet.

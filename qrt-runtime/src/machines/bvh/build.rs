@@ -1,7 +1,7 @@
 //! Building the tree: binned surface area heuristic, then eight children a node.
 //!
-//! The faces of a leaf share a main axis, so that a packet sees a ray turned one way only. Of a
-//! smooth mesh's leaves most do by themselves.
+//! The faces of a leaf share a main axis, so that a packet sees a ray with its axes permuted in one
+//! way only. Of a smooth mesh's leaves most do by themselves.
 
 use super::{Child, Node, WIDE};
 use glam::DVec3;
@@ -64,7 +64,7 @@ pub(super) fn boxes(geometry: &Geometry) -> Vec<Bounds> {
                 high: corner,
             })
         });
-        // The same share of a far corner's coordinates, for planes that were averaged.
+        // The same fraction of a far corner's coordinates, for planes that were averaged.
         let margin = margin * (1.0 + around.high.abs().max(around.low.abs()).max_element());
         Bounds {
             low: around.low - margin,
@@ -100,14 +100,15 @@ pub(super) fn tree(boxes: &[Bounds], axes: &[u8]) -> Tree {
     tree
 }
 
-/// Do `faces` make one packet?
+/// Whether `faces` make one packet.
 fn fit(axes: &[u8], faces: &[u32]) -> bool {
     let axis = |face: u32| axes[face as usize];
     faces.len() <= WIDE && faces.iter().all(|&face| axis(face) == axis(faces[0]))
 }
 
 impl Tree {
-    /// A node over `faces`, whose number it returns. `depth` counts binary splits above.
+    /// A node over `faces`, whose number it returns. `depth` is the number of binary splits
+    /// above it.
     fn node(&mut self, boxes: &[Bounds], axes: &[u8], faces: &mut [u32], depth: usize) -> u32 {
         let number = self.nodes.len() as u32;
         let empty = [
@@ -213,8 +214,8 @@ fn split(boxes: &[Bounds], faces: &mut [u32], depth: usize) -> usize {
 }
 
 fn bin_of(centre: f64, centres: Bounds, axis: usize) -> usize {
-    let share = (centre - centres.low[axis]) / (centres.high[axis] - centres.low[axis]);
-    ((share * BINS as f64) as usize).min(BINS - 1)
+    let fraction = (centre - centres.low[axis]) / (centres.high[axis] - centres.low[axis]);
+    ((fraction * BINS as f64) as usize).min(BINS - 1)
 }
 
 /// The axis and last bin of the left side whose cut costs least.

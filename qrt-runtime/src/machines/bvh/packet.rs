@@ -20,7 +20,7 @@ pub(super) struct Packet {
     plane: [u64; WIDE],
     /// Per edge, `a x + b y >= low`.
     edges: [[[f64; WIDE]; 3]; EDGES],
-    /// Places in [`Geometry::faces`].
+    /// The faces' places in [`Geometry::faces`].
     rank: [u32; WIDE],
     /// Edges of the face that has most.
     most_edges: u32,
@@ -40,7 +40,7 @@ impl Packet {
     pub(super) fn new(geometry: &Geometry, planes: &[u32], ranks: &[u32]) -> Self {
         let everywhere = [[0.0; WIDE], [0.0; WIDE], [f64::NEG_INFINITY; WIDE]];
         let mut packet = Self {
-            // A slope of NaN is never ahead.
+            // A face whose cos_theta is NaN is never ahead.
             form: [[f64::NAN; WIDE]; 2],
             offset: [0.0; WIDE],
             edges: [everywhere; EDGES],

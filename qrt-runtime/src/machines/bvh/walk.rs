@@ -4,7 +4,7 @@ use super::packet::bits;
 use super::{Bvh, Child, Node, WIDE};
 use crate::machines::lanes::Lanes;
 
-/// A ray, prepared.
+/// A ray with what the boxes' tests need of it, computed once.
 #[derive(Clone, Copy)]
 pub(super) struct Line {
     /// Along x, y, z, x, y, so that those from any axis on are neighbours.
@@ -14,7 +14,7 @@ pub(super) struct Line {
     pub(super) inverse: [f64; 3],
     /// A box's plane is at the distance `plane inverse + start`.
     pub(super) start: [f64; 3],
-    /// Is the direction negative?
+    /// By axis: whether the direction is negative.
     pub(super) backwards: [bool; 3],
     pub(super) from: u64,
 }
@@ -64,7 +64,7 @@ pub(super) type Stack = Vec<(f64, Child)>;
 pub(super) trait Search {
     /// Nothing beyond this distance matters.
     fn limit(&self) -> f64;
-    /// The ray meets face `rank` at `distance`: has the search seen enough?
+    /// The ray meets face `rank` at `distance`: whether the search has seen enough.
     fn meet(&mut self, rank: u32, distance: f64) -> bool;
 }
 
@@ -141,7 +141,7 @@ impl<S: pulp::Simd, T: Search> pulp::WithSimd for Walk<'_, S, T> {
 }
 
 impl Bvh {
-    /// Does a face that emits nothing hide an emitter at `distance`?
+    /// Whether a face that emits nothing hides an emitter at `distance`.
     #[inline(always)]
     pub(super) fn hides<S: pulp::Simd>(
         &self,
@@ -199,7 +199,7 @@ impl Bvh {
                 }
                 Child::Absent => {}
             }
-            // The nearest child left behind that is not beyond what was found since.
+            // The nearest child on the stack that is not beyond what was found since.
             loop {
                 let Some((near, child)) = stack.pop() else {
                     return false;

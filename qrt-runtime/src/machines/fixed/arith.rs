@@ -33,7 +33,7 @@ impl<K: Lane> Wrap<K> {
             return Self::none();
         }
         Self {
-            // A register of no bits holds 0: the id of a pixel's only path.
+            // A register of no bits holds 0: the index of a pixel's only path.
             mask: K::cut(u64::MAX.checked_shr(64 - width).unwrap_or(0).cast_signed()),
             half: K::cut(i64::from(signed && width > 0) << width.saturating_sub(1)),
         }

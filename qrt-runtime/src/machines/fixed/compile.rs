@@ -53,7 +53,7 @@ pub(super) fn kind_of(width: u32, signed: bool) -> Kind {
     }
 }
 
-/// Does the type read its top bit as a sign?
+/// Whether the type reads its top bit as a sign.
 pub(super) fn negative(ty: Type) -> bool {
     matches!(ty, Type::Int | Type::Fixed { .. })
 }

@@ -14,11 +14,11 @@ pub(super) const LANES: usize = 512;
 pub(super) enum Kind {
     /// A truth: a byte that is 0 or 1.
     Truth,
-    /// 16 bits.
+    /// Lanes of 16 bits.
     Short,
-    /// 32 bits.
+    /// Lanes of 32 bits.
     Int,
-    /// 64 bits.
+    /// Lanes of 64 bits.
     Long,
 }
 
@@ -72,7 +72,7 @@ pub(super) struct Slots {
 /// A type of lane.
 pub(super) trait Lane: Copy + Default + PartialEq + PartialOrd + std::fmt::Debug {
     const BITS: u32;
-    /// The lowest bits.
+    /// The value's lowest bits, as many as the lane has.
     fn cut(value: i64) -> Self;
     fn add(self, other: Self) -> Self;
     fn sub(self, other: Self) -> Self;
@@ -82,7 +82,7 @@ pub(super) trait Lane: Copy + Default + PartialEq + PartialOrd + std::fmt::Debug
     fn left(self, by: u32) -> Self;
     /// With copies of the sign.
     fn right(self, by: u32) -> Self;
-    /// With zeros.
+    /// Shifts right and fills with zeros.
     fn right_unsigned(self, by: u32) -> Self;
     /// `floor(a / b)` of numbers not negative, exact for fewer than `Float` bits; b is not 0.
     fn divided(self, by: Self, how: Float) -> Self;
@@ -120,12 +120,13 @@ impl Float {
     }
 }
 
-/// 2^23 and 2^52: what added to a smaller integer leaves this in the lowest bits of the significand.
+/// 2^23 and 2^52: what added to a smaller integer leaves this in the lowest bits of the
+/// significand.
 const SINGLE: f32 = 8_388_608.0;
 const DOUBLE: f64 = 4_503_599_627_370_496.0;
 
-// Through the significand, because conversions by `as` saturate, which costs more than the division,
-// and those of 64 bits are missing from most instruction sets.
+// Through the significand, because conversions by `as` saturate, which costs more than the
+// division, and those of 64 bits are missing from most instruction sets.
 
 /// The integer in 0 .. 2^23 that is the floor of this.
 #[inline(always)]

@@ -32,7 +32,7 @@ use rayon::prelude::*;
 use slots::Counts;
 use steps::{Block, Spares, Step};
 
-/// Of a register of `width` bits: the lowest that a block's consecutive ids run through.
+/// Of a register of `width` bits: the lowest that a block's consecutive path indices run through.
 fn pattern_bits(width: u32) -> u32 {
     width.min(LANES.ilog2())
 }
@@ -114,8 +114,8 @@ impl Fixed {
     ///
     /// `inputs` are the contents of the program's input registers, one a lane; `spans` the pixels
     /// that the lanes belong to; `outputs[k][lane]` becomes the k-th number asked for. The fastest
-    /// ids are consecutive ones, from a multiple of [`Fixed::LANES`], or of their number if this is
-    /// less, on.
+    /// path indices are consecutive ones, from a multiple of [`Fixed::LANES`], or of their number
+    /// if this is less, on.
     ///
     /// # Panics
     /// If there are more than [`Fixed::LANES`] lanes, or `lanes` are of another machine.
@@ -132,8 +132,8 @@ impl Fixed {
         }
     }
 
-    /// Calls `block` for each of `0..blocks`, on all threads, each with lanes of its own. Results are
-    /// in the order of blocks.
+    /// Calls `block` for each of `0..blocks`, on all threads, each with lanes of its own. Results
+    /// are in the order of blocks.
     pub fn blocks<T: Send>(
         &self,
         blocks: usize,
@@ -145,7 +145,7 @@ impl Fixed {
             .collect()
     }
 
-    /// Runs the program as [`Fixed::run`] does, and says in which lanes the sign is turned.
+    /// Runs the program as [`Fixed::run`] does, and says in which lanes the phase is flipped.
     ///
     /// # Panics
     /// As [`Fixed::run`].

@@ -35,7 +35,7 @@ fn follow(
 /// it. All have held 0.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Extremes {
-    /// By register.
+    /// By register: the least and the greatest number that it held.
     pub registers: Vec<[i64; 2]>,
 }
 

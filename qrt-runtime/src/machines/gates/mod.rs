@@ -2,9 +2,9 @@
 //!
 //! X, CNOT and Toffoli permute the basis states, so that each state is followed by itself, and a
 //! gate does the same to all of them: `t ^= 1`, `t ^= a`, `t ^= a & b`. A *row* holds one qubit of
-//! [`Gates::LANES`] states, a bit each, and a gate is a few instructions on vectors of bits. States span
-//! paths and pixels: what a pixel's circuit has built in, the classical parameters, are rows that gates
-//! read.
+//! [`Gates::LANES`] states, a bit each, and a gate is a few instructions on vectors of bits. States
+//! span paths and pixels: what a pixel's circuit has built in, the classical parameters, are rows
+//! that gates read.
 //!
 //! It knows nothing of numbers. What it computes is what the list of gates computes, which is why
 //! the machine that computes with integers is held against it.
@@ -102,7 +102,7 @@ impl Gates {
         self.lengths[circuit]
     }
 
-    /// Has circuit `circuit` no gates?
+    /// Whether circuit `circuit` has no gates.
     pub fn is_empty(&self, circuit: usize) -> bool {
         self.lengths[circuit] == 0
     }

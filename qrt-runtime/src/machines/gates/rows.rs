@@ -22,9 +22,9 @@ const LINE: usize = 8;
 /// A qubit that is not zero where it should be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Dirty {
-    /// The qubit.
+    /// The number of the qubit.
     pub qubit: Qubit,
-    /// The first lane in which it is not.
+    /// The first lane in which the qubit is not zero.
     pub lane: usize,
 }
 
@@ -34,8 +34,8 @@ impl fmt::Display for Dirty {
     }
 }
 
-/// [`super::Gates::LANES`] states: their qubits, the signs of their amplitudes, and the classical parameters of their
-/// pixels.
+/// [`super::Gates::LANES`] states: their qubits, the signs of their amplitudes, and the classical
+/// parameters of their pixels.
 #[derive(Debug)]
 pub struct Rows {
     words: Vec<u64>,
@@ -90,8 +90,8 @@ impl Rows {
     /// `values`.
     ///
     /// # Panics
-    /// If there are more than 64 qubits or [`super::Gates::LANES`] values, or a qubit that the circuits do not
-    /// have.
+    /// If there are more than 64 qubits or [`super::Gates::LANES`] values, or a qubit that the
+    /// circuits do not have.
     pub fn get(&self, qubits: &[Qubit], values: &mut [u64]) {
         assert!(qubits.len() <= 64, "a value has 64 bits");
         for (word, values) in values.chunks_mut(64).enumerate() {
@@ -104,8 +104,8 @@ impl Rows {
         }
     }
 
-    /// Sets the classical parameters to those of the spans' pixels, lane after lane from 0 on. Lanes
-    /// beyond belong to the last span.
+    /// Sets the classical parameters to those of the spans' pixels, lane after lane from 0 on.
+    /// Lanes beyond belong to the last span.
     pub fn set_parameters(&mut self, spans: &[Span<'_>]) {
         for (parameter, bit, row) in self.wiring.clone().parameters() {
             let words = self.row_mut(row);
@@ -122,12 +122,12 @@ impl Rows {
         }
     }
 
-    /// AxisPermuted signs: bit `lane % 64` of word `lane / 64`.
+    /// The lanes whose phase is flipped: bit `lane % 64` of word `lane / 64`.
     pub fn signs(&self) -> &[u64] {
         self.row(self.wiring.sign())
     }
 
-    /// Is a qubit other than `held` not zero in one of the lanes `0..lanes`?
+    /// The first qubit other than `held` that is not zero in one of the lanes `0..lanes`, if any.
     pub fn dirty(&self, held: &[Qubit], lanes: usize) -> Option<Dirty> {
         let mut free = vec![true; self.wiring.qubits() as usize];
         for qubit in held {

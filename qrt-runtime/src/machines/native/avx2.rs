@@ -78,7 +78,7 @@ impl Longs {
         Self(simd, [simd.avx._mm256_set1_epi64x(value); 2])
     }
 
-    /// With zeros.
+    /// Shifts right and fills with zeros.
     #[inline(always)]
     fn right_unsigned(self, by: u32) -> Self {
         let by = Self::all(self.0, by.into());
@@ -301,8 +301,8 @@ impl Vectors for V3 {
     fn table<const L: usize>(self, table: &[i32; L], index: Ints) -> Ints {
         const { assert!(L.is_power_of_two() && L > 1 && L <= 1 << 31) };
         let index = index.lowest(L.trailing_zeros());
-        // SAFETY: of each index only the bits below L <= 2^31 are left, so as a signed number it is in
-        // 0..L; the scale of 4 is an entry's size; so all that is read is in `table`.
+        // SAFETY: of each index only the bits below L <= 2^31 are left, so as a signed number it is
+        // in 0..L; the scale of 4 is an entry's size; so all that is read is in `table`.
         let found = unsafe {
             self.avx2
                 ._mm256_i32gather_epi32::<4>(table.as_ptr(), index.1)

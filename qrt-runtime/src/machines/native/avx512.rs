@@ -223,8 +223,8 @@ impl Vectors for V4 {
     fn table<const L: usize>(self, table: &[i32; L], index: Ints) -> Ints {
         const { assert!(L.is_power_of_two() && L > 1 && L <= 1 << 31) };
         let (f, index) = (self.avx512f, index.lowest(L.trailing_zeros()));
-        // SAFETY: of each index only the bits below L <= 2^31 are left, so as a signed number it is in
-        // 0..L; the scale of 4 is an entry's size; so all that is read is in `table`.
+        // SAFETY: of each index only the bits below L <= 2^31 are left, so as a signed number it is
+        // in 0..L; the scale of 4 is an entry's size; so all that is read is in `table`.
         let found = unsafe { f._mm512_i32gather_epi32::<4>(index.1, table.as_ptr()) };
         Ints(self, found)
     }

@@ -34,12 +34,13 @@ use std::marker::PhantomData;
     note = "`qrt!` writes code for circuits of at most 20,000 operations"
 )]
 pub trait NativeOracle: CompiledOracle {
-    /// Computes the paths of these ids in a pixel that has these classical parameters: by channel, how
-    /// many thresholds their colours exceed, before that is cut to `2^c`, and the colours.
+    /// Computes the paths with these indices in a pixel that has these classical parameters: by
+    /// channel, how many thresholds their colours exceed, before that is cut to `2^c`, and the
+    /// colours.
     fn native<V: Vectors>(v: V, words: &[u64], ids: V::Longs) -> [[V::Longs; 3]; 2];
 }
 
-/// Neighbouring ids of one pixel.
+/// Neighbouring path indices of one pixel.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Run<'a> {
     pub(super) first: u64,

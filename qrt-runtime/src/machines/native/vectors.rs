@@ -2,11 +2,11 @@
 
 /// Truths, one a lane.
 pub trait Truths: Copy {
-    /// Conjunction.
+    /// The conjunction of both, lane by lane.
     fn and(self, other: Self) -> Self;
     /// Where the two differ.
     fn xor(self, other: Self) -> Self;
-    /// Negation.
+    /// The negation, lane by lane.
     fn not(self) -> Self;
 }
 
@@ -18,7 +18,7 @@ pub trait Integers<T>: Copy {
     fn sub(self, other: Self) -> Self;
     /// `a b`
     fn mul(self, other: Self) -> Self;
-    /// Bit by bit.
+    /// The exclusive or, bit by bit.
     fn xor(self, other: Self) -> Self;
     /// By less than the lanes' width, as all shifts.
     fn left(self, by: u32) -> Self;
@@ -41,7 +41,7 @@ pub trait Integers<T>: Copy {
 pub trait Vectors: Copy {
     /// Lanes of a vector.
     const LANES: usize;
-    /// Truths.
+    /// The truth values of as many lanes.
     type Truths: Truths;
     /// 32 bits a lane.
     type Ints: Integers<Self::Truths>;
@@ -59,7 +59,7 @@ pub trait Vectors: Copy {
 
     /// With copies of the sign.
     fn widen(self, a: Self::Ints) -> Self::Longs;
-    /// The lowest bits.
+    /// The lowest bits of every lane, as many as fit.
     fn narrow(self, a: Self::Longs) -> Self::Ints;
 
     /// The lowest bits of `a b >> drop`, the product of all bits; `drop < 64`.

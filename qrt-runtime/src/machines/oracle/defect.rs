@@ -16,27 +16,27 @@ pub enum Defect {
         .dirty.qubit, .pixel[0], .pixel[1]
     )]
     Dirty {
-        /// Which, and in which lane.
+        /// The qubit, and the lane in which it is not zero.
         dirty: Dirty,
         /// Column and row of the path's pixel.
         pixel: [u32; 2],
-        /// The path.
+        /// The path's index.
         id: u64,
         /// What the qubit was last used for.
         register: String,
     },
-    /// A path whose id was changed, or what else it is given by.
+    /// A path whose index, or another input of the oracle, was changed.
     #[error("an input of path {id} of pixel ({}, {}) is changed", .pixel[0], .pixel[1])]
     Id {
         /// Column and row of the path's pixel.
         pixel: [u32; 2],
-        /// The path.
+        /// The path's index.
         id: u64,
     },
     /// Paths whose primary hits are inputs of the oracle, with nothing that finds them.
     #[error("the paths' primary hits are inputs of the oracle, and nothing finds them")]
     PrimaryHits,
-    /// A sign that was turned, or not, against the comparison.
+    /// A phase that was flipped, or not, against the comparison.
     #[error(
         "channel {channel}: the phase of comparator {comparator} is wrong for a colour above \
          {count} thresholds"
@@ -46,7 +46,7 @@ pub enum Defect {
         channel: usize,
         /// The thresholds that the colour exceeds.
         count: i64,
-        /// The comparator.
+        /// The comparator y, in `0..2^c`.
         comparator: u64,
     },
     /// A comparison that changes what it compares.
@@ -59,7 +59,7 @@ pub enum Defect {
         channel: usize,
         /// The thresholds that the colour exceeds.
         count: i64,
-        /// The comparator.
+        /// The comparator y, in `0..2^c`.
         comparator: u64,
     },
     /// A comparison that touches a qubit which holds something else.
@@ -67,9 +67,9 @@ pub enum Defect {
     Foreign {
         /// 0 red, 1 green, 2 blue, 3 luminance.
         channel: usize,
-        /// The qubit.
+        /// The number of the qubit that is touched.
         qubit: Qubit,
-        /// What it holds.
+        /// The name of the register that the qubit belongs to.
         register: String,
     },
 }

@@ -52,9 +52,9 @@ pub(super) fn try_all(oracle: &Oracle, parts: &OracleCircuits) -> Result<(), Def
                         comparator,
                     });
                 }
-                let turned = rows.signs()[lane / 64] >> (lane % 64) & 1 == 1;
+                let flipped = rows.signs()[lane / 64] >> (lane % 64) & 1 == 1;
                 let exceeds = i128::from(comparator) < i128::from(count);
-                (turned != exceeds).then_some(Defect::Flip {
+                (flipped != exceeds).then_some(Defect::Flip {
                     channel,
                     count,
                     comparator,
@@ -139,7 +139,7 @@ impl Flip {
         })
     }
 
-    /// What is not zero.
+    /// The qubits that may hold something else than zero: the colour's and the comparator's.
     fn held(&self) -> Vec<Qubit> {
         [&self.colour[..], &self.comparator].concat()
     }

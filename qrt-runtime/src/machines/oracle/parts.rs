@@ -6,11 +6,11 @@ use qrt_core::oracle::Oracle;
 /// The parts of an oracle's circuit, which share their qubits.
 #[derive(Clone, Debug)]
 pub struct OracleCircuits {
-    /// From ids to colours.
+    /// From path indices to colours.
     pub compute: Circuit,
     /// By channel: compare, flip, undo the comparison.
     pub flips: Vec<Circuit>,
-    /// From colours back to ids alone.
+    /// From colours back to path indices alone.
     pub uncompute: Circuit,
 }
 

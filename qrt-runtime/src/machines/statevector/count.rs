@@ -13,7 +13,7 @@ const CLEAN: f64 = 1e-28;
 pub enum Checks {
     /// After the preparation, after each query, and at the end.
     EveryQuery,
-    /// At the end.
+    /// At the end only.
     AtTheEnd,
 }
 
@@ -22,18 +22,18 @@ pub enum Checks {
 pub struct Counted {
     /// `P(theta~)`, by outcome `y = 0 ..= T/2`.
     pub distribution: Vec<f64>,
-    /// What it took.
+    /// The qubits, gates and queries that the run took.
     pub report: Report,
 }
 
 /// What a run of the counting circuit took.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
-    /// Qubits: ids, ancillas, phase register.
+    /// Qubits: those of the index, the ancillas and the phase register.
     pub qubits: u32,
-    /// Of these, the ones in superposition: ids and phase register.
+    /// Of these, the ones in superposition: those of the index and the phase register.
     pub superposed: u32,
-    /// Gates executed.
+    /// How many gates were executed.
     pub gates: u64,
     /// Calls of the oracle, compute and uncompute each.
     pub queries: u64,
@@ -138,9 +138,10 @@ impl<M: StateVector> Run<'_, M> {
     }
 }
 
-/// Counts the good ids of channel number `channel` of a pixel (column, row) by the whole circuit, on
-/// the sparse machine: every Hadamard, every gate of every controlled query with all its ancillas,
-/// the window and the inverse Fourier transform, for a phase register of `phase_bits`.
+/// Counts the good indices of channel number `channel` of a pixel (column, row) by the whole
+/// circuit, on the sparse machine: every Hadamard, every gate of every controlled query with all
+/// its ancillas, the window and the inverse Fourier transform, for a phase register of
+/// `phase_bits`.
 ///
 /// ```
 /// use qrt_core::front::parse;

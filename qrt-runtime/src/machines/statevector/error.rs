@@ -1,4 +1,4 @@
-//! What amplitudes refuse.
+//! Errors of the state vectors.
 
 use crate::counting::CountingError;
 use qrt_circuit::Qubit;
@@ -15,9 +15,9 @@ pub enum StateVectorError {
          qubits"
     )]
     TooManyQubits {
-        /// Of the circuit.
+        /// The circuit's qubits.
         qubits: u32,
-        /// The most.
+        /// The most qubits that the dense machine holds.
         most: u32,
     },
     /// More basis states with amplitude than the sparse machine may hold.
@@ -25,13 +25,13 @@ pub enum StateVectorError {
     TooManyStates {
         /// As many as a gate asks for, at least.
         states: u64,
-        /// The most.
+        /// The most basis states that are allowed.
         most: u64,
     },
     /// So much memory cannot be had.
     #[error("no {bytes} bytes of memory for amplitudes")]
     Memory {
-        /// Bytes.
+        /// How many bytes were asked for.
         bytes: u64,
     },
     /// A gate or a register names a qubit that the machine does not have, or one twice.
@@ -49,9 +49,9 @@ pub enum StateVectorError {
     /// A register whose outcomes are too many to be listed.
     #[error("a register of {bits} qubits has too many outcomes to list; at most {most} qubits")]
     RegisterTooWide {
-        /// Its qubits.
+        /// The register's qubits.
         bits: u32,
-        /// The most.
+        /// The most qubits of a register whose outcomes are listed.
         most: u32,
     },
     /// An ancilla that is not zero when it must be: a defect of the circuit.
@@ -71,9 +71,9 @@ pub enum StateVectorError {
     /// A phase register that is too large to be followed.
     #[error("amplitudes of a phase register of {bits} bits; at most {most}")]
     PhaseBits {
-        /// Its qubits.
+        /// The phase register's qubits.
         bits: u32,
-        /// The most.
+        /// The most qubits of a phase register that is followed.
         most: u32,
     },
     /// The circuit cannot be made.
@@ -82,7 +82,7 @@ pub enum StateVectorError {
     /// The scene has no oracle.
     #[error(transparent)]
     Oracle(#[from] OracleError),
-    /// The counts are none.
+    /// S and N are no counts, or the phase register is out of range.
     #[error(transparent)]
     Counts(#[from] CountingError),
 }

@@ -35,9 +35,9 @@ impl Fourier {
         }
     }
 
-    /// Replaces `values[j]` by `sum_j values[j] exp(-2 pi i j y / T)`, not divided by anything; that
-    /// of y comes to stand at [`Fourier::place`]. Real and imaginary parts apart, L transforms at
-    /// once.
+    /// Replaces `values[j]` by `sum_j values[j] exp(-2 pi i j y / T)`, not divided by anything;
+    /// that of y comes to stand at [`Fourier::place`]. Real and imaginary parts apart, L transforms
+    /// at once.
     #[inline(always)]
     pub(super) fn transform<const L: usize>(&self, re: &mut [[f64; L]], im: &mut [[f64; L]]) {
         // Decimation in frequency (Gentleman & Sande, 1966): in order in, bits reversed out.

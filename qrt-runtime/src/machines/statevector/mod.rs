@@ -6,10 +6,10 @@
 //! * [`Dense`]: all `2^qubits` amplitudes, to 26 qubits. It knows nothing.
 //! * [`Sparse`]: the basis states that carry amplitude, of any number of qubits. An oracle permutes
 //!   basis states, so that a scene's hundreds of ancillas add none.
-//! * [`reduced`]: amplitudes over (counter, id). It knows that ancillas return to zero, so that an
-//!   oracle is a sign for each id.
-//! * [`subspace`]: two amplitudes for each value of the phase register. It knows that all good ids have one
-//!   amplitude, and all others one, so that S and N suffice.
+//! * [`reduced`]: amplitudes over (phase register, index). It knows that ancillas return to zero,
+//!   so that an oracle is a sign for each index.
+//! * [`subspace`]: two amplitudes for each value of the phase register. It knows that all good
+//!   indices have one amplitude, and all others one, so that S and N suffice.
 //!
 //! [`crate::counting::PhaseDistribution`] is the closed form that the last sums up to. All give the
 //! distribution of folded outcomes, `y = 0 ..= T/2`.

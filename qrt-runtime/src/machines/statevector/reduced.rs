@@ -1,10 +1,10 @@
-//! Amplitudes over (counter, id): what is left once ancillas are known to return.
+//! Amplitudes over (phase register, index): what is left once ancillas are known to return.
 //!
-//! The oracle is a sign for each id, and diffusion twice the mean less each amplitude. Under a
-//! counter of value j the ids hold `w_j G^j |s>`, whose amplitudes are real, and those of one more
-//! query follow from those of one less. Only the mean joins the ids: with the means known, each id's
-//! amplitudes for all counters follow by themselves, and its Fourier transform over the phase register.
-//! `O(T N log T)` time, `O(T + N)` memory.
+//! The oracle is a sign for each index, and diffusion twice the mean less each amplitude. Under a
+//! phase register of value j the indices hold `w_j G^j |s>`, whose amplitudes are real, and those
+//! of one more query follow from those of one less. Only the mean joins the indices: with the means
+//! known, each index's amplitudes for all values j follow by themselves, and its Fourier transform
+//! over the phase register. `O(T N log T)` time, `O(T + N)` memory.
 
 use super::error::filled;
 use super::fourier::Fourier;
@@ -15,17 +15,17 @@ use pulp::{Simd, WithSimd};
 use qrt_core::scene::Window;
 use rayon::prelude::*;
 
-/// Transforms at once, of two ids each: one is the real part, one the imaginary one.
+/// Transforms at once, of two indices each: one is the real part, one the imaginary one.
 const LANES: usize = 8;
 
 /// Most bits of a phase register: a batch of transforms takes 128 bytes for each value.
 const MOST_PHASE_BITS: u32 = 20;
 
-/// Ids whose amplitudes are summed in a run.
+/// Indices whose amplitudes are summed in a run.
 const RUN: usize = 1 << 12;
 
-/// Shares of the ids that are transformed each by itself, and summed up.
-const SHARES: usize = 32;
+/// Parts of the indices, each of which is transformed by itself, and summed up.
+const PARTS: usize = 32;
 
 /// The distribution of counting over a truth table, `good[id]`: by outcome `y = 0 ..= T/2`.
 ///
@@ -87,8 +87,8 @@ pub fn reduced(
     let fourier = Fourier::new(phase_bits);
     let batches: Vec<&[f64]> = signs.chunks(2 * LANES).collect();
     // Always the same sums, in the same order.
-    let shares = batches.par_chunks(batches.len().div_ceil(SHARES));
-    let shares: Vec<Vec<f64>> = shares
+    let parts = batches.par_chunks(batches.len().div_ceil(PARTS));
+    let parts: Vec<Vec<f64>> = parts
         .map(|batches| {
             let mut sums = filled(0.0, size)?;
             let mut re = filled([0.0; LANES], size)?;
@@ -111,7 +111,7 @@ pub fn reduced(
     let all: Vec<f64> = (0..size)
         .map(|y| {
             let place = fourier.place(y);
-            shares.iter().map(|sums| sums[place]).sum::<f64>() / size as f64
+            parts.iter().map(|sums| sums[place]).sum::<f64>() / size as f64
         })
         .collect();
     // A pair's transforms are told apart by y and T - y, which folding adds.
@@ -161,7 +161,7 @@ impl WithSimd for Query<'_> {
     }
 }
 
-/// The transforms of up to `2 LANES` ids, added to the sums.
+/// The transforms of up to `2 LANES` indices, added to the sums.
 struct Batch<'a> {
     signs: &'a [f64],
     means: &'a [f64],

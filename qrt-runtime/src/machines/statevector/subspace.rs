@@ -1,9 +1,9 @@
-//! The plane of good and bad ids: two amplitudes for each value of the phase register.
+//! The plane of good and bad indices: two amplitudes for each value of the phase register.
 //!
-//! All good ids have one amplitude and all bad ids another, so that G is a rotation of that plane,
-//! by `2 phi` with `sin(phi)^2 = S/N`. Under a phase register of value j stands `w_j (sin((2j+1) phi),
-//! cos((2j+1) phi))`: both real, one the real and one the imaginary part of what is transformed.
-//! `O(T log T)`, exact from S and N.
+//! All good indices have one amplitude and all bad indices another, so that G is a rotation of that
+//! plane, by `2 phi` with `sin(phi)^2 = S/N`. Under a phase register of value j stands
+//! `w_j (sin((2j+1) phi), cos((2j+1) phi))`: both real, one the real and one the imaginary part of
+//! what is transformed. `O(T log T)`, exact from S and N.
 
 use super::error::filled;
 use super::fourier::Fourier;
@@ -15,7 +15,7 @@ use std::f64::consts::PI;
 /// Most bits of a phase register whose amplitudes are listed.
 pub(super) const MOST_PHASE_BITS: u32 = 24;
 
-/// The distribution of counting `good` among `total` ids: by outcome `y = 0 ..= T/2`.
+/// The distribution of counting `good` among `total` indices: by outcome `y = 0 ..= T/2`.
 ///
 /// ```
 /// use qrt_core::scene::Window;
@@ -27,7 +27,7 @@ pub(super) const MOST_PHASE_BITS: u32 = 24;
 /// ```
 ///
 /// # Errors
-/// No ids, more good ids than ids, or a phase register that is not in 1 to 24 bits.
+/// No indices, more good indices than indices, or a phase register that is not in 1 to 24 bits.
 pub fn subspace(
     good: u64,
     total: u64,

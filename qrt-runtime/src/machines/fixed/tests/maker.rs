@@ -1,4 +1,4 @@
-//! Programs of chance.
+//! Random programs.
 
 use qrt_circuit::{
     Bit, BlockId, Instruction, Op, Operand, Parameter, Program, Register, RegisterId, Style, Type,
@@ -31,14 +31,14 @@ impl Dice {
 pub(crate) struct Maker {
     pub(crate) dice: Dice,
     pub(crate) program: Program,
-    /// Widest register.
+    /// The most bits of a register.
     pub(crate) widest: u32,
 }
 
 pub(crate) const PARAMETERS: usize = 3;
 
 impl Maker {
-    /// With registers of up to `widest` bits, the first of them the path's id.
+    /// With registers of up to `widest` bits, the first of them the path's index.
     pub(crate) fn new(seed: u64, id: u32, widest: u32) -> Self {
         let mut maker = Self {
             dice: Dice(seed),

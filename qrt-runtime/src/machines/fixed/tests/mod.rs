@@ -10,7 +10,7 @@ use qrt_circuit::{Bit, Op, Operand, RegisterId, Style};
 fn every_operation_is_right_on_all_small_contents() {
     for kind in 0..KINDS {
         for seed in 0..60 {
-            // 5 bits of the id and 4 of the other register: all of them, in one block.
+            // 5 bits of the path index and 4 of the other register: all of them, in one block.
             let mut maker = Maker::new(seed + u64::from(kind) * 1000, 5, 4);
             maker.op(kind);
             let all: Vec<u64> = (0..512).collect();

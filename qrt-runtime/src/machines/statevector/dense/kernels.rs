@@ -177,8 +177,8 @@ impl WithSimd for Butterfly<'_> {
     }
 }
 
-/// Unnormalised Hadamards, times `scale`: a fast Walsh-Hadamard transform over the qubits of `mask`.
-/// `data` are real and imaginary parts in turn, of at least 8 amplitudes.
+/// Unnormalised Hadamards, times `scale`: a fast Walsh-Hadamard transform over the qubits of
+/// `mask`. `data` are real and imaginary parts in turn, of at least 8 amplitudes.
 #[inline(always)]
 fn hadamards<S: Simd>(simd: S, data: &mut [f64], mask: usize, scale: f64) {
     let mut high = mask >> LOW << LOW;
@@ -278,7 +278,7 @@ fn fours<S: Simd>(simd: S, data: &mut [f64], [near, far]: [usize; 2], scale: f64
     }
 }
 
-/// Sum and difference.
+/// The sum and the difference of two amplitudes.
 #[inline(always)]
 fn one<S: Simd>(simd: S, a: S::f64s, b: S::f64s) -> [S::f64s; 2] {
     [simd.add_f64s(a, b), simd.sub_f64s(a, b)]

@@ -20,8 +20,8 @@ use rayon::prelude::*;
 /// Most qubits: 1 GiB.
 const MOST_QUBITS: u32 = 26;
 
-/// A chunk's qubits, at least and at most: 16 KiB, which the nearest cache holds, and 512 KiB, which
-/// the next one does.
+/// A chunk's qubits, at least and at most: 16 KiB, which the nearest cache holds, and 512 KiB,
+/// which the next one does.
 const CHUNK: [u32; 2] = [10, 15];
 
 /// Most gates that wait.
@@ -64,10 +64,10 @@ pub struct Dense {
 }
 
 impl Dense {
-    /// Most qubits.
+    /// The most qubits that a dense state vector may have.
     pub const MOST_QUBITS: u32 = MOST_QUBITS;
 
-    /// All qubits zero.
+    /// The basis state in which all qubits are zero.
     ///
     /// # Errors
     /// More than [`Dense::MOST_QUBITS`] qubits, or no memory.
@@ -105,7 +105,7 @@ impl Dense {
         self.amplitudes[state as usize ^ self.plan.frame] * self.plan.scale()
     }
 
-    /// Executes what waits.
+    /// Executes the gates that wait.
     fn run(&mut self) {
         let steps = self.plan.take();
         let mut rest = &steps[..];
@@ -212,8 +212,8 @@ impl Dense {
         });
     }
 
-    /// Sums the squares of amplitudes by what `place` says of an index; the order of the sum is that
-    /// of indices.
+    /// Sums the squares of amplitudes by what `place` says of an index; the order of the sum is
+    /// that of indices.
     fn sums(&mut self, places: usize, place: impl Fn(usize) -> usize) -> Vec<f64> {
         self.run();
         let (frame, scale) = (self.plan.frame, self.plan.scale());

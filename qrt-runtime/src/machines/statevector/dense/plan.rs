@@ -14,7 +14,7 @@ pub(super) struct Plan {
     steps: Vec<Step>,
     /// Where the index of memory and that of the state differ: Xs.
     pub(super) frame: usize,
-    /// Is there a factor `1/sqrt(2)` that memory lacks?
+    /// Whether there is a factor `1/sqrt(2)` that memory lacks.
     odd: bool,
 }
 

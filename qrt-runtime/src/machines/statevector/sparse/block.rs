@@ -27,9 +27,9 @@ pub(super) enum Local {
 /// Up to [`STATES`] states. Lanes beyond the last are no states, whatever their rows hold.
 #[derive(Clone, Debug)]
 pub(super) struct Block {
-    /// By qubit.
+    /// By qubit: its bit in every state.
     pub(super) rows: Vec<Row>,
-    /// By state.
+    /// By state: its amplitude.
     pub(super) amplitudes: Vec<Complex<f64>>,
 }
 
@@ -63,7 +63,7 @@ impl Block {
         }
     }
 
-    /// Does a qubit hold 0 in every state, or 1 in every state?
+    /// Whether a qubit holds 0 in every state, and whether it holds 1 in every state.
     pub(super) fn constant(&self, qubit: usize) -> [bool; 2] {
         let (mut ones, mut zeros) = (0, 0);
         for (word, bits) in self.rows[qubit].iter().enumerate() {

@@ -60,7 +60,7 @@ pub struct Sparse {
     waiting: Vec<Local>,
     /// Adjacent Hadamards that wait, after everything in `waiting`.
     hadamards: Vec<Qubit>,
-    /// Is there a factor `1/sqrt(2)` that the amplitudes lack?
+    /// Whether there is a factor `1/sqrt(2)` that the amplitudes lack.
     odd: bool,
     bound: f64,
     dropped: f64,
@@ -77,7 +77,7 @@ impl Sparse {
     /// States allowed unless another number is set.
     pub const MOST_STATES: u64 = 1 << 24;
 
-    /// All qubits zero.
+    /// The basis state in which all qubits are zero.
     pub fn new(qubits: u32) -> Self {
         Self {
             qubits,
@@ -178,7 +178,7 @@ impl Sparse {
         }
     }
 
-    /// Executes what waits.
+    /// Executes the gates that wait.
     fn run(&mut self) -> Result<(), StateVectorError> {
         self.run_local();
         while !self.hadamards.is_empty() {

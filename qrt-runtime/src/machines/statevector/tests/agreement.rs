@@ -25,7 +25,7 @@ fn agree(a: &[f64], b: &[f64], what: &str) {
     assert!(off < 1e-12, "{what}: {off:e}");
 }
 
-/// A random truth table with as many good ids.
+/// A random truth table with as many good indices.
 fn table(bits: u32, good: usize, seed: u64) -> Vec<bool> {
     let mut stream = Stream::new(seed, 0, 0, 0);
     let mut table: Vec<bool> = (0..1 << bits).map(|id| id < good).collect();
@@ -82,7 +82,8 @@ fn all_models_agree() {
     }
 }
 
-/// Larger ones, for the models that have no ancillas; ids that are no power of two for the plane.
+/// Larger ones, for the models that have no ancillas; indices that are no power of two for the
+/// plane.
 #[test]
 fn large_models_agree() {
     for (bits, phase_bits) in [(10, 10), (3, 14), (13, 4), (11, 7)] {
@@ -153,7 +154,7 @@ fn the_sign_of_the_reflection_matters() {
     }
 }
 
-/// An oracle that leaves an ancilla behind is found out, after the first query.
+/// An oracle that leaves garbage in an ancilla is found out, after the first query.
 #[test]
 fn what_an_oracle_leaves_behind_is_found() {
     use qrt_circuit::{Circuit, Gate};
