@@ -11,7 +11,8 @@ impl Iterative {
     /// the good indices is x, a circuit of d reflections shows the square of the Chebyshev
     /// polynomial `T_d(x)`: for odd d = 2k+1 as the fraction of good indices after k iterations,
     /// for even d = 2k as the fraction of states that return when the preparation is undone after k
-    /// ([`Device::returned`](crate::estimators::Device::returned)). Both take k queries. Near the end, when a batch of shots would leave
+    /// ([`Device::returned`](crate::estimators::Device::returned)). Both take k queries.
+    /// Near the end, when a batch of shots would leave
     /// an error of less than 8 times the one that is asked, shots are taken in small numbers (the
     /// authors: one by one; here a tenth of those taken at the query depth), so that few are
     /// wasted.
