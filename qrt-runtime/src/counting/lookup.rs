@@ -62,7 +62,7 @@ pub struct LookupTable {
     total: u64,
     phase_bits: u32,
     register: Register,
-    share: f64,
+    mass: f64,
     intact: f64,
     columns: Mutex<HashMap<u64, Column>>,
 }
@@ -81,24 +81,19 @@ struct Row {
 }
 
 impl LookupTable {
-    /// A table whose intervals gather `share` (in (0, 1)) of a column, for a register that reads
-    /// what it should with probability `intact`, and otherwise anything.
+    /// A table whose intervals gather the fraction `mass`, in (0, 1), of a column, for a register
+    /// that reads what it should with probability `intact`, and otherwise anything.
     ///
     /// # Errors
     ///
     /// No indices, or a register out of range.
-    pub fn new(
-        total: u64,
-        phase_bits: u32,
-        share: f64,
-        intact: f64,
-    ) -> Result<Self, CountingError> {
+    pub fn new(total: u64, phase_bits: u32, mass: f64, intact: f64) -> Result<Self, CountingError> {
         check_counts(0, total)?;
         Ok(Self {
             total,
             phase_bits,
             register: register(phase_bits, Window::Rect)?,
-            share,
+            mass,
             intact,
             columns: Mutex::default(),
         })
@@ -168,7 +163,7 @@ impl LookupTable {
         let mut interval = (middle, middle);
         let mut gathered = 0.0;
         for row in &rows {
-            if gathered >= self.share * all {
+            if gathered >= self.mass * all {
                 break;
             }
             gathered += weight(row);
@@ -364,8 +359,8 @@ mod tests {
                     })
                     .map(|i| rows[i])
                     .sum();
-                let share = gathered / sum;
-                assert!(share > 0.945, "{total} {bits} {y}: {share}");
+                let mass = gathered / sum;
+                assert!(mass > 0.945, "{total} {bits} {y}: {mass}");
                 let certainty = rows[column.good as usize] / sum;
                 assert!(
                     (column.certainty / certainty - 1.0).abs() < 0.02,

@@ -119,7 +119,7 @@ impl Arc {
 
     /// The angles of a section of `multiple` at which the fraction of good indices is in
     /// `fractions`.
-    pub(super) fn of_shares(multiple: u64, section: u64, fractions: (f64, f64)) -> Self {
+    pub(super) fn of_fractions(multiple: u64, section: u64, fractions: (f64, f64)) -> Self {
         let start = u128::from(section) << 63;
         let offsets = (of_sine_squared(fractions.0), of_sine_squared(fractions.1));
         let (near, far) = if section.is_multiple_of(2) {
@@ -229,7 +229,7 @@ mod tests {
             let section = (product(multiple, angle) >> 63) as u64;
             let fraction = crate::estimators::turns::sine_squared(multiple.wrapping_mul(angle)).0;
             let fractions = ((fraction - low).max(0.0), (fraction + high).min(1.0));
-            let arc = Arc::of_shares(multiple, section, fractions);
+            let arc = Arc::of_fractions(multiple, section, fractions);
             prop_assert!(arc.low <= angle && angle <= arc.high);
             prop_assert_eq!(arc.section(multiple), Some(section));
         }

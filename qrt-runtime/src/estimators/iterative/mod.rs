@@ -148,7 +148,7 @@ impl Rules {
             }
             depth.measure(device, shots)?;
             let fractions = clopper_pearson(depth.hits, depth.shots, depth.failure);
-            let measured = Arc::of_shares(depth.multiple, section, depth.sines(fractions));
+            let measured = Arc::of_fractions(depth.multiple, section, depth.sines(fractions));
             arc = measured.intersection(arc).unwrap_or(measured);
         }
         let (low, high) = arc.amplitudes();

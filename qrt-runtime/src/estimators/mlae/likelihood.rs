@@ -29,17 +29,17 @@ pub(super) struct Level {
 }
 
 /// A fraction and its complement to 1, each to its own precision.
-type Share = (f64, f64);
+type Fraction = (f64, f64);
 
 impl Level {
     /// `h ln p + (n - h) ln q`, less its largest value.
-    fn term(&self, (p, _): Share) -> f64 {
+    fn term(&self, (p, _): Fraction) -> f64 {
         let (hits, shots) = (self.hits as f64, self.shots as f64);
         let difference = hits - shots * p;
         -deviance(hits, difference) - deviance(shots - hits, -difference)
     }
 
-    fn mixed(&self, ideal: Share, any: Share) -> Share {
+    fn mixed(&self, ideal: Fraction, any: Fraction) -> Fraction {
         let lost = 1.0 - self.intact;
         (
             self.intact * ideal.0 + lost * any.0,
@@ -47,13 +47,13 @@ impl Level {
         )
     }
 
-    fn fraction(&self, angle: u64, any: Share) -> Share {
+    fn fraction(&self, angle: u64, any: Fraction) -> Fraction {
         self.mixed(sine_squared(self.multiple.wrapping_mul(angle)), any)
     }
 
     /// An upper bound of the term over angles in `low ..= high`, given the fractions of all indices
     /// at both ends.
-    fn bound(&self, low: u64, high: u64, any: (Share, Share)) -> f64 {
+    fn bound(&self, low: u64, high: u64, any: (Fraction, Fraction)) -> f64 {
         let (least, most) = self.ideal_range(low, high);
         let least = self.mixed(least, any.0);
         let most = self.mixed(most, any.1);
@@ -69,7 +69,7 @@ impl Level {
     }
 
     /// The least and the largest `(sin^2, cos^2)` of the multiple over angles in `low ..= high`.
-    fn ideal_range(&self, low: u64, high: u64) -> (Share, Share) {
+    fn ideal_range(&self, low: u64, high: u64) -> (Fraction, Fraction) {
         let width = u128::from(self.multiple) * u128::from(high - low);
         let start = self.multiple.wrapping_mul(low);
         let end = u128::from(start) + width;
@@ -98,7 +98,7 @@ impl Level {
     fn slope(&self, angle: u64) -> f64 {
         let any = sine_squared(angle);
         let (p, q) = self.fraction(angle, any);
-        let double = |(sine, cosine): Share, positive: bool| {
+        let double = |(sine, cosine): Fraction, positive: bool| {
             let product = 2.0 * (sine * cosine).sqrt();
             if positive { product } else { -product }
         };
