@@ -43,7 +43,7 @@ fn stats(scene: &ValidScene, rendered: &Rendered, clipped: u64) -> Value {
         "crop": rendered.crop,
         "depths": written.sampling.depths.len(),
         "path_bits": rendered.parameters.sampling.path_bits,
-        "parameters": {
+        "knobs": {
             "path_bits": rendered.parameters.sampling.path_bits,
             "fraction": rendered.parameters.precision.fraction,
             "comparator_bits": rendered.parameters.comparator.bits,

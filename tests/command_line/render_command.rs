@@ -340,7 +340,7 @@ fn an_accuracy_takes_the_knobs_that_keep_it_and_says_which() {
         "{said}"
     );
     let stats = stats(&folder, "s.json");
-    let (parameters, plan) = (&stats["parameters"], &stats["plan"]);
+    let (parameters, plan) = (&stats["knobs"], &stats["plan"]);
     for parameter in [
         "path_bits",
         "fraction",
