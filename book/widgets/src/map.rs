@@ -4,9 +4,9 @@
 
 use crate::answer::Answer;
 use qrt_core::expr::{Expr, Variables};
-use qrt_core::syntax::{Problem, Step};
 use qrt_core::sampling::{ProductLattice, SamplingError, cell_centre, maps};
 use qrt_core::scene::{Bsdf, Jacobian, Map};
+use qrt_core::syntax::{Problem, Step};
 use qrt_core::valid::bsdf;
 use std::fmt::Write;
 

@@ -65,7 +65,8 @@ impl Picture {
     /// # Errors
     /// A scene that is no scene.
     pub fn new() -> Result<Self, Box<dyn Error>> {
-        let valid = validate(made::scene(), &Meshes::default()).map_err(|_| "the scene is wrong")?;
+        let valid =
+            validate(made::scene(), &Meshes::default()).map_err(|_| "the scene is wrong")?;
         let real = Real::new(&valid, 0)?;
         let scene = valid.scene();
         let scale = real.stage().bound();
