@@ -43,6 +43,7 @@ fn estimates(criterion: &mut Criterion) {
                 repetitions,
                 window: Window::Sine,
                 estimator: name,
+                strata: None,
             };
             let mut stream = Stream::new(1, 0, 0, 0);
             let label = format!("t={phase_bits} B={repetitions}");
@@ -65,6 +66,7 @@ fn pictures(criterion: &mut Criterion) {
                 repetitions,
                 window: Window::Sine,
                 estimator: name,
+                strata: None,
             };
             let label = format!("t={phase_bits} B={repetitions}");
             group.bench_function(BenchmarkId::new(format!("{name:?}"), label), |b| {

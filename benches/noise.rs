@@ -53,6 +53,7 @@ impl Case {
             repetitions,
             window: Window::Sine,
             estimator: self.name,
+            strata: None,
         };
         let known_noise = if self.known { self.noise } else { Noise::NONE };
         Settings {

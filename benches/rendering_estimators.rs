@@ -27,6 +27,7 @@ fn settings(phase_bits: u32) -> Settings {
         repetitions: 1,
         window: Window::Rect,
         estimator: Estimator::Qss,
+        strata: None,
     };
     Settings::of(&counting).unwrap()
 }

@@ -42,6 +42,7 @@ impl Run {
             repetitions: self.repetitions,
             window: Window::Sine,
             estimator: self.name,
+            strata: None,
         };
         Settings::of(&counting).unwrap()
     }

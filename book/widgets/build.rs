@@ -260,8 +260,12 @@ fn picture() -> Result<String, Box<dyn Error>> {
     writeln!(
         out,
         "counting: Counting {{ phase_bits: {}, repetitions: {}, window: Window::{:?}, estimator: \
-         Estimator::{:?} }},",
-        counting.phase_bits, counting.repetitions, counting.window, counting.estimator
+         Estimator::{:?}, strata: {:?} }},",
+        counting.phase_bits,
+        counting.repetitions,
+        counting.window,
+        counting.estimator,
+        counting.strata
     )?;
     writeln!(
         out,

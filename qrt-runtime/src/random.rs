@@ -13,10 +13,14 @@
 //! as 1, 2, 3*, SC 2011): a keyed bijection of 128-bit counters that passes `BigCrush`. The key is
 //! the seed; the counter is `[block (low), y, x, channel + 256 * block (high)]`, so that no two
 //! streams of one seed ever share a counter. What is drawn for a path reads the part of its pixel's
-//! stream that begins at block `path 2^16`.
+//! stream that begins at block `path 2^16`. Which comparators were measured is drawn from a stream
+//! of its own, with 128 added to the channel.
 
 const MULTIPLIERS: [u32; 2] = [0xD251_1F53, 0xCD9E_8D57];
 const WEYL: [u32; 2] = [0x9E37_79B9, 0xBB67_AE85];
+
+/// The bit of a channel's number that no channel has: streams beside the channels' own.
+const BESIDE: u8 = 0x80;
 
 fn wide(a: u32, b: u32) -> (u32, u32) {
     let product = u64::from(a) * u64::from(b);
@@ -75,6 +79,16 @@ impl Stream {
         Self {
             block: path << 16,
             ..Self::new(seed, x, y, channel)
+        }
+    }
+
+    /// Another stream of the same pixel and channel, from where this one stands: for what must not
+    /// change what is drawn here.
+    pub(crate) fn beside(&self) -> Self {
+        Self {
+            channel: self.channel ^ BESIDE,
+            spare: None,
+            ..self.clone()
         }
     }
 

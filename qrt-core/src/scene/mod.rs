@@ -351,9 +351,20 @@ record! {
     pub window: Window = word::<Window>(), or Window::Sine;
     /// How measurements become an amplitude.
     pub estimator: Estimator = word::<Estimator>(), or Estimator::AdaptiveBayes;
+    /// Parts of the comparator's range that are counted one by one: n of them are the upper half,
+    /// the upper half of the rest, and so on, and what remains. `auto`, the default, chooses n for
+    /// each channel of each pixel from what it measures first. Only `adaptive-bayes` and
+    /// `random-depth` count by strata; under all others `auto` is 1.
+    pub strata: Option<u32> = AutoOr(whole::<u32>(1, 31)), or None;
 }
 
 impl Estimator {
+    /// Whether it can count the strata of the comparator one by one: it must know after every shot
+    /// how far each of them is known, and go on with any.
+    pub const fn counts_strata(self) -> bool {
+        matches!(self, Self::AdaptiveBayes | Self::RandomDepth)
+    }
+
     /// The window in which the phase register is prepared: that of `paper`, `qss` and `sine`, which
     /// have one of their own, and `asked`, the scene's `counting.window`, for all others.
     pub fn register_window(self, asked: Window) -> Window {

@@ -198,6 +198,8 @@ codes! {
         "Remove it: the primary ray samples the pixel square";
     ACCURACY_CONFLICT = "QRT0506", "an accuracy beside a parameter that it replaces",
         "Keep one of the two";
+    STRATA = "QRT0507", "strata of the comparator that cannot be counted",
+        "Leave `counting.strata` at `auto`, use fewer, or an estimator that counts them";
     BUDGET_QUBITS = "QRT0601", "a circuit with more qubits than the budget allows",
         "Uncompute earlier, or use fewer path bits, depths or fraction bits; or raise the limit";
     BUDGET_TOFFOLI = "QRT0602", "a circuit with more Toffoli gates than the budget allows",

@@ -402,6 +402,12 @@ problems! {
         BesideAccuracy { key: &'static str } = ACCURACY_CONFLICT
             "`accuracy` chooses `{key}`, so that both cannot be given"
             help "keep one of the two" also "the accuracy asked for";
+        NoStrata { strata: u32, estimator: &'static str, counting: &'static str } = STRATA
+            "{strata} strata, and the estimator `{estimator}` counts the whole comparator at once"
+            help "use `strata: auto` or 1, or `estimator: {counting}`" also "this estimator";
+        TooManyStrata { strata: u32, bits: u32, most: u32 } = STRATA
+            "{strata} strata, and a comparator of {bits} bits has at most {most}"
+            help "use fewer, or more `comparator.bits`" also "these bits";
         Impossible { why: String } = TOO_MANY_IDS "{why}";
     }
 

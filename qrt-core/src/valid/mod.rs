@@ -6,10 +6,12 @@
 
 pub mod bsdf;
 mod camera;
+mod counting;
 mod geometry;
 mod parameters;
 mod sampling;
 
+pub use counting::most_strata;
 pub use parameters::Parameters;
 pub use sampling::{MAX_ID_BITS, MAX_NET_DEPTHS};
 
@@ -169,6 +171,7 @@ pub(crate) fn check(
     problems.finalize();
     camera::check(&scene.camera, &mut problems);
     sampling::check(&scene, &mut problems);
+    counting::check(&scene, &mut problems);
     let mut materials = surfaces(&scene, &mut problems);
     let shapes = geometry::polygons(&scene, meshes, &mut materials, &mut problems);
     let geometry::Shapes { polygons, files } = shapes;

@@ -1,6 +1,6 @@
 //! One scene under other parameters.
 
-use super::{ValidScene, sampling};
+use super::{ValidScene, counting, sampling};
 use crate::scene::shape::Part;
 use crate::scene::{Circuit, Comparator, Counting, Precision, Sampling};
 use crate::syntax::{Place, Problem, Problems};
@@ -66,6 +66,7 @@ impl ValidScene {
         scene.check(&Place::ROOT, &mut problems);
         problems.finalize();
         sampling::check(scene, &mut problems);
+        counting::check(scene, &mut problems);
         problems.result(changed)
     }
 }

@@ -10,7 +10,8 @@
 //! * [`maximum_likelihood`]: the paper's inference, over every S in `0 ..= N`;
 //! * [`posterior_mean`]: the mean of the same data's posterior, and its interval;
 //! * [`LookupTable`]: that distribution the other way round, from an outcome to S;
-//! * [`Comparators`]: from colours to good indices, and from amplitudes to pixels.
+//! * [`Comparators`]: from colours to good indices, and from amplitudes to pixels;
+//! * [`Stratum`]: ranges of thresholds that are counted one by one.
 
 mod angle;
 pub(crate) mod binomial;
@@ -24,6 +25,7 @@ mod likelihood;
 mod lookup;
 mod measured;
 mod posterior;
+mod strata;
 #[cfg(test)]
 pub(crate) mod tests;
 
@@ -38,3 +40,4 @@ pub use likelihood::{MaximumLikelihood, ln_likelihood, maximum_likelihood, poste
 pub use lookup::{Column, LookupTable};
 pub(crate) use measured::good_id;
 pub use posterior::{Posterior, posterior_mean};
+pub use strata::{Octaves, Stratum};

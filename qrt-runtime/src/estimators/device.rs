@@ -6,6 +6,9 @@
 //! known to 104 bits: a shot after 2^40 iterations has the right probability to better than 1e-15.
 
 mod shifted;
+mod strata;
+
+pub use strata::CountedStratum;
 
 use super::{Estimate, EstimatorError, Noise};
 use crate::counting::{Angle, PhaseDistribution, binomial, good_id};
@@ -53,6 +56,7 @@ pub struct Device<'a> {
     noise: Noise,
     stream: &'a mut Stream,
     usage: Usage,
+    known: Option<Box<strata::Known>>,
 }
 
 impl<'a> Device<'a> {
@@ -73,6 +77,7 @@ impl<'a> Device<'a> {
             noise,
             stream,
             usage: Usage::default(),
+            known: None,
         })
     }
 
@@ -110,6 +115,7 @@ impl<'a> Device<'a> {
             rounds: self.usage.rounds - start.rounds,
             ln_likelihood: None,
             candidates: None,
+            strata: 1,
         }
     }
 
@@ -134,6 +140,7 @@ impl<'a> Device<'a> {
         let Problem { good, total } = self.problem;
         let found = binomial::draw(shots, good, total, self.stream);
         self.usage.good_ids += found;
+        self.read_comparators([found, shots - found]);
         found
     }
 
@@ -198,6 +205,7 @@ impl<'a> Device<'a> {
         };
         let found = binomial::draw_with(shots, p, q, self.stream);
         self.usage.good_ids += found;
+        self.read_comparators([found, shots - found]);
         found
     }
 

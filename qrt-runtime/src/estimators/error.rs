@@ -2,6 +2,7 @@
 
 use super::MAX_ITERATIONS;
 use crate::counting::CountingError;
+use qrt_core::scene::Estimator;
 
 /// Why an estimator cannot do what is asked.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -28,4 +29,19 @@ pub enum EstimatorError {
     /// A reference from which amplitudes are measured that is not in [0, 1].
     #[error("a reference of {0} is not in [0, 1]")]
     Reference(f64),
+    /// Strata of the comparator, with an estimator that counts the whole at once.
+    #[error(
+        "{strata} strata, and the estimator `{estimator}` counts the whole comparator at once: choose \
+         `adaptive-bayes` or `random-depth`, or `counting.strata=1`"
+    )]
+    Strata {
+        /// The estimator.
+        estimator: Estimator,
+        /// How many strata were asked for.
+        strata: u32,
+    },
+    /// A stratum, on a device that was not told how good indices are spread over the comparator, or
+    /// that has no such stratum.
+    #[error("this device cannot count strata of its comparator one by one")]
+    NotByStrata,
 }

@@ -40,7 +40,7 @@ mod windowed;
 
 pub use abrams_williams::AbramsWilliams;
 pub use bayes::{AdaptiveBayes, RandomDepth};
-pub use device::{Device, MAX_ITERATIONS, Problem, Usage};
+pub use device::{CountedStratum, Device, MAX_ITERATIONS, Problem, Usage};
 pub use error::EstimatorError;
 pub use exact::Exact;
 pub use iterative::Iterative;
@@ -83,6 +83,9 @@ pub struct Estimate {
     /// Separate ranges of S/N that were still possible when the estimator stopped; where it keeps
     /// more than one.
     pub candidates: Option<u32>,
+    /// Strata of the comparator that were counted one by one; 1 where the whole was counted at
+    /// once.
+    pub strata: u32,
 }
 
 /// An estimator of the fraction of good indices.
@@ -100,12 +103,21 @@ pub trait AmplitudeEstimator {
 ///
 /// # Errors
 ///
-/// A setting out of range.
+/// A setting out of range, or strata with one that counts none.
 pub fn estimator(
     name: Estimator,
     settings: &Settings,
 ) -> Result<Box<dyn AmplitudeEstimator + Send + Sync>, EstimatorError> {
     settings.check()?;
+    if let Some(strata @ 2..) = settings.strata
+        && !name.counts_strata()
+        && name != Estimator::Exact
+    {
+        return Err(EstimatorError::Strata {
+            estimator: name,
+            strata,
+        });
+    }
     Ok(match name {
         Estimator::Exact => Box::new(Exact),
         Estimator::Paper | Estimator::Sine => Box::new(WindowedCounting::new(name, settings)?),
@@ -135,6 +147,7 @@ pub fn estimator(
 /// use qrt_runtime::{estimators::{Problem, estimate}, random::Stream};
 /// let counting = Counting {
 ///     phase_bits: 8, repetitions: 3, window: Window::Rect, estimator: Estimator::Paper,
+///     strata: None,
 /// };
 /// let problem = Problem { good: 300, total: 1000 };
 /// let found = estimate(Estimator::Paper, &counting, problem, &mut Stream::new(1, 0, 0, 0))?;

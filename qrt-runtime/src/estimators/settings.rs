@@ -24,6 +24,9 @@ pub struct Settings {
     pub error: Option<f64>,
     /// The asked coverage: the probability with which the interval contains S/N, in (0, 1).
     pub confidence: f64,
+    /// Strata of the comparator to count one by one, on a device that can; none: as many as what is
+    /// measured first suggests.
+    pub strata: Option<u32>,
     /// Noise that an estimator with a likelihood reckons with. What a device suffers is said where
     /// it is made, and may differ.
     pub known_noise: Noise,
@@ -45,6 +48,7 @@ impl Settings {
             queries: ((1_u64 << counting.phase_bits) - 1) * u64::from(counting.repetitions),
             error: None,
             confidence: DEFAULT_CONFIDENCE,
+            strata: counting.strata,
             known_noise: Noise::NONE,
         })
     }

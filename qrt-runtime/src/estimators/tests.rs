@@ -11,6 +11,7 @@ fn counting(phase_bits: u32, repetitions: u32) -> Counting {
         repetitions,
         window: Window::Sine,
         estimator: Estimator::Paper,
+        strata: None,
     }
 }
 

@@ -71,6 +71,7 @@ impl WindowedCounting {
             rounds: 1,
             ln_likelihood: Some(likeliest.ln_likelihood),
             candidates: None,
+            strata: 1,
         })
     }
 

@@ -1,7 +1,7 @@
 //! `adaptive-bayes`: every query depth is chosen from what is known.
 
-use super::posterior::Posterior;
-use super::{Goal, depth};
+use super::run::Depths;
+use super::{Goal, strata};
 use crate::estimators::{AmplitudeEstimator, Device, Estimate, EstimatorError, Settings};
 
 /// `adaptive-bayes`: single shots, each at the query depth that is expected to sharpen the
@@ -37,17 +37,6 @@ impl AdaptiveBayes {
 
 impl AmplitudeEstimator for AdaptiveBayes {
     fn estimate(&self, device: &mut Device<'_>) -> Result<Estimate, EstimatorError> {
-        let start = device.usage();
-        let mut posterior = Posterior::new(device.total(), self.goal.noise);
-        let mut left = self.goal.queries;
-        while left > 0 && !self.goal.is_reached(&posterior) {
-            let plan = depth::choose(&mut posterior, &self.goal.noise, left);
-            let good = device.iterated(plan.iterations, plan.shots)?;
-            posterior.observe(plan.iterations, good, plan.shots - good);
-            left -= plan.shots * plan.iterations.max(1);
-        }
-        Ok(posterior
-            .sharpened()
-            .estimate(device, start, self.goal.confidence))
+        strata::estimate(&self.goal, Depths::Adaptive, device)
     }
 }

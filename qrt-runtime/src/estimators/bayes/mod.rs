@@ -11,7 +11,11 @@ mod adaptive;
 mod depth;
 mod posterior;
 mod random_depth;
+mod run;
+mod strata;
 mod support;
+#[cfg(test)]
+mod strata_tests;
 #[cfg(test)]
 mod tests;
 
@@ -27,6 +31,7 @@ struct Goal {
     queries: u64,
     error: Option<f64>,
     confidence: f64,
+    strata: Option<u32>,
     noise: Noise,
 }
 
@@ -40,16 +45,20 @@ impl Goal {
             queries: settings.queries,
             error: settings.error,
             confidence: settings.confidence,
+            strata: settings.strata,
             noise: settings.known_noise,
         })
     }
 
+    /// Whether S is known.
+    fn is_known(posterior: &Posterior) -> bool {
+        let likeliest = posterior.likeliest();
+        likeliest.is_some_and(|(_, probability)| probability > 1.0 - DOUBT)
+    }
+
     /// Whether S is known, or the interval as narrow as is asked.
     fn is_reached(&self, posterior: &Posterior) -> bool {
-        if posterior
-            .likeliest()
-            .is_some_and(|(_, probability)| probability > 1.0 - DOUBT)
-        {
+        if Self::is_known(posterior) {
             return true;
         }
         // An interval much narrower than the posterior is not worth its computation.

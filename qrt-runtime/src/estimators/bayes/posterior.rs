@@ -321,6 +321,14 @@ impl Posterior {
             .update(&self.mass, &self.prior, &self.deviations);
     }
 
+    /// The variance of the fraction of good indices, `(1 - cos 2 pi theta)/2`.
+    pub(super) fn amplitude_variance(&mut self) -> f64 {
+        self.support.cosines(1, &mut self.cosines);
+        let mean = sum(&self.mass, &self.cosines, |mass, cosine| mass * cosine);
+        let square = |mass: f64, cosine: f64| mass * (cosine - mean) * (cosine - mean);
+        0.25 * sum(&self.mass, &self.cosines, square)
+    }
+
     /// The mean fraction of good indices.
     pub(super) fn mean_amplitude(&self) -> f64 {
         let mean: f64 = (self.mass.iter().enumerate())

@@ -12,6 +12,7 @@ fn settings(queries: u64) -> Settings {
         repetitions: 1,
         window: Window::Sine,
         estimator: Estimator::AdaptiveBayes,
+        strata: None,
     };
     Settings {
         queries,

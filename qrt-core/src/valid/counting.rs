@@ -1,0 +1,33 @@
+//! Strata of the comparator need an estimator that counts them, and a comparator that has them.
+
+use crate::scene::{Estimator, Scene};
+use crate::syntax::{Path, Problem, Problems, Sampling as Fault};
+
+/// The most strata of a comparator of so many bits: each halving fixes one.
+pub const fn most_strata(comparator_bits: u32) -> u32 {
+    comparator_bits + 1
+}
+
+pub(super) fn check(scene: &Scene, problems: &mut Problems) {
+    let Some(strata @ 2..) = scene.counting.strata else {
+        return;
+    };
+    let counting = Path::root().key("counting");
+    let path = counting.key("strata");
+    let estimator = scene.counting.estimator;
+    if !estimator.counts_strata() {
+        let what = Fault::NoStrata {
+            strata,
+            estimator: estimator.name(),
+            counting: Estimator::AdaptiveBayes.name(),
+        };
+        problems.push(Problem::new(path, what).also(counting.key("estimator")));
+        return;
+    }
+    let bits = scene.comparator.bits;
+    let most = most_strata(bits);
+    if strata > most {
+        let what = Fault::TooManyStrata { strata, bits, most };
+        problems.push(Problem::new(path, what).also(Path::root().key("comparator").key("bits")));
+    }
+}

@@ -1,0 +1,98 @@
+//! A Bayesian run that can be left after any shot, and taken up again.
+
+use super::posterior::Posterior;
+use super::{Goal, depth};
+use crate::estimators::{Device, EstimatorError, MAX_ITERATIONS};
+
+/// How query depths are chosen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Depths {
+    /// From what is known: see [`super::AdaptiveBayes`].
+    Adaptive,
+    /// At random from a growing range: see [`super::RandomDepth`].
+    Random {
+        /// The end of the range.
+        range: f64,
+        /// Shots made.
+        shots: u64,
+    },
+}
+
+impl Depths {
+    /// Random query depths, before the first shot.
+    pub(super) const RANDOM: Self = Self::Random {
+        range: 1.0,
+        shots: 0,
+    };
+}
+
+/// What the range of random query depths grows by with each shot.
+const GROWTH: f64 = 1.09;
+
+/// A run under way.
+#[derive(Clone, Debug)]
+pub(super) struct Run<'a> {
+    goal: &'a Goal,
+    depths: Depths,
+    pub(super) posterior: Posterior,
+    /// Queries up to now.
+    pub(super) used: u64,
+}
+
+impl<'a> Run<'a> {
+    /// A run over so many indices, before its first shot.
+    pub(super) fn new(goal: &'a Goal, depths: Depths, total: u64) -> Self {
+        Self {
+            goal,
+            depths,
+            posterior: Posterior::new(total, goal.noise),
+            used: 0,
+        }
+    }
+
+    /// Whether S is known.
+    pub(super) fn is_over(&self) -> bool {
+        Goal::is_known(&self.posterior)
+    }
+
+    /// The next measurement, of at most `left` queries, which are at least one; and how many it
+    /// took.
+    pub(super) fn step(
+        &mut self,
+        device: &mut Device<'_>,
+        left: u64,
+    ) -> Result<u64, EstimatorError> {
+        let (iterations, shots) = match &mut self.depths {
+            Depths::Adaptive => {
+                let plan = depth::choose(&mut self.posterior, &self.goal.noise, left);
+                (plan.iterations, plan.shots)
+            }
+            Depths::Random { range, shots } => {
+                let most = (MAX_ITERATIONS as f64).min(2.0 * depth::useful(&self.goal.noise));
+                let limit = most.min(self.posterior.deepest()).min(left as f64);
+                let held_back = *range > limit;
+                let deepest = range.min(limit) as u64;
+                // A product of 64 random bits and a range below 2^45: its upper half is uniform.
+                let draw = u128::from(device.stream().next_u64()) * u128::from(deepest + 1);
+                let iterations = (draw >> 64) as u64;
+                // Where the range may not grow, the shots do.
+                let batch = if held_back && *range > most {
+                    (*shots as f64 * (GROWTH - 1.0)) as u64
+                } else {
+                    1
+                };
+                let batch = batch.clamp(1, left / iterations.max(1));
+                *shots += batch;
+                if !held_back {
+                    *range *= GROWTH;
+                }
+                (iterations, batch)
+            }
+        };
+        let good = device.iterated(iterations, shots)?;
+        self.posterior.observe(iterations, good, shots - good);
+        let queries = shots * iterations.max(1);
+        self.used += queries;
+        Ok(queries)
+    }
+}

@@ -1,0 +1,232 @@
+//! The comparator in parts, each counted by itself.
+//!
+//! With the comparator's top bits fixed, the good indices of a [`Stratum`] are counted alone:
+//!
+//! ```text
+//! S/N = sum_k w_k a_k,    w_k the fraction of thresholds, a_k of good indices of stratum k.
+//! ```
+//!
+//! After Q_k queries a_k is off by some `sqrt(a_k (1 - a_k)) / Q_k`, and the errors of strata add
+//! in squares. With `x_k = w_k sqrt(a_k (1 - a_k))` the best split is `Q_k ~ x_k^(2/3)`, and so
+//!
+//! ```text
+//! error ~ (sum_k x_k^(2/3))^(3/2) / Q,
+//! ```
+//!
+//! for the whole at once `sqrt(a (1 - a)) / Q`. Where paths' colours are small against their bound,
+//! the lowest stratum has all of S and a small width, and the others are empty; where each path is
+//! all or nothing, all strata are alike and nothing is won.
+//!
+//! # How queries are split
+//!
+//! Each stratum has a posterior of its own, and the next shot is made in the one with the largest
+//! `w_k^2 Var(a_k) / Q_k`. At the best split that is the same in all: with variances that fall as
+//! `1/Q_k^2`, it is what one more query takes off the variance of the sum. So the split follows from
+//! what is measured, and an empty stratum is left as soon as it is known to be.
+//!
+//! # How many strata
+//!
+//! Unless that is asked for, the whole is counted as ever until [`PILOT`] of the queries are used.
+//! Each shot measures an index, whose comparator says in which stratum it is good or not; from
+//! these follow all `a_k`, roughly, and the error that each number of strata would have. If one is
+//! better by [`WORTH`] even with what was used up to then, it begins anew with strata; if not, the
+//! run goes on, and is the same, query by query, as without strata.
+
+use super::Goal;
+use super::posterior::Posterior;
+use super::run::{Depths, Run};
+use crate::counting::Stratum;
+use crate::estimators::device::Usage;
+use crate::estimators::{CountedStratum, Device, Estimate, EstimatorError};
+
+/// The fraction of queries after which the number of strata is decided.
+const PILOT: f64 = 1.0 / 16.0;
+/// Queries before that, at the least.
+const PILOT_LEAST: u64 = 24;
+/// The most queries after which it is decided.
+const PILOT_MOST: u64 = 64;
+/// By what factor strata must make the error smaller.
+const WORTH: f64 = 1.15;
+/// Queries that a posterior takes to find the right section of its angles.
+const SEARCH: f64 = 8.0;
+/// What is added to the measured indices of a kind, spread over the thresholds.
+const PRIOR: f64 = 0.1;
+
+/// A stratum, and what is known of it.
+struct Part<'a> {
+    stratum: Stratum,
+    /// The fraction of thresholds.
+    width: f64,
+    run: Run<'a>,
+    /// Of the stratum's contribution to the whole.
+    variance: f64,
+    good_ids: u64,
+}
+
+/// One run: of the whole, of as many strata as are asked for, or as seem best.
+pub(super) fn estimate(
+    goal: &Goal,
+    depths: Depths,
+    device: &mut Device<'_>,
+) -> Result<Estimate, EstimatorError> {
+    let start = device.usage();
+    let bits = device.comparator_bits();
+    if let (Some(bits), Some(strata @ 2..)) = (bits, goal.strata) {
+        return in_strata(goal, depths, device, start, bits, strata);
+    }
+    let mut pilot = bits.filter(|_| goal.strata.is_none());
+    let mut whole = Run::new(goal, depths, device.total());
+    let mut left = goal.queries;
+    while left > 0 && !goal.is_reached(&whole.posterior) {
+        left -= whole.step(device, left)?;
+        if let Some(bits) = pilot.filter(|_| whole.used >= pilot_queries(goal.queries)) {
+            pilot = None;
+            let strata = choose(device, &whole.posterior, bits, goal.queries, left);
+            if strata > 1 {
+                return in_strata(goal, depths, device, start, bits, strata);
+            }
+        }
+    }
+    Ok(whole
+        .posterior
+        .sharpened()
+        .estimate(device, start, goal.confidence))
+}
+
+/// Queries after which the number of strata is decided.
+fn pilot_queries(queries: u64) -> u64 {
+    ((PILOT * queries as f64) as u64).clamp(PILOT_LEAST, PILOT_MOST)
+}
+
+/// The number of strata with which the rest of the queries promises the smallest error.
+fn choose(device: &Device<'_>, known: &Posterior, bits: u32, queries: u64, left: u64) -> u32 {
+    let amplitude = known.mean_amplitude();
+    let measured = device.measured_octaves();
+    let sums: [u64; 2] = [0, 1].map(|which| measured.iter().map(|found| found[which]).sum());
+    let error = |strata: u32| {
+        let terms = Stratum::halving(strata, bits).map(|stratum| {
+            let width = stratum.length() as f64 / (1_u64 << bits) as f64;
+            // What the stratum adds to the good and to the other indices of the whole.
+            let [good, bad] = [0, 1].map(|which| {
+                let here: u64 = measured[stratum.octaves()].iter().map(|m| m[which]).sum();
+                let fraction = (here as f64 + PRIOR * width) / (sums[which] as f64 + PRIOR);
+                fraction * [amplitude, 1.0 - amplitude][which]
+            });
+            let a = good / (good + bad);
+            (width * (a * (1.0 - a)).sqrt()).powf(2.0 / 3.0)
+        });
+        let sum: f64 = terms.sum();
+        sum.powf(1.5) / (left as f64 - SEARCH * f64::from(strata)).max(1.0)
+    };
+    let alone = (amplitude * (1.0 - amplitude)).sqrt() / queries as f64;
+    let best = (2..=bits + 1)
+        .map(|strata| (error(strata), strata))
+        .min_by(|a, b| a.0.total_cmp(&b.0));
+    match best {
+        Some((error, strata)) if error * WORTH < alone => strata,
+        _ => 1,
+    }
+}
+
+/// Counts `strata` strata one by one, with the queries that are left since `start`.
+fn in_strata(
+    goal: &Goal,
+    depths: Depths,
+    device: &mut Device<'_>,
+    start: Usage,
+    bits: u32,
+    strata: u32,
+) -> Result<Estimate, EstimatorError> {
+    let all = (1_u64 << bits) as f64;
+    let paths = device.total() >> bits;
+    let mut parts: Vec<Part<'_>> = Stratum::halving(strata, bits)
+        .map(|stratum| Part {
+            stratum,
+            width: stratum.length() as f64 / all,
+            run: Run::new(goal, depths, paths * stratum.length()),
+            variance: 0.0,
+            good_ids: 0,
+        })
+        .collect();
+    parts.iter_mut().for_each(Part::look);
+    let mut left = goal.queries - (device.usage().queries - start.queries);
+    while left > 0 {
+        let gain = |part: &Part<'_>| part.variance / part.run.used.max(1) as f64;
+        let Some(part) = (parts.iter_mut()).max_by(|a, b| gain(a).total_cmp(&gain(b))) else {
+            break;
+        };
+        if part.variance <= 0.0 {
+            break;
+        }
+        let before = device.usage().good_ids;
+        left -= device.within(part.stratum, |device| part.run.step(device, left))??;
+        part.good_ids += device.usage().good_ids - before;
+        part.look();
+        if let Some(error) = goal.error
+            && parts.iter().map(|part| part.variance).sum::<f64>() < error * error
+        {
+            let (_, (low, high)) = sum(&parts, goal.confidence);
+            if high - low <= 2.0 * error {
+                break;
+            }
+        }
+    }
+    for part in &mut parts {
+        part.run.posterior = part.run.posterior.clone().sharpened();
+    }
+    let (amplitude, interval) = sum(&parts, goal.confidence);
+    for part in &parts {
+        device.report(CountedStratum {
+            stratum: part.stratum,
+            amplitude: part.width * part.run.posterior.mean_amplitude(),
+            good_ids: part.good_ids,
+            queries: part.run.used,
+        });
+    }
+    let candidates = parts.iter().map(|part| part.run.posterior.candidates());
+    let known = parts.iter().map(|part| part.run.posterior.likeliest());
+    Ok(Estimate {
+        good: known.map(|found| found.map(|(good, _)| good)).sum(),
+        candidates: candidates.max(),
+        strata: parts.len() as u32,
+        ..device.estimate(start, amplitude, interval, goal.confidence)
+    })
+}
+
+impl Part<'_> {
+    /// Takes note of what is known after a shot.
+    fn look(&mut self) {
+        self.variance = if self.run.is_over() {
+            0.0
+        } else {
+            self.width * self.width * self.run.posterior.amplitude_variance()
+        };
+    }
+}
+
+/// The amplitude of the whole, and its interval.
+///
+/// On either side distances to the ends of strata's intervals add in squares, for the strata are
+/// measured independently of one another; but where an interval ends at 0 or 1, they add up: what
+/// is not there at all is overestimated in all strata at once.
+fn sum(parts: &[Part<'_>], confidence: f64) -> (f64, (f64, f64)) {
+    let (mut amplitude, mut squares, mut sums) = (0.0, [0.0; 2], [0.0; 2]);
+    for part in parts {
+        let mean = part.run.posterior.mean_amplitude();
+        amplitude += part.width * mean;
+        let (low, high) = part.run.posterior.interval(confidence);
+        let sides = [(mean - low, low <= 0.0), (high - mean, high >= 1.0)];
+        for (side, (distance, is_end)) in sides.into_iter().enumerate() {
+            let distance = part.width * distance.max(0.0);
+            if is_end {
+                sums[side] += distance;
+            } else {
+                squares[side] += distance * distance;
+            }
+        }
+    }
+    let amplitude = f64::clamp(amplitude, 0.0, 1.0);
+    let [below, above] = [0, 1].map(|side| sums[side] + f64::sqrt(squares[side]));
+    let interval = ((amplitude - below).max(0.0), (amplitude + above).min(1.0));
+    (amplitude, interval)
+}
