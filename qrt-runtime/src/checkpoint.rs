@@ -52,6 +52,8 @@ pub struct Tile {
     pub queries: Vec<u64>,
     /// Good indices of each pixel's channels; 0 where none are counted.
     pub good: Vec<[u64; 3]>,
+    /// Strata in which each pixel's channels were counted; 0 where nothing is.
+    pub strata: Vec<[u8; 3]>,
 }
 
 impl Tile {
@@ -65,6 +67,7 @@ impl Tile {
             pixels: Vec::new(),
             queries: Vec::new(),
             good: Vec::new(),
+            strata: Vec::new(),
         }
     }
 }
@@ -82,8 +85,9 @@ impl Tile {
 ///     height: 1,
 ///     crop: [0, 0, 2, 1],
 /// };
-/// let (pixels, queries, good) = (vec![[0.5; 3]], vec![4096], vec![[512; 3]]);
-/// let tile = Tile { x: 1, y: 0, width: 1, height: 1, pixels, queries, good };
+/// let (pixels, queries) = (vec![[0.5; 3]], vec![4096]);
+/// let (good, strata) = (vec![[512; 3]], vec![[1; 3]]);
+/// let tile = Tile { x: 1, y: 0, width: 1, height: 1, pixels, queries, good, strata };
 /// Checkpoint::create(&path, &header)?.append(&tile)?;
 /// let (_, finished) = Checkpoint::open(&path, &header)?;
 /// assert_eq!(finished, [tile]);
@@ -167,7 +171,13 @@ impl Checkpoint {
     /// written.
     pub fn append(&mut self, tile: &Tile) -> Result<(), CheckpointError> {
         let area = tile.area_within(self.crop);
-        if area != Some(tile.pixels.len() as u64) || area != Some(tile.queries.len() as u64) {
+        let lengths = [
+            tile.pixels.len(),
+            tile.queries.len(),
+            tile.good.len(),
+            tile.strata.len(),
+        ];
+        if lengths.iter().any(|&length| area != Some(length as u64)) {
             let &Tile {
                 x,
                 y,

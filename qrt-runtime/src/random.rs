@@ -13,8 +13,8 @@
 //! as 1, 2, 3*, SC 2011): a keyed bijection of 128-bit counters that passes `BigCrush`. The key is
 //! the seed; the counter is `[block (low), y, x, channel + 256 * block (high)]`, so that no two
 //! streams of one seed ever share a counter. What is drawn for a path reads the part of its pixel's
-//! stream that begins at block `path 2^16`. Which comparators were measured is drawn from a stream
-//! of its own, with 128 added to the channel.
+//! stream that begins at block `path 2^16`. Which paths were measured with the indices that
+//! were is drawn from a stream of its own, with 128 added to the channel.
 
 const MULTIPLIERS: [u32; 2] = [0xD251_1F53, 0xCD9E_8D57];
 const WEYL: [u32; 2] = [0x9E37_79B9, 0xBB67_AE85];

@@ -8,16 +8,18 @@ use super::progress::Bar;
 use super::{interrupt, plan, terminal};
 use clap::Args;
 use qrt_circuit::export::{Export, ExportError, Format, Tally};
-use qrt_circuit::quantum::{Conjunction, Counting, Part};
+use qrt_circuit::quantum::{Conjunction, Counting, Part, PhaseOracle, QuantumError};
 use qrt_core::inspect::{CHANNELS, Inspection, grouped};
 use qrt_core::oracle::Options;
 use qrt_core::scene::Window;
-use qrt_core::valid::ValidScene;
+use qrt_core::valid::{ValidScene, most_strata};
+use qrt_runtime::counting::Stratum;
 use qrt_runtime::plan::{Figures, Options as PlanOptions};
 use qrt_runtime::replace_file::replace_file;
 use qrt_runtime::workers::{Progress, Workers};
 use serde_json::{Map, Value, json};
 use std::io::{self, BufWriter, ErrorKind, Write};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 const FORMATS: [(Format, &str); 2] = [
@@ -59,6 +61,7 @@ Examples:
   qrt export box.yaml                    the middle pixel's oracle, box.qasm
   qrt export box.yaml --pixel 10,20 --channel g -o g.qasm
   qrt export box.yaml --part counting --set counting.phase_bits=3
+  qrt export box.yaml --part grover --stratum 0/4        the darkest eighth of the comparator
   qrt export box.yaml --format openqasm2 -o - | gzip > box.qasm.gz")]
 pub(crate) struct ExportArgs {
     /// The file; `-` is standard output [default: SCENE's name with .qasm, in the current folder]
@@ -76,6 +79,11 @@ pub(crate) struct ExportArgs {
     /// The channel [default: the one whose oracle has the most Toffolis]
     #[arg(long, value_parser = choice(CHANNEL_CHOICES, channel_name), value_name = "CHANNEL")]
     channel: Option<usize>,
+    /// Of the strata that halve the comparator's range N - 1 times, only number K, from 0 for the
+    /// darkest: its comparator's top bits are fixed by Xs where the whole has Hadamards. For grover
+    /// and counting; the oracle is the same for all
+    #[arg(long, value_name = "K/N", value_parser = stratum)]
+    stratum: Option<(u32, u32)>,
     /// Another seed gives other paths
     #[arg(long, value_name = "S", default_value_t = 0)]
     seed: u64,
@@ -118,6 +126,52 @@ fn pixel(text: &str) -> Result<[u32; 2], String> {
     numbers(text, "two whole numbers, such as 10,20")
 }
 
+fn stratum(text: &str) -> Result<(u32, u32), String> {
+    let numbers = text.split_once('/');
+    let numbers = numbers.and_then(|(k, n)| Some((k.trim().parse().ok()?, n.trim().parse().ok()?)));
+    match numbers {
+        Some((number, strata)) if number < strata => Ok((number, strata)),
+        _ => Err("a stratum is written as K/N, with K from 0 to N - 1, such as 3/4".to_owned()),
+    }
+}
+
+/// The stratum that is asked for, of a comparator of so many bits.
+fn stratum_of(args: &ExportArgs, bits: u32) -> Result<Option<Stratum>, Failure> {
+    let Some((number, strata)) = args.stratum else {
+        return Ok(None);
+    };
+    let refuse = |message: String| Err(Failure::Usage(message));
+    if args.part == Part::Oracle {
+        return refuse(
+            "--stratum is of what is counted, and the oracle is the same for all strata: it needs \
+             --part grover or counting"
+                .to_owned(),
+        );
+    }
+    let most = most_strata(bits);
+    if strata > most {
+        return refuse(format!(
+            "--stratum {number}/{strata}: a comparator of {bits} bits has at most {most} strata"
+        ));
+    }
+    Ok(Stratum::halving(strata, bits).nth(number as usize))
+}
+
+/// The oracle with the comparator's bits fixed as they are in a stratum.
+fn fixed(
+    oracle: PhaseOracle,
+    stratum: Stratum,
+    path_bits: u32,
+    bits: u32,
+) -> Result<PhaseOracle, QuantumError> {
+    let (fixed, lowest) = stratum.fixed_bits(bits);
+    let comparator = oracle.ids().get(path_bits as usize..).unwrap_or_default();
+    let fixed = comparator.get(fixed.start as usize..fixed.end as usize);
+    let fixed = fixed.unwrap_or_default().to_vec();
+    let (ones, zeros) = fixed.split_at(usize::from(lowest).min(fixed.len()));
+    oracle.with_fixed(zeros, ones)
+}
+
 /// A circuit that is written, and what is said of it.
 struct Exported<'a> {
     args: &'a ExportArgs,
@@ -128,6 +182,7 @@ struct Exported<'a> {
     counting: &'a Counting<'a>,
     plan: Option<&'a Figures>,
     window: Window,
+    stratum: Option<Stratum>,
     file: &'a Path,
 }
 
@@ -163,7 +218,13 @@ pub(crate) fn run(args: &ExportArgs) -> Result<(), Failure> {
     keep_budget(&loaded, &inspection)?;
     let failed = |error: &dyn std::error::Error| Failure::Job(error.to_string());
     let oracle = inspection.oracle.phase(0, args.seed, pixel);
-    let oracle = oracle.map_err(|error| failed(&error))?;
+    let mut oracle = oracle.map_err(|error| failed(&error))?;
+    let path_bits = inspection.oracle.points.path_bits();
+    let bits = inspection.oracle.comparator_bits();
+    let stratum = stratum_of(args, bits)?;
+    if let Some(stratum) = stratum {
+        oracle = fixed(oracle, stratum, path_bits, bits).map_err(|error| failed(&error))?;
+    }
     let asked = written.counting;
     let (phase_bits, window) = (
         asked.phase_bits,
@@ -171,7 +232,6 @@ pub(crate) fn run(args: &ExportArgs) -> Result<(), Failure> {
     );
     let counting = Counting::with(&oracle, phase_bits, window, Conjunction::Toffolis);
     let counting = counting.map_err(|error| failed(&error))?;
-    let path_bits = inspection.oracle.points.path_bits();
     let export = Export::new(&counting, args.part, Some(path_bits));
     let export = export.map_err(|error| failed(&error))?;
     allow(args, &counting, window, export.gates())?;
@@ -191,6 +251,7 @@ pub(crate) fn run(args: &ExportArgs) -> Result<(), Failure> {
         counting: &counting,
         plan: planned.as_ref().map(|plan| &plan.figures),
         window,
+        stratum,
         file: &file,
     };
     let tally = if to_stdout {
@@ -316,6 +377,12 @@ impl Exported<'_> {
             self.args.seed
         )];
         lines.extend(about(part).iter().map(|line| (*line).to_owned()));
+        if let (Some((number, strata)), Some(stratum)) = (self.args.stratum, self.stratum) {
+            let Range { start, end } = stratum.thresholds();
+            lines.push(format!(
+                "Stratum {number} of {strata}: the comparator is in {start}..{end}; its bits above are fixed."
+            ));
+        }
         lines.push("Bit 0 of each register is its least significant.".to_owned());
         lines
     }
@@ -358,6 +425,10 @@ impl Exported<'_> {
             "seed": self.args.seed,
             "queries": if counting { self.counting.queries() } else { 1 },
             "window": counting.then(|| self.window.name()),
+            "stratum": self.stratum.map(|stratum| {
+                let Range { start, end } = stratum.thresholds();
+                json!({ "thresholds": [start, end] })
+            }),
             "registers": registers,
             "qubits": tally.qubits,
             "gates": gates,

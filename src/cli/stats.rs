@@ -49,7 +49,9 @@ fn stats(scene: &ValidScene, rendered: &Rendered, clipped: u64) -> Value {
             "comparator_bits": rendered.parameters.comparator.bits,
             "phase_bits": rendered.parameters.counting.phase_bits,
             "repetitions": rendered.parameters.counting.repetitions,
+            "strata": rendered.parameters.counting.strata,
         },
+        "strata_used": strata_used(rendered),
         "plan": rendered.plan.as_ref().map(super::plan::json),
         "paths": rendered.paths,
         "paths_resumed": rendered.resumed_paths,
@@ -62,6 +64,14 @@ fn stats(scene: &ValidScene, rendered: &Rendered, clipped: u64) -> Value {
         "threads": rendered.threads,
         "peak_memory_bytes": peak_resident_bytes(),
     })
+}
+
+/// By number of strata, the channels of pixels that were counted in so many.
+fn strata_used(rendered: &Rendered) -> Value {
+    let used = rendered.strata_used().into_iter();
+    used.map(|(strata, channels)| (strata.to_string(), json!(channels)))
+        .collect::<serde_json::Map<_, _>>()
+        .into()
 }
 
 /// What the search for primary hits took; null if there was none.

@@ -107,18 +107,18 @@ impl std::fmt::Debug for Export<'_> {
 }
 
 impl<'a> Export<'a> {
-    /// Prepares a part of a circuit for writing. Of the qubits in superposition the lowest
-    /// `path_bits` are called `path` and the others `comparator`; without such a number all are
+    /// Prepares a part of a circuit for writing. Of the index's qubits, in superposition or fixed, the
+    /// lowest `path_bits` are called `path` and the others `comparator`; without such a number all are
     /// `ids` (`id` is a gate in OpenQASM).
     ///
     /// # Errors
-    /// Fewer than `path_bits` qubits are in superposition.
+    /// The index has fewer than `path_bits` qubits.
     pub fn new(
         counting: &'a Counting<'a>,
         part: Part,
         path_bits: Option<u32>,
     ) -> Result<Self, ExportError> {
-        let id = counting.iterate().oracle().superposed();
+        let id = counting.iterate().oracle().ids();
         let mut registers = match path_bits {
             None => vec![("ids", id.to_vec())],
             Some(bits) => {

@@ -1,6 +1,6 @@
 //! Quantum counting's circuit.
 
-use super::QuantumGate::H;
+use super::QuantumGate::{H, X};
 use super::Window;
 use super::{
     Conjunction, GroverIterate, MAX_PHASE_BITS, PhaseOracle, QuantumError, QuantumGate, fourier,
@@ -82,13 +82,13 @@ impl<'a> Counting<'a> {
         self.iterate.qubits() + self.counter.len() as u32 + bond
     }
 
-    /// The qubits that are zero after each iterate and at the end: all but those in superposition
-    /// and the phase register's.
+    /// The qubits that are zero after each iterate and at the end: all but those in superposition,
+    /// those that are fixed at 1, and the phase register's.
     pub fn ancillas(&self) -> Vec<Qubit> {
-        let ids = self.iterate.oracle().superposed();
+        let oracle = self.iterate.oracle();
+        let held = [oracle.superposed(), oracle.ones(), &self.counter].concat();
         let all = 0..self.qubits();
-        all.filter(|qubit| !ids.contains(qubit) && !self.counter.contains(qubit))
-            .collect()
+        all.filter(|qubit| !held.contains(qubit)).collect()
     }
 
     /// How many qubits a part uses: they are `0..qubits_of`.
@@ -107,7 +107,8 @@ impl<'a> Counting<'a> {
             Part::Oracle => self.iterate.oracle().gates(),
             Part::Grover => self.iterate.gates(false),
             Part::Counting => {
-                let ids = self.iterate.oracle().superposed().len() as u64;
+                let oracle = self.iterate.oracle();
+                let ids = (oracle.superposed().len() + oracle.ones().len()) as u64;
                 let prepare = ids + window::gates(self.window, bits);
                 let powers = self.queries().saturating_mul(self.iterate.gates(true));
                 powers.saturating_add(prepare + fourier::gates(bits))
@@ -145,7 +146,7 @@ impl<'a> Counting<'a> {
     }
 
     /// Prepares the phase register in the window, and puts Hadamards on the oracle's qubits in
-    /// superposition.
+    /// superposition and Xs on those that are fixed at 1.
     ///
     /// # Errors
     /// The sink's.
@@ -156,7 +157,9 @@ impl<'a> Counting<'a> {
         // The window first: while its bond is entangled, a simulator has twice the states.
         let bond = self.iterate.qubits() + self.counter.len() as u32;
         window::prepare(self.window, &self.counter, bond, sink)?;
-        let ids = self.iterate.oracle().superposed();
+        let oracle = self.iterate.oracle();
+        oracle.ones().iter().try_for_each(|id| sink(X(*id)))?;
+        let ids = oracle.superposed();
         ids.iter().try_for_each(|id| sink(H(*id)))
     }
 

@@ -21,8 +21,8 @@ pub enum Flip {
 
 /// An oracle that flips the phase of good basis states: compute, flip, uncompute.
 ///
-/// Its qubits are `0..qubits`. Those in superposition hold the path index and the comparator; all
-/// others are zero before and after. The circuit of a pixel has its classical parameters built in.
+/// Its qubits are `0..qubits`. Those in superposition hold the path index and the comparator, of
+/// which some bits may be fixed; all others are zero before and after. The circuit of a pixel has its classical parameters built in.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PhaseOracle {
     /// Gates X, CNOT and Toffoli alone, in the order in which they run.
@@ -30,7 +30,11 @@ pub struct PhaseOracle {
     flip: Vec<Flip>,
     /// Gates X, CNOT and Toffoli alone, in the order in which they run.
     uncompute: Vec<Gate>,
+    /// The qubits of the index, bit 0 first: those in superposition and those that are fixed.
+    ids: Vec<Qubit>,
     superposed: Vec<Qubit>,
+    /// Of the fixed, those that hold 1.
+    ones: Vec<Qubit>,
     qubits: u32,
 }
 
@@ -59,7 +63,9 @@ impl PhaseOracle {
             compute: loaded(&compute.gates, words)?,
             flip: flip.collect(),
             uncompute: loaded(&uncompute.gates, words)?,
+            ids: superposed.clone(),
             superposed,
+            ones: Vec::new(),
             qubits,
         };
         oracle.checked()
@@ -76,7 +82,9 @@ impl PhaseOracle {
             compute: Vec::new(),
             flip: monomials.into_iter().map(Flip::Sign).collect(),
             uncompute: Vec::new(),
+            ids: (0..bits).collect(),
             superposed: (0..bits).collect(),
+            ones: Vec::new(),
             qubits: bits,
         };
         oracle.checked()
@@ -110,6 +118,41 @@ impl PhaseOracle {
         )
     }
 
+    /// The same oracle with some qubits of its index fixed: `zeros` hold 0 and `ones` hold 1, where
+    /// all others are in superposition. So a stratum is counted: where the whole begins with a
+    /// Hadamard, its circuit has an X, or nothing.
+    ///
+    /// # Errors
+    /// A qubit that is not in superposition, or is named twice; none that stays in superposition.
+    ///
+    /// ```
+    /// use qrt_circuit::quantum::PhaseOracle;
+    /// // Of the upper half of 8 basis states, 3 are good.
+    /// let oracle = PhaseOracle::table(3, |id| id > 4)?.with_fixed(&[], &[2])?;
+    /// assert_eq!(oracle.superposed(), [0, 1]);
+    /// # Ok::<(), qrt_circuit::quantum::QuantumError>(())
+    /// ```
+    pub fn with_fixed(mut self, zeros: &[Qubit], ones: &[Qubit]) -> Result<Self, QuantumError> {
+        for qubit in zeros.iter().chain(ones) {
+            let place = self.superposed.iter().position(|other| other == qubit);
+            let place = place.ok_or(QuantumError::InvalidQubit(*qubit))?;
+            self.superposed.remove(place);
+        }
+        self.ones.extend_from_slice(ones);
+        self.checked()
+    }
+
+    /// The qubits of the index, bit 0 first: the path index and, above it, the comparator. All are
+    /// in superposition, but those that are fixed.
+    pub fn ids(&self) -> &[Qubit] {
+        &self.ids
+    }
+
+    /// The fixed qubits that hold 1, before and after each call.
+    pub fn ones(&self) -> &[Qubit] {
+        &self.ones
+    }
+
     /// The qubits in superposition, bit 0 first: the path index and, above it, the comparator.
     pub fn superposed(&self) -> &[Qubit] {
         &self.superposed
@@ -123,7 +166,7 @@ impl PhaseOracle {
     /// The ancillas: the qubits that are zero before and after each call.
     pub fn ancillas(&self) -> Vec<Qubit> {
         let all = 0..self.qubits;
-        all.filter(|qubit| !self.superposed.contains(qubit))
+        all.filter(|qubit| !self.superposed.contains(qubit) && !self.ones.contains(qubit))
             .collect()
     }
 

@@ -358,6 +358,13 @@ record! {
     pub strata: Option<u32> = AutoOr(whole::<u32>(1, 31)), or None;
 }
 
+impl Counting {
+    /// Whether strata of the comparator may be counted one by one.
+    pub fn may_count_strata(&self) -> bool {
+        self.estimator.counts_strata() && self.strata != Some(1)
+    }
+}
+
 impl Estimator {
     /// Whether it can count the strata of the comparator one by one: it must know after every shot
     /// how far each of them is known, and go on with any.

@@ -7,7 +7,7 @@
 //! body    width, height, crop x, y, width, height (u32 each), u64 seed, scene hash, u32 count of
 //!         options, and for each its name and value; texts as u32 length and UTF-8
 //! record  x, y, width, height (u32 each), pixels (3 f64 each, rows from the top),
-//!         queries (u64 each), good ids (3 u64 each), u32 CRC-32 of all before
+//!         queries (u64 each), good ids (3 u64 each), strata (3 u8 each), u32 CRC-32 of all before
 //! ```
 
 use super::{CheckpointError, Difference, Header, Tile};
@@ -15,10 +15,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 pub(super) const MAGIC: &[u8; 8] = b"QRTTILES";
-pub(super) const VERSION: u32 = 2;
+pub(super) const VERSION: u32 = 3;
 /// Bytes of a tile's record beside its pixels, and for each pixel.
 const RECORD: u64 = 20;
-const PIXEL: u64 = 56;
+const PIXEL: u64 = 59;
 
 impl Header {
     pub(super) fn encode(&self) -> Vec<u8> {
@@ -136,6 +136,7 @@ impl Tile {
         for number in self.queries.iter().chain(self.good.iter().flatten()) {
             bytes.extend(number.to_le_bytes());
         }
+        bytes.extend(self.strata.iter().flatten());
         seal(bytes)
     }
 
@@ -157,6 +158,9 @@ impl Tile {
         for _ in 0..area {
             let mut good = || take_u64(payload);
             tile.good.push([good()?, good()?, good()?]);
+        }
+        for strata in payload.as_chunks::<3>().0 {
+            tile.strata.push(*strata);
         }
         Some(tile)
     }

@@ -32,6 +32,7 @@ fn tile(x: u32, y: u32, width: u32, height: u32) -> Tile {
         pixels,
         queries,
         good: (0..area).map(|i| [u64::from(i); 3]).collect(),
+        strata: (0..area).map(|i| [i as u8; 3]).collect(),
     }
 }
 

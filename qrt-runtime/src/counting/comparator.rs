@@ -79,6 +79,11 @@ impl Comparators {
         Ok([r?, g?, b?])
     }
 
+    /// c, the register's qubits.
+    pub fn bits(&self) -> u32 {
+        self.bits
+    }
+
     /// C, the number of comparators, and of indices per path.
     pub fn count(&self) -> u64 {
         1 << self.bits

@@ -124,6 +124,11 @@ impl Octaves {
         }
     }
 
+    /// By length of their counts in bits: how many paths, and the sum of their counts.
+    pub(crate) fn by_length(&self) -> impl Iterator<Item = (u64, u64)> {
+        self.paths.iter().copied().zip(self.sums.iter().copied())
+    }
+
     /// How many paths there are.
     pub fn paths(&self) -> u64 {
         self.paths.iter().sum()

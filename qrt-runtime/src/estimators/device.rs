@@ -140,7 +140,7 @@ impl<'a> Device<'a> {
         let Problem { good, total } = self.problem;
         let found = binomial::draw(shots, good, total, self.stream);
         self.usage.good_ids += found;
-        self.read_comparators([found, shots - found]);
+        self.read_paths([found, shots - found]);
         found
     }
 
@@ -205,7 +205,7 @@ impl<'a> Device<'a> {
         };
         let found = binomial::draw_with(shots, p, q, self.stream);
         self.usage.good_ids += found;
-        self.read_comparators([found, shots - found]);
+        self.read_paths([found, shots - found]);
         found
     }
 

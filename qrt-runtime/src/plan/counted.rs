@@ -2,8 +2,9 @@
 
 use super::PlanError;
 use super::pilot::{COMPARED, Pilot, Runs, SHIFTS};
+use crate::counting::Octaves;
 use crate::estimators::{Settings, estimator};
-use crate::sample::{Drawn, Draws};
+use crate::sample::{Countable, Drawn, Draws};
 use qrt_core::scene::{Counting, Estimator};
 use std::sync::PoisonError;
 
@@ -33,7 +34,14 @@ impl Pilot<'_> {
                 bound => ((value[c] / bound * total as f64).round() as u64).min(total),
             })
         };
-        let good: Vec<[u64; 3]> = self.values.iter().map(good_of).collect();
+        // How colours are spread is known of those many paths alone; their mean is not quite the best
+        // known, and estimates of it are off by as much.
+        let good: Vec<[u64; 3]> = if self.octaves.is_empty() {
+            self.values.iter().map(good_of).collect()
+        } else {
+            let good = |octaves: &[Octaves; 3]| octaves.each_ref().map(|o| o.good().iter().sum());
+            self.octaves.iter().map(good).collect()
+        };
         let draws = Draws {
             estimator: &*estimator(self.estimator, &Settings::of(counting)?)?,
             noise: self.noise,
@@ -42,7 +50,12 @@ impl Pilot<'_> {
             counted: self.bound.map(|bound| bound > 0.0),
             total,
         };
-        let found = draws.of(&self.pixels, &good)?;
+        let countable = if self.octaves.is_empty() {
+            Countable::Whole(&good)
+        } else {
+            Countable::Octaves(&self.octaves)
+        };
+        let found = draws.of(&self.pixels, &countable)?;
         let queries: u64 = found.iter().map(|drawn| drawn.queries).sum();
         let by_draw = |draw: usize| {
             let pixels = found.iter().zip(&good);

@@ -1,7 +1,7 @@
 //! The errors of a sample of pixels, part by part.
 
 use super::{Options, PlanError};
-use crate::counting::{Comparators, CountingError};
+use crate::counting::{Comparators, CountingError, Octaves};
 use crate::estimators::Noise;
 use crate::machines::{OracleMachine, Real};
 use crate::sample::{Means, counted_tallies, prefix_means, radiance, spread, tallies};
@@ -53,6 +53,9 @@ pub(super) struct Pilot<'a> {
     pub(super) comparator_errors: Errors,
     /// The best known value of every channel.
     pub(super) values: Means,
+    /// How the paths of a smaller net exceed the thresholds; of estimators that count no strata,
+    /// nothing.
+    pub(super) octaves: Vec<[Octaves; 3]>,
     /// By path bits, from [`FEWEST`] on; of a lattice the only one.
     nets: Vec<Errors>,
     /// What estimators were off by, by phase bits and repetitions. Counting is tried only where
@@ -106,6 +109,7 @@ impl<'a> Pilot<'a> {
             comparator_bits: 0,
             comparator_errors: Vec::new(),
             values: Vec::new(),
+            octaves: Vec::new(),
             nets: Vec::new(),
             counted: Mutex::new(BTreeMap::new()),
             workers,
@@ -229,6 +233,11 @@ impl<'a> Pilot<'a> {
             }
         }
         self.values = means;
+        if self.estimator.counts_strata() {
+            let chosen = [self.comparators(self.comparator_bits)?];
+            let found = tallies(&machine, &self.pixels, 0..paths, &chosen, &self.workers)?;
+            self.octaves = found.into_iter().map(|tally| tally.octaves).collect();
+        }
         Ok(())
     }
 

@@ -81,6 +81,7 @@ impl<'a> Job<'a> {
             Ok(()) => Ok(Rendered {
                 image: film.image,
                 queries: film.queries,
+                strata: film.strata,
                 good: (options.model != Model::Real && options.colour == Colour::ThreeRuns)
                     .then_some(film.good),
                 model: options.model,
@@ -155,6 +156,7 @@ impl<'a> Job<'a> {
         tile.pixels.push(pixel.colour);
         tile.queries.push(pixel.queries);
         tile.good.push(pixel.good);
+        tile.strata.push(pixel.strata);
         Ok(())
     }
 }

@@ -71,6 +71,7 @@ use pixel::Source;
 use qrt_core::oracle::{self, Oracle, OracleError};
 use qrt_core::scene::Estimator;
 use qrt_core::valid::{Parameters, ValidScene};
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 named! {
@@ -153,6 +154,10 @@ pub struct Rendered {
     /// `exact`, which sums over all paths and asks no oracle. Where primary hits are searched for:
     /// those of the oracle of nearest hits, all paths together.
     pub queries: Vec<u64>,
+    /// Strata of the comparator that were counted one by one, by pixel and channel: 1 where the
+    /// whole was counted at once, 0 where nothing is counted. Of the luminance, it stands in the
+    /// first place.
+    pub strata: Vec<[u8; 3]>,
     /// S, the good indices of every pixel's channels, as the image's pixels; none of the real
     /// model, which compares with no comparators.
     pub good: Option<Vec<[u64; 3]>>,
@@ -195,6 +200,15 @@ impl Rendered {
     /// Queries of the oracle for the whole picture.
     pub fn total_queries(&self) -> u128 {
         self.queries.iter().map(|&q| u128::from(q)).sum()
+    }
+
+    /// How many channels of pixels were counted in how many strata.
+    pub fn strata_used(&self) -> BTreeMap<u8, u64> {
+        let mut used = BTreeMap::new();
+        for &strata in self.strata.iter().flatten().filter(|&&strata| strata > 0) {
+            *used.entry(strata).or_default() += 1;
+        }
+        used
     }
 
     /// The mean pixel, in linear radiance: red, green, blue.

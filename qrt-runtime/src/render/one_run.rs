@@ -9,13 +9,18 @@
 //! E[rgb_i / Y_i] = sum_i (Y_i / sum_j Y_j) (rgb_i / Y_i) = mean(rgb) / mean(Y).
 //! ```
 //!
+//! Where strata of the comparator are counted one by one, the same holds of each, for the part of
+//! the luminance that lies within its thresholds; the pixel is the sum of all.
+//!
 //! Its luminance is as good as counting makes it. Its colour has the error of so many samples as
 //! good indices were measured, which is none where all paths have one colour.
 
 use super::RenderError;
 use super::pixel::{Pixels, Source};
-use crate::counting::{Comparators, CountingError};
-use crate::estimators::{AmplitudeEstimator, Device, Noise, Problem};
+use crate::counting::{Comparators, CountingError, Octaves, Stratum};
+use crate::estimators::{
+    AmplitudeEstimator, CountedStratum, Device, EstimatorError, Noise, Problem,
+};
 use crate::machines::Defect;
 use crate::random::Stream;
 use qrt_core::oracle::{LUMINANCE_CHANNEL, luminance};
@@ -34,39 +39,74 @@ const MEASURED: u64 = 1 << 13;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct OneRun {
     comparators: Comparators,
+    comparator_bits: u32,
     segment: u64,
+    /// Whether strata may be counted one by one.
+    by_strata: bool,
+}
+
+/// Where the good indices of a stratum are: by segment of the pixel's paths.
+struct GoodPaths<'a> {
+    stratum: Stratum,
+    good: &'a [u64],
+    paths: u64,
 }
 
 /// What the paths of a pixel add up to: by segment, good indices of the luminance.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Segments {
     sums: Vec<u64>,
+    /// The same by octave, where strata may be counted one by one.
+    octaves: Vec<Octaves>,
     paths: u64,
 }
 
 impl Segments {
     /// Adds the next path.
-    fn add(&mut self, good: u64, segment: u64) {
-        if self.paths.is_multiple_of(segment) {
+    fn add(&mut self, good: u64, one_run: &OneRun) {
+        if self.paths.is_multiple_of(one_run.segment) {
             self.sums.push(0);
+            if one_run.by_strata {
+                self.octaves.push(Octaves::new(one_run.comparator_bits));
+            }
         }
         if let Some(last) = self.sums.last_mut() {
             *last += good;
         }
+        if let Some(last) = self.octaves.last_mut() {
+            last.add(good);
+        }
         self.paths += 1;
+    }
+
+    /// By segment, the good indices within a stratum.
+    fn within(&self, stratum: Stratum, whole: Stratum) -> Vec<u64> {
+        if stratum == whole {
+            return self.sums.clone();
+        }
+        let good = |octaves: &Octaves| octaves.good()[stratum.octaves()].iter().sum();
+        self.octaves.iter().map(good).collect()
     }
 
     /// Adds the paths that follow. To be used on segments' boundaries.
     pub(super) fn append(&mut self, later: &Self) {
         self.sums.extend(&later.sums);
+        self.octaves.extend_from_slice(&later.octaves);
         self.paths += later.paths;
     }
 }
 
 impl OneRun {
-    pub(super) fn new(bound: &[f64; 3], scene: &Scene, paths: u64) -> Result<Self, CountingError> {
+    pub(super) fn new(
+        bound: &[f64; 3],
+        scene: &Scene,
+        paths: u64,
+        by_strata: bool,
+    ) -> Result<Self, CountingError> {
         Ok(Self {
             comparators: Comparators::new(luminance(bound), scene.comparator)?,
+            comparator_bits: scene.comparator.bits,
+            by_strata,
             segment: SEGMENT.max(paths / SEGMENTS),
         })
     }
@@ -75,14 +115,14 @@ impl OneRun {
     pub(super) fn take_colours(&self, segments: &mut Segments, colours: &[&[f64]; 3]) {
         let [r, g, b] = colours;
         for ((r, g), b) in r.iter().zip(*g).zip(*b) {
-            segments.add(self.good(&[*r, *g, *b]), self.segment);
+            segments.add(self.good(&[*r, *g, *b]), self);
         }
     }
 
     /// Adds paths with these counts.
     pub(super) fn take_counts(&self, segments: &mut Segments, counts: &[i64]) {
         for good in counts {
-            segments.add(good.cast_unsigned(), self.segment);
+            segments.add(good.cast_unsigned(), self);
         }
     }
 
@@ -90,7 +130,7 @@ impl OneRun {
         u64::from(self.comparators.good(luminance(colour)))
     }
 
-    /// The colour of a pixel, and the queries that it took.
+    /// The colour of a pixel, the queries that it took, and how many strata were counted.
     pub(super) fn finish(
         &self,
         pixels: &Pixels,
@@ -98,32 +138,60 @@ impl OneRun {
         noise: Noise,
         [x, y]: [u32; 2],
         segments: &Segments,
-    ) -> Result<([f64; 3], u64), RenderError> {
+    ) -> Result<([f64; 3], u64, u8), RenderError> {
         if self.comparators.step() == 0.0 {
-            return Ok(([0.0; 3], 0));
+            return Ok(([0.0; 3], 0, 0));
         }
-        let problem = Problem {
-            good: segments.sums.iter().sum(),
-            total: segments.paths * self.comparators.count(),
-        };
         let mut stream = Stream::new(pixels.seed(), x, y, LUMINANCE_CHANNEL as u8);
-        let mut device = Device::new(problem, noise, &mut stream)?;
+        let mut device = self.device(segments, noise, &mut stream)?;
         let estimate = estimator.estimate(&mut device)?;
-        let measured = device.usage().good_ids.min(MEASURED);
+        let whole = CountedStratum {
+            stratum: Stratum::whole(self.comparator_bits),
+            amplitude: estimate.amplitude,
+            good_ids: device.usage().good_ids,
+            queries: estimate.queries,
+        };
+        let counted = match device.counted_strata() {
+            [] => vec![whole],
+            strata => strata.to_vec(),
+        };
         let value = self.comparators.pixel_of_amplitude(estimate.amplitude);
-        let mut ids: Vec<u64> = (0..measured).map(|_| stream.below(problem.good)).collect();
-        ids.sort_unstable();
         let (mut sum, mut found) = ([0.0; 3], 0.0);
-        self.paths_of(pixels, [x, y], segments, &ids, |colour| {
-            let luminance = luminance(&colour);
-            // A colour may round to black where its luminance does not.
-            if luminance > 0.0 {
-                for (sum, part) in sum.iter_mut().zip(colour) {
-                    *sum += part / luminance;
+        for part in counted {
+            let good = segments.within(part.stratum, whole.stratum);
+            let all = good.iter().sum();
+            let measured = part.good_ids.min(MEASURED);
+            let mut ids: Vec<u64> = (0..measured).map(|_| stream.below(all)).collect();
+            ids.sort_unstable();
+            let (mut colours, mut paths) = ([0.0; 3], 0.0);
+            let places = GoodPaths {
+                stratum: part.stratum,
+                good: &good,
+                paths: segments.paths,
+            };
+            self.paths_of(pixels, [x, y], &places, &ids, |colour| {
+                let luminance = luminance(&colour);
+                // A colour may round to black where its luminance does not.
+                if luminance > 0.0 {
+                    for (sum, part) in colours.iter_mut().zip(colour) {
+                        *sum += part / luminance;
+                    }
+                    paths += 1.0;
                 }
-                found += 1.0;
+            })?;
+            if paths > 0.0 {
+                // Of the whole alone, the sum over paths as it is.
+                let weight = if part == whole {
+                    1.0
+                } else {
+                    part.amplitude / paths
+                };
+                for (sum, colour) in sum.iter_mut().zip(colours) {
+                    *sum += weight * colour;
+                }
+                found += weight * paths;
             }
-        })?;
+        }
         // Where no path is known, nothing is known of its colour: grey.
         let colour = sum.map(|sum| {
             if found > 0.0 {
@@ -132,7 +200,28 @@ impl OneRun {
                 value
             }
         });
-        Ok((colour, estimate.queries))
+        // At most 31 strata.
+        Ok((colour, estimate.queries, estimate.strata as u8))
+    }
+
+    fn device<'a>(
+        &self,
+        segments: &Segments,
+        noise: Noise,
+        stream: &'a mut Stream,
+    ) -> Result<Device<'a>, EstimatorError> {
+        if !self.by_strata {
+            let problem = Problem {
+                good: segments.sums.iter().sum(),
+                total: segments.paths * self.comparators.count(),
+            };
+            return Device::new(problem, noise, stream);
+        }
+        let mut all = Octaves::new(self.comparator_bits);
+        for octaves in &segments.octaves {
+            all.append(octaves);
+        }
+        Device::of_octaves(&all, noise, stream)
     }
 
     /// Hands over the colours of the paths of these good indices, which are in order.
@@ -140,18 +229,19 @@ impl OneRun {
         &self,
         pixels: &Pixels,
         pixel: [u32; 2],
-        segments: &Segments,
+        places: &GoodPaths<'_>,
         ids: &[u64],
         mut colour: impl FnMut([f64; 3]),
     ) -> Result<(), Defect> {
         let mut ids = ids.iter().copied().peekable();
         let mut first = 0;
-        for (number, &sum) in (0_u64..).zip(&segments.sums) {
+        for (number, &sum) in (0_u64..).zip(places.good) {
             if ids.peek().is_some_and(|&id| id < first + sum) {
                 let start = number * self.segment;
-                let end = (start + self.segment).min(segments.paths);
+                let end = (start + self.segment).min(places.paths);
                 let mut before = first;
-                self.trace(pixels, pixel, start..end, |good, rgb| {
+                self.trace(pixels, pixel, start..end, |count, rgb| {
+                    let good = places.stratum.good(count);
                     while ids.next_if(|&id| id < before + good).is_some() {
                         colour(rgb);
                     }

@@ -2,7 +2,7 @@
 
 use super::one_run::{OneRun, Segments};
 use super::{Colour, Options, RenderError};
-use crate::counting::Comparators;
+use crate::counting::{Comparators, Octaves};
 use crate::estimators::{
     AmplitudeEstimator, Device, Estimate, EstimatorError, Noise, Problem, Settings, estimator,
 };
@@ -29,6 +29,8 @@ const PARTS: u64 = 1 << 12;
 pub(super) struct Totals {
     colour: [Sum; 3],
     good: [u64; 3],
+    /// The same by octave of their thresholds, where strata may be counted one by one.
+    octaves: [Octaves; 3],
     /// The counts of the luminance, where it is counted.
     segments: Segments,
     /// Queries that primary hits took.
@@ -43,6 +45,8 @@ pub(super) struct Pixel {
     pub(super) queries: u64,
     /// S; 0 where none are counted.
     pub(super) good: [u64; 3],
+    /// Strata that were counted one by one; 0 where nothing is counted.
+    pub(super) strata: [u8; 3],
 }
 
 /// What traces the paths.
@@ -67,6 +71,8 @@ pub(super) struct Pixels {
 struct Counter {
     comparators: [Comparators; 3],
     estimator: Box<dyn AmplitudeEstimator + Send + Sync>,
+    /// Whether strata may be counted one by one.
+    by_strata: bool,
     noise: Noise,
     one_run: Option<OneRun>,
 }
@@ -96,12 +102,13 @@ impl Pixels {
         if estimate == Estimator::Exact && options.noise != Noise::NONE {
             return Err(RenderError::NothingNoisy);
         }
+        let by_strata = estimate.counts_strata() && scene.counting.strata != Some(1);
         let one_run = match options.colour {
             Colour::ThreeRuns => None,
             Colour::OneRun if estimate == Estimator::Exact => {
                 return Err(RenderError::NothingMeasured);
             }
-            Colour::OneRun => Some(OneRun::new(&bound, scene, paths)?),
+            Colour::OneRun => Some(OneRun::new(&bound, scene, paths, by_strata)?),
         };
         let counter = if estimate == Estimator::Exact {
             None
@@ -109,6 +116,7 @@ impl Pixels {
             Some(Counter {
                 comparators: Comparators::rgb(bound, scene.comparator)?,
                 estimator: estimator(estimate, &Settings::of(&scene.counting)?)?,
+                by_strata,
                 noise: options.noise,
                 one_run,
             })
@@ -135,6 +143,21 @@ impl Pixels {
         self.counter.as_ref()?.one_run.as_ref()
     }
 
+    /// Totals of no paths yet.
+    fn none(&self) -> Totals {
+        let mut totals = Totals::default();
+        if self.by_octaves() {
+            totals.octaves = [(); 3].map(|()| Octaves::new(self.comparator_bits));
+        }
+        totals
+    }
+
+    /// Whether the counts of channels are wanted by octave.
+    fn by_octaves(&self) -> bool {
+        let counter = self.counter.as_ref();
+        counter.is_some_and(|counter| counter.by_strata && counter.one_run.is_none())
+    }
+
     pub(super) fn bound(&self) -> [f64; 3] {
         self.bound
     }
@@ -146,7 +169,7 @@ impl Pixels {
 
     /// The totals of all paths of `pixels`, which have few each.
     pub(super) fn few(&self, pixels: &[[u32; 2]]) -> Result<Vec<Totals>, Defect> {
-        let mut totals = vec![Totals::default(); pixels.len()];
+        let mut totals = vec![self.none(); pixels.len()];
         self.trace(pixels, 0..self.paths, &mut totals)?;
         Ok(totals)
     }
@@ -174,6 +197,12 @@ impl Pixels {
                 for (total, good) in totals.good.iter_mut().zip(finished.good) {
                     *total += good.iter().sum::<i64>().cast_unsigned();
                 }
+                if self.by_octaves() {
+                    for (octaves, good) in totals.octaves.iter_mut().zip(finished.good) {
+                        good.iter()
+                            .for_each(|good| octaves.add(good.cast_unsigned()));
+                    }
+                }
             }),
         }
     }
@@ -196,7 +225,7 @@ impl Pixels {
         let Some(totals) = totals.into_iter().collect::<Option<Vec<Totals>>>() else {
             return Ok(None);
         };
-        let mut whole = Totals::default();
+        let mut whole = self.none();
         for later in &totals {
             whole.append(later);
         }
@@ -209,7 +238,7 @@ impl Pixels {
         ids: Range<u64>,
         traced: &impl Fn(u64) -> bool,
     ) -> Result<Option<Totals>, Defect> {
-        let mut totals = [Totals::default()];
+        let mut totals = [self.none()];
         let mut first = ids.start;
         while first < ids.end {
             let end = (first + RUN).min(ids.end);
@@ -243,6 +272,13 @@ impl Pixels {
                 Some(Counter {
                     one_run: Some(_), ..
                 }) => {}
+                Some(counter) if counter.by_strata => {
+                    let comparators = &counter.comparators[channel];
+                    let octaves = &mut totals.octaves[channel];
+                    colours
+                        .iter()
+                        .for_each(|&colour| octaves.add(comparators.good(colour).into()));
+                }
                 Some(counter) => {
                     totals.good[channel] += counter.comparators[channel].good_total(colours);
                 }
@@ -264,6 +300,7 @@ impl Pixels {
                 Source::Real(_) => [0; 3],
                 Source::Oracle(_) => totals.good,
             },
+            strata: [0; 3],
         };
         let Some(counter) = &self.counter else {
             finished.colour = self.means(totals);
@@ -271,17 +308,19 @@ impl Pixels {
         };
         if let Some(one_run) = &counter.one_run {
             let estimator = &*counter.estimator;
-            (finished.colour, finished.queries) =
-                one_run.finish(self, estimator, counter.noise, pixel, &totals.segments)?;
+            let found = one_run.finish(self, estimator, counter.noise, pixel, &totals.segments)?;
+            (finished.colour, finished.queries, finished.strata[0]) = found;
             finished.good = [0; 3];
             return Ok(finished);
         }
         for channel in 0..3 {
             // Where nothing is to be counted, black is proven.
             if self.bound[channel] > 0.0 {
-                let estimate = self.estimate(counter, pixel, channel, totals.good[channel])?;
+                let estimate = self.estimate(counter, pixel, channel, totals)?;
                 // At most 3 * 2^40 * 10^6, below 2^62.
                 finished.queries += estimate.queries;
+                // At most 31.
+                finished.strata[channel] = estimate.strata as u8;
                 finished.colour[channel] =
                     counter.comparators[channel].pixel_of_amplitude(estimate.amplitude);
             }
@@ -320,14 +359,18 @@ impl Pixels {
         counter: &Counter,
         [x, y]: [u32; 2],
         channel: usize,
-        good: u64,
+        totals: &Totals,
     ) -> Result<Estimate, EstimatorError> {
-        let problem = Problem {
-            good,
-            total: self.paths * counter.comparators[channel].count(),
-        };
         let mut stream = Stream::new(self.seed, x, y, channel as u8);
-        let mut device = Device::new(problem, counter.noise, &mut stream)?;
+        let mut device = if counter.by_strata {
+            Device::of_octaves(&totals.octaves[channel], counter.noise, &mut stream)?
+        } else {
+            let problem = Problem {
+                good: totals.good[channel],
+                total: self.paths * counter.comparators[channel].count(),
+            };
+            Device::new(problem, counter.noise, &mut stream)?
+        };
         counter.estimator.estimate(&mut device)
     }
 }
@@ -340,6 +383,7 @@ impl Totals {
         for channel in 0..3 {
             self.colour[channel].append(&later.colour[channel]);
             self.good[channel] += later.good[channel];
+            self.octaves[channel].append(&later.octaves[channel]);
             let (paths, colour) = later.stray[channel];
             let stray = &mut self.stray[channel];
             if stray.0 == 0 {

@@ -9,7 +9,7 @@ mod spread;
 mod sum;
 mod tally;
 
-pub(crate) use drawn::{Drawn, Draws};
+pub(crate) use drawn::{Countable, Drawn, Draws};
 pub use error::SampleError;
 pub use spread::spread;
 pub(crate) use sum::Sum;

@@ -1,7 +1,7 @@
 //! Sums over the paths of pixels, on all threads.
 
 use super::{SampleError, Sum};
-use crate::counting::Comparators;
+use crate::counting::{Comparators, Octaves};
 use crate::machines::{OracleMachine, Real};
 use crate::workers::Workers;
 use rayon::prelude::*;
@@ -17,6 +17,8 @@ pub struct Tally {
     pub colour: [f64; 3],
     /// By register of comparators, and by channel: the good indices.
     pub good: Vec<[u64; 3]>,
+    /// By channel: those of the first register, by octave.
+    pub octaves: [Octaves; 3],
 }
 
 impl Tally {
@@ -29,6 +31,9 @@ impl Tally {
             for (sum, more) in sum.iter_mut().zip(more) {
                 *sum += more;
             }
+        }
+        for (sum, more) in self.octaves.iter_mut().zip(&later.octaves) {
+            sum.append(more);
         }
     }
 }
@@ -46,21 +51,34 @@ pub fn tallies(
     workers: &Workers<'_>,
 ) -> Result<Vec<Tally>, SampleError> {
     in_runs(pixels, ids, workers, |pixels, ids| {
+        let none = Tally {
+            good: vec![[0; 3]; comparators.len()],
+            octaves: match comparators.first() {
+                Some(first) => first.each_ref().map(|c| Octaves::new(c.bits())),
+                None => Default::default(),
+            },
+            ..Tally::default()
+        };
+        let mut tallies = vec![none; pixels.len()];
         let mut sums = vec![[Sum::default(); 3]; pixels.len()];
-        let mut good = vec![vec![[0_u64; 3]; comparators.len()]; pixels.len()];
         real.trace_range(pixels, ids, |block| {
+            let tally = &mut tallies[block.pixel];
             for (channel, colours) in block.colours.into_iter().enumerate() {
                 sums[block.pixel][channel].add(colours);
-                for (good, comparators) in good[block.pixel].iter_mut().zip(comparators) {
+                for (good, comparators) in tally.good.iter_mut().zip(comparators) {
                     good[channel] += comparators[channel].good_total(colours);
+                }
+                if let Some(first) = comparators.first() {
+                    let octaves = &mut tally.octaves[channel];
+                    let counts = colours.iter().map(|&colour| first[channel].good(colour));
+                    counts.for_each(|good| octaves.add(good.into()));
                 }
             }
         });
-        let tally = |(sums, good): ([Sum; 3], Vec<[u64; 3]>)| Tally {
-            colour: sums.map(|sum| sum.value()),
-            good,
-        };
-        Ok(sums.into_iter().zip(good).map(tally).collect())
+        for (tally, sums) in tallies.iter_mut().zip(sums) {
+            tally.colour = sums.map(|sum| sum.value());
+        }
+        Ok(tallies)
     })
 }
 
@@ -76,14 +94,21 @@ pub fn counted_tallies(
     workers: &Workers<'_>,
 ) -> Result<Vec<Tally>, SampleError> {
     in_runs(pixels, ids, workers, |pixels, ids| {
-        let mut tallies = vec![Tally::default(); pixels.len()];
-        for tally in &mut tallies {
-            tally.good = vec![[0; 3]];
-        }
+        let bits = machine.oracle().comparator_bits();
+        let none = Tally {
+            good: vec![[0; 3]],
+            octaves: [(); 3].map(|()| Octaves::new(bits)),
+            ..Tally::default()
+        };
+        let mut tallies = vec![none; pixels.len()];
         machine.trace(pixels, ids, |finished| {
-            let sums = &mut tallies[finished.pixel].good[0];
-            for (sum, good) in sums.iter_mut().zip(finished.good) {
+            let tally = &mut tallies[finished.pixel];
+            for (sum, good) in tally.good[0].iter_mut().zip(finished.good) {
                 *sum += good.iter().sum::<i64>().cast_unsigned();
+            }
+            for (octaves, good) in tally.octaves.iter_mut().zip(finished.good) {
+                good.iter()
+                    .for_each(|good| octaves.add(good.cast_unsigned()));
             }
         })?;
         Ok(tallies)

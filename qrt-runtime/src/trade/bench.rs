@@ -4,11 +4,11 @@ use super::band::Band;
 use super::error::TradeError;
 use super::setting::Setting;
 use super::table::Row;
-use crate::counting::Comparators;
+use crate::counting::{Comparators, Octaves};
 use crate::estimators::{Noise, Settings, estimator};
 use crate::machines::{OracleMachine, Real};
 use crate::render::Model;
-use crate::sample::{self, Drawn, Draws, Means, SampleError, Tally, counted_tallies, tallies};
+use crate::sample::{self, Countable, Drawn, Draws, Means, SampleError, Tally, counted_tallies, tallies};
 use crate::workers::Workers;
 use qrt_core::oracle::{CallCost, Oracle, call_cost};
 use qrt_core::scene::{Circuit, Comparator, Estimator, Sampling};
@@ -51,6 +51,8 @@ struct Traced {
     means: Means,
     /// By pixel and channel: S.
     good: Vec<[u64; 3]>,
+    /// The same by octave of the comparator.
+    octaves: Vec<[Octaves; 3]>,
     /// The wall time, in seconds.
     seconds: f64,
 }
@@ -126,7 +128,7 @@ impl<'a> Bench<'a> {
             |good: &[u64; 3]| std::array::from_fn(|c| bound[c] * (good[c] as f64 / ids as f64));
         let [in_real, in_model]: [Means; 2] =
             [&real.good, &counted.good].map(|good| good.iter().map(value).collect());
-        let estimated = self.estimated(&parameters, &bound, &counted.good, ids)?;
+        let estimated = self.estimated(&parameters, &bound, &counted, ids)?;
         let drawn = drawn(&estimated, &in_model, &truth, mean);
         let pixels = self.pixels.len() as f64;
         let depth = self.depth_error(setting.depths, mean)?;
@@ -160,6 +162,7 @@ impl<'a> Bench<'a> {
         let traced = Traced {
             means: means(&found, paths),
             good: good(&found),
+            octaves: octaves(found),
             seconds: start.elapsed().as_secs_f64(),
         };
         self.real.push((key, traced.clone()));
@@ -214,6 +217,7 @@ impl<'a> Bench<'a> {
         let traced = Traced {
             means: Means::new(),
             good: good(&found),
+            octaves: octaves(found),
             seconds: start.elapsed().as_secs_f64(),
         };
         self.counted.push((key, traced.clone()));
@@ -225,11 +229,12 @@ impl<'a> Bench<'a> {
         &self,
         parameters: &Parameters,
         bound: &[f64; 3],
-        good: &[[u64; 3]],
+        traced: &Traced,
         total: u64,
     ) -> Result<Estimated, TradeError> {
         let start = Instant::now();
         let settings = Settings::of(&parameters.counting)?;
+        let by_strata = parameters.counting.may_count_strata();
         let draws = Draws {
             estimator: &*estimator(parameters.counting.estimator, &settings)?,
             noise: Noise::NONE,
@@ -239,7 +244,12 @@ impl<'a> Bench<'a> {
             counted: bound.map(|bound| bound > 0.0),
             total,
         };
-        let found = draws.of(&self.pixels, good)?;
+        let countable = if by_strata {
+            Countable::Octaves(&traced.octaves)
+        } else {
+            Countable::Whole(&traced.good)
+        };
+        let found = draws.of(&self.pixels, &countable)?;
         let exact = parameters.counting.estimator == Estimator::Exact;
         let queries: u64 = found.iter().map(|drawn| drawn.queries).sum();
         let value = |amplitudes: &[f64; 3]| std::array::from_fn(|c| bound[c] * amplitudes[c]);
@@ -274,6 +284,10 @@ fn circuit_key(parameters: &Parameters) -> CircuitKey {
 fn means(tallies: &[Tally], paths: u64) -> Means {
     let mean = |tally: &Tally| tally.colour.map(|sum| sum / paths as f64);
     tallies.iter().map(mean).collect()
+}
+
+fn octaves(tallies: Vec<Tally>) -> Vec<[Octaves; 3]> {
+    tallies.into_iter().map(|tally| tally.octaves).collect()
 }
 
 fn good(tallies: &[Tally]) -> Vec<[u64; 3]> {

@@ -131,6 +131,10 @@ fn value(sweep: Sweep, row: &Row) -> String {
             "{} t={} B={}",
             setting.estimator, setting.phase_bits, setting.repetitions
         ),
+        Sweep::Strata => match setting.strata {
+            Some(strata) => format!("{strata}"),
+            None => "auto".to_owned(),
+        },
         Sweep::Comparator => format!("{} bits", setting.comparator_bits),
         Sweep::Fraction => format!("{} bits", setting.fraction),
         Sweep::Paths => format!("{} 2^{}", setting.sequence, setting.path_bits),

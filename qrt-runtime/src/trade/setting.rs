@@ -6,7 +6,7 @@ use qrt_core::oracle::DEFAULT_FRACTION;
 use qrt_core::scene::{
     Counting, DepthSampling, Estimator, Map, Nearest, Sampling, Sequence, Uncompute,
 };
-use qrt_core::valid::Parameters;
+use qrt_core::valid::{Parameters, most_strata};
 
 named! {
     /// Which parameter a row is about.
@@ -17,6 +17,8 @@ named! {
         Counting = "counting",
         /// Repetitions of a smaller register.
         Repetitions = "repetitions",
+        /// How many strata of the comparator are counted one by one.
+        Strata = "strata",
         /// The number of comparators.
         Comparator = "comparator",
         /// The width of numbers.
@@ -45,6 +47,9 @@ pub struct Setting {
     pub phase_bits: u32,
     /// B, the runs of the counting circuit.
     pub repetitions: u32,
+    /// Strata of the comparator that are counted one by one; none: as many as what is measured
+    /// suggests.
+    pub strata: Option<u32>,
     /// How path indices become points.
     pub sequence: Sequence,
     /// R = 2^path_bits.
@@ -62,12 +67,13 @@ pub struct Setting {
 }
 
 /// Columns of a setting.
-pub(super) const KEY: [&str; 12] = [
+pub(super) const KEY: [&str; 13] = [
     "sweep",
     "model",
     "estimator",
     "phase_bits",
     "repetitions",
+    "strata",
     "sequence",
     "path_bits",
     "depths",
@@ -86,6 +92,7 @@ impl Setting {
             estimator: parameters.counting.estimator,
             phase_bits: parameters.counting.phase_bits,
             repetitions: parameters.counting.repetitions,
+            strata: parameters.counting.strata,
             sequence: parameters.sampling.sequence,
             path_bits: parameters.sampling.path_bits,
             depths: parameters.sampling.depths.len(),
@@ -104,6 +111,7 @@ impl Setting {
             self.estimator.to_string(),
             self.phase_bits.to_string(),
             self.repetitions.to_string(),
+            (self.strata()).map_or_else(|| "auto".to_owned(), |strata| strata.to_string()),
             self.sequence.to_string(),
             self.path_bits.to_string(),
             self.depths.to_string(),
@@ -112,6 +120,16 @@ impl Setting {
             self.uncompute.to_string(),
             self.nearest.to_string(),
         ]
+    }
+
+    /// As many strata as its estimator and its comparator have.
+    fn strata(&self) -> Option<u32> {
+        if self.estimator.counts_strata() {
+            let most = most_strata(self.comparator_bits);
+            self.strata.map(|strata| strata.min(most))
+        } else {
+            Some(1)
+        }
     }
 
     /// The scene's parameters with these values.
@@ -124,6 +142,7 @@ impl Setting {
             phase_bits: self.phase_bits,
             repetitions: self.repetitions,
             estimator: self.estimator,
+            strata: self.strata(),
             ..scene.counting
         };
         parameters.circuit.uncompute = self.uncompute;

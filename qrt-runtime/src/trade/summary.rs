@@ -83,10 +83,14 @@ fn slopes(trade: &Trade) -> Vec<String> {
 /// A setting by what matters of it.
 pub(super) fn differs(setting: &Setting) -> String {
     format!(
-        "{} t={} B={}, {} 2^{} paths, {} comparator bits, {} fraction bits, {} {}",
+        "{} t={} B={}{}, {} 2^{} paths, {} comparator bits, {} fraction bits, {} {}",
         setting.estimator,
         setting.phase_bits,
         setting.repetitions,
+        match setting.strata {
+            Some(strata @ 2..) => format!(" {strata} strata"),
+            _ => String::new(),
+        },
         setting.sequence,
         setting.path_bits,
         setting.comparator_bits,

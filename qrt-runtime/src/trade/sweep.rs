@@ -4,7 +4,7 @@
 use super::setting::{Setting, Sweep};
 use crate::render::Model;
 use qrt_core::scene::{Estimator, Nearest, Sequence, Uncompute};
-use qrt_core::valid::{MAX_NET_DEPTHS, Parameters};
+use qrt_core::valid::{MAX_NET_DEPTHS, Parameters, most_strata};
 
 /// Registers that are halved before they are repeated: as many as make up for up to 32 repetitions.
 const HALVED: u32 = 4;
@@ -17,6 +17,7 @@ pub(super) fn settings(parameters: &Parameters, quick: bool) -> Vec<Setting> {
     let mut rows = vec![scene];
     rows.extend(counting(of(Sweep::Counting), quick, step));
     rows.extend(repetitions(of(Sweep::Repetitions)));
+    rows.extend(strata(of(Sweep::Strata)));
     rows.extend((2..=16).step_by(step).map(|comparator_bits| Setting {
         comparator_bits,
         ..of(Sweep::Comparator)
@@ -71,6 +72,23 @@ fn repetitions(scene: Setting) -> impl Iterator<Item = Setting> {
             repetitions: 1 << k,
             ..scene
         })
+    })
+}
+
+/// Strata of the comparator, as many as it has, by an estimator that counts them.
+fn strata(scene: Setting) -> impl Iterator<Item = Setting> {
+    let estimator = if scene.estimator.counts_strata() {
+        scene.estimator
+    } else {
+        Estimator::AdaptiveBayes
+    };
+    let most = most_strata(scene.comparator_bits);
+    let numbers = [1, 2, 3, 4, 6].into_iter().filter(move |n| *n <= most);
+    let all = numbers.map(Some).chain([None]);
+    all.map(move |strata| Setting {
+        estimator,
+        strata,
+        ..scene
     })
 }
 

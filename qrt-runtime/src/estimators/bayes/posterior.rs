@@ -1,6 +1,6 @@
 //! What is known of theta after shots at several query depths.
 
-use super::support::{self, Support};
+use super::support::{self, Prior, Support};
 use crate::estimators::device::id_bits;
 use crate::estimators::interval::credible_content;
 use crate::estimators::{Device, Estimate, Noise, Usage};
@@ -38,6 +38,7 @@ struct Shots {
 pub(super) struct Posterior {
     total: u64,
     noise: Noise,
+    before: Prior,
     /// Bits of an index.
     bits: u32,
     support: Support,
@@ -97,10 +98,11 @@ impl Tempered {
 
 impl Posterior {
     /// Before the first shot.
-    pub(super) fn new(total: u64, noise: Noise) -> Self {
+    pub(super) fn new(total: u64, noise: Noise, before: Prior) -> Self {
         let mut posterior = Self {
             total,
             noise,
+            before,
             bits: id_bits(total),
             support: Support::whole(total),
             shots: Vec::new(),
@@ -116,6 +118,23 @@ impl Posterior {
         };
         posterior.recompute();
         posterior
+    }
+
+    /// The same before the first shot, but certain that the fraction of good indices is between
+    /// `low` and `high`.
+    pub(super) fn between(mut self, low: f64, high: f64) -> Self {
+        let total = self.total;
+        let width = self.support.width();
+        let cells = (0..self.support.len()).map(|index| self.support.ends(index, total));
+        let inside: Vec<bool> = cells.map(|(a, b)| b >= low && a <= high).collect();
+        let kept: Vec<bool> = (inside.chunks(width))
+            .map(|cells| cells.contains(&true))
+            .collect();
+        if kept.contains(&true) {
+            self.support.retain(&kept);
+            self.recompute();
+        }
+        self
     }
 
     /// The variance of `pi theta`.
@@ -262,7 +281,7 @@ impl Posterior {
     }
 
     fn recompute(&mut self) {
-        self.prior = self.support.prior();
+        self.prior = self.support.prior(self.before, self.total);
         let mut mass = self.prior.clone();
         if self.noise != Noise::NONE {
             let mut plain = std::mem::take(&mut self.plain);
@@ -374,6 +393,20 @@ impl Posterior {
     pub(super) fn interval(&self, confidence: f64) -> (f64, f64) {
         let content = credible_content(confidence);
         let density = |index: usize| self.mass[index] / self.prior[index];
+        // Whatever was thought before the first shot, coverage is that of an even prior.
+        let mass = match self.before {
+            Prior::Even => None,
+            Prior::Ends => {
+                let mut mass = self.support.prior(Prior::Even, self.total);
+                for (index, mass) in mass.iter_mut().enumerate() {
+                    *mass *= density(index);
+                }
+                let scale = 1.0 / mass.iter().sum::<f64>();
+                mass.iter_mut().for_each(|mass| *mass *= scale);
+                Some(mass)
+            }
+        };
+        let mass = mass.as_ref().unwrap_or(&self.mass);
         let mut order: Vec<usize> = (0..self.mass.len()).collect();
         order.sort_by(|&a, &b| density(b).total_cmp(&density(a)));
         let (mut held, mut first, mut last) = (0.0, usize::MAX, 0);
@@ -381,7 +414,7 @@ impl Posterior {
             if held >= content {
                 break;
             }
-            held += self.mass[index];
+            held += mass[index];
             (first, last) = (first.min(index), last.max(index));
         }
         let low = self.support.ends(first, self.total).0;

@@ -1,6 +1,7 @@
 //! A Bayesian run that can be left after any shot, and taken up again.
 
 use super::posterior::Posterior;
+use super::support::Prior;
 use super::{Goal, depth};
 use crate::estimators::{Device, EstimatorError, MAX_ITERATIONS};
 
@@ -41,11 +42,11 @@ pub(super) struct Run<'a> {
 
 impl<'a> Run<'a> {
     /// A run over so many indices, before its first shot.
-    pub(super) fn new(goal: &'a Goal, depths: Depths, total: u64) -> Self {
+    pub(super) fn new(goal: &'a Goal, depths: Depths, total: u64, before: Prior) -> Self {
         Self {
             goal,
             depths,
-            posterior: Posterior::new(total, goal.noise),
+            posterior: Posterior::new(total, goal.noise, before),
             used: 0,
         }
     }

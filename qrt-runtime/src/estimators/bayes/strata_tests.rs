@@ -68,10 +68,10 @@ fn scratch() {
     ];
     let runs: u32 = std::env::var("RUNS").map_or(400, |r| r.parse().unwrap());
     for (name, octaves) in &cases {
-        for queries in [63, 255, 1023, 8191] {
+        for queries in [127, 255, 1023, 8191] {
             let base = measure(octaves, queries, Some(1), runs);
             print!("{name:10} {queries:5} rms {:.2e} q95 {:.2e} cov {:.3} |", base.0, base.1, base.3);
-            for strata in [Some(2), Some(4), Some(6), None] {
+            for strata in [Some(3), Some(4), Some(5), None] {
                 let f = measure(octaves, queries, strata, runs);
                 print!(" {:?}: {:.2}/{:.2} b{:+.2} c{:.3} n{:.1} |", strata.unwrap_or(0), base.0 / f.0, base.1 / f.1, f.2 / f.0, f.3, f.4);
             }

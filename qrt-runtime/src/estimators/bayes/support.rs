@@ -12,6 +12,21 @@ const LAST_LEVEL: u32 = 57;
 /// Up to this many integers are held one by one.
 const FEW_INTEGERS: f64 = 128.0;
 
+/// What is known before the first shot.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Prior {
+    /// Every S is as likely as any other.
+    Even,
+    /// No index being good, or all, is far likelier than anything else: the fraction a of good
+    /// indices has the density `(a (1 - a))^(power - 1)`.
+    Ends,
+}
+
+fn power() -> f64 {
+    static P: std::sync::OnceLock<f64> = std::sync::OnceLock::new();
+    *P.get_or_init(|| std::env::var("EPS").map_or(0.1, |p| p.parse().unwrap()))
+}
+
 /// Angles theta, in units of 2^-64 turns, so that `m theta` modulo a turn is a wrapping product,
 /// and exact however large m is.
 #[derive(Clone, Debug)]
@@ -156,9 +171,50 @@ impl Support {
         }
     }
 
-    /// The prior's mass at each point, up to a common factor. The prior is uniform over the
-    /// integers; on a grid, uniform in the fraction of good indices.
-    pub(super) fn prior(&self) -> Vec<f64> {
+    /// A prior's mass at each point, up to a common factor.
+    pub(super) fn prior(&self, prior: Prior, total: u64) -> Vec<f64> {
+        match prior {
+            Prior::Even => self.even(),
+            Prior::Ends => self.ends_likeliest(total),
+        }
+    }
+
+    fn ends_likeliest(&self, total: u64) -> Vec<f64> {
+        let power = power();
+        match self {
+            Self::Integers(integers) => {
+                let n = total as f64;
+                let end = 0.5_f64.powf(power) / power * n;
+                let mass = |&(good, _): &(u64, u64)| {
+                    let (good, bad) = (good as f64, (total - good) as f64);
+                    if good == 0.0 || bad == 0.0 {
+                        end
+                    } else {
+                        (good / n * bad).powf(power - 1.0) * n
+                    }
+                };
+                integers.iter().map(mass).collect()
+            }
+            Self::Grid { level, panels } => {
+                let slope = 2.0 * power - 1.0;
+                let mut prior = Vec::new();
+                self.turns(1, |_, sine| prior.extend(sine.map(|sine| sine.powf(slope))));
+                // What the first cell has, over what its midpoint says.
+                let end = 2.0_f64.powf(slope) / (2.0 * power);
+                if panels.first() == Some(&0) {
+                    prior[0] *= end;
+                }
+                if panels.last() == Some(&((1 << (level - 1)) - 1)) {
+                    let last = prior.len() - 1;
+                    prior[last] *= end;
+                }
+                prior
+            }
+        }
+    }
+
+    /// Uniform over the integers; on a grid, uniform in the fraction of good indices.
+    fn even(&self) -> Vec<f64> {
         match self {
             Self::Integers(integers) => vec![1.0; integers.len()],
             Self::Grid { level, panels } => {

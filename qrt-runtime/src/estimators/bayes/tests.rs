@@ -1,6 +1,7 @@
 //! What Bayesian estimators promise.
 
 use super::posterior::Posterior;
+use super::support::Prior;
 use crate::counting::Angle;
 use crate::estimators::{Device, Noise, Problem, Settings, estimator};
 use crate::random::Stream;
@@ -76,7 +77,7 @@ fn posteriors_equal_sums_over_every_count() {
         let noise = if case % 3 == 0 { noisy } else { Noise::NONE };
         let good = (stream.uniform() * (total + 1) as f64) as u64;
         let mut device = Device::new(Problem { good, total }, noise, &mut stream).unwrap();
-        let mut posterior = Posterior::new(total, noise);
+        let mut posterior = Posterior::new(total, noise, Prior::Even);
         let mut shots = Vec::new();
         for round in 0..14_u64 {
             let iterations = device.stream().next_u64() % (2 + round * round / 4);
@@ -110,7 +111,7 @@ fn posteriors_equal_sums_over_every_count() {
 /// 15 pi^2/256 - 1/2.
 #[test]
 fn expected_variances_are_those_of_the_prior_in_closed_form() {
-    let mut posterior = Posterior::new(1 << 40, Noise::NONE);
+    let mut posterior = Posterior::new(1 << 40, Noise::NONE, Prior::Even);
     let square = std::f64::consts::PI.powi(2);
     let before = square / 16.0 - 0.5;
     assert!((posterior.variance() - before).abs() < 1e-5);

@@ -4,21 +4,25 @@
 //! Fixed bits are constants, and no qubits that noise could reach: what noise does to a shot is
 //! what it does on the indices that are left.
 //!
-//! A measured index also says which comparator was measured with it. Of good indices, stratum k
-//! comes up with probability `S_k/S`, and of the others with `(N_k - S_k)/(N - S)`, whatever the
-//! query depth and the noise, for neither prefers one good index to another. That costs no query.
+//! A measured index is a path, too, whose colour is evaluated classically to know whether the index
+//! is good. Neither query depth nor noise prefers one good index to another, or one of the others:
+//! a path with a count of x is among the good with probability `x/S`, and among the others with
+//! `(C - x)/(N - S)`. So what a run measures shows how colours are spread, and costs no query more.
 
 use super::{Device, Problem, Usage};
 use crate::counting::{Octaves, Stratum, binomial};
 use crate::estimators::{EstimatorError, Noise};
 use crate::random::Stream;
 
-/// What a device knows of octaves, and what it has measured in them.
+/// What a device knows of the spread of colours, and what it has measured of it.
 #[derive(Clone, Debug)]
 pub(super) struct Known {
     bits: u32,
-    /// Indices by octave, the good and the others.
-    indices: Vec<[u64; 2]>,
+    /// Indices by octave of their comparator, the good and the others.
+    octaves: Vec<[u64; 2]>,
+    /// Indices by the length in bits of their path's count, the good and the others.
+    lengths: Vec<[u64; 2]>,
+    /// Of those, the measured.
     measured: Vec<[u64; 2]>,
     /// Beside the device's own, so that what is drawn here changes nothing that is drawn there.
     stream: Stream,
@@ -65,18 +69,22 @@ impl<'a> Device<'a> {
         noise: Noise,
         stream: &'a mut Stream,
     ) -> Result<Self, EstimatorError> {
-        let (good, paths, bits) = (octaves.good(), octaves.paths(), octaves.bits());
+        let (bits, paths, good) = (octaves.bits(), octaves.paths(), octaves.good());
         let problem = Problem {
             good: good.iter().sum(),
             total: paths << bits,
         };
         let all = |octave: usize| paths * ((1_u64 << octave) - ((1_u64 << octave) >> 1));
-        let indices = good.iter().enumerate();
-        let indices: Vec<[u64; 2]> = indices.map(|(o, &good)| [good, all(o) - good]).collect();
+        let lengths = octaves.by_length();
+        let lengths: Vec<[u64; 2]> = lengths
+            .map(|(paths, good)| [good, (paths << bits) - good])
+            .collect();
+        let good = good.iter().enumerate();
         let known = Known {
             bits,
-            measured: vec![[0; 2]; indices.len()],
-            indices,
+            octaves: good.map(|(o, &good)| [good, all(o) - good]).collect(),
+            measured: vec![[0; 2]; lengths.len()],
+            lengths,
             stream: stream.beside(),
             counted: Vec::new(),
         };
@@ -90,9 +98,10 @@ impl<'a> Device<'a> {
         self.known.as_ref().map(|known| known.bits)
     }
 
-    /// Indices that were measured up to now, in circuits over the whole comparator, by octave of
-    /// their comparator: the good and the others.
-    pub fn measured_octaves(&self) -> &[[u64; 2]] {
+    /// Paths of the indices that were measured up to now, in circuits over the whole comparator, by
+    /// the length in bits of the number of thresholds that they exceed: of good indices, and of
+    /// others.
+    pub fn measured_paths(&self) -> &[[u64; 2]] {
         self.known.as_ref().map_or(&[], |known| &known.measured)
     }
 
@@ -106,7 +115,7 @@ impl<'a> Device<'a> {
         run: impl FnOnce(&mut Device<'_>) -> T,
     ) -> Result<T, EstimatorError> {
         let known = self.known.as_ref();
-        let octaves = known.and_then(|known| known.indices.get(stratum.octaves()));
+        let octaves = known.and_then(|known| known.octaves.get(stratum.octaves()));
         let octaves = octaves.ok_or(EstimatorError::NotByStrata)?;
         let sum = |which: usize| octaves.iter().map(|indices| indices[which]).sum::<u64>();
         let problem = Problem {
@@ -132,21 +141,20 @@ impl<'a> Device<'a> {
         self.known.as_ref().map_or(&[], |known| &known.counted)
     }
 
-    /// Takes note of the comparators of measured indices: so many good ones, and others.
-    pub(super) fn read_comparators(&mut self, found: [u64; 2]) {
+    /// Takes note of the paths of measured indices: so many good ones, and others.
+    pub(super) fn read_paths(&mut self, found: [u64; 2]) {
         let Some(known) = &mut self.known else {
             return;
         };
         let Known {
-            indices,
+            lengths,
             measured,
             stream,
             ..
         } = &mut **known;
         for (which, mut found) in found.into_iter().enumerate() {
-            let mut rest: u64 = indices.iter().map(|indices| indices[which]).sum();
-            // The brightest octaves are the widest.
-            for (indices, measured) in indices.iter().zip(measured.iter_mut()).rev() {
+            let mut rest: u64 = lengths.iter().map(|indices| indices[which]).sum();
+            for (indices, measured) in lengths.iter().zip(measured.iter_mut()) {
                 if found == 0 || rest == 0 {
                     break;
                 }
