@@ -73,7 +73,11 @@ impl Stratum {
     /// Which of the comparator's bits are the same in the whole stratum, from the lowest: of these
     /// only the lowest may be 1, and whether it is.
     pub fn fixed_bits(self, bits: u32) -> (Range<u32>, bool) {
-        let free = if self.first == 0 { self.end } else { self.first };
+        let free = if self.first == 0 {
+            self.end
+        } else {
+            self.first
+        };
         (free.saturating_sub(1)..bits, self.first > 0)
     }
 }

@@ -41,7 +41,9 @@ impl Rendered {
             let asked = counting.strata.map_or("auto".into(), |n| n.to_string());
             metadata.set("strata", asked)?;
             let used = self.strata_used().into_iter();
-            let used: Vec<String> = used.map(|(n, channels)| format!("{n}:{channels}")).collect();
+            let used: Vec<String> = used
+                .map(|(n, channels)| format!("{n}:{channels}"))
+                .collect();
             metadata.set("strata_used", used.join(" "))?;
             metadata.set("colour", self.colour.name())?;
             metadata.set("noise", self.noise.to_string())?;

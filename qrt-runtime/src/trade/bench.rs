@@ -8,7 +8,9 @@ use crate::counting::{Comparators, Octaves};
 use crate::estimators::{Noise, Settings, estimator};
 use crate::machines::{OracleMachine, Real};
 use crate::render::Model;
-use crate::sample::{self, Countable, Drawn, Draws, Means, SampleError, Tally, counted_tallies, tallies};
+use crate::sample::{
+    self, Countable, Drawn, Draws, Means, SampleError, Tally, counted_tallies, tallies,
+};
 use crate::workers::Workers;
 use qrt_core::oracle::{CallCost, Oracle, call_cost};
 use qrt_core::scene::{Circuit, Comparator, Estimator, Sampling};

@@ -13,9 +13,9 @@ mod posterior;
 mod random_depth;
 mod run;
 mod strata;
-mod support;
 #[cfg(test)]
 mod strata_tests;
+mod support;
 #[cfg(test)]
 mod tests;
 

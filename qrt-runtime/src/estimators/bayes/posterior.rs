@@ -120,23 +120,6 @@ impl Posterior {
         posterior
     }
 
-    /// The same before the first shot, but certain that the fraction of good indices is between
-    /// `low` and `high`.
-    pub(super) fn between(mut self, low: f64, high: f64) -> Self {
-        let total = self.total;
-        let width = self.support.width();
-        let cells = (0..self.support.len()).map(|index| self.support.ends(index, total));
-        let inside: Vec<bool> = cells.map(|(a, b)| b >= low && a <= high).collect();
-        let kept: Vec<bool> = (inside.chunks(width))
-            .map(|cells| cells.contains(&true))
-            .collect();
-        if kept.contains(&true) {
-            self.support.retain(&kept);
-            self.recompute();
-        }
-        self
-    }
-
     /// The variance of `pi theta`.
     pub(super) fn variance(&self) -> f64 {
         self.variance

@@ -24,13 +24,17 @@
 //! `1/Q_k^2`, it is what one more query takes off the variance of the sum. So the split follows from
 //! what is measured, and an empty stratum is left as soon as it is known to be.
 //!
+//! Strata are often empty or full, and each has its own posterior. With a prior uniform in every
+//! `a_k`, what empty strata are overestimated by would add up, and be the largest part of the error;
+//! theirs is [`Prior::Ends`]. Intervals are those of a uniform prior nonetheless.
+//!
 //! # How many strata
 //!
-//! Unless that is asked for, the whole is counted as ever until [`PILOT`] of the queries are used.
-//! Each shot measures an index, and the colour of its path says how colours are spread; from these
-//! follow all `a_k`, roughly, and the error that each number of strata would have. If one is
-//! better by [`WORTH`] even with what was used up to then, it begins anew with strata; if not, the
-//! run goes on, and is the same, query by query, as without strata.
+//! Unless that is asked for, the whole is counted as ever until enough indices are measured. Each
+//! shot measures one, and the colour of its path says how colours are spread; from these follow all
+//! `a_k`, roughly, and the error that each number of strata would have. If one is better by
+//! [`WORTH`] with the queries that are left, what is known is given up and the run begins anew with
+//! strata; if not, it goes on, and is the same, query by query, as without strata.
 
 use super::Goal;
 use super::posterior::Posterior;
@@ -39,20 +43,21 @@ use super::support::Prior;
 use crate::counting::Stratum;
 use crate::estimators::device::Usage;
 use crate::estimators::{CountedStratum, Device, Estimate, EstimatorError};
-use std::ops::Range;
 
-/// The fraction of queries after which the number of strata is decided.
-fn pilot() -> f64 { std::env::var("PILOT").map_or(1.0 / 16.0, |p| p.parse().unwrap()) }
+/// Good indices, and others, that must have been measured before the number of strata is decided.
+const ENOUGH: u64 = 6;
 /// Queries before that, at the least.
-fn pilot_least() -> u64 { std::env::var("LEAST").map_or(24, |p| p.parse().unwrap()) }
-/// The most queries after which it is decided.
-const PILOT_MOST: u64 = 64;
+const FEWEST: u64 = 24;
+/// The fraction of queries after which it is not decided any more.
+const LATEST: f64 = 1.0 / 6.0;
+/// By what factor strata must make the error smaller.
+const WORTH: f64 = 1.15;
+/// Queries that a stratum's posterior takes to find the right section of its angles.
+const SEARCH: f64 = 4.0;
 /// Queries times deviation of an amplitude a, over `sqrt(a (1 - a))`; measured.
 const FAR: f64 = 2.2;
 /// Queries squared times deviation of an amplitude of 0 or 1; measured.
 const NEAR: f64 = 0.63;
-/// The confidence in what is known of the whole then.
-const PILOT_CONFIDENCE: f64 = 0.999;
 /// A stratum, and what is known of it.
 struct Part<'a> {
     stratum: Stratum,
@@ -73,20 +78,24 @@ pub(super) fn estimate(
     let start = device.usage();
     let bits = device.comparator_bits();
     if let (Some(bits), Some(strata @ 2..)) = (bits, goal.strata) {
-        return in_strata(goal, depths, device, start, bits, strata, None);
+        return in_strata(goal, depths, device, start, bits, strata);
     }
-    let mut pilot = bits.filter(|_| goal.strata.is_none());
+    let latest = (LATEST * goal.queries as f64) as u64;
+    let mut undecided = bits.filter(|_| goal.strata.is_none());
     let mut whole = Run::new(goal, depths, device.total(), Prior::Even);
     let mut left = goal.queries;
     while left > 0 && !goal.is_reached(&whole.posterior) {
         left -= whole.step(device, left)?;
-        if let Some(bits) = pilot.filter(|_| whole.used >= pilot_queries(goal.queries)) {
-            pilot = None;
+        let Some(bits) = undecided else {
+            continue;
+        };
+        if whole.used > latest {
+            undecided = None;
+        } else if whole.used >= FEWEST && enough(device.measured_paths()) {
+            undecided = None;
             let strata = choose(device, &whole.posterior, bits, goal.queries, left);
             if strata > 1 {
-                let range = whole.posterior.interval(PILOT_CONFIDENCE);
-                let pilot = Some(range);
-                return in_strata(goal, depths, device, start, bits, strata, pilot);
+                return in_strata(goal, depths, device, start, bits, strata);
             }
         }
     }
@@ -96,9 +105,10 @@ pub(super) fn estimate(
         .estimate(device, start, goal.confidence))
 }
 
-/// Queries after which the number of strata is decided.
-fn pilot_queries(queries: u64) -> u64 {
-    ((pilot() * queries as f64) as u64).clamp(pilot_least(), PILOT_MOST.max(pilot_least()))
+/// Whether the paths that were measured tell how colours are spread.
+fn enough(measured: &[[u64; 2]]) -> bool {
+    let sum = |which: usize| measured.iter().map(|found| found[which]).sum::<u64>();
+    sum(0) >= ENOUGH && sum(1) >= ENOUGH
 }
 
 /// The number of strata with which the rest of the queries promises the smallest error.
@@ -116,18 +126,14 @@ fn choose(device: &Device<'_>, known: &Posterior, bits: u32, queries: u64, left:
     let alone = variance(parts(1), queries as f64);
     let best = (2..=bits + 1)
         .map(|count| {
-            let left = left as f64 - search() * f64::from(count);
+            let left = left as f64 - SEARCH * f64::from(count);
             (variance(parts(count), left), count)
         })
         .min_by(|a, b| a.0.total_cmp(&b.0));
     match best {
-        Some((variance, count)) if variance * worth() * worth() < alone => count,
+        Some((variance, count)) if variance * WORTH * WORTH < alone => count,
         _ => 1,
     }
-}
-
-fn worth() -> f64 {
-    std::env::var("WORTH").map_or(1.15, |p| p.parse().unwrap())
 }
 
 /// By octave, how many of its thresholds a path exceeds on average, as far as measured paths tell:
@@ -161,14 +167,11 @@ fn octaves(measured: &[[u64; 2]], amplitude: f64, bits: u32) -> Vec<f64> {
     let exceeded = |octave: u32| {
         let start = ((1_u64 << octave) >> 1) as f64;
         let end = (1_u64 << octave) as f64;
-        let cut = |(length, paths): (usize, &f64)| paths * (middle(length).clamp(start, end) - start);
+        let cut =
+            |(length, paths): (usize, &f64)| paths * (middle(length).clamp(start, end) - start);
         paths.iter().enumerate().map(cut).sum::<f64>() / sum
     };
     (0..=bits).map(exceeded).collect()
-}
-
-fn search() -> f64 {
-    std::env::var("SEARCH").map_or(4.0, |p| p.parse().unwrap())
 }
 
 /// The variance to expect of strata of these widths and amplitudes after so many queries, split as
@@ -225,29 +228,16 @@ fn in_strata(
     start: Usage,
     bits: u32,
     strata: u32,
-    whole: Option<(f64, f64)>,
 ) -> Result<Estimate, EstimatorError> {
     let all = (1_u64 << bits) as f64;
     let paths = device.total() >> bits;
     let mut parts: Vec<Part<'_>> = Stratum::halving(strata, bits)
-        .map(|stratum| {
-            let mut run = Run::new(goal, depths, paths * stratum.length(), Prior::Ends);
-            if let Some((low, high)) = whole {
-                // Fewer paths exceed a threshold the higher it is, so that a_k is at most the mean
-                // over all thresholds up to the stratum's end, and that at most a over their
-                // fraction. Of the paths that don't, the same holds from above.
-                let Range { start, end } = stratum.thresholds();
-                let most = high / (end as f64 / all);
-                let least = 1.0 - (1.0 - low) / (1.0 - start as f64 / all);
-                run.posterior = run.posterior.between(least, most);
-            }
-            Part {
-                stratum,
-                width: stratum.length() as f64 / all,
-                run,
-                variance: 0.0,
-                good_ids: 0,
-            }
+        .map(|stratum| Part {
+            stratum,
+            width: stratum.length() as f64 / all,
+            run: Run::new(goal, depths, paths * stratum.length(), Prior::Ends),
+            variance: 0.0,
+            good_ids: 0,
         })
         .collect();
     parts.iter_mut().for_each(Part::look);

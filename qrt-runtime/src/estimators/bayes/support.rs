@@ -18,14 +18,14 @@ pub(super) enum Prior {
     /// Every S is as likely as any other.
     Even,
     /// No index being good, or all, is far likelier than anything else: the fraction a of good
-    /// indices has the density `(a (1 - a))^(power - 1)`.
+    /// indices has the density `(a (1 - a))^(POWER - 1)`.
     Ends,
 }
 
-fn power() -> f64 {
-    static P: std::sync::OnceLock<f64> = std::sync::OnceLock::new();
-    *P.get_or_init(|| std::env::var("EPS").map_or(0.1, |p| p.parse().unwrap()))
-}
+/// The power of [`Prior::Ends`]. After Q queries without a good index the posterior mean is about
+/// that many times `2/Q^2`. Measured on pixels with light sampling, four strata have 0.6 of their
+/// error with the even prior (a power of 1), and 0.9 of that with a power of 0.3.
+const POWER: f64 = 0.1;
 
 /// Angles theta, in units of 2^-64 turns, so that `m theta` modulo a turn is a wrapping product,
 /// and exact however large m is.
@@ -180,27 +180,28 @@ impl Support {
     }
 
     fn ends_likeliest(&self, total: u64) -> Vec<f64> {
-        let power = power();
         match self {
             Self::Integers(integers) => {
                 let n = total as f64;
-                let end = 0.5_f64.powf(power) / power * n;
+                let end = libm::pow(0.5, POWER) / POWER * n;
                 let mass = |&(good, _): &(u64, u64)| {
                     let (good, bad) = (good as f64, (total - good) as f64);
                     if good == 0.0 || bad == 0.0 {
                         end
                     } else {
-                        (good / n * bad).powf(power - 1.0) * n
+                        libm::pow(good / n * bad, POWER - 1.0) * n
                     }
                 };
                 integers.iter().map(mass).collect()
             }
             Self::Grid { level, panels } => {
-                let slope = 2.0 * power - 1.0;
+                let slope = 2.0 * POWER - 1.0;
                 let mut prior = Vec::new();
-                self.turns(1, |_, sine| prior.extend(sine.map(|sine| sine.powf(slope))));
+                self.turns(1, |_, sine| {
+                    prior.extend(sine.map(|sine| libm::pow(sine, slope)))
+                });
                 // What the first cell has, over what its midpoint says.
-                let end = 2.0_f64.powf(slope) / (2.0 * power);
+                let end = libm::exp2(slope) / (2.0 * POWER);
                 if panels.first() == Some(&0) {
                     prior[0] *= end;
                 }
