@@ -17,4 +17,5 @@ mod pictures {
     mod references;
     mod same_picture;
     mod searched_pictures;
+    mod strata_of_thresholds;
 }

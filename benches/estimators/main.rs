@@ -8,11 +8,14 @@
 //!   on logarithmic axes, and queries times error;
 //! * 10,000 times on each of a few kinds of amplitudes, among many indices and few: how often its
 //!   interval holds the amplitude;
+//! * by 1 to 6 strata of the comparator and by `auto`, on pixels whose colours are spread as light
+//!   sampling spreads them, and on such whose paths are all or nothing: what strata save;
 //!
-//! prints both as Markdown tables, and fails where a figure is not within the range that
+//! prints all as Markdown tables, and fails where a figure is not within the range that
 //! `expected.rs` gives with its source, or an interval holds more than a point less often than it
 //! says. `--csv FILE` writes all that was measured; `--quick` makes few runs and judges slopes and
-//! coverage generously, in some ten seconds; a name alone runs the estimators whose names hold it.
+//! coverage generously, in some twenty seconds; a name alone runs the estimators whose names hold it,
+//! and `strata` what is about strata.
 
 // A bench that cannot run has nothing to report.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
@@ -21,6 +24,7 @@ mod coverage;
 mod expected;
 mod problems;
 mod runs;
+mod strata;
 
 use expected::{Expected, Verdicts};
 use problems::Problems;
@@ -66,6 +70,10 @@ fn main() -> ExitCode {
     let mut verdicts = Verdicts::default();
 
     let begin = Instant::now();
+    if asked.name.as_deref() == Some("strata") {
+        let csv = strata::tables(asked.quick, &mut verdicts);
+        return finish(&asked, begin, &csv, &verdicts);
+    }
     let kinds = [Problems::even(), Problems::pixels(asked.quick)];
     eprintln!("{}", kinds[1]);
     for problems in &kinds {
@@ -95,11 +103,18 @@ fn main() -> ExitCode {
 
     println!("\n### Coverage of the intervals\n");
     coverage::table(&names, asked.quick, &mut verdicts);
+    if asked.name.is_none() {
+        strata::tables(asked.quick, &mut verdicts);
+    }
+    finish(&asked, begin, &csv, &verdicts)
+}
+
+/// Prints the verdicts, and writes what was measured where that is asked.
+fn finish(asked: &Arguments, begin: Instant, csv: &str, verdicts: &Verdicts) -> ExitCode {
     println!("\n{verdicts}");
     println!("{:.0} seconds", begin.elapsed().as_secs_f64());
-
-    if let Some(file) = asked.csv {
-        std::fs::write(&file, csv).unwrap_or_else(|error| panic!("{file}: {error}"));
+    if let Some(file) = &asked.csv {
+        std::fs::write(file, csv).unwrap_or_else(|error| panic!("{file}: {error}"));
     }
     ExitCode::from(u8::from(!verdicts.all_kept()))
 }

@@ -209,6 +209,37 @@ fn the_iterate_is_the_circuits_own_amplitude_by_amplitude() {
     }
 }
 
+/// The upper half: its comparator's top bit is set by an X where the whole has a Hadamard.
+#[test]
+fn a_stratum_has_an_x_where_the_whole_has_a_hadamard() {
+    let folder = folder();
+    let (_, whole) = exported(&folder, "--part counting");
+    let (circuit, upper) = exported(&folder, "--part counting --stratum 1/2");
+    assert_eq!(whole["stratum"], Value::Null);
+    assert_eq!(
+        upper["stratum"],
+        serde_json::json!({ "thresholds": [2, 4] })
+    );
+    assert_eq!(upper["registers"][1], whole["registers"][1]);
+    let gates = |answer: &Value, name: &str| answer["gates"][name].as_u64().unwrap();
+    // One at the beginning, and two in each of seven iterates.
+    assert_eq!(gates(&upper, "h") + 1 + 2 * 7, gates(&whole, "h"));
+    // As many fewer in the reflections, and one more at the beginning.
+    assert_eq!(gates(&upper, "x") + 2 * 7, gates(&whole, "x") + 1);
+    assert_eq!(circuit.tally().get("x").copied(), Some(gates(&upper, "x")));
+    for (arguments, why) in [
+        ("--stratum 0/2", "the oracle is the same for all strata"),
+        ("--part grover --stratum 0/9", "at most 3 strata"),
+        ("--part grover --stratum 2/2", "K from 0 to N - 1"),
+    ] {
+        let all = format!("export wall.yaml -o no.qasm {arguments}");
+        let output = folder.qrt(&words(&all));
+        assert_eq!(output.status.code(), Some(2), "{arguments}");
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert!(said.contains(why), "{arguments}: {said}");
+    }
+}
+
 #[test]
 fn the_figures_are_those_of_the_file_and_of_the_inspected_circuit() {
     let folder = folder();

@@ -8,7 +8,7 @@ use qrt::circuit::quantum::{Conjunction, Counting, Part, QuantumGate};
 use qrt::core::oracle::{Options, Oracle};
 use qrt::core::scene::Window;
 use qrt::core::valid::ValidScene;
-use qrt::runtime::counting::PhaseDistribution;
+use qrt::runtime::counting::{PhaseDistribution, Stratum};
 use qrt::runtime::machines::OracleMachine;
 use qrt::runtime::machines::statevector::{
     Checks, Sparse, StateVector, count, counting_of, fold, reduced, subspace,
@@ -118,6 +118,48 @@ fn gives_the_distribution_that_is_drawn_from() {
 #[test]
 fn gives_it_too_where_work_is_uncomputed_early() {
     is_the_distribution(&["circuit.uncompute=scoped", "comparator.at=edges"], 3);
+}
+
+/// With the comparator's top bits fixed, the circuit counts the good indices of a stratum.
+#[test]
+fn gives_the_distribution_of_every_stratum() {
+    let scene = written(WALL, &[]);
+    let oracle = oracle(&scene);
+    let (path_bits, bits, phase_bits) = (4, 2, 4);
+    let window = Window::Sine;
+    for (pixel, tables) in PIXELS.iter().zip(tables(&scene)) {
+        let phase = oracle.phase(0, SEED, *pixel).unwrap();
+        for strata in 2..=3 {
+            for stratum in Stratum::halving(strata, bits) {
+                let (fixed, lowest) = stratum.fixed_bits(bits);
+                let comparator = &phase.ids()[path_bits..];
+                let fixed = &comparator[fixed.start as usize..fixed.end as usize];
+                let (ones, zeros) = fixed.split_at(usize::from(lowest));
+                let phase = phase.clone().with_fixed(zeros, ones).unwrap();
+                let counting = Counting::new(&phase, phase_bits, window).unwrap();
+                let mut machine = Sparse::new(counting.qubits());
+                let counted = count(&mut machine, &counting, Checks::EveryQuery).unwrap();
+                let within = stratum.thresholds();
+                let within =
+                    (within.start as usize) << path_bits..(within.end as usize) << path_bits;
+                let table = &tables[0][within];
+                let good = table.iter().filter(|good| **good).count() as u64;
+                let exact = closed(good, table.len() as u64, phase_bits, window);
+                let off = off(&counted.distribution, &exact);
+                assert!(off < 1e-12, "{pixel:?} {stratum:?}: {off:e}");
+                let mut gates = 0;
+                let all = counting.part(Part::Counting, &mut |_| {
+                    gates += 1;
+                    Ok::<(), std::convert::Infallible>(())
+                });
+                all.unwrap();
+                assert_eq!(gates, counting.gates(Part::Counting));
+            }
+        }
+        let gone = phase.superposed().to_vec();
+        assert!(phase.clone().with_fixed(&gone, &[]).is_err());
+        assert!(phase.clone().with_fixed(&gone[..1], &gone[..1]).is_err());
+    }
 }
 
 /// O_0 flips the phases of all but `|0...0>`. With that of `|0...0>` alone the indices that are

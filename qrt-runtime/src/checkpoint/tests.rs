@@ -169,11 +169,11 @@ fn what_is_no_checkpoint_of_ours_is_left_alone() {
     }
     assert_eq!(fs::read(&path).unwrap(), b"a thesis");
     let mut newer = header().encode();
-    newer[8] = 3;
+    newer[8] = 4;
     fs::write(&path, newer).unwrap();
     let message = Checkpoint::open(&path, &header()).unwrap_err().to_string();
     assert!(
-        message.ends_with("is a checkpoint of format 3; this qrt reads 2"),
+        message.ends_with("is a checkpoint of format 4; this qrt reads 3"),
         "{message}"
     );
 }

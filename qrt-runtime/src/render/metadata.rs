@@ -38,13 +38,15 @@ impl Rendered {
             metadata.set("comparator_at", comparator.at.name())?;
             metadata.set("phase_bits", counting.phase_bits.to_string())?;
             metadata.set("repetitions", counting.repetitions.to_string())?;
-            let asked = counting.strata.map_or("auto".into(), |n| n.to_string());
-            metadata.set("strata", asked)?;
-            let used = self.strata_used().into_iter();
-            let used: Vec<String> = used
-                .map(|(n, channels)| format!("{n}:{channels}"))
-                .collect();
-            metadata.set("strata_used", used.join(" "))?;
+            if self.estimator.counts_strata() {
+                let asked = counting.strata.map_or("auto".into(), |n| n.to_string());
+                metadata.set("strata", asked)?;
+                let used = self.strata_used().into_iter();
+                let used: Vec<String> = used
+                    .map(|(n, channels)| format!("{n}:{channels}"))
+                    .collect();
+                metadata.set("strata_used", used.join(" "))?;
+            }
             metadata.set("colour", self.colour.name())?;
             metadata.set("noise", self.noise.to_string())?;
         }
