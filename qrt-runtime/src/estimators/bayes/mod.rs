@@ -8,6 +8,7 @@
 //! * [`RandomDepth`] draws its query depths at random.
 
 mod adaptive;
+mod choice;
 mod depth;
 mod posterior;
 mod random_depth;
