@@ -14,7 +14,7 @@
 //! prints all as Markdown tables, and fails where a figure is not within the range that
 //! `expected.rs` gives with its source, or an interval holds more than a point less often than it
 //! says. `--csv FILE` writes all that was measured; `--quick` makes few runs and judges slopes and
-//! coverage generously, in some twenty seconds; a name alone runs the estimators whose names hold it,
+//! coverage generously, in some two minutes; a name alone runs the estimators whose names hold it,
 //! and `strata` what is about strata.
 
 // A bench that cannot run has nothing to report.

@@ -101,7 +101,7 @@ impl Pixel {
 
 /// Prints what strata save on every pixel, and judges it; all that was measured, as CSV.
 pub(crate) fn tables(quick: bool, verdicts: &mut Verdicts) -> String {
-    let runs = if quick { 600 } else { 4000 };
+    let runs = if quick { 600 } else { 2000 };
     let mut csv = String::from("pixel,queries,strata,rmse,q95\n");
     for pixel in &PIXELS {
         println!("\n### Strata: {}\n", pixel.name);

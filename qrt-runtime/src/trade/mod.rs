@@ -29,8 +29,8 @@
 //! pixels, quick. Its columns:
 //!
 //! * the setting: `sweep` (the parameter that the row is about), `model`, `estimator`,
-//!   `phase_bits`, `repetitions`, `strata`, `sequence`, `path_bits`, `depths`, `fraction`, `comparator_bits`,
-//!   `uncompute`, `nearest`;
+//!   `phase_bits`, `repetitions`, `sequence`, `path_bits`, `depths`, `fraction`, `comparator_bits`,
+//!   `uncompute`, `nearest`, `strata`;
 //! * its price: `queries` of a pixel, all channels together, on average; `toffoli` and `qubits` of
 //!   one call of the most expensive channel's oracle, as `qrt inspect` counts them (a phase
 //!   register's own qubits are not among them); `toffoli_x_queries`;

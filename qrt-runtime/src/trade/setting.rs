@@ -73,7 +73,6 @@ pub(super) const KEY: [&str; 13] = [
     "estimator",
     "phase_bits",
     "repetitions",
-    "strata",
     "sequence",
     "path_bits",
     "depths",
@@ -81,6 +80,7 @@ pub(super) const KEY: [&str; 13] = [
     "comparator_bits",
     "uncompute",
     "nearest",
+    "strata",
 ];
 
 impl Setting {
@@ -111,7 +111,6 @@ impl Setting {
             self.estimator.to_string(),
             self.phase_bits.to_string(),
             self.repetitions.to_string(),
-            (self.strata()).map_or_else(|| "auto".to_owned(), |strata| strata.to_string()),
             self.sequence.to_string(),
             self.path_bits.to_string(),
             self.depths.to_string(),
@@ -119,6 +118,7 @@ impl Setting {
             self.comparator_bits.to_string(),
             self.uncompute.to_string(),
             self.nearest.to_string(),
+            (self.strata()).map_or_else(|| "auto".to_owned(), |strata| strata.to_string()),
         ]
     }
 
