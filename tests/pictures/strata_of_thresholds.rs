@@ -6,6 +6,7 @@ use qrt::core::valid::ValidScene;
 use qrt::runtime::estimators::EstimatorError;
 use qrt::runtime::render::{Colour, Model, Options, RenderError, Rendered, render};
 use qrt::runtime::workers::Workers;
+use std::num::NonZero;
 
 /// A dim wall before the camera, which paths may leave for a bright lamp behind it: most colours
 /// are small against their bound.
@@ -122,7 +123,7 @@ fn the_same_strata_make_the_same_picture() {
             assert_eq!(bits(&render(&scene, &gates).unwrap()), expected);
             let threads = Options {
                 workers: Workers {
-                    threads: Some(1),
+                    threads: NonZero::new(1),
                     ..Workers::default()
                 },
                 tile: Some([3, 1]),

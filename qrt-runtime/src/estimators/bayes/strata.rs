@@ -165,22 +165,19 @@ impl Part<'_> {
 
 /// The amplitude of the whole, and its interval.
 ///
-/// Each stratum's own interval may fail with one n-th of the failure probability: with few queries
-/// intervals fail by a wrong section of angles, and each of n strata may. On either side distances
-/// to their ends add in squares, for the strata are measured independently of one another; but
-/// where an interval ends at 0 or 1, they add up: what is not there at all is overestimated in all
-/// strata at once.
+/// On either side distances to the ends of strata's intervals add in squares, for the strata are
+/// measured independently of one another. But those of strata that may be empty, or full, add up:
+/// what was not met in any of them is missing in all at once.
 fn sum(parts: &[Part<'_>], confidence: f64) -> (f64, (f64, f64)) {
-    let confidence = 1.0 - (1.0 - confidence) / parts.len() as f64;
     let (mut amplitude, mut squares, mut sums) = (0.0, [0.0; 2], [0.0; 2]);
     for part in parts {
         let mean = part.run.posterior.mean_amplitude();
         amplitude += part.width * mean;
         let (low, high) = part.run.posterior.interval(confidence);
-        let sides = [(mean - low, low <= 0.0), (high - mean, high >= 1.0)];
-        for (side, (distance, is_end)) in sides.into_iter().enumerate() {
+        let may_be_trivial = low <= 0.0 || high >= 1.0;
+        for (side, distance) in [mean - low, high - mean].into_iter().enumerate() {
             let distance = part.width * distance.max(0.0);
-            if is_end {
+            if may_be_trivial {
                 sums[side] += distance;
             } else {
                 squares[side] += distance * distance;
