@@ -34,7 +34,7 @@ impl Judge {
 }
 
 /// Codes of what relates values to each other, or is about files: beyond a schema.
-const RELATIONS: [&str; 14] = [
+const RELATIONS: [&str; 15] = [
     codes::DUPLICATE_NAME,
     codes::UNKNOWN_MATERIAL,
     codes::PHONG_ENERGY,
@@ -49,6 +49,7 @@ const RELATIONS: [&str; 14] = [
     codes::TOO_MANY_DIMENSIONS,
     codes::PRIMARY_MAP,
     codes::ACCURACY_CONFLICT,
+    codes::STRATA,
 ];
 
 fn is_relation(code: &str) -> bool {
