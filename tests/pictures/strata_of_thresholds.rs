@@ -8,14 +8,14 @@ use qrt::runtime::render::{Colour, Model, Options, RenderError, Rendered, render
 use qrt::runtime::workers::Workers;
 use std::num::NonZero;
 
-/// A dim wall before the camera, which paths may leave for a bright lamp behind it: most colours
-/// are small against their bound.
+/// A dim wall before the camera, which reflects a little of a bright lamp behind it: colours are
+/// small against their bound, which is that of the lamp.
 const DIM: &str = "
 name: dim
 camera: { orthographic: { eye: [0, 0, 2], target: [0, 0, 0], height: 2 } }
 film: { width: 4, height: 4 }
 materials:
-  wall: { emitter: { radiance: [0.3, 0.2, 0.1], albedo: [0.2, 0.1, 0.3] } }
+  wall: { emitter: { radiance: [0.3, 0.2, 0.1], albedo: [0.02, 0.01, 0.03] } }
   lamp: { emitter: { radiance: [6, 5, 4] } }
 geometry:
   - quad: { vertices: [[-9, -9, 0], [9, -9, 0], [9, 9, 0], [-9, 9, 0]], material: wall }

@@ -43,6 +43,10 @@ use crate::counting::Stratum;
 use crate::estimators::device::Usage;
 use crate::estimators::{CountedStratum, Device, Estimate, EstimatorError};
 
+/// The fraction of its mean that an amplitude, or what it lacks to 1, is at least for its posterior
+/// to be nearly symmetric.
+const RESOLVED: f64 = 0.25;
+
 /// A stratum, and what is known of it.
 struct Part<'a> {
     stratum: Stratum,
@@ -166,18 +170,19 @@ impl Part<'_> {
 /// The amplitude of the whole, and its interval.
 ///
 /// On either side distances to the ends of strata's intervals add in squares, for the strata are
-/// measured independently of one another. But those of strata that may be empty, or full, add up:
-/// what was not met in any of them is missing in all at once.
+/// measured independently of one another. But those of strata that may be empty or full, or almost,
+/// add up: their posteriors are so skewed that all means may be off to the same side, and what was
+/// not met in any of them is missing in all at once.
 fn sum(parts: &[Part<'_>], confidence: f64) -> (f64, (f64, f64)) {
     let (mut amplitude, mut squares, mut sums) = (0.0, [0.0; 2], [0.0; 2]);
     for part in parts {
         let mean = part.run.posterior.mean_amplitude();
         amplitude += part.width * mean;
         let (low, high) = part.run.posterior.interval(confidence);
-        let may_be_trivial = low <= 0.0 || high >= 1.0;
+        let skewed = low < RESOLVED * mean || 1.0 - high < RESOLVED * (1.0 - mean);
         for (side, distance) in [mean - low, high - mean].into_iter().enumerate() {
             let distance = part.width * distance.max(0.0);
-            if may_be_trivial {
+            if skewed {
                 sums[side] += distance;
             } else {
                 squares[side] += distance * distance;
