@@ -33,8 +33,8 @@
 //! Unless that is asked for, the whole is counted as ever until enough indices are measured. Each
 //! shot measures one, and the colour of its path says how colours are spread; from these follow all
 //! `a_k`, roughly, and the error that each number of strata would have. If one is better by
-//! [`choice::WORTH`] with the queries that are left, what is known is given up and the run begins anew with
-//! strata; if not, it goes on, and is the same, query by query, as without strata.
+//! [`choice::WORTH`] with the queries that are left, what is known is given up and the run begins
+//! anew with strata; if not, it goes on, and is the same, query by query, as without strata.
 
 use super::run::{Depths, Run};
 use super::support::Prior;
