@@ -169,11 +169,13 @@ impl Part<'_> {
 
 /// The amplitude of the whole, and its interval.
 ///
-/// On either side distances to the ends of strata's intervals add in squares, for the strata are
+/// Each stratum's interval may fail with its n-th part of the failure probability, for each of n may
+/// have come to a wrong section of angles. On either side distances to the ends of strata's intervals add in squares, for the strata are
 /// measured independently of one another. But those of strata that may be empty or full, or almost,
 /// add up: their posteriors are so skewed that all means may be off to the same side, and what was
 /// not met in any of them is missing in all at once.
 fn sum(parts: &[Part<'_>], confidence: f64) -> (f64, (f64, f64)) {
+    let confidence = 1.0 - (1.0 - confidence) / parts.len() as f64;
     let (mut amplitude, mut squares, mut sums) = (0.0, [0.0; 2], [0.0; 2]);
     for part in parts {
         let mean = part.run.posterior.mean_amplitude();
