@@ -12,6 +12,7 @@ mod pictures {
     mod counted_pictures;
     mod extremes;
     mod knot_mesh_is_a_closed_tube;
+    mod lamps;
     mod one_run_colour;
     mod physics;
     mod references;

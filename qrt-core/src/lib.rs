@@ -3,6 +3,7 @@ pub mod compile;
 pub mod expr;
 pub mod front;
 pub mod inspect;
+pub mod lights;
 pub mod oracle;
 pub mod sampling;
 pub mod scene;

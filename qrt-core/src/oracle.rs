@@ -30,7 +30,7 @@ pub use nearest::{MOST_FACES, NearestOracle};
 use crate::compile::{BuildError, Builder, Label, NamedPlace, Passes, PixelWord, Real, StageName};
 use crate::sampling::{PathPoints, SamplingError};
 use crate::scene::ComparatorAt;
-use crate::tracer::{Arith, Stage};
+use crate::tracer::{Arith, PixelClass, Stage};
 use crate::valid::ValidScene;
 use qrt_circuit::{Bit, BlockId, Instruction, Op, Operand, Program, RegisterId, Style, Word};
 use recording::{PrimaryHit, Recording};
@@ -58,6 +58,19 @@ pub struct Options {
     pub style: Option<Style>,
     /// What is done to make the program cheaper.
     pub passes: Passes,
+    /// The class of the pixels that it is for. The default serves all pixels; that of a class has
+    /// the class's scale.
+    pub class: PixelClass,
+}
+
+impl Options {
+    /// The defaults, for pixels of this class.
+    pub fn of_class(class: PixelClass) -> Self {
+        Self {
+            class,
+            ..Self::default()
+        }
+    }
 }
 
 impl Default for Options {
@@ -65,6 +78,7 @@ impl Default for Options {
         Self {
             style: None,
             passes: Passes::ALL,
+            class: PixelClass::default(),
         }
     }
 }
@@ -171,8 +185,8 @@ impl Oracle {
     ///
     /// # Errors
     /// As [`Oracle::new`], and if there are more than [`MOST_FACES`] faces.
-    pub fn given_primary_hit(scene: &ValidScene) -> Result<Self, OracleError> {
-        let options = Options::default();
+    pub fn given_primary_hit(scene: &ValidScene, class: PixelClass) -> Result<Self, OracleError> {
+        let options = Options::of_class(class);
         let mut recording = Recording::new(scene, [0, 1, 2], options, PrimaryHit::Given)?;
         Ok(recording.oracle(&[0, 1, 2]))
     }
@@ -184,8 +198,8 @@ impl Oracle {
     /// # Errors
     /// As [`Oracle::new`].
     pub fn all(scene: &ValidScene) -> Result<([Self; 3], Self), OracleError> {
-        let mut recording =
-            Recording::new(scene, [0, 1, 2], Options::default(), PrimaryHit::Traced)?;
+        let options = Options::default();
+        let mut recording = Recording::new(scene, [0, 1, 2], options, PrimaryHit::Traced)?;
         let channels = [0, 1, 2].map(|channel| recording.oracle(&[channel]));
         Ok((channels, recording.oracle(&[0, 1, 2])))
     }

@@ -1,6 +1,7 @@
 //! Arguments that several commands have.
 
 use super::failure::Failure;
+use super::terminal;
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use qrt_core::front::{self, Loaded};
@@ -21,7 +22,11 @@ pub(crate) struct SceneArgs {
 impl SceneArgs {
     /// Reads the scene and checks it.
     pub(crate) fn load(&self) -> Result<Loaded, Failure> {
-        Ok(front::load(&self.scene, &self.sets)?)
+        let loaded = front::load(&self.scene, &self.sets)?;
+        if let Some(warnings) = loaded.warnings() {
+            terminal::warn(&warnings);
+        }
+        Ok(loaded)
     }
 }
 

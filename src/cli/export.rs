@@ -12,6 +12,7 @@ use qrt_circuit::quantum::{Conjunction, Counting, Part, PhaseOracle, QuantumErro
 use qrt_core::inspect::{CHANNELS, Inspection, grouped};
 use qrt_core::oracle::Options;
 use qrt_core::scene::Window;
+use qrt_core::tracer::PixelClasses;
 use qrt_core::valid::{ValidScene, most_strata};
 use qrt_runtime::counting::Stratum;
 use qrt_runtime::plan::{Figures, Options as PlanOptions};
@@ -213,7 +214,8 @@ pub(crate) fn run(args: &ExportArgs) -> Result<(), Failure> {
     let scene = planned.as_ref().map_or(&loaded.valid, |plan| &plan.scene);
     let written = scene.scene();
     let pixel = on_film(args.pixel, [written.film.width, written.film.height])?;
-    let inspection = Inspection::new(scene, args.channel, Options::default())
+    let options = Options::of_class(PixelClasses::new(scene).of(pixel));
+    let inspection = Inspection::new(scene, args.channel, options)
         .map_err(|error| loaded.report(vec![error.problem()]))?;
     keep_budget(&loaded, &inspection)?;
     let failed = |error: &dyn std::error::Error| Failure::Job(error.to_string());

@@ -59,7 +59,7 @@ fn stats(scene: &ValidScene, rendered: &Rendered, clipped: u64) -> Value {
         "paths_per_second": paths_per_second(rendered),
         "oracle_queries": whole(rendered.total_queries()),
         "mean_rgb": rendered.mean(),
-        "bound_rgb": rendered.bound,
+        "bound_rgb": rendered.scales.greatest(),
         "clipped_pixels": clipped,
         "threads": rendered.threads,
         "peak_memory_bytes": peak_resident_bytes(),

@@ -24,6 +24,11 @@ pub(crate) fn note(text: &str) {
     let _ = writeln!(io::stderr(), "note: {text}");
 }
 
+/// What is not wrong, but surely not meant, on standard error.
+pub(crate) fn warn(report: &qrt_core::syntax::Report) {
+    let _ = io::stderr().write_all(report.render(colour()).as_bytes());
+}
+
 /// What went wrong, on standard error.
 pub(crate) fn error(failure: &Failure) {
     let colour = colour();

@@ -19,8 +19,8 @@ const MODULES: &[(&str, &[&str])] = &[
     (
         "qrt-core/src",
         &[
-            "syntax", "expr", "scene", "schema", "sampling", "valid", "front", "tracer", "compile",
-            "oracle", "inspect",
+            "syntax", "expr", "lights", "scene", "schema", "sampling", "valid", "front", "tracer",
+            "compile", "oracle", "inspect",
         ],
     ),
     (

@@ -60,6 +60,18 @@ fn of_the_cornell_box() {
     agrees("scenes-yaml/cornell-box.yaml", &[]);
 }
 
+/// Lamps are sampled, by themselves and beside rays that meet one.
+#[test]
+fn of_sampled_lamps() {
+    let depth = "{ bits: [5, 5], light: [4, 4] }";
+    let depths = format!("sampling.depths=[{{ bits: [6, 6] }}, {depth}, {depth}]");
+    for lights in ["sampling.lights=auto", "sampling.lights=mis"] {
+        agrees("scenes-yaml/cornell-box.yaml", &[&depths, lights]);
+    }
+    // Materials that ask for angles; a lamp of two, where one is a triangle.
+    agrees("tests/good_scenes/lamps.yaml", &[]);
+}
+
 #[test]
 fn of_the_cornell_box_with_a_mirror() {
     agrees("scenes-yaml/cornell-mirror.yaml", &[]);

@@ -5,7 +5,7 @@ use super::rays::{Meeting, meetings};
 use crate::common::scene::{from_file, written};
 use qrt::circuit::lower;
 use qrt::core::oracle::NearestOracle;
-use qrt::core::tracer::Stage;
+use qrt::core::tracer::{PixelClass, Stage};
 use qrt::core::valid::ValidScene;
 use qrt::runtime::machines::{Answers, Asked, Candidate, NearestMachine};
 use qrt::runtime::random::Stream;
@@ -51,7 +51,7 @@ fn marks_what_is_met(scene: &ValidScene, count: u64, doubt: f64) {
     let rays = some_rays(scene, count);
     let mut answers = Answers::default();
     machine.ask(&rays, &mut answers).unwrap();
-    let scale = Stage::rgb(scene).geometry().scale;
+    let scale = Stage::rgb(scene, PixelClass::MayMeetLamp).geometry().scale;
     let units = f64::from(1_u32 << oracle.fraction);
     let (mut met, mut missed, mut doubtful) = (0_u64, 0_u64, 0_u64);
     for (place, ray) in rays.iter().enumerate() {

@@ -185,3 +185,54 @@ fn a_running_nearest_is_cheaper_than_the_papers_records() {
     assert!(qubits(ROOM) < qubits(&paper));
     assert!(qubits(&scoped) * 10 < qubits(ROOM));
 }
+
+#[test]
+fn lamps_that_cannot_be_sampled_cost_nothing() {
+    let asked = "depths: [{ bits: [4, 4] }, { bits: [6, 5], light: [4, 4] }, { bits: [5, 6], light: [4, 4] }]";
+    let plain = "depths: [{ bits: [4, 4] }, { bits: [6, 5] }, { bits: [5, 6] }]";
+    let without = |room: &str| {
+        let (with, without) = (circuit(&room.replace(plain, asked)), circuit(room));
+        assert_eq!(with.gates, without.gates);
+        assert_eq!(with.qubits, without.qubits);
+    };
+    without(&changed(
+        "emitter: { radiance: [4, 5, 6] }",
+        "lambertian: { albedo: [0.1, 0.1, 0.1] }",
+    ));
+    without(&changed(
+        "lambertian: { albedo: [0.7, 0.6, 0.5] }",
+        "mirror: { reflectance: [0.7, 0.6, 0.5] }",
+    ));
+    without(&changed(
+        "lambertian: { albedo: [0.7, 0.6, 0.5] }",
+        "dielectric: { ior: 1.5 }",
+    ));
+    let none = changed(plain, asked).replace("  path_bits", "  lights: none\n  path_bits");
+    same_gates(&none);
+}
+
+#[test]
+fn where_lamps_are_all_that_counts_the_last_ray_is_not_traced() {
+    let asked = changed(
+        "{ bits: [6, 5] }, { bits: [5, 6] }",
+        "{ bits: [6, 5], light: [5, 5] }, { bits: [5, 6], light: [5, 5] }",
+    );
+    let of = |lights: &str| {
+        let text = asked.replace("  path_bits", &format!("  lights: {lights}\n  path_bits"));
+        let blocks = program(&text).blocks;
+        let searches = blocks
+            .iter()
+            .filter(|block| block.name == "find_intersection");
+        let shadows = blocks.iter().filter(|block| block.name == "shadow");
+        (
+            searches.count(),
+            shadows.count(),
+            circuit(&text).gates.len(),
+        )
+    };
+    let (none, mis, alone) = (of("none"), of("mis"), of("next-event"));
+    assert_eq!([none.0, mis.0, alone.0], [3, 3, 2]);
+    assert_eq!([none.1, mis.1, alone.1], [0, 2, 2]);
+    assert_eq!(of("auto"), alone);
+    assert!(alone.2 < mis.2);
+}

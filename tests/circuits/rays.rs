@@ -1,6 +1,6 @@
 //! Primary rays and what they meet, computed by themselves: in scene units, by textbook geometry.
 
-use qrt::core::sampling::PathPoints;
+use qrt::core::sampling::{Coordinate, PathPoints};
 use qrt::core::scene::Camera;
 use qrt::core::valid::ValidScene;
 
@@ -57,9 +57,10 @@ pub(crate) fn meetings(
     let written = scene.scene();
     let points = PathPoints::new(&written.sampling).unwrap();
     let at = |axis: usize| {
-        let shift = points.shift(seed, pixel[0], pixel[1], PathPoints::dimension(0, axis));
-        let cells = f64::from(1_u32 << points.bits(0, axis));
-        (f64::from(points.index(0, axis, id, shift)) + 0.5) / cells
+        let coordinate = [Coordinate::u(0), Coordinate::v(0)][axis];
+        let shift = points.shift(seed, pixel[0], pixel[1], coordinate);
+        let cells = f64::from(1_u32 << points.bits(coordinate));
+        (f64::from(points.index(coordinate, id, shift)) + 0.5) / cells
     };
     let (width, height) = (
         f64::from(written.film.width),

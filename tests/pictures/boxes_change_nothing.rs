@@ -65,6 +65,29 @@ fn over_a_mesh() {
     assert_same(&from_file(KNOT, &sets));
 }
 
+/// Rays to points on lamps, of which one covers a part of another, and one is in a wall's plane.
+#[test]
+fn over_shadows() {
+    let depth = "{ bits: [6, 6], light: [6, 6] }";
+    let depths = format!("sampling.depths=[{{ bits: [6, 6] }}, {depth}, {depth}]");
+    let sets = [
+        "film.width=6",
+        "film.height=6",
+        "sampling.path_bits=8",
+        &depths,
+    ];
+    for lights in ["sampling.lights=auto", "sampling.lights=mis"] {
+        assert_same(&from_file(KNOT, &[&sets[..], &[lights]].concat()));
+        let lamps = "
+  - quad: { vertices: [[-0.4, 2, -0.4], [0.2, 2, -0.4], [0.2, 2, 0.2], [-0.4, 2, 0.2]], material: lamp }
+  - triangle: { vertices: [[1.5, 0, 0.5], [1.5, 0, 1.5], [1.8, 0, 0.5]], material: lamp }
+  - triangle: { vertices: [[-1.5, 0.2, 0.5], [-1.5, 0.2, 1.5], [-1.5, 1, 0.5]], material: satin }
+";
+        let text = format!("{HEAD}{lamps}");
+        assert_same(&written(&text, &[&sets[..], &[lights]].concat()));
+    }
+}
+
 /// From so far away that rays arrive with an error far above a near ray's.
 #[test]
 fn over_a_mesh_seen_from_afar() {

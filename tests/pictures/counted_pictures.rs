@@ -38,7 +38,7 @@ fn counted_pixels_keep_the_bound_in_the_promised_share() {
     for estimator in [Estimator::Paper, Estimator::Sine] {
         let rendered = render(&scene, &with(estimator, 1)).unwrap();
         for channel in 0..2 {
-            let scale = rendered.bound[channel];
+            let scale = rendered.scales.greatest()[channel];
             let a = COLOUR[channel] / scale;
             assert!((0.05..0.95).contains(&a), "nothing to count: {a}");
             let bound = 2.0 * PI * (a * (1.0 - a)).sqrt() / phases + (PI / phases).powi(2);
@@ -59,7 +59,7 @@ fn counted_pixels_keep_the_bound_in_the_promised_share() {
 fn no_good_id_is_counted_as_none() {
     // The rectangular window reads theta = 0 without error.
     let rendered = render(&written(FURNACE, &[]), &with(Estimator::Paper, 5)).unwrap();
-    assert!(rendered.bound[2] > 1.0);
+    assert!(rendered.scales.greatest()[2] > 1.0);
     assert!(rendered.image.pixels.iter().all(|pixel| pixel[2] == 0.0));
 }
 
@@ -78,7 +78,10 @@ fn seeds_change_the_noise_and_not_the_mean() {
             let variance = values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / (count - 1.0);
             assert!(variance > 0.0);
             // Counting with a window of T phases has a bias of the order of 1/T^2.
-            let scale = render(&scene, &with(Estimator::Exact, 0)).unwrap().bound[channel];
+            let scale = render(&scene, &with(Estimator::Exact, 0))
+                .unwrap()
+                .scales
+                .greatest()[channel];
             let slack =
                 5.0 * (variance / count).sqrt() + scale * (1.0 / 65536.0 + (PI / 256.0).powi(2));
             assert!(
@@ -97,7 +100,7 @@ fn every_estimator_works() {
         let rendered = render(&scene, &Options::default()).unwrap();
         assert_eq!(rendered.estimator, estimator);
         for pixel in &rendered.image.pixels {
-            for (value, bound) in pixel.iter().zip(rendered.bound) {
+            for (value, bound) in pixel.iter().zip(rendered.scales.greatest()) {
                 assert!((0.0..=bound).contains(value));
             }
         }
@@ -118,7 +121,7 @@ fn nothing_is_black_and_takes_no_queries() {
         let rendered = render(&written(NOTHING, &[]), &with(estimator, 0)).unwrap();
         assert_eq!(rendered.image.pixels, [[0.0; 3]; 6]);
         assert_eq!(rendered.total_queries(), 0);
-        assert_eq!(rendered.bound, [0.0; 3]);
+        assert_eq!(rendered.scales.greatest(), [0.0; 3]);
     }
 }
 

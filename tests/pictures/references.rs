@@ -66,8 +66,34 @@ fn compare(ours: &Measured, theirs: &Reference) -> Result<(), String> {
 /// The scene at every depth, with `2^path_bits` paths under each of two seeds; `promise` is the
 /// RMSE over the mean that 2^18 paths keep.
 fn agrees(name: &str, path_bits: u32, promise: f64) {
+    agrees_with(name, path_bits, promise, |depth| {
+        independent::asking(depth, path_bits)
+    });
+}
+
+/// Overrides as [`independent::asking`]'s, with lamps sampled at every bounce, in this way.
+fn asking_lamps(depth: usize, path_bits: u32, lights: &str) -> Vec<String> {
+    let directions = ", {bits: [10, 10], light: [10, 10]}".repeat(depth - 1);
+    vec![
+        format!("sampling.depths=[{{bits: [16, 16]}}{directions}]"),
+        format!("sampling.path_bits={path_bits}"),
+        format!("sampling.lights={lights}"),
+    ]
+}
+
+/// The same with lamps sampled, in both ways; `promise` is the RMSE that 2^12 paths keep.
+fn agrees_by_lamps(name: &str, promise: f64) {
+    for lights in ["auto", "mis"] {
+        // As `agrees` states it, of 2^18 paths whose error falls as that of random ones.
+        agrees_with(name, 11, promise / 8.0, |depth| {
+            asking_lamps(depth, 11, lights)
+        });
+    }
+}
+
+fn agrees_with(name: &str, path_bits: u32, promise: f64, asking: impl Fn(usize) -> Vec<String>) {
     for depth in 1..=4 {
-        let scene = independent::scene(name, &independent::asking(depth, path_bits));
+        let scene = independent::scene(name, &asking(depth));
         let reference = independent::reference(name, depth);
         let level = mean(&reference.picture);
         let ours = measure(&scene);
@@ -131,6 +157,27 @@ fn the_furnace_agrees() {
 #[test]
 fn the_mesh_agrees() {
     agrees("torusknot8k", 13, 0.015);
+}
+
+#[test]
+fn the_cornell_boxes_agree_by_lamps() {
+    agrees_by_lamps("cornell", 0.012);
+    agrees_by_lamps("cornell_mg", 0.012);
+}
+
+#[test]
+fn boxes_with_other_materials_agree_by_lamps() {
+    agrees_by_lamps("cornell_ggx", 0.03);
+    // What a lamp lights by way of glass or mirrors is found by chance, as ever.
+    agrees_by_lamps("cornell_glass", 0.25);
+    agrees_by_lamps("cornell_mirrorwall", 0.25);
+}
+
+#[test]
+fn floor_furnace_and_mesh_agree_by_lamps() {
+    agrees_by_lamps("floorlight", 0.006);
+    agrees_by_lamps("furnace", 0.02);
+    agrees_by_lamps("torusknot8k", 0.012);
 }
 
 #[test]

@@ -102,9 +102,10 @@ fn a_file_that_cannot_be_read_is_an_error_like_others() {
 
 /// Codes that no scene file gets from its checks: the first two only scenes that are built in Rust,
 /// the third only a file of 256 MiB, the fourth only where the OBJ library disagrees with the
-/// checks before it, the last ones only when the scene's circuit is compiled. The unit tests of
-/// `valid`, of the OBJ reader and of `oracle`, and `inspect_command`, show them.
-const ELSEWHERE: [&str; 9] = [
+/// checks before it, the next ones only when the scene's circuit is compiled, the last as a warning.
+/// The unit tests of `valid`, of the OBJ reader and of `oracle`, `inspect_command` and the test
+/// below show them.
+const ELSEWHERE: [&str; 10] = [
     codes::DUPLICATE_NAME,
     codes::BSDF_CHANNELS,
     codes::OBJ_TOO_LARGE,
@@ -114,7 +115,38 @@ const ELSEWHERE: [&str; 9] = [
     codes::QUOTIENT_UNBOUNDED,
     codes::NUMBER_TOO_WIDE,
     codes::TOO_MANY_FACES,
+    codes::LIGHT_UNUSED,
 ];
+
+/// A scene without a lamp, and one of mirrors alone: they are as good as without the bits.
+#[test]
+fn lamps_that_cannot_be_sampled_are_warned_of() {
+    let warned = |name: &str, material: &str| {
+        let text = format!(
+            "name: {name}
+camera: {{ perspective: {{ eye: [0, 0, 1], target: [0, 0, 0], vfov: 45 }} }}
+film: {{ width: 1, height: 1 }}
+materials: {{ m: {material}, lamp: {{ emitter: {{ radiance: [1, 1, 1] }} }} }}
+geometry:
+  - quad: {{ vertices: [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], material: m }}
+  - quad: {{ vertices: [[0, 0, 2], [0, 1, 2], [1, 1, 2], [1, 0, 2]], material: {} }}
+sampling: {{ depths: [{{ bits: [8, 8] }}, {{ bits: [8, 8], light: [8, 8] }}] }}
+",
+            if name == "dark" { "m" } else { "lamp" }
+        );
+        let loaded = front::parse(&text, &format!("{name}.yaml"), &[], "".as_ref()).unwrap();
+        assert!(loaded.valid.scene().sampling.light(1).is_none());
+        loaded.warnings().unwrap().render(false)
+    };
+    let dark = warned("dark", "{ lambertian: { albedo: [0.5, 0.5, 0.5] } }");
+    compare(&Path::new(FOLDER).join("unused-light-dark.yaml"), &dark).unwrap();
+    let mirrors = warned("mirrors", "{ mirror: { reflectance: [0.5, 0.5, 0.5] } }");
+    compare(
+        &Path::new(FOLDER).join("unused-light-mirrors.yaml"),
+        &mirrors,
+    )
+    .unwrap();
+}
 
 #[test]
 fn every_code_is_shown_by_some_scene() {

@@ -54,6 +54,7 @@ fn every_scene_shows_something() {
         "floor-and-light",
         "furnace",
         "knot",
+        "lit-box",
         "velvet",
     ];
     assert_eq!(names, expected);

@@ -7,7 +7,7 @@ use super::cases;
 use crate::common::scene::from_file;
 use proptest::prelude::*;
 use qrt::core::front;
-use qrt::core::scene::{Camera, Estimator, Scene, Sequence};
+use qrt::core::scene::{Camera, Estimator, Lights, Scene, Sequence};
 use qrt::core::valid::ValidScene;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
@@ -52,6 +52,8 @@ fn every_key_is_read() {
     assert_eq!(scene.materials.len(), 8);
     assert_eq!(scene.sampling.sequence, Sequence::ProductLattice);
     assert_eq!(scene.sampling.depths[0].bits, [6, 4]);
+    assert_eq!(scene.sampling.depths[1].light, Some([3, 4]));
+    assert_eq!(scene.sampling.lights, Lights::Mis);
     assert_eq!(scene.precision.fraction, Some(14));
     assert_eq!(
         (scene.comparator.bits, scene.comparator.at.name()),
@@ -64,7 +66,7 @@ fn every_key_is_read() {
     );
     assert_eq!(scene.circuit.uncompute.name(), "scoped");
     assert_eq!(scene.budget.unwrap().qubits, Some(2000));
-    assert_eq!(valid.polygons().len(), 1 + 1 + 4);
+    assert_eq!(valid.polygons().len(), 1 + 1 + 1 + 4);
 }
 
 #[test]

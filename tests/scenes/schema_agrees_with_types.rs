@@ -34,7 +34,10 @@ impl Judge {
 }
 
 /// Codes of what relates values to each other, or is about files: beyond a schema.
-const RELATIONS: [&str; 15] = [
+const RELATIONS: [&str; 18] = [
+    codes::PRIMARY_LIGHT,
+    codes::FEW_LIGHT_BITS,
+    codes::LIGHT_UNBOUNDED,
     codes::DUPLICATE_NAME,
     codes::UNKNOWN_MATERIAL,
     codes::PHONG_ENERGY,

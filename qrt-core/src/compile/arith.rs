@@ -231,6 +231,8 @@ impl Arith for Builder<'_> {
         match part {
             Part::GenerateRay(k) => self.begin(StageName::GenerateRay, depth(k), true),
             Part::FindIntersection(k) => self.begin(StageName::FindIntersection, depth(k), true),
+            Part::SampleLight(k) => self.begin(StageName::SampleLight, depth(k), true),
+            Part::Shadow(k) => self.begin(StageName::Shadow, depth(k), true),
             Part::Plane(number) => self.begin(StageName::Plane(number as u32), None, true),
             Part::Primitive(number) => self.begin(StageName::Primitive(number as u32), None, true),
             Part::Side(k) => self.begin(StageName::Side, depth(k), true),

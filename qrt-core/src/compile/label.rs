@@ -1,6 +1,6 @@
 //! What the compiler knows registers and blocks of its programs as, and the words of a pixel.
 
-use crate::sampling::PathPoints;
+use crate::sampling::{Coordinate, PathPoints, Square};
 use qrt_circuit::{Block, Register, Tag, Type};
 use std::fmt;
 
@@ -76,6 +76,10 @@ pub enum StageName {
     GenerateRay,
     /// The paper's *Find Intersection*: the nearest hit of a ray.
     FindIntersection,
+    /// A point on a lamp, and what of its light goes to the viewer if nothing stands between.
+    SampleLight,
+    /// Whether anything stands between a vertex and the point on a lamp.
+    Shadow,
     /// One plane (by number) and the primitives on it, within a search.
     Plane(u32),
     /// One primitive (by number), within a search.
@@ -117,6 +121,8 @@ impl StageName {
             Self::Side => "side",
             Self::Sample => "sample",
             Self::Shade => "shade",
+            Self::SampleLight => "sample_light",
+            Self::Shadow => "shadow",
             Self::Count => "count",
             Self::Nearer => "nearer",
             Self::CompareAndFlip => "compare and flip",
@@ -149,7 +155,7 @@ pub struct Label {
 
 impl Label {
     /// The stages without a number that blocks can be, by their number in a tag.
-    const PLAIN: [StageName; 10] = [
+    const PLAIN: [StageName; 12] = [
         StageName::Oracle,
         StageName::GenerateRay,
         StageName::FindIntersection,
@@ -160,6 +166,8 @@ impl Label {
         StageName::Nearer,
         StageName::CompareAndFlip,
         StageName::Flip,
+        StageName::SampleLight,
+        StageName::Shadow,
     ];
 
     /// A block's label. Blocks without a tag are whole programs.
@@ -214,10 +222,8 @@ impl Label {
 pub enum PixelWord {
     /// The XOR shift of a sample coordinate, its top `bits` bits.
     Shift {
-        /// The number of bounces before the ray.
-        depth: usize,
-        /// The coordinate's axis: 0 for u, 1 for v.
-        axis: usize,
+        /// The coordinate.
+        coordinate: Coordinate,
         /// How many bits the coordinate has.
         bits: u32,
     },
@@ -238,9 +244,13 @@ impl PixelWord {
     /// The parameter of the program that it is the value of.
     pub fn parameter(&self) -> qrt_circuit::Parameter {
         let (name, width) = match *self {
-            Self::Shift { depth, axis, bits } => {
-                let axis = ["u", "v"].get(axis).unwrap_or(&"w");
-                (format!("ray{depth}.shift.{axis}"), bits)
+            Self::Shift { coordinate, bits } => {
+                let axis = ["u", "v"][coordinate.axis as usize];
+                let square = match coordinate.square {
+                    Square::Ray => "ray",
+                    Square::Light => "light",
+                };
+                (format!("{square}{}.shift.{axis}", coordinate.depth), bits)
             }
             Self::Affine { width, .. } => ("pixel".to_owned(), width),
         };
@@ -250,9 +260,8 @@ impl PixelWord {
     /// The parameter's bits in pixel (column, row).
     pub fn value(&self, points: &PathPoints, seed: u64, pixel: [u32; 2]) -> u64 {
         match *self {
-            Self::Shift { depth, axis, bits } => {
-                let dimension = PathPoints::dimension(depth, axis);
-                let shift = points.shift(seed, pixel[0], pixel[1], dimension);
+            Self::Shift { coordinate, bits } => {
+                let shift = points.shift(seed, pixel[0], pixel[1], coordinate);
                 shift.checked_shr(64 - bits).unwrap_or(0)
             }
             Self::Affine {

@@ -44,7 +44,7 @@ pub use value::{Bool, Index, Real};
 
 use crate::sampling::PathPoints;
 use crate::syntax::{Circuit, What};
-use crate::tracer::{Axis, Coordinate, Named};
+use crate::tracer::{Coordinate, Named};
 use names::Nameable;
 use passes::Draft;
 use qrt_circuit::{Bit, Block, BlockId, Op, Operand, Register, RegisterId, Style, Type, Word};
@@ -170,7 +170,7 @@ pub struct Builder<'a> {
     truths: Vec<Truth>,
     choices: Vec<Choice>,
     known: HashMap<Op<RegisterId, u32>, usize>,
-    coordinates: HashMap<(usize, bool), Index>,
+    coordinates: HashMap<Coordinate, Index>,
     names: Vec<(Named, usize, Nameable)>,
     asked: u64,
     shared: u64,
@@ -371,27 +371,19 @@ impl<'a> Builder<'a> {
     }
 
     fn sample_index(&mut self, coordinate: Coordinate) -> Index {
-        let axis = usize::from(coordinate.axis == Axis::V);
-        let key = (coordinate.depth, axis == 1);
-        if let Some(&known) = self.coordinates.get(&key) {
+        if let Some(&known) = self.coordinates.get(&coordinate) {
             return known;
         }
         let points = self.target.points;
-        let bits = points.bits(coordinate.depth, axis);
+        let bits = points.bits(coordinate);
         let index = if bits == 0 {
             Index::Constant(0)
         } else {
             let columns = (0..points.path_bits())
-                .map(|bit| u64::from(points.column(coordinate.depth, axis, bit)))
+                .map(|bit| u64::from(points.column(coordinate, bit)))
                 .collect();
             let shifted = points.shifts();
-            let parameter = shifted.then(|| {
-                self.parameter(PixelWord::Shift {
-                    depth: coordinate.depth,
-                    axis,
-                    bits,
-                })
-            });
+            let parameter = shifted.then(|| self.parameter(PixelWord::Shift { coordinate, bits }));
             let source = self.id;
             let target = self.emit(Op::Parity {
                 source,
@@ -407,7 +399,7 @@ impl<'a> Builder<'a> {
                 shift: 0,
             })
         };
-        self.coordinates.insert(key, index);
+        self.coordinates.insert(coordinate, index);
         index
     }
 

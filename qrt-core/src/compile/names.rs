@@ -2,6 +2,7 @@
 
 use super::value::{Bool, Index, Real};
 use super::{Affine, Builder};
+use crate::sampling::Square;
 use crate::tracer::{Named, Quantity};
 use qrt_circuit::{Bit, RegisterId, Word};
 use std::fmt;
@@ -31,7 +32,7 @@ impl NamedPlace {
         let names = match self.name.quantity {
             Quantity::Origin | Quantity::Direction => ["x", "y", "z"],
             Quantity::Throughput => ["r", "g", "b"],
-            Quantity::Sample => ["u", "v", ""],
+            Quantity::Sample | Quantity::Lamp => ["u", "v", ""],
             Quantity::Distance | Quantity::Face | Quantity::Found => return None,
         };
         names.get(self.component).copied()
@@ -79,12 +80,14 @@ impl Builder<'_> {
     /// Named values that are in registers. A value in no register, because a table serves instead
     /// or because it is the same on all paths, is left out.
     pub(super) fn named_places(&self) -> Vec<NamedPlace> {
-        let samples = self.coordinates.iter().map(|(&(depth, v), &index)| {
-            let name = Named {
-                depth,
-                quantity: Quantity::Sample,
+        let samples = self.coordinates.iter().map(|(coordinate, &index)| {
+            let quantity = match coordinate.square {
+                Square::Ray => Quantity::Sample,
+                Square::Light => Quantity::Lamp,
             };
-            (name, usize::from(v), Nameable::Index(index))
+            let depth = coordinate.depth;
+            let name = Named { depth, quantity };
+            (name, coordinate.axis as usize, Nameable::Index(index))
         });
         let all = self.names.iter().copied().chain(samples);
         let placed = all.filter_map(|(name, component, value)| {

@@ -73,6 +73,8 @@ pub enum Variable {
 impl Variable {
     /// All of these, in the order of their definition.
     pub const ALL: [Self; 5] = [Self::U, Self::V, Self::CosI, Self::CosO, Self::CosA];
+    /// The variables of a density of directions.
+    pub const ANGLES: [Self; 3] = [Self::CosI, Self::CosO, Self::CosA];
     /// The variables of a map or a Jacobian.
     pub const SQUARE: [Self; 2] = [Self::U, Self::V];
 

@@ -29,6 +29,12 @@ pub struct Loaded {
 }
 
 impl Loaded {
+    /// What is not wrong, but surely not meant, each at its place; none if there is nothing.
+    pub fn warnings(&self) -> Option<Report> {
+        let found = self.valid.warnings();
+        (!found.is_empty()).then(|| self.report(found.to_vec()).warning())
+    }
+
     /// A report of problems that were found in the scene after it was loaded, each at its place.
     pub fn report(&self, problems: Vec<Problem>) -> Report {
         let mut sources = vec![self.source.clone()];

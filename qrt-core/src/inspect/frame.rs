@@ -203,6 +203,7 @@ fn wire_of(stage: &Stage) -> (String, Option<u32>) {
         StageName::GenerateRay => "ray".to_owned(),
         StageName::FindIntersection => "nearest".to_owned(),
         StageName::Shade => "light".to_owned(),
+        StageName::SampleLight => "lamp".to_owned(),
         other => other.to_string(),
     };
     match stage.depth {

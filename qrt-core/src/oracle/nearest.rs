@@ -6,7 +6,7 @@ use super::{Options, OracleError, register_of};
 use crate::compile::{self, Builder, Label, PixelWord, Role, StageName};
 use crate::sampling::PathPoints;
 use crate::scene::Uncompute;
-use crate::tracer::{Arith, FaceTable, Named, Part, Quantity, Stage};
+use crate::tracer::{Arith, FaceTable, Named, Part, PixelClass, Quantity, Stage};
 use crate::valid::ValidScene;
 use qrt_circuit::lower::{self, Cost};
 use qrt_circuit::{Bit, BlockId, Instruction, Op, Operand, Program, RegisterId, Word};
@@ -78,7 +78,7 @@ impl NearestOracle {
     /// # Errors
     /// A scene whose numbers no register can hold, or with more than [`MOST_FACES`] faces.
     pub fn new(scene: &ValidScene) -> Result<Option<Self>, OracleError> {
-        let stage = Stage::<1>::new(scene, [0]);
+        let stage = Stage::<1>::new(scene, [0], PixelClass::MayMeetLamp);
         let list = FaceTable::new(&stage);
         if list.is_empty() {
             return Ok(None);

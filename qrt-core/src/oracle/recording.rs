@@ -127,7 +127,7 @@ impl Recording {
         more: impl FnOnce(&mut Builder<'_>, &[Real; C], &[f64; C]) -> Vec<(usize, Real, f64)>,
     ) -> Result<Self, OracleError> {
         let written = scene.scene();
-        let stage = Stage::new(scene, channels).relative();
+        let stage = Stage::new(scene, channels, options.class).relative();
         let points = PathPoints::new(&written.sampling)?;
         let target = target(scene, &stage, &points, options);
         let (film, fraction) = (target.film, target.fraction);

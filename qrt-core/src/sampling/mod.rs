@@ -2,9 +2,10 @@
 //! square, one square per ray.
 //!
 //! The integral over paths is the mean over `R = 2^path_bits` path indices. Ray `k` of path `id`
-//! takes its coordinates `(u, v)` from dimensions `2k` and `2k + 1`; each is the index of one of
-//! `2^bits` cells and stands for its centre ([`cell_centre`]). Both sequences are linear over
-//! GF(2), up to the pixel's shift:
+//! takes its coordinates `(u, v)` from two dimensions of its own, after those of earlier rays and
+//! of the point on a lamp that its start is connected to, if there is one
+//! ([`Sampling::squares`]); each is the index of one of `2^bits` cells and stands for its centre
+//! ([`cell_centre`]). Both sequences are linear over GF(2), up to the pixel's shift:
 //!
 //! `index_d(id) = shift_d ^ XOR_b id_b column_d(b)`,
 //!
@@ -23,7 +24,7 @@ mod net;
 #[cfg(test)]
 mod tests;
 
-pub use crate::scene::MAX_PATH_BITS;
+pub use crate::scene::{MAX_PATH_BITS, Square};
 pub use lattice::ProductLattice;
 pub use net::{DigitalNet, MAX_DIMENSIONS, pixel_shift};
 
@@ -37,16 +38,17 @@ pub const MAX_COORDINATE_BITS: u32 = 32;
 /// The sampling points of all paths of a pixel, as the scene's `sampling` block asks for them.
 ///
 /// ```
-/// use qrt_core::sampling::{PathPoints, cell_centre};
-/// use qrt_core::scene::{DepthSampling, Map, Sampling, Sequence};
-/// let depths = vec![DepthSampling { bits: [8, 8], map: Map::Auto }; 3];
-/// let sampling = Sampling { sequence: Sequence::DigitalNet, path_bits: 12, depths };
+/// use qrt_core::sampling::{Coordinate, PathPoints, cell_centre};
+/// use qrt_core::scene::{DepthSampling, Sampling};
+/// let depths = vec![DepthSampling::of_bits([8, 8]); 3];
+/// let sampling = Sampling { path_bits: 12, depths, ..Sampling::default() };
 /// let points = PathPoints::new(&sampling)?;
 /// // u of the second ray, for all paths of pixel (3, 5):
-/// let shift = points.shift(1, 3, 5, PathPoints::dimension(1, 0));
-/// let mut u = vec![0; 1 << points.path_bits()];
-/// points.indices(1, 0, 0, shift, &mut u);
-/// let mean = u.iter().map(|&k| cell_centre(k, 8)).sum::<f64>() / u.len() as f64;
+/// let u = Coordinate::u(1);
+/// let shift = points.shift(1, 3, 5, u);
+/// let mut indices = vec![0; 1 << points.path_bits()];
+/// points.indices(u, 0, shift, &mut indices);
+/// let mean = indices.iter().map(|&k| cell_centre(k, 8)).sum::<f64>() / indices.len() as f64;
 /// assert_eq!(mean, 0.5);
 /// # Ok::<(), qrt_core::sampling::SamplingError>(())
 /// ```
@@ -54,13 +56,85 @@ pub const MAX_COORDINATE_BITS: u32 = 32;
 pub struct PathPoints {
     sequence: Sequence,
     path_bits: u32,
-    coordinates: Vec<Coordinate>,
+    depths: usize,
+    /// Bits and map of each coordinate, by dimension.
+    dimensions: Vec<(u32, LinearMap)>,
+    /// The first dimension of each square, by [`Coordinate::slot`] of its `u`, halved.
+    squares: Vec<Option<usize>>,
 }
 
-#[derive(Clone, Debug)]
-struct Coordinate {
-    bits: u32,
-    map: LinearMap,
+/// Which coordinate of a square.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Axis {
+    /// The first: the radial one of the built-in maps; to the right on the film.
+    U,
+    /// The second: the azimuthal one of the built-in maps; downwards on the film.
+    V,
+}
+
+/// A sample coordinate of a path.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Coordinate {
+    /// The number of bounces before the ray that it belongs to: 0 for the primary ray.
+    pub depth: usize,
+    /// What it samples: the ray, or the point on a lamp that the ray's start is connected to.
+    pub square: Square,
+    /// Which of the two of its square it is.
+    pub axis: Axis,
+}
+
+impl Coordinate {
+    /// The first coordinate of the ray of this `depth`.
+    pub const fn u(depth: usize) -> Self {
+        let (square, axis) = (Square::Ray, Axis::U);
+        Self {
+            depth,
+            square,
+            axis,
+        }
+    }
+
+    /// The second coordinate of the ray of this `depth`.
+    pub const fn v(depth: usize) -> Self {
+        Self::u(depth).of(Axis::V)
+    }
+
+    /// The first coordinate of the point on a lamp that the start of the ray of this `depth` is
+    /// connected to.
+    pub const fn light_u(depth: usize) -> Self {
+        let (square, axis) = (Square::Light, Axis::U);
+        Self {
+            depth,
+            square,
+            axis,
+        }
+    }
+
+    /// The second one.
+    pub const fn light_v(depth: usize) -> Self {
+        Self::light_u(depth).of(Axis::V)
+    }
+
+    const fn of(self, axis: Axis) -> Self {
+        Self { axis, ..self }
+    }
+
+    /// A number of its own, below `4 D`, whether or not the scene samples it.
+    #[inline(always)]
+    pub const fn slot(self) -> usize {
+        4 * self.depth + 2 * self.square as usize + self.axis as usize
+    }
+}
+
+impl fmt::Display for Coordinate {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let axis = ["u", "v"][self.axis as usize];
+        let light = match self.square {
+            Square::Ray => "",
+            Square::Light => " of the point on a lamp",
+        };
+        write!(f, "{axis}{light} of depth {}", self.depth)
+    }
 }
 
 impl PathPoints {
@@ -70,10 +144,20 @@ impl PathPoints {
     /// Sizes beyond the stated limits, or, for the product lattice, `path_bits` other than the sum
     /// of all bits. A [`crate::valid::ValidScene`]'s sampling has none of these.
     pub fn new(sampling: &Sampling) -> Result<Self, SamplingError> {
-        let bits: Vec<[u32; 2]> = sampling.depths.iter().map(|depth| depth.bits).collect();
-        for (dimension, &bits) in bits.iter().flatten().enumerate() {
-            if bits > MAX_COORDINATE_BITS {
-                return Err(SamplingError::CoordinateBits { dimension, bits });
+        let mut bits = Vec::new();
+        let mut squares = vec![None; 2 * sampling.depths.len()];
+        for (depth, square, [u, v]) in sampling.squares() {
+            squares[2 * depth + square as usize] = Some(2 * bits.len());
+            bits.push([u, v]);
+            for (axis, bits) in [(Axis::U, u), (Axis::V, v)] {
+                if bits > MAX_COORDINATE_BITS {
+                    let coordinate = Coordinate {
+                        depth,
+                        square,
+                        axis,
+                    };
+                    return Err(SamplingError::CoordinateBits { coordinate, bits });
+                }
             }
         }
         let path_bits = sampling.path_bits;
@@ -96,21 +180,44 @@ impl PathPoints {
                 (0..lattice.dimensions()).map(map).collect()
             }
         };
-        let coordinates = maps
-            .into_iter()
-            .zip(bits.iter().flatten())
-            .map(|(map, &bits)| Coordinate { bits, map })
-            .collect();
         Ok(Self {
             sequence: sampling.sequence,
             path_bits,
-            coordinates,
+            depths: sampling.depths.len(),
+            dimensions: bits.into_iter().flatten().zip(maps).collect(),
+            squares,
         })
     }
 
-    /// The dimension of coordinate `axis` (0: u, 1: v) of ray `depth`: `2 depth + axis`.
-    pub fn dimension(depth: usize, axis: usize) -> usize {
-        2 * depth + axis
+    /// The dimension that a coordinate has in the sequence.
+    ///
+    /// # Panics
+    /// If the scene does not sample `coordinate`.
+    pub fn dimension(&self, coordinate: Coordinate) -> usize {
+        let square = self.squares[2 * coordinate.depth + coordinate.square as usize];
+        // The callers ask for what the scene has; nothing else has a dimension.
+        #[allow(clippy::expect_used)]
+        let first = square.expect("a coordinate that the scene samples");
+        first + coordinate.axis as usize
+    }
+
+    /// The coordinates that the scene samples, in the order of their depths.
+    pub fn coordinates(&self) -> impl Iterator<Item = Coordinate> + '_ {
+        let sampled = |(number, first): (usize, &Option<usize>)| {
+            let square = [Square::Ray, Square::Light][number % 2];
+            let depth = number / 2;
+            let of = |axis| Coordinate {
+                depth,
+                square,
+                axis,
+            };
+            first.map(|_| [of(Axis::U), of(Axis::V)])
+        };
+        self.squares
+            .iter()
+            .enumerate()
+            .filter_map(sampled)
+            .flatten()
     }
 
     /// How many bits a path index has: path indices are `0 .. 2^path_bits`.
@@ -120,30 +227,34 @@ impl PathPoints {
 
     /// How many rays a path has: one more than its bounces.
     pub fn depths(&self) -> usize {
-        self.coordinates.len() / 2
+        self.depths
     }
 
-    /// Bits of the indices of coordinate `axis` (0: u, 1: v) of ray `depth`.
+    /// Bits of the indices of a coordinate.
     ///
     /// # Panics
-    /// If `depth` or `axis` is out of range.
-    pub fn bits(&self, depth: usize, axis: usize) -> u32 {
-        self.coordinate(depth, axis).bits
+    /// If the scene does not sample `coordinate`.
+    pub fn bits(&self, coordinate: Coordinate) -> u32 {
+        self.of(coordinate).0
     }
 
     /// The bits of the sample index that bit `id_bit` of the path index flips.
     ///
     /// # Panics
-    /// If `depth` or `axis` is out of range.
-    pub fn column(&self, depth: usize, axis: usize, id_bit: u32) -> u32 {
-        self.coordinate(depth, axis).map.column(id_bit)
+    /// If the scene does not sample `coordinate`.
+    pub fn column(&self, coordinate: Coordinate, id_bit: u32) -> u32 {
+        self.of(coordinate).1.column(id_bit)
     }
 
-    /// The shift of a dimension in pixel (`x` from the left, `y` from the top): [`pixel_shift`]
-    /// for the digital net, 0 for the lattice. Its top bits are XORed with the indices.
-    pub fn shift(&self, seed: u64, x: u32, y: u32, dimension: usize) -> u64 {
+    /// The shift of a coordinate in pixel (`x` from the left, `y` from the top): [`pixel_shift`]
+    /// of its dimension for the digital net, 0 for the lattice. Its top bits are XORed with the
+    /// indices.
+    ///
+    /// # Panics
+    /// If the scene does not sample `coordinate`.
+    pub fn shift(&self, seed: u64, x: u32, y: u32, coordinate: Coordinate) -> u64 {
         match self.sequence {
-            Sequence::DigitalNet => pixel_shift(seed, x, y, dimension),
+            Sequence::DigitalNet => pixel_shift(seed, x, y, self.dimension(coordinate)),
             Sequence::ProductLattice => 0,
         }
     }
@@ -153,33 +264,33 @@ impl PathPoints {
         self.sequence == Sequence::DigitalNet
     }
 
-    /// The sample index of coordinate `axis` of ray `depth` on path `id`.
+    /// The sample index of a coordinate on path `id`.
     ///
     /// # Panics
-    /// If `depth` or `axis` is out of range.
-    pub fn index(&self, depth: usize, axis: usize, id: u64, shift: u64) -> u32 {
-        let Coordinate { bits, map } = self.coordinate(depth, axis);
+    /// If the scene does not sample `coordinate`.
+    pub fn index(&self, coordinate: Coordinate, id: u64, shift: u64) -> u32 {
+        let (bits, map) = self.of(coordinate);
         map.index(id) ^ net::top(shift, *bits) as u32
     }
 
-    /// The sample indices of coordinate `axis` of ray `depth` on the paths `first_id ..`, as many
-    /// as `out` holds. One XOR and one store per path, best for runs of 256 paths or more.
+    /// The sample indices of a coordinate on the paths `first_id ..`, as many as `out` holds. One
+    /// XOR and one store per path, best for runs of 256 paths or more.
     ///
     /// # Panics
-    /// If `depth` or `axis` is out of range.
-    pub fn indices(&self, depth: usize, axis: usize, first_id: u64, shift: u64, out: &mut [u32]) {
-        let Coordinate { bits, map } = self.coordinate(depth, axis);
+    /// If the scene does not sample `coordinate`.
+    pub fn indices(&self, coordinate: Coordinate, first_id: u64, shift: u64, out: &mut [u32]) {
+        let (bits, map) = self.of(coordinate);
         map.indices(first_id, net::top(shift, *bits) as u32, out);
     }
 
-    fn coordinate(&self, depth: usize, axis: usize) -> &Coordinate {
-        assert!(axis < 2, "axis {axis}: 0 is u, 1 is v");
-        &self.coordinates[Self::dimension(depth, axis)]
+    fn of(&self, coordinate: Coordinate) -> &(u32, LinearMap) {
+        &self.dimensions[self.dimension(coordinate)]
     }
 }
 
 /// The centre of cell `index` of `2^bits`: `(index + 1/2) / 2^bits`, exactly; `bits` is at most
 /// [`MAX_COORDINATE_BITS`].
+#[inline]
 pub fn cell_centre(index: u32, bits: u32) -> f64 {
     (f64::from(index) + 0.5) / (1u64 << bits.min(MAX_COORDINATE_BITS)) as f64
 }
@@ -195,7 +306,7 @@ pub enum SamplingError {
     PathBits { path_bits: u64 },
     /// A coordinate finer than an index holds.
     #[allow(missing_docs)]
-    CoordinateBits { dimension: usize, bits: u32 },
+    CoordinateBits { coordinate: Coordinate, bits: u32 },
     /// The product lattice's path bits are not the sum of its coordinates'.
     #[allow(missing_docs)]
     LatticeBits { path_bits: u32, sum: u32 },
@@ -206,16 +317,14 @@ impl fmt::Display for SamplingError {
         match self {
             Self::Dimensions { dimensions } => write!(
                 f,
-                "{dimensions} coordinates per path; the digital net has {MAX_DIMENSIONS}, two per ray"
+                "{dimensions} coordinates per path; the digital net has {MAX_DIMENSIONS}"
             ),
             Self::PathBits { path_bits } => {
                 write!(f, "{path_bits} path bits; an id holds {MAX_PATH_BITS}")
             }
-            Self::CoordinateBits { dimension, bits } => write!(
+            Self::CoordinateBits { coordinate, bits } => write!(
                 f,
-                "{bits} bits for {} of depth {}; a coordinate holds {MAX_COORDINATE_BITS}",
-                ["u", "v"][dimension % 2],
-                dimension / 2
+                "{bits} bits for {coordinate}; a coordinate holds {MAX_COORDINATE_BITS}"
             ),
             Self::LatticeBits { path_bits, sum } => write!(
                 f,

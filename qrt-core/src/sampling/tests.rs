@@ -1,20 +1,17 @@
 use super::net::split_mix;
 use super::*;
-use crate::scene::{DepthSampling, Map};
+use crate::scene::{DepthSampling, Lights};
 use proptest::prelude::*;
 
 fn sampling(sequence: Sequence, path_bits: u32, bits: &[[u32; 2]]) -> Sampling {
-    let depths = bits
-        .iter()
-        .map(|&bits| DepthSampling {
-            bits,
-            map: Map::Auto,
-        })
-        .collect();
     Sampling {
         sequence,
         path_bits,
-        depths,
+        depths: bits
+            .iter()
+            .map(|&bits| DepthSampling::of_bits(bits))
+            .collect(),
+        ..Sampling::default()
     }
 }
 
@@ -36,6 +33,40 @@ const SCIPY: [(u64, [u64; 8], u64); 11] = [
     (1048575, [4096, 4026593280, 3314585600, 3405787136, 2484047872, 1928704000, 2322862080, 587075584], 15169001824256),
     (123456789, [4191448864, 3403469216, 27513184, 3656567136, 4127893280, 218441632, 1087637792, 2879378656], 16073225796224),
 ];
+
+fn of_ray(depth: usize, axis: usize) -> Coordinate {
+    [Coordinate::u(depth), Coordinate::v(depth)][axis]
+}
+
+/// Film, lamp, ray, lamp, ray: a path's first choices have the first dimensions, and rays of scenes
+/// without lamps have those that they always had.
+#[test]
+fn points_on_lamps_have_dimensions_before_their_ray() {
+    let mut written = sampling(Sequence::DigitalNet, 8, &[[8, 8]; 3]);
+    let order = |sampling: &Sampling| {
+        let points = PathPoints::new(sampling).unwrap();
+        let coordinates = points.coordinates();
+        let mut all: Vec<_> = coordinates.map(|c| (points.dimension(c), c)).collect();
+        all.sort_by_key(|(dimension, _)| *dimension);
+        let numbers: Vec<usize> = all.iter().map(|(dimension, _)| *dimension).collect();
+        assert_eq!(numbers, (0..all.len()).collect::<Vec<_>>());
+        all.into_iter().map(|(_, c)| c).collect::<Vec<_>>()
+    };
+    let rays = [0, 1, 2].map(|k| [Coordinate::u(k), Coordinate::v(k)]);
+    assert_eq!(order(&written), rays.concat());
+    for depth in &mut written.depths[1..] {
+        depth.light = Some([5, 6]);
+    }
+    let lamps = [1, 2].map(|k| [Coordinate::light_u(k), Coordinate::light_v(k)]);
+    assert_eq!(
+        order(&written),
+        [rays[0], lamps[0], rays[1], lamps[1], rays[2]].concat()
+    );
+    let points = PathPoints::new(&written).unwrap();
+    assert_eq!(points.bits(Coordinate::light_v(2)), 6);
+    written.lights = Lights::None;
+    assert_eq!(order(&written), rays.concat());
+}
 
 #[test]
 fn the_net_is_scipys_in_every_dimension() {
@@ -104,14 +135,14 @@ fn columns_say_what_each_id_bit_flips() {
     let net = sampling(Sequence::DigitalNet, 20, &[[8, 24], [0, 32], [5, 1]]);
     let lattice = sampling(Sequence::ProductLattice, 20, &[[3, 7], [0, 4], [5, 1]]);
     for points in [net, lattice].map(|s| PathPoints::new(&s).unwrap()) {
-        for (depth, axis) in (0..points.depths()).flat_map(|k| [(k, 0), (k, 1)]) {
-            let shift = points.shift(5, 6, 7, PathPoints::dimension(depth, axis));
-            let zero = points.index(depth, axis, 0, shift);
+        for c in points.coordinates() {
+            let shift = points.shift(5, 6, 7, c);
+            let zero = points.index(c, 0, shift);
             for b in 0..20 {
-                let flipped = zero ^ points.index(depth, axis, 1 << b, shift);
-                assert_eq!(points.column(depth, axis, b), flipped);
+                let flipped = zero ^ points.index(c, 1 << b, shift);
+                assert_eq!(points.column(c, b), flipped);
             }
-            let bits = points.bits(depth, axis);
+            let bits = points.bits(c);
             assert_eq!(u64::from(zero), shift.checked_shr(64 - bits).unwrap_or(0));
         }
     }
@@ -129,7 +160,7 @@ fn the_lattice_visits_every_cell_once_and_depth_0_u_is_lowest() {
                 let digit = rest % (1 << bits);
                 rest /= 1 << bits;
                 assert_eq!(
-                    u64::from(points.index(depth, axis, id, 0)),
+                    u64::from(points.index(of_ray(depth, axis), id, 0)),
                     digit,
                     "id {id}"
                 );
@@ -137,7 +168,7 @@ fn the_lattice_visits_every_cell_once_and_depth_0_u_is_lowest() {
         }
         assert_eq!(rest, 0);
     }
-    assert_eq!(points.shift(1, 2, 3, 4), 0);
+    assert_eq!(points.shift(1, 2, 3, Coordinate::u(2)), 0);
 }
 
 #[test]
@@ -197,7 +228,8 @@ fn a_product_is_integrated_within_the_koksma_hlawka_bound() {
         for x in 0..4 {
             let mut xy = [vec![0; n], vec![0; n]];
             for (axis, out) in xy.iter_mut().enumerate() {
-                points.indices(0, axis, 0, points.shift(1, x, 0, axis), out);
+                let c = of_ray(0, axis);
+                points.indices(c, 0, points.shift(1, x, 0, c), out);
             }
             let product = |(&u, &v)| cell_centre(u, 32) * cell_centre(v, 32);
             let mean = xy[0].iter().zip(&xy[1]).map(product).sum::<f64>() / n as f64;
@@ -220,10 +252,10 @@ fn six_dimensions_beat_monte_carlo_and_the_lattice() {
         let mut squares = 0.0;
         for x in 0..16 {
             let mut product = vec![1.0; 1 << m];
-            for (depth, axis) in (0..3).flat_map(|k| [(k, 0), (k, 1)]) {
+            for c in points.coordinates() {
                 let mut index = vec![0; 1 << m];
-                let shift = points.shift(11, x, 0, PathPoints::dimension(depth, axis));
-                points.indices(depth, axis, 0, shift, &mut index);
+                let shift = points.shift(11, x, 0, c);
+                points.indices(c, 0, shift, &mut index);
                 for (p, k) in product.iter_mut().zip(index) {
                     *p *= f(cell_centre(k, bits));
                 }
@@ -265,13 +297,13 @@ proptest! {
             let bits = [[bits, 32 - bits], [7, bits]];
             PathPoints::new(&sampling(Sequence::DigitalNet, path_bits, &bits)).unwrap()
         };
-        for (depth, axis) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+        for c in points.coordinates() {
             let mut run = vec![0; len];
-            points.indices(depth, axis, first, shift, &mut run);
+            points.indices(c, first, shift, &mut run);
             for (i, index) in run.into_iter().enumerate() {
                 let id = first.wrapping_add(i as u64);
-                prop_assert_eq!(index, points.index(depth, axis, id, shift));
-                prop_assert!(u64::from(index) < 1 << points.bits(depth, axis));
+                prop_assert_eq!(index, points.index(c, id, shift));
+                prop_assert!(u64::from(index) < 1 << points.bits(c));
             }
         }
     }
@@ -281,7 +313,7 @@ proptest! {
         let points = PathPoints::new(&sampling(Sequence::DigitalNet, m, &[[bits; 2]; 5])).unwrap();
         let net = DigitalNet::new(10, m).unwrap();
         for d in 0..10 {
-            let index = u64::from(points.index(d / 2, d % 2, id, shift));
+            let index = u64::from(points.index(of_ray(d / 2, d % 2), id, shift));
             prop_assert_eq!(index, net.index(d, id, shift, bits));
         }
     }
@@ -305,7 +337,7 @@ fn sizes_beyond_the_limits_are_refused() {
     assert_eq!(
         error(net, 12, &[[8, 8], [8, 33]]),
         SamplingError::CoordinateBits {
-            dimension: 3,
+            coordinate: Coordinate::v(1),
             bits: 33
         }
     );

@@ -1,7 +1,7 @@
 //! Last steps of reading that concern several keys at once, or what was written at all.
 
 use super::shape::{Expression, Shape, is_auto};
-use super::{Data, Jacobian, Sampling, Scene, Sequence};
+use super::{Data, Jacobian, Lights, Sampling, Scene, Sequence, Square};
 use crate::syntax::tree::Node;
 use crate::syntax::{Path, Place, Problem, Problems};
 
@@ -22,10 +22,31 @@ pub(super) fn path_bits(
 impl Sampling {
     /// The sum of the bits of all coordinates: the path bits of the product lattice.
     pub fn lattice_bits(&self) -> u32 {
+        let squares = self.squares();
+        let bits = squares.flat_map(|(_, _, bits)| bits);
+        bits.fold(0, u32::saturating_add)
+    }
+
+    /// The bits of the point on a lamp that the surface is connected to which the ray of `depth`
+    /// leaves; none where no lamp is sampled.
+    pub fn light(&self, depth: usize) -> Option<[u32; 2]> {
+        let light = self.depths.get(depth)?.light;
+        light.filter(|_| self.lights != Lights::None && depth > 0)
+    }
+
+    /// The squares that a path samples, in the order of a sequence's dimensions, each with its depth
+    /// and its bits: for each ray the point on a lamp, if there is one, and then the ray itself. A
+    /// path's first choices have the first dimensions, which sequences spread best.
+    pub fn squares(&self) -> impl Iterator<Item = (usize, Square, [u32; 2])> + '_ {
         self.depths
             .iter()
-            .flat_map(|depth| depth.bits)
-            .fold(0, u32::saturating_add)
+            .enumerate()
+            .flat_map(|(depth, sampling)| {
+                let light = self.light(depth).map(|bits| (depth, Square::Light, bits));
+                light
+                    .into_iter()
+                    .chain([(depth, Square::Ray, sampling.bits)])
+            })
     }
 }
 

@@ -206,6 +206,9 @@ record! {
     /// The value f, per steradian, in cos_i, cos_o, cos_a, u, v: one expression (grey) or three
     /// (red, green, blue).
     pub value: Vec<String> = Channels;
+    /// The density of the map's directions, per steradian, in cos_i, cos_o, cos_a: 1 over the
+    /// Jacobian, which is checked. With it, lamps can be sampled from here.
+    pub pdf: Option<String> = Maybe(Expression), or None;
 }
 
 /// Where a map's Jacobian comes from.
@@ -277,7 +280,26 @@ record! {
     /// One entry per ray of a path, the primary ray first; default three.
     pub depths: Vec<DepthSampling> = List {
         item: part::<DepthSampling>(), least: 1
-    }, or vec![DepthSampling { bits: [8, 8], map: Map::Auto }; 3];
+    }, or vec![DepthSampling::of_bits([8, 8]); 3];
+    /// How lamps are sampled at the depths that have `light` bits.
+    pub lights: Lights = word::<Lights>(), or Lights::Auto;
+}
+
+keyword! {
+    /// How a vertex's light is sampled, where its surface reflects to more than single directions
+    /// and tells how densely. The mean is the same.
+    pub enum Lights = "a way to sample lights";
+    /// `next-event` on surfaces where no lamp can weigh more than 1, by interval arithmetic over
+    /// surface and lamp; `mis` elsewhere.
+    Auto = "auto";
+    /// Multiple importance sampling: the point on a lamp, and the ray where it meets one, by the
+    /// balance heuristic.
+    Mis = "mis";
+    /// Next-event estimation: on matte surfaces the point on a lamp alone; what the ray meets does
+    /// not count. Others weigh as under `mis`.
+    NextEvent = "next-event";
+    /// Rays alone, as in the paper.
+    None = "none";
 }
 
 keyword! {
@@ -297,6 +319,26 @@ record! {
     pub bits: [u32; 2] = Array::<_, 2>(whole::<u32>(0, 24));
     /// The map from the unit square to directions; not for the primary ray.
     pub map: Map = word::<Map>(), or Map::Auto;
+    /// Resolution, in bits, of the point on a lamp that is connected to the surface which this ray
+    /// leaves; not for the primary ray. Without it no lamp is sampled there.
+    pub light: Option<[u32; 2]> = Maybe(Array::<_, 2>(whole::<u32>(0, 16))), or None;
+}
+
+impl DepthSampling {
+    /// A ray of so many bits, by each material's own map.
+    pub const fn of_bits(bits: [u32; 2]) -> Self {
+        let (map, light) = (Map::Auto, None);
+        Self { bits, map, light }
+    }
+}
+
+/// What a unit square of sample coordinates is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Square {
+    /// A ray's direction, or the primary ray's place on the pixel.
+    Ray,
+    /// The point on a lamp.
+    Light,
 }
 
 keyword! {

@@ -186,6 +186,8 @@ codes! {
         "Choose a map that sends more points where the value is large";
     MAP_COVERS_TWICE = "QRT0419", "a map that reaches directions more than once",
         "Let every direction come from one point of the unit square";
+    PDF_MISMATCH = "QRT0420", "a density that is not that of its map",
+        "Write 1 over the map's Jacobian, as a function of the angles; or leave it out";
     NO_DEPTH = "QRT0501", "a path without rays",
         "Give `depths` at least one entry";
     PATH_BITS_SUM = "QRT0502", "path_bits that is not the sum of the lattice's bits",
@@ -200,6 +202,14 @@ codes! {
         "Keep one of the two";
     STRATA = "QRT0507", "strata of the comparator that cannot be counted",
         "Leave `counting.strata` at `auto`, use fewer, or an estimator that counts them";
+    PRIMARY_LIGHT = "QRT0508", "the sampling of lamps for the primary ray",
+        "Remove it: the primary ray leaves no surface";
+    FEW_LIGHT_BITS = "QRT0509", "more lamps than the point on a lamp has columns",
+        "Give the first coordinate of `light` more bits";
+    LIGHT_UNBOUNDED = "QRT0510", "next-event estimation where a lamp may touch a surface",
+        "Write `mis`, or `auto`";
+    LIGHT_UNUSED = "QRT0511", "the sampling of lamps where there is nothing to sample",
+        "Remove it: it is a warning, and costs nothing";
     BUDGET_QUBITS = "QRT0601", "a circuit with more qubits than the budget allows",
         "Uncompute earlier, or use fewer path bits, depths or fraction bits; or raise the limit";
     BUDGET_TOFFOLI = "QRT0602", "a circuit with more Toffoli gates than the budget allows",

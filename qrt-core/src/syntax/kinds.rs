@@ -376,6 +376,18 @@ problems! {
             help { Some(format!(
                 "the integral of value * |cos_i| over all directions must not pass 1: scale the value \
                  by {} or less", rounded((1e4 / albedo).floor() / 1e4))) };
+        WrongPdf { stated: f64, right: f64, at: [f64; 2], mistake: Mistake } = PDF_MISMATCH
+            { format!("the stated density is {} at {}, but 1 / |dphi/du x dphi/dv| = {}",
+                rounded(*stated), point(*at), rounded(*right)) } help "{mistake}";
+        PdfOfTheSquare = PDF_MISMATCH
+            "a density is a function of directions: the value must not depend on u or v beside it"
+            help "write the value in cos_i, cos_o, cos_a; or leave `pdf` out";
+        PdfBeyondMap { whole: f64 } = PDF_MISMATCH
+            { format!("the density integrates to {} over the hemisphere: the map leaves directions \
+                out", rounded(*whole)) }
+            help "let the map reach every direction, or leave `pdf` out";
+        PdfBelow = PDF_MISMATCH "the map goes below the surface, where no lamp is sampled"
+            help "leave `pdf` out";
         Unbounded = BSDF_UNBOUNDED "no bound of the weight value * |phi_z| * J can be shown"
             help "choose a map that sends more points where the value is large; a denominator that \
                   vanishes at grazing angles needs a small number more, as in 1/(cos_i + cos_o + 1e-3)";
@@ -385,9 +397,21 @@ problems! {
     Sampling {
         PrimaryMap = PRIMARY_MAP "the primary ray has no map: it samples the pixel square"
             help "remove it; the maps of reflected rays start with the second entry";
-        TooManyDepths { count: usize, most: usize } = TOO_MANY_DIMENSIONS
-            { format!("{count} depths need {} dimensions: the net has {}", 2 * count, 2 * most) }
-            help "use at most {most} depths, or `product-lattice`";
+        PrimaryLight = PRIMARY_LIGHT "the primary ray leaves no surface that a lamp could light"
+            help "remove it; the second entry's ray leaves the first surface";
+        TooManyDepths { dimensions: usize, most: usize } = TOO_MANY_DIMENSIONS
+            "the depths need {dimensions} dimensions: the net has {most}"
+            help "use fewer depths, or `product-lattice`";
+        FewLightBits { lamps: usize, bits: u32, needed: u32 } = FEW_LIGHT_BITS
+            { format!("{lamps} polygons emit, and {bits} bits choose among {}", 1_u64 << bits) }
+            help "write {needed} bits or more here";
+        LightUnbounded { surface: String } = LIGHT_UNBOUNDED
+            "no bound of next-event estimation can be shown: a lamp may touch a surface of `{surface}`"
+            help "write `mis`, whose weights never pass 1, or `auto`";
+        NoLamp = LIGHT_UNUSED "nothing emits: there is no lamp to sample" help "remove it";
+        NoReceiver = LIGHT_UNUSED
+            "no surface reflects to more than single directions and tells how densely: none can \
+             sample a lamp" help "remove it";
         TooManyIds { path: u32, comparator: u32, most: u32 } = TOO_MANY_IDS
             { format!("{path} path bits and {comparator} comparator bits make 2^{} ids: at most 2^{most} \
                 fit", path.saturating_add(*comparator)) }
@@ -592,6 +616,8 @@ pub enum Mistake {
     Factor(f64),
     Other { right: String },
     Unlike,
+    NotInverse,
+    Density,
 }
 
 impl fmt::Display for Mistake {
@@ -610,6 +636,10 @@ impl fmt::Display for Mistake {
             Self::Factor(factor) => return write!(f, "multiply it by {}", rounded(*factor)),
             Self::Other { right } => return write!(f, "write `{right}`, or `auto`"),
             Self::Unlike => "`jacobian: auto` works it out",
+            Self::NotInverse => "this is the Jacobian: the density is 1 over it",
+            Self::Density => {
+                "write the density of directions per steradian, 1/J, in cos_i, cos_o and cos_a"
+            }
         })
     }
 }

@@ -57,6 +57,8 @@ pub struct Report {
     problems: Vec<Told>,
     /// Further problems that were found and left out.
     omitted: usize,
+    /// Whether nothing of it is wrong.
+    warns: bool,
 }
 
 /// Problems that a report lists.
@@ -97,6 +99,15 @@ impl Report {
             sources,
             problems,
             omitted,
+            warns: false,
+        }
+    }
+
+    /// The same as warnings: nothing of it is wrong, but surely not meant.
+    pub fn warning(self) -> Self {
+        Self {
+            warns: true,
+            ..self
         }
     }
 
@@ -128,6 +139,9 @@ impl Report {
             .first()
             .map_or("scene", |source| source.name.as_str());
         let count = self.problems.len() + self.omitted;
+        if self.warns {
+            return visible_controls(&out);
+        }
         let plural = if count == 1 { "" } else { "s" };
         let shown = match self.omitted {
             0 => String::new(),
@@ -137,16 +151,17 @@ impl Report {
         let last = Level::ERROR.no_name().primary_title(closing.as_str());
         out.push_str(&renderer.render(&[Group::with_title(last)]));
         out.push('\n');
-        // The renderer makes control characters of ASCII visible; to a terminal, those of the
-        // Unicode block after it can be orders too.
-        out.replace(|c| matches!(c, '\u{80}'..='\u{9f}'), "\u{fffd}")
+        visible_controls(&out)
     }
 
     fn render_one(&self, renderer: &Renderer, lines: &[Lines<'_>], told: &Told) -> String {
         let words = &told.words;
-        let title = Level::ERROR
-            .primary_title(words.message.as_str())
-            .id(words.code);
+        let level = if self.warns {
+            Level::WARNING
+        } else {
+            Level::ERROR
+        };
+        let title = level.primary_title(words.message.as_str()).id(words.code);
         let mut group = Group::with_title(title);
         let primary = told
             .span
@@ -212,6 +227,12 @@ impl fmt::Display for Report {
 }
 
 impl std::error::Error for Report {}
+
+/// The renderer makes control characters of ASCII visible; to a terminal, those of the Unicode block
+/// after it can be orders too.
+fn visible_controls(text: &str) -> String {
+    text.replace(|c| matches!(c, '\u{80}'..='\u{9f}'), "\u{fffd}")
+}
 
 /// A source with the starts of its lines.
 struct Lines<'a> {

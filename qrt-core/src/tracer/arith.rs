@@ -2,43 +2,7 @@
 
 use super::Sampled;
 use crate::expr::Function;
-
-/// Which of a depth's two sample coordinates.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Axis {
-    /// The first: the radial one of the built-in maps; to the right on the film.
-    U,
-    /// The second: the azimuthal one of the built-in maps; downwards on the film.
-    V,
-}
-
-/// A sample coordinate of a path: its depth (0 is the primary ray) and axis.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Coordinate {
-    /// The ray that it samples: the number of bounces before it.
-    pub depth: usize,
-    /// Which of the ray's two sample coordinates it is.
-    pub axis: Axis,
-}
-
-impl Coordinate {
-    /// The first coordinate of the ray of this `depth`.
-    pub fn u(depth: usize) -> Self {
-        let axis = Axis::U;
-        Self { depth, axis }
-    }
-
-    /// The second coordinate of the ray of this `depth`.
-    pub fn v(depth: usize) -> Self {
-        let axis = Axis::V;
-        Self { depth, axis }
-    }
-
-    /// The coordinate's dimension in a sequence: `2 depth` for `u`, `2 depth + 1` for `v`.
-    pub fn dimension(self) -> usize {
-        2 * self.depth + usize::from(self.axis == Axis::V)
-    }
-}
+pub use crate::sampling::{Axis, Coordinate};
 
 /// A stage of the tracer, as the paper's figure has it, or a part of one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,6 +11,11 @@ pub enum Part {
     GenerateRay(usize),
     /// The nearest intersection of the ray of this depth.
     FindIntersection(usize),
+    /// The point on a lamp that the start of the ray of this depth is connected to, and what of
+    /// its light goes to the viewer if nothing stands between.
+    SampleLight(usize),
+    /// Whether anything stands between.
+    Shadow(usize),
     /// One plane (by number) and the primitives on it, within an intersection.
     Plane(usize),
     /// One primitive (by number), within an intersection.
@@ -72,6 +41,8 @@ pub enum Quantity {
     Face,
     /// Whether it meets a surface, on a path that has not ended.
     Found,
+    /// The cell of the unit square that samples the point on a lamp.
+    Lamp,
     /// Where it starts: a vector, in the scene's frame as the circuit scales it.
     Origin,
     /// The cell of the unit square that it samples: its two coordinates.
@@ -88,6 +59,7 @@ impl Quantity {
             Self::Distance => "distance",
             Self::Face => "face",
             Self::Found => "found",
+            Self::Lamp => "lamp",
             Self::Origin => "origin",
             Self::Sample => "sample",
             Self::Throughput => "throughput",
@@ -102,6 +74,14 @@ pub struct Named {
     pub depth: usize,
     /// Which quantity.
     pub quantity: Quantity,
+}
+
+/// A part of the tracer that can be done in a function of its own: see [`Arith::apart`].
+pub trait Work<A: Arith> {
+    /// What it computes.
+    type Output;
+    /// Does it.
+    fn run(self, cx: &mut A) -> Self::Output;
 }
 
 /// The arithmetic of a machine.
@@ -207,6 +187,12 @@ pub trait Arith: Sized {
     /// What `a` is, in the layout of registers.
     #[inline(always)]
     fn named_index(&mut self, _name: Named, _a: Self::Index) {}
+    /// Does `work`. A machine may do it in a function of its own: the tracer is one function, and
+    /// takes a compiler the longer the larger it is.
+    #[inline(always)]
+    fn apart<W: Work<Self>>(&mut self, work: W) -> W::Output {
+        work.run(self)
+    }
     /// What follows belongs to `part`, until [`Arith::leave`].
     #[inline(always)]
     fn enter(&mut self, _part: Part) {}

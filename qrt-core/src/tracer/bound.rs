@@ -1,28 +1,116 @@
 //! The bound on a path's colour: the colour scale of the comparator, in the paper `2^b`.
 //!
 //! The tighter it is, the larger the fraction of good basis states that a pixel has, and the fewer
-//! queries an estimate needs. With `L_1 = max Le`, a path of `k` rays carries at most
-//! `L_k = max over surfaces of (Le + W L_{k-1})`, where `W` bounds the weight at that depth.
+//! queries an estimate needs. Let `B_k(s)` bound what a path carries from its vertex `k`, on surface
+//! `s`, without what is emitted there, `W` the weight, `F(s, t)` the factor by which the emission of
+//! `t` counts of a ray from `s`, and `N(s)` what a lamp adds that is sampled there:
+//!
+//! ```text
+//! B_k(s) = N(s) + W(s) max over t of (F(s, t) Le(t) + B_{k+1}(t))
+//! ```
+//!
+//! Where no lamp is sampled `N` is 0 and `F` is 1. A path from the camera carries at most
+//! `max of B_0`, and with `Le` where it may meet a lamp at once.
 
 use super::bsdf::ScatterStage;
+use super::geometry::Geometry;
+use crate::valid::{Scatter, Surface};
+use glam::DVec3;
+use std::collections::HashMap;
 
-/// An upper bound of the colour of every path, per channel.
+/// An upper bound of the colour of every path, per channel; without what the primary ray meets
+/// emit, unless `direct`. `refraction` replaces the weights of glass by 1, if it is known: see
+/// [`refraction`].
 pub(crate) fn colour<const C: usize>(
     radiance: &[[f64; C]],
     scatters: &[ScatterStage<C>],
+    direct: bool,
+    refraction: Option<f64>,
 ) -> [f64; C] {
-    // The greatest by channel, of rows by surface.
-    let greatest = |rows: &mut dyn Iterator<Item = [f64; C]>| {
-        rows.fold([0.0; C], |most, row| {
-            std::array::from_fn(|c| f64::max(most[c], row[c]))
-        })
-    };
-    let most = greatest(&mut radiance.iter().copied());
+    let surfaces = 0..radiance.len() as u32;
+    let mut beyond = vec![[0.0; C]; radiance.len()];
     // From the last vertex back to the first.
-    scatters.iter().rev().fold(most, |beyond, scatter| {
-        greatest(&mut radiance.iter().enumerate().map(|(surface, emitted)| {
-            let weight = scatter.weight_bound(surface as u32);
-            std::array::from_fn(|c| emitted[c] + weight[c] * beyond[c])
-        }))
-    })
+    for scatter in scatters.iter().rev() {
+        let at = |surface: u32| {
+            let mut weight = scatter.weight_bound(surface);
+            if refraction.is_some() && scatter.is_glass(surface) {
+                weight = [1.0; C];
+            }
+            let samples = scatter.samples_lights(surface);
+            let lights = scatter.lights.as_ref();
+            let mut most = [0.0; C];
+            for other in surfaces.clone() {
+                let factor = lights.map_or(1.0, |l| l.emission_bound(surface, other, samples));
+                let (emitted, after) = (&radiance[other as usize], &beyond[other as usize]);
+                for (most, (emitted, after)) in most.iter_mut().zip(emitted.iter().zip(after)) {
+                    *most = f64::max(*most, emitted * factor + after);
+                }
+            }
+            let light = lights.map_or([0.0; C], |l| l.light_bound(surface, samples));
+            let reflected = scatter.light_weight_bound(surface);
+            std::array::from_fn(|c| light[c] * reflected[c] + weight[c] * most[c])
+        };
+        beyond = surfaces.clone().map(at).collect();
+    }
+    let mut bound = [0.0; C];
+    for (beyond, emitted) in beyond.iter().zip(radiance) {
+        for ((bound, beyond), emitted) in bound.iter_mut().zip(beyond).zip(emitted) {
+            let emitted = if direct { *emitted } else { 0.0 };
+            *bound = f64::max(*bound, beyond + emitted);
+        }
+    }
+    bound.map(|bound| bound * refraction.unwrap_or(1.0))
+}
+
+/// The greatest product of the weights of all refractions of a path that does not start within
+/// glass; none unless every piece of glass is closed and its normals all point out of it, or all
+/// into it.
+///
+/// Radiance is scaled by the squared ratio of the indices. A path that enters a closed piece must
+/// leave it before it enters again: the factors of its surface alternate, each the inverse of the
+/// next. What is left over is that of the piece in which the path ends.
+pub(crate) fn refraction(
+    geometry: &Geometry,
+    surfaces: &[&Surface],
+    surface_of: &[u32],
+    starts: &[DVec3],
+) -> Option<f64> {
+    let mut product = 1.0;
+    for (number, surface) in (0..).zip(surfaces) {
+        let Scatter::Dielectric(glass) = &surface.scatter else {
+            continue;
+        };
+        let mine = || {
+            let labels = geometry.faces.iter().map(|face| face.label as usize);
+            let mine = labels.filter(|&label| surface_of[label] == number);
+            mine.map(|label| &*geometry.corners[label])
+        };
+        let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        for corner in mine().flatten() {
+            (low, high) = (low.min(*corner), high.max(*corner));
+        }
+        let within = |start: &DVec3| start.cmpge(low).all() && start.cmple(high).all();
+        if !is_closed(mine()) || starts.iter().any(within) {
+            return None;
+        }
+        // Within, the factor is 1 / ior^2.
+        product *= (1.0 / (glass.ior * glass.ior)).max(1.0);
+    }
+    Some(product)
+}
+
+/// Whether each edge of the polygons is one of exactly two of them, which go along it in opposite
+/// directions.
+fn is_closed<'a>(polygons: impl Iterator<Item = &'a [DVec3]>) -> bool {
+    let mut edges: HashMap<[[u64; 3]; 2], i32> = HashMap::new();
+    let key = |corner: DVec3| (corner + DVec3::ZERO).to_array().map(f64::to_bits);
+    let mut ways = HashMap::new();
+    for polygon in polygons {
+        for (k, &start) in polygon.iter().enumerate() {
+            let (start, end) = (key(start), key(polygon[(k + 1) % polygon.len()]));
+            *ways.entry([start, end]).or_insert(0) += 1;
+            *edges.entry([start.min(end), start.max(end)]).or_insert(0) += 1;
+        }
+    }
+    edges.values().all(|&count| count == 2) && ways.values().all(|&count| count == 1)
 }

@@ -4,7 +4,7 @@ use super::geometry::{Geometry, NO_PLANE};
 use super::ray::Ray;
 use super::{Arith, Coordinate, vector};
 use crate::scene::{Camera, Film};
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 /// The camera in stage units: a ray is affine in the film position `(column + u, row + v)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -74,6 +74,71 @@ pub(crate) fn ray_origins(camera: &Camera, film: Film) -> Vec<DVec3> {
             .corners(film)
             .map(|corner| basis.eye + corner)
             .to_vec()
+    }
+}
+
+/// How a lamp stands before the camera.
+pub(super) enum Seen {
+    /// Its front cannot be seen.
+    Not,
+    /// Within this convex outline on the film, in pixels.
+    Within(Vec<DVec2>),
+    /// It reaches behind the eye: anywhere.
+    Anywhere,
+}
+
+/// From points of the scene to the film.
+pub(super) struct View {
+    basis: Basis,
+    film: DVec2,
+}
+
+impl View {
+    pub(super) fn new(camera: &Camera, film: Film) -> Self {
+        Self {
+            basis: Basis::new(camera),
+            film: DVec2::new(f64::from(film.width), f64::from(film.height)),
+        }
+    }
+
+    /// Where a polygon is seen whose front, `(v1 - v0) x (v2 - v0)`, emits.
+    pub(super) fn outline(&self, corners: &[DVec3]) -> Seen {
+        let Basis {
+            eye,
+            forward,
+            right,
+            up,
+            half,
+            perspective,
+        } = self.basis;
+        let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+        // Well behind the plane, so that no rounding brings the eye before it.
+        let toward = if perspective {
+            (eye - corners[0]).normalize_or_zero()
+        } else {
+            -forward
+        };
+        if normal.normalize().dot(toward) < -1e-9 {
+            return Seen::Not;
+        }
+        let size = corners
+            .iter()
+            .map(|c| (*c - eye).length())
+            .fold(0.0, f64::max);
+        let nearest = |corner: &DVec3| (*corner - eye).dot(forward);
+        if corners.iter().map(nearest).fold(f64::INFINITY, f64::min) <= 1e-6 * size {
+            let behind = corners.iter().all(|c| nearest(c) < -1e-6 * size);
+            return if behind { Seen::Not } else { Seen::Anywhere };
+        }
+        let aspect = self.film.x / self.film.y;
+        let place = |corner: &DVec3| {
+            let to = *corner - eye;
+            let depth = if perspective { to.dot(forward) } else { 1.0 };
+            let (x, y) = (to.dot(right) / depth, to.dot(up) / depth);
+            let place = DVec2::new(x / (half * aspect), -y / half);
+            (place + 1.0) * 0.5 * self.film
+        };
+        Seen::Within(corners.iter().map(place).collect())
     }
 }
 

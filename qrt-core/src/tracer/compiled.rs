@@ -26,9 +26,12 @@ pub(crate) struct Compiled {
     roots: Vec<usize>,
 }
 
-/// The angles an expression may ask for.
+/// The angles an expression may ask for, by their names in it.
 #[derive(Clone, Copy)]
+#[allow(clippy::struct_field_names)]
 pub(crate) struct Angles<R> {
+    /// `|n.i|`, of the sampled direction.
+    pub(crate) cos_i: R,
     /// `|n.o|`, towards the viewer.
     pub(crate) cos_o: R,
     /// `i.mirror(o)`
@@ -41,7 +44,8 @@ struct Compiler {
 }
 
 impl Compiled {
-    /// Compiles `expressions` for coordinates of `bits`; `cos_i` is `|phi_z|`.
+    /// Compiles `expressions` for coordinates of `bits`; `cos_i` is `|phi_z|` where that is given, and
+    /// one of the angles else.
     pub(crate) fn new(expressions: &[&Expr], bits: [u32; 2], cos_i: Option<&Expr>) -> Self {
         let mut compiler = Compiler {
             bits,
@@ -89,6 +93,7 @@ impl Compiled {
             &mut many
         };
         let angles = angles.unwrap_or(Angles {
+            cos_i: zero,
             cos_o: zero,
             cos_a: zero,
         });
@@ -104,10 +109,9 @@ impl Compiled {
             values[number] = match node {
                 Node::Number(value) => cx.real(*value),
                 Node::Variable(Variable::CosO) => angles.cos_o,
-                // `u` and `v` alone are tables, and `cos_i` was replaced by `|phi_z|`.
-                Node::Variable(Variable::CosA | Variable::U | Variable::V | Variable::CosI) => {
-                    angles.cos_a
-                }
+                Node::Variable(Variable::CosI) => angles.cos_i,
+                // `u` and `v` alone are tables.
+                Node::Variable(Variable::CosA | Variable::U | Variable::V) => angles.cos_a,
                 Node::Add(..) => cx.add(values[a], values[b]),
                 Node::Sub(..) => cx.sub(values[a], values[b]),
                 Node::Mul(..) => cx.mul(values[a], values[b]),

@@ -202,6 +202,11 @@ impl<A: Arith, N: Nearest<A>> Nearest<A> for PrimaryHitGiven<'_, A, N> {
             None => self.others.emitter(cx, ray, wanted),
         }
     }
+
+    #[inline(always)]
+    fn occluded(&self, cx: &mut A, ray: &Ray<A>, lamp: A::Index, wanted: A::Bool) -> A::Bool {
+        self.others.occluded(cx, ray, lamp, wanted)
+    }
 }
 
 /// A face's row of a [`Slot`].

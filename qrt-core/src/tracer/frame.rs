@@ -1,6 +1,7 @@
 //! The frame itself: the paper's `Path Tracing`, stage by stage.
 
 use super::bsdf::Vertex;
+use super::lights::{Departure, Leaves, LightStage, Lighting};
 use super::ray::{Nearest, Ray};
 use super::vector::{self, Vector};
 use super::{Arith, Named, Part, Quantity, Stage};
@@ -26,6 +27,8 @@ pub fn trace<A: Arith, N: Nearest<A>, const C: usize>(
     cx.leave();
     let mut alive = cx.truth(true);
     let mut throughput: Option<[A::Real; C]> = None;
+    // Where the ray started, if lamps were sampled there and its own emission is weighed.
+    let mut departure: Option<(&LightStage<C>, Departure<A>)> = None;
     for depth in 0..stage.depths() {
         let named = |quantity| Named { depth, quantity };
         cx.named(named(Quantity::Origin), &ray.origin);
@@ -34,6 +37,14 @@ pub fn trace<A: Arith, N: Nearest<A>, const C: usize>(
             cx.named(named(Quantity::Throughput), &throughput);
         }
         let scatter = stage.scatters.get(depth);
+        // What a ray meets may count nothing, where lamps were sampled.
+        let counts = match depth.checked_sub(1) {
+            None => stage.direct,
+            Some(before) => {
+                let lights = stage.scatters[before].lights.as_ref();
+                lights.is_none_or(LightStage::rays_count)
+            }
+        };
         cx.enter(Part::FindIntersection(depth));
         let hit = match scatter {
             Some(_) => nearest.nearest(cx, &ray, alive),
@@ -58,7 +69,11 @@ pub fn trace<A: Arith, N: Nearest<A>, const C: usize>(
             surface,
             alive,
         };
-        let emits = stage.emitters.members(cx, &vertex);
+        let emits = if counts {
+            stage.emitters.members(cx, &vertex)
+        } else {
+            None
+        };
         if emits.is_none() && scatter.is_none() {
             break;
         }
@@ -69,7 +84,10 @@ pub fn trace<A: Arith, N: Nearest<A>, const C: usize>(
         cx.leave();
         if let Some(emits) = emits {
             cx.enter(Part::Shade(depth));
-            let seen = stage.emitters.shade(cx, &vertex, emits, throughput);
+            let share = departure.as_ref().map(|(lights, departure)| {
+                lights.emission(cx, departure, hit.face, hit.distance, vertex.cos_theta)
+            });
+            let seen = stage.emitters.shade(cx, &vertex, emits, throughput, share);
             colour = vector::add(cx, &colour, &seen);
             cx.leave();
         }
@@ -83,18 +101,48 @@ pub fn trace<A: Arith, N: Nearest<A>, const C: usize>(
             break;
         }
         vertex.alive = alive;
+        let mut known = None;
+        if let Some(lights) = &scatter.lights {
+            cx.enter(Part::SampleLight(depth + 1));
+            let frame = cx.rows(&stage.frames, hit.face);
+            let leaves = Leaves {
+                origin: start(cx, &ray, hit.distance, &frame),
+                from: cx.entry(&stage.geometry.plane_of, hit.face),
+            };
+            vertex.stand(&frame);
+            cx.leave();
+            let light = cx.apart(Lighting {
+                lights,
+                scatter,
+                nearest,
+                at: &vertex,
+                leaves: &leaves,
+                throughput,
+            });
+            if let Some(light) = light {
+                colour = vector::add(cx, &colour, &light);
+            }
+            if depth + 2 == stage.depths() && !lights.rays_count() {
+                break;
+            }
+            known = Some((frame, leaves.from));
+        }
         cx.enter(Part::GenerateRay(depth + 1));
-        let [tx, ty, tz, bx, by, bz, gx, gy, gz] = cx.rows(&stage.frames, hit.face);
-        vertex.tangent = [tx, ty, tz];
-        vertex.bitangent = [bx, by, bz];
+        let frame = match known {
+            Some((frame, _)) => frame,
+            None => cx.rows(&stage.frames, hit.face),
+        };
+        vertex.stand(&frame);
         let scattered = scatter.scatter(cx, &vertex);
-        let centre = [gx, gy, gz];
-        let origin = [
-            start_along(cx, &ray, hit.distance, &centre, 0),
-            start_along(cx, &ray, hit.distance, &centre, 1),
-            start_along(cx, &ray, hit.distance, &centre, 2),
-        ];
-        let from = cx.entry(&stage.geometry.plane_of, hit.face);
+        let origin = start(cx, &ray, hit.distance, &frame);
+        let from = match known {
+            Some((_, from)) => from,
+            None => cx.entry(&stage.geometry.plane_of, hit.face),
+        };
+        departure = None;
+        if let Some(lights) = scatter.lights.as_ref().filter(|lights| lights.rays_count()) {
+            departure = Some((lights, lights.departed(cx, surface, scattered.density)));
+        }
         ray = Ray {
             origin,
             direction: scattered.direction,
@@ -108,6 +156,22 @@ pub fn trace<A: Arith, N: Nearest<A>, const C: usize>(
         cx.leave();
     }
     colour
+}
+
+/// Where the next ray starts, on a face with this row of [`Stage::frames`].
+#[inline(always)]
+fn start<A: Arith>(
+    cx: &mut A,
+    ray: &Ray<A>,
+    distance: A::Real,
+    &[.., gx, gy, gz]: &[A::Real; 9],
+) -> Vector<A> {
+    let centre = [gx, gy, gz];
+    [
+        start_along(cx, ray, distance, &centre, 0),
+        start_along(cx, ray, distance, &centre, 1),
+        start_along(cx, ray, distance, &centre, 2),
+    ]
 }
 
 /// Where the next ray starts, along one axis: the point of `ray` at `distance`, moved a little

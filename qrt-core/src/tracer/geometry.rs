@@ -28,6 +28,10 @@ pub const INWARD: f64 = 1.0 / (1_u64 << 32) as f64;
 /// Planes nearer than this to each other (in coefficients and offset) are one.
 const SAME_PLANE: f64 = 1.0 / (1_u64 << 42) as f64;
 
+/// Up to so many pairs of a plane and a corner are compared: enough for scenes whose planes are all
+/// tried for each ray.
+const MOST_COMPARED: usize = 1 << 24;
+
 /// The eye stands on a plane that is nearer than this, in stage units and relative to where it is.
 const ON_PLANE: f64 = 1.0 / (1_u64 << 46) as f64;
 
@@ -56,6 +60,11 @@ pub struct Plane {
     pub offset: f64,
     /// The range of [`Geometry::faces`] that lies on the plane.
     pub faces: Range<usize>,
+    /// The numbers of its emitting faces: they are counted in the order of [`Geometry::faces`].
+    pub emitters: Range<u32>,
+    /// Whether all corners of the scene are on one side of the plane or on it: nothing on it ever
+    /// stands between two points of the scene.
+    pub outermost: bool,
 }
 
 /// A convex polygon on a plane: where all half-plane edge tests pass.
@@ -67,6 +76,9 @@ pub struct Face {
     pub emits: bool,
     /// Whether a later face of its plane emits, which this one hides where they overlap.
     pub hides_emitter: bool,
+    /// How many emitting faces of its plane come before the first that this one may cover, if it may
+    /// cover any.
+    pub covers: Option<u32>,
     /// The half-plane edge tests. Pairs of parallel edges share one: two for a parallelogram, three
     /// for a triangle.
     pub edge_tests: Vec<EdgeTest>,
@@ -83,6 +95,20 @@ pub struct Frame {
     pub normal: DVec3,
     /// The mean of the corners, in stage units.
     pub centre: DVec3,
+}
+
+/// Whether two convex polygons of one plane have more than edges in common.
+fn overlap(a: &[DVec3], b: &[DVec3]) -> bool {
+    let apart = |a: &[DVec3], b: &[DVec3]| {
+        let normal = (a[1] - a[0]).cross(a[2] - a[0]).normalize();
+        (0..a.len()).any(|k| {
+            let (start, end) = (a[k], a[(k + 1) % a.len()]);
+            let outward = (end - start).cross(normal).normalize();
+            b.iter()
+                .all(|corner| outward.dot(*corner - start) >= -SAME_PLANE)
+        })
+    };
+    !apart(a, b) && !apart(b, a)
 }
 
 /// All polygons of a scene, in stage units.
@@ -110,6 +136,8 @@ pub struct Geometry {
     /// How far edges reach outwards, in stage units: [`TOLERANCE`], and more where rays come from
     /// afar and so arrive less precisely.
     pub tolerance: f64,
+    /// How many faces emit.
+    pub emitters: u32,
 }
 
 impl Geometry {
@@ -134,6 +162,7 @@ impl Geometry {
             centre,
             scale,
             tolerance,
+            emitters: 0,
         };
         let mut on_plane: Vec<Vec<Face>> = Vec::new();
         let mut known = HashMap::new();
@@ -162,6 +191,7 @@ impl Geometry {
                     label: label as u32,
                     emits,
                     hides_emitter: false,
+                    covers: None,
                     edge_tests,
                 });
             }
@@ -174,6 +204,12 @@ impl Geometry {
     pub fn radius(&self) -> f64 {
         let points = self.corners.iter().flatten();
         points.map(|point| point.length()).fold(0.0, f64::max)
+    }
+
+    /// Points of the scene, in stage units.
+    pub(super) fn staged(&self, points: &[DVec3]) -> Vec<DVec3> {
+        let staged = |&point: &DVec3| (point - self.centre) * self.scale;
+        points.iter().map(staged).collect()
     }
 
     /// The faces on plane number `plane`.
@@ -238,6 +274,19 @@ impl Geometry {
         }
     }
 
+    /// Tells which of these faces, which are on one plane, may cover a later one that emits.
+    fn cover(&mut self, faces: Range<usize>) {
+        let emitting: Vec<usize> = faces.clone().filter(|&n| self.faces[n].emits).collect();
+        for number in faces {
+            let outline = |number: usize| &*self.corners[self.faces[number].label as usize];
+            let earlier = emitting.partition_point(|&other| other <= number);
+            let later = emitting[earlier..].iter();
+            let covered = later.map(|&other| overlap(outline(number), outline(other)));
+            let first = covered.into_iter().position(|covered| covered);
+            self.faces[number].covers = first.map(|skipped| (earlier + skipped) as u32);
+        }
+    }
+
     /// Sorts planes by main axis and lays their faces out in that order.
     fn arrange(&mut self, on_plane: Vec<Vec<Face>>) {
         let mut order: Vec<usize> = (0..self.planes.len()).collect();
@@ -250,8 +299,13 @@ impl Geometry {
             let start = self.faces.len();
             self.faces.extend(on_plane[old].take().unwrap_or_default());
             let faces = start..self.faces.len();
+            let emitting = self.faces[start..].iter().filter(|face| face.emits);
+            let emitters = self.emitters..self.emitters + emitting.count() as u32;
+            self.emitters = emitters.end;
+            self.cover(faces.clone());
             planes.push(Plane {
                 faces,
+                emitters,
                 ..self.planes[old].clone()
             });
         }
@@ -266,5 +320,23 @@ impl Geometry {
             .by_axis
             .clone()
             .map(|range| range.filter(emits).collect());
+        self.find_outermost();
+    }
+
+    /// Tells which planes have the whole scene on one side.
+    fn find_outermost(&mut self) {
+        let corners: Vec<[f64; 3]> = self.corners.iter().flatten().map(DVec3::to_array).collect();
+        if self.planes.len() * corners.len() > MOST_COMPARED {
+            return;
+        }
+        for plane in &mut self.planes {
+            let [a, b] = plane.form;
+            let height = |corner: &[f64; 3]| {
+                let [along, first, second] = [0, 1, 2].map(|k| corner[(plane.axis + k) % 3]);
+                along + (a * first + b * second) - plane.offset
+            };
+            plane.outermost = corners.iter().all(|corner| height(corner) <= SAME_PLANE)
+                || corners.iter().all(|corner| height(corner) >= -SAME_PLANE);
+        }
     }
 }

@@ -153,6 +153,51 @@ impl Geometry {
         }
     }
 
+    /// Whether a face on planes with main axis `AXIS` stands between the ray's start and its end, one
+    /// length of its direction away, on emitting face number `lamp`.
+    #[inline(always)]
+    fn occluded_along<A: Arith, const AXIS: usize>(
+        &self,
+        cx: &mut A,
+        ray: &Ray<A>,
+        lamp: A::Index,
+        mut hidden: A::Bool,
+    ) -> A::Bool {
+        let (ray, from) = (AxisPermuted::new::<AXIS>(ray), ray.from);
+        for number in self.by_axis[AXIS].clone() {
+            let here = self.planes[number].emitters.clone();
+            // Where the end is on this plane, the ray crosses it nowhere before: it may only be that
+            // another face covers the lamp there. An outermost plane it crosses nowhere.
+            let all_here = here.len() == self.emitters as usize;
+            let faces = self.faces_of(number);
+            let passed = all_here || self.planes[number].outermost;
+            if passed && faces.iter().all(|face| face.covers.is_none()) {
+                continue;
+            }
+            cx.enter(Part::Plane(number));
+            let crossing = self.cross(cx, number, &ray, from);
+            let ends_here = if here.is_empty() {
+                cx.truth(false)
+            } else if all_here {
+                cx.truth(true)
+            } else {
+                math!(cx, below(lamp, here.end) && !below(lamp, here.start))
+            };
+            let before = math!(cx, !ends_here && crossing.distance < 1.0);
+            for face in faces {
+                let mut hides = before;
+                if let Some(earlier) = face.covers {
+                    let first = here.start + earlier;
+                    hides = math!(cx, hides || ends_here && !below(lamp, first));
+                }
+                let meets = meets(cx, &crossing, &*face.edge_tests);
+                hidden = math!(cx, hidden || meets && hides);
+            }
+            cx.leave();
+        }
+        hidden
+    }
+
     /// Whether another face on planes with main axis `AXIS` hides the emitter.
     #[inline(always)]
     fn hidden_along<A: Arith, const AXIS: usize>(
@@ -244,5 +289,14 @@ impl<A: Arith> Nearest<A> for Geometry {
         hidden = self.hidden_along::<A, 2>(cx, ray, hit.distance, hidden);
         hit.found = math!(cx, hit.found && !hidden);
         hit
+    }
+
+    #[inline(always)]
+    fn occluded(&self, cx: &mut A, ray: &Ray<A>, lamp: A::Index, _wanted: A::Bool) -> A::Bool {
+        let mut hidden = cx.truth(false);
+        hidden = self.occluded_along::<A, 0>(cx, ray, lamp, hidden);
+        hidden = self.occluded_along::<A, 1>(cx, ray, lamp, hidden);
+        hidden = self.occluded_along::<A, 2>(cx, ray, lamp, hidden);
+        hidden
     }
 }

@@ -54,4 +54,9 @@ impl<A: Arith, const C: usize> Nearest<A> for Records<'_, C> {
     fn emitter(&self, cx: &mut A, ray: &Ray<A>, wanted: A::Bool) -> Hit<A> {
         self.nearest(cx, ray, wanted)
     }
+
+    #[inline(always)]
+    fn occluded(&self, cx: &mut A, ray: &Ray<A>, lamp: A::Index, wanted: A::Bool) -> A::Bool {
+        self.0.geometry.occluded(cx, ray, lamp, wanted)
+    }
 }

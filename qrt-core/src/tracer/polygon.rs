@@ -18,6 +18,8 @@ pub(super) fn plane_of(corners: &[DVec3], frame: &Frame) -> Plane {
         form,
         offset: heights.sum::<f64>() / corners.len() as f64,
         faces: 0..0,
+        emitters: 0..0,
+        outermost: false,
     }
 }
 

@@ -55,6 +55,10 @@ pub trait Nearest<A: Arith> {
     /// The nearest intersection of `ray` where that is on an emitter: all that matters of a
     /// path's last ray.
     fn emitter(&self, cx: &mut A, ray: &Ray<A>, wanted: A::Bool) -> Hit<A>;
+
+    /// Whether anything stands between the start of `ray` and its end, one length of its direction
+    /// away on emitting face number `lamp` ([`super::Plane::emitters`]); asked only where `wanted`.
+    fn occluded(&self, cx: &mut A, ray: &Ray<A>, lamp: A::Index, wanted: A::Bool) -> A::Bool;
 }
 
 /// The point of `ray` at `distance`.

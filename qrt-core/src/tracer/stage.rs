@@ -1,8 +1,10 @@
 //! A scene made ready for the tracer.
 
-use super::bsdf::{Emitters, ScatterStage, emits, rank};
+use super::bsdf::{Emitters, ScatterStage, rank};
 use super::camera::{self, CameraStage};
 use super::geometry::Geometry;
+use super::lights::{Lamps, LightStage};
+use super::pixel_class::PixelClass;
 use super::{Arith, bound, geometry};
 use crate::valid::{Surface, ValidScene};
 
@@ -26,19 +28,21 @@ pub struct Stage<const C: usize> {
     pub(crate) scatters: Vec<ScatterStage<C>>,
     /// A bound on the distance between two points of the geometry.
     pub(crate) reach: f64,
+    /// Whether emission counts where the primary ray meets it.
+    pub(crate) direct: bool,
     bound: [f64; C],
 }
 
 impl Stage<3> {
-    /// All three channels at once, in the order red, green, blue.
-    pub fn rgb(scene: &ValidScene) -> Self {
-        Self::new(scene, [0, 1, 2])
+    /// All three channels at once, in the order red, green, blue, for pixels of this class.
+    pub fn rgb(scene: &ValidScene, class: PixelClass) -> Self {
+        Self::new(scene, [0, 1, 2], class)
     }
 }
 
 impl<const C: usize> Stage<C> {
-    /// The given channels (0 red, 1 green, 2 blue).
-    pub fn new(scene: &ValidScene, channels: [usize; C]) -> Self {
+    /// The given channels (0 red, 1 green, 2 blue), for pixels of this class.
+    pub fn new(scene: &ValidScene, channels: [usize; C], class: PixelClass) -> Self {
         let written = scene.scene();
         let depths = &written.sampling.depths;
         let used = used(scene);
@@ -53,34 +57,60 @@ impl<const C: usize> Stage<C> {
         let starts = camera::ray_origins(&written.camera, written.film);
         let mut geometry = Geometry::new(
             scene.polygons(),
-            |polygon| emits(&scene.surfaces()[polygon.surface as usize]),
+            |polygon| scene.surfaces()[polygon.surface as usize].emits(),
             &starts,
         );
+        let polygons = scene.polygons().iter();
+        let surface_of: Vec<u32> = polygons.map(|p| place[p.surface as usize]).collect();
+        let emitters = Emitters::new(&surfaces, channels);
+        let sampling = &written.sampling;
+        let lit = (0..depths.len()).any(|depth| sampling.light(depth).is_some());
+        let lamps = if lit {
+            Lamps::new(&geometry, &surfaces, &surface_of)
+        } else {
+            None
+        };
         let scatters: Vec<_> = depths
             .iter()
             .enumerate()
             .skip(1)
-            .map(|(depth, sampling)| {
-                ScatterStage::new(&surfaces, channels, depth, sampling.bits, sampling.map)
+            .map(|(depth, written)| {
+                let mut scatter =
+                    ScatterStage::new(&surfaces, channels, depth, written.bits, written.map);
+                if let (Some(lamps), Some(bits)) = (&lamps, sampling.light(depth)) {
+                    let asked = (depth, bits, sampling.lights);
+                    let radiance = emitters.radiance();
+                    let lights =
+                        LightStage::new(lamps, &surfaces, radiance, &surface_of, &scatter, asked);
+                    scatter.sample_lights(lights);
+                }
+                scatter
             })
             .collect();
         let unit = scatters.iter().any(|scatter| scatter.asks_for_angles);
-        let emitters = Emitters::new(&surfaces, channels);
-        let bound = bound::colour(emitters.radiance(), &scatters);
+        let refraction =
+            bound::refraction(&geometry, &surfaces, &surface_of, &geometry.staged(&starts));
+        let direct = class == PixelClass::MayMeetLamp;
+        let bound = {
+            let of = |refraction| bound::colour(emitters.radiance(), &scatters, direct, refraction);
+            let (plain, alternating) = (of(None), refraction.map(|product| of(Some(product))));
+            std::array::from_fn(|c| alternating.map_or(plain[c], |other| other[c].min(plain[c])))
+        };
         let camera = CameraStage::new(&written.camera, written.film, &geometry, unit);
         if camera.perspective {
             geometry.pass_through(camera.fixed);
         }
-        let (polygons, frames) = (scene.polygons().iter(), geometry.frames.iter());
+        let frames = geometry.frames.iter();
         Self {
             camera,
             film_bits: depths.first().map_or([0, 0], |primary| primary.bits),
-            surface_of: polygons.map(|p| place[p.surface as usize]).collect(),
+            surface_of,
             normals: frames.clone().map(|f| f.normal.to_array()).collect(),
             frames: frames.map(frame_row).collect(),
             emitters,
             black,
             scatters,
+            direct,
             bound,
             reach: 2.0 * geometry.radius(),
             geometry,
@@ -90,6 +120,11 @@ impl<const C: usize> Stage<C> {
     /// The same stage with radiances in units of the bound, so that no colour exceeds 1.
     pub fn relative(mut self) -> Self {
         self.emitters.in_units(self.bound);
+        for scatter in &mut self.scatters {
+            if let Some(lights) = &mut scatter.lights {
+                lights.in_units(self.bound);
+            }
+        }
         self
     }
 
@@ -145,6 +180,6 @@ fn used(scene: &ValidScene) -> Vec<bool> {
 
 /// Sorts surfaces by lobe, and so that emitters (which are black or Lambertian) are neighbours.
 fn sort_key(surface: &Surface) -> (u32, bool) {
-    let (rank, emits) = (rank(&surface.scatter), emits(surface));
+    let (rank, emits) = (rank(&surface.scatter), surface.emits());
     (rank, emits == (rank == 0))
 }

@@ -17,6 +17,7 @@ use crate::syntax::{Bsdf as Fault, Path, Problem};
 
 mod bound;
 mod light;
+mod pdf;
 mod shape;
 #[cfg(test)]
 mod tests;
@@ -28,7 +29,7 @@ mod tests;
 /// value, `QRT0413` a map of whole areas to points or lines, `QRT0414` a Jacobian that is not the
 /// map's, `QRT0415` a negative value, `QRT0416` a value that is not finite, `QRT0417` a BSDF that
 /// gains energy, `QRT0418` a weight without a bound, `QRT0419` a map that reaches directions more
-/// than once.
+/// than once, `QRT0420` a density that is not the map's.
 pub fn compile(bsdf: &Bsdf) -> Result<CustomBsdf, Vec<Problem>> {
     let mut problems = Vec::new();
     let root = Path::root();
@@ -51,6 +52,10 @@ pub fn compile(bsdf: &Bsdf) -> Result<CustomBsdf, Vec<Problem>> {
         .enumerate()
         .map(|(i, text)| read(text, &root.key("value").item(i), &Variable::ALL))
         .collect();
+    let pdf = bsdf
+        .pdf
+        .as_ref()
+        .map(|text| read(text, &root.key("pdf"), &Variable::ANGLES));
     if !matches!(values.len(), 1 | 3) {
         let count = values.len();
         problems.push(Problem::new(root.key("value"), Fault::Channels { count }));
@@ -80,6 +85,14 @@ pub fn compile(bsdf: &Bsdf) -> Result<CustomBsdf, Vec<Problem>> {
         let wrong = light::value(&map, f, &path).or_else(|| quadrature.energy(f, &path));
         problems.extend(wrong);
     }
+    let pdf = match pdf {
+        Some(None) => return Err(problems),
+        Some(Some(pdf)) => {
+            problems.extend(pdf::check(&map, &values, &pdf));
+            Some(pdf.simplify())
+        }
+        None => None,
+    };
     let value = match &values[..] {
         [grey] => [grey.clone(), grey.clone(), grey.clone()],
         [r, g, b] => [r.clone(), g.clone(), b.clone()],
@@ -102,6 +115,7 @@ pub fn compile(bsdf: &Bsdf) -> Result<CustomBsdf, Vec<Problem>> {
             projected_jacobian,
             value,
             weight_bound,
+            pdf,
         })
     } else {
         Err(problems)

@@ -8,6 +8,7 @@ pub mod bsdf;
 mod camera;
 mod counting;
 mod geometry;
+pub mod lights;
 mod parameters;
 mod sampling;
 
@@ -31,6 +32,7 @@ pub struct ValidScene {
     pub(crate) materials: Vec<Surface>,
     pub(crate) polygons: Vec<Polygon>,
     pub(crate) files: Vec<PathBuf>,
+    pub(crate) warnings: Vec<Problem>,
 }
 
 /// What a polygon's surface does: the scene's materials first, in their order, then those of MTL files.
@@ -42,6 +44,23 @@ pub struct Surface {
     pub radiance: Rgb,
     /// How the surface scatters.
     pub scatter: Scatter,
+}
+
+impl Surface {
+    /// Whether the surface emits in any channel.
+    pub fn emits(&self) -> bool {
+        self.radiance.iter().any(|&channel| channel > 0.0)
+    }
+
+    /// Whether the surface reflects to more than single directions and tells how densely it samples
+    /// them, so that what it reflects of a lamp can be weighed against what its own rays find.
+    pub fn samples_lights(&self) -> bool {
+        match &self.scatter {
+            Scatter::Black | Scatter::Mirror(_) | Scatter::Dielectric(_) => false,
+            Scatter::Lambertian(_) | Scatter::Ggx(_) | Scatter::Phong(_) => true,
+            Scatter::Custom(bsdf) => bsdf.pdf.is_some(),
+        }
+    }
 }
 
 /// How a surface scatters.
@@ -70,6 +89,8 @@ pub struct CustomBsdf {
     pub value: [Expr; 3],
     /// An upper bound, per channel, of the weight `value * projected_jacobian` over its domain.
     pub weight_bound: Rgb,
+    /// The density of the map's directions, in `cos_i`, `cos_o`, `cos_a`, if it is stated.
+    pub pdf: Option<Expr>,
 }
 
 /// A triangle or a planar convex quadrilateral in world space.
@@ -99,6 +120,11 @@ impl ValidScene {
     /// The mesh files and material libraries that were read, each once, as errors call them.
     pub fn files(&self) -> &[PathBuf] {
         &self.files
+    }
+
+    /// What is not wrong, but surely not meant.
+    pub fn warnings(&self) -> &[Problem] {
+        &self.warnings
     }
 
     /// FNV-1a, 128 bits, of the scene's canonical text (see [`Scene::fingerprint`]), of the corners
@@ -175,12 +201,15 @@ pub(crate) fn check(
     let mut materials = surfaces(&scene, &mut problems);
     let shapes = geometry::polygons(&scene, meshes, &mut materials, &mut problems);
     let geometry::Shapes { polygons, files } = shapes;
-    problems.result(ValidScene {
+    let mut valid = ValidScene {
         scene,
         materials,
         polygons,
         files,
-    })
+        warnings: Vec::new(),
+    };
+    lights::check(&mut valid, &mut problems);
+    problems.result(valid)
 }
 
 fn surfaces(scene: &Scene, problems: &mut Problems) -> Vec<Surface> {

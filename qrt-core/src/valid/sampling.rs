@@ -8,7 +8,8 @@ use crate::syntax::{Path, Problem, Problems, Sampling as Fault};
 /// The most bits of path index and comparator together: counts of their basis states stay within
 /// 64-bit words.
 pub const MAX_ID_BITS: u32 = 62;
-/// The most rays of a path under the digital net, which needs two dimensions for each.
+/// The most rays of a path under the digital net, which needs two dimensions for each, and two for
+/// each point on a lamp.
 pub const MAX_NET_DEPTHS: usize = MAX_DIMENSIONS / 2;
 
 pub(super) fn check(scene: &Scene, problems: &mut Problems) {
@@ -21,14 +22,22 @@ pub(super) fn check(scene: &Scene, problems: &mut Problems) {
         let map = path.key("depths").item(0).key("map");
         problems.add(map, Fault::PrimaryMap);
     }
+    if sampling.depths.first().is_some_and(|d| d.light.is_some()) {
+        let light = path.key("depths").item(0).key("light");
+        problems.add(light, Fault::PrimaryLight);
+    }
     match sampling.sequence {
-        Sequence::DigitalNet if sampling.depths.len() > MAX_NET_DEPTHS => {
-            let count = sampling.depths.len();
-            let most = MAX_NET_DEPTHS;
-            problems.add(path.key("depths"), Fault::TooManyDepths { count, most });
+        Sequence::DigitalNet => {
+            let dimensions = 2 * sampling.squares().count();
+            let most = MAX_DIMENSIONS;
+            if dimensions > most {
+                problems.add(
+                    path.key("depths"),
+                    Fault::TooManyDepths { dimensions, most },
+                );
+            }
         }
         Sequence::ProductLattice => lattice(sampling, &path, problems),
-        Sequence::DigitalNet => {}
     }
     let (bits, comparator) = (sampling.path_bits, scene.comparator.bits);
     if bits.saturating_add(comparator) > MAX_ID_BITS && bits <= MAX_PATH_BITS {

@@ -139,6 +139,7 @@ fn meaning(quantity: Quantity) -> &'static str {
         Quantity::Found => "Whether it meets a surface, on a path that has not ended.",
         Quantity::Distance => "How far away that is, in lengths of its direction.",
         Quantity::Face => "The face it meets, by number.",
+        Quantity::Lamp => "The cell of the unit square that samples the point on a lamp.",
         Quantity::Sample => "The cell of the unit square that it samples.",
     }
 }

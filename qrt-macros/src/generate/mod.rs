@@ -77,6 +77,7 @@ fn text(
             type __Scene = {scene};
             const _: () = {{
             use ::qrt::core::compile::{{NamedPlace, PixelWord, Place}};
+            use ::qrt::core::sampling::{{Axis::{{U, V}}, Coordinate, Square::{{Light, Ray}}}};
             use ::qrt::circuit::{{
                 Bit, BlockId, Declaration, Machine, Operand, RegisterId, Style, Tag, Type,
                 Word,

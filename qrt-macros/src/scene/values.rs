@@ -48,12 +48,12 @@ impl Sort {
     fn of(record: &str, key: &str) -> Self {
         match (record, key) {
             ("bsdf", "map") => Self::Map,
-            ("bsdf", "jacobian") => Self::Expression,
+            ("bsdf", "jacobian" | "pdf") => Self::Expression,
             ("bsdf", "value") => Self::Channels,
             (
                 _,
                 "sequence" | "map" | "at" | "window" | "estimator" | "uncompute" | "nearest"
-                | "fraction",
+                | "fraction" | "lights",
             ) => Self::Word,
             (_, "name" | "obj") => Self::Text,
             _ => Self::Plain,

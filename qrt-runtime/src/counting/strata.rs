@@ -164,47 +164,51 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        #[test]
-        fn good_indices_of_strata_are_those_of_their_thresholds(
-            bits in 1..12_u32, fractions in proptest::collection::vec(0.0..=1.0_f64, 0..40),
-            cut in 0..40_usize,
-        ) {
-            let counts: Vec<u64> =
-                fractions.iter().map(|f| (f * f64::from(1_u32 << bits)).round() as u64).collect();
-            let (early, late) = counts.split_at(cut.min(counts.len()));
-            let mut octaves = Octaves::new(bits);
-            early.iter().for_each(|&count| octaves.add(count));
-            let mut later = Octaves::new(bits);
-            late.iter().for_each(|&count| later.add(count));
-            octaves.append(&later);
-            let good = octaves.good();
-            prop_assert_eq!(octaves.paths(), counts.len() as u64);
-            prop_assert_eq!(good.iter().sum::<u64>(), counts.iter().sum::<u64>());
-            for strata in 1..=bits + 3 {
-                let parts: Vec<Stratum> = Stratum::halving(strata, bits).collect();
-                prop_assert_eq!(parts.len() as u32, strata.min(bits + 1));
-                let mut next = 0;
-                for part in parts {
-                    let thresholds = part.thresholds();
-                    prop_assert_eq!(thresholds.start, next);
-                    next = thresholds.end;
-                    let one_by_one: u64 = (counts.iter())
-                        .map(|&count| thresholds.clone().filter(|&y| y < count).count() as u64)
-                        .sum();
-                    prop_assert_eq!(good[part.octaves()].iter().sum::<u64>(), one_by_one);
-                    prop_assert_eq!(counts.iter().map(|&c| part.good(c)).sum::<u64>(), one_by_one);
-                    // The bits that are fixed are those that all its comparators have in common.
-                    let (fixed, lowest) = part.fixed_bits(bits);
-                    for y in thresholds {
-                        for bit in fixed.clone() {
-                            let one = lowest && bit == fixed.start;
-                            prop_assert_eq!(y >> bit & 1 == 1, one);
+            #[test]
+            fn good_indices_of_strata_are_those_of_their_thresholds(
+                bits in 1..12_u32, fractions in proptest::collection::vec(0.0..=1.0_f64, 0..40),
+                cut in 0..40_usize,
+            ) {
+                let counts: Vec<u64> =
+                    fractions.iter().map(|f| (f * f64::from(1_u32 << bits)).round() as u64).collect();
+                let (early, late) = counts.split_at(cut.min(counts.len()));
+                let mut octaves = Octaves::new(bits);
+                for &count in early {
+     octaves.add(count);
+    }
+                let mut later = Octaves::new(bits);
+                for &count in late {
+     later.add(count);
+    }
+                octaves.append(&later);
+                let good = octaves.good();
+                prop_assert_eq!(octaves.paths(), counts.len() as u64);
+                prop_assert_eq!(good.iter().sum::<u64>(), counts.iter().sum::<u64>());
+                for strata in 1..=bits + 3 {
+                    let parts: Vec<Stratum> = Stratum::halving(strata, bits).collect();
+                    prop_assert_eq!(parts.len() as u32, strata.min(bits + 1));
+                    let mut next = 0;
+                    for part in parts {
+                        let thresholds = part.thresholds();
+                        prop_assert_eq!(thresholds.start, next);
+                        next = thresholds.end;
+                        let one_by_one: u64 = (counts.iter())
+                            .map(|&count| thresholds.clone().filter(|&y| y < count).count() as u64)
+                            .sum();
+                        prop_assert_eq!(good[part.octaves()].iter().sum::<u64>(), one_by_one);
+                        prop_assert_eq!(counts.iter().map(|&c| part.good(c)).sum::<u64>(), one_by_one);
+                        // The bits that are fixed are those that all its comparators have in common.
+                        let (fixed, lowest) = part.fixed_bits(bits);
+                        for y in thresholds {
+                            for bit in fixed.clone() {
+                                let one = lowest && bit == fixed.start;
+                                prop_assert_eq!(y >> bit & 1 == 1, one);
+                            }
                         }
+                        prop_assert_eq!(part.length(), 1 << (bits - fixed.len() as u32));
                     }
-                    prop_assert_eq!(part.length(), 1 << (bits - fixed.len() as u32));
+                    prop_assert_eq!(next, 1 << bits);
                 }
-                prop_assert_eq!(next, 1 << bits);
             }
         }
-    }
 }

@@ -16,6 +16,7 @@ use beam::{Rays, Scratch};
 use packet::Packet;
 use qrt_core::tracer::{Arith, Geometry, Hit, NO_FACE, Nearest, Ray};
 use std::cell::Cell;
+use std::ops::Range;
 use walk::Line;
 
 /// Boxes of a node, and faces of a packet.
@@ -53,6 +54,9 @@ pub(crate) struct Bvh {
     /// distance.
     hides_emitter: Vec<bool>,
     emits: Vec<bool>,
+    /// By face: the numbers of the emitting faces on its plane, and the first of them that it may
+    /// cover.
+    emitters: Vec<(Range<u32>, u32)>,
     labels: Vec<u32>,
     few_emitters: bool,
 }
@@ -72,6 +76,15 @@ impl Bvh {
             nodes: tree.nodes,
             hides_emitter: faces.iter().map(|face| face.hides_emitter).collect(),
             emits: faces.iter().map(|face| face.emits).collect(),
+            emitters: faces
+                .iter()
+                .zip(&place)
+                .map(|(face, &plane)| {
+                    let emitters = geometry.planes[plane as usize].emitters.clone();
+                    let earlier = face.covers.unwrap_or(emitters.len() as u32);
+                    (emitters.clone(), emitters.start + earlier)
+                })
+                .collect(),
             labels: faces.iter().map(|face| face.label).collect(),
             few_emitters: faces.iter().filter(|face| face.emits).count() <= FEW_EMITTERS,
         }
@@ -182,6 +195,33 @@ impl<'i, S: pulp::Simd, const W: usize> Nearest<Lanes<'i, S, W>> for Indexed<'_>
         hit.found = cx.and(hit.found, shown);
         hit
     }
+
+    #[inline(always)]
+    fn occluded(
+        &self,
+        cx: &mut Lanes<'i, S, W>,
+        ray: &Ray<Lanes<'i, S, W>>,
+        lamp: [S::u64s; W],
+        wanted: [S::m64s; W],
+    ) -> [S::m64s; W] {
+        let mut hidden = cx.index(0);
+        let mut scratch = self.scratch.take();
+        let mut left = bits(cx, wanted);
+        while left != 0 {
+            let lane = left.trailing_zeros() as usize;
+            left &= left - 1;
+            let lamp = lanes::<_, u64>(&lamp)[lane] as u32;
+            let line = line(ray, lane);
+            if self
+                .bvh
+                .blocks(cx.narrow(), &line, &mut scratch.stack, lamp)
+            {
+                slots::<_, u64>(&mut hidden)[lane] = 1;
+            }
+        }
+        self.scratch.set(scratch);
+        cx.is(hidden, 1)
+    }
 }
 
 /// What a ray is tried against. (One type, so that the tracer is compiled once for both.)
@@ -216,6 +256,20 @@ impl<'i, S: pulp::Simd, const W: usize> Nearest<Lanes<'i, S, W>> for Faces<'_> {
         match self {
             Self::Few(geometry) => geometry.emitter(cx, ray, wanted),
             Self::Many(indexed) => indexed.emitter(cx, ray, wanted),
+        }
+    }
+
+    #[inline(always)]
+    fn occluded(
+        &self,
+        cx: &mut Lanes<'i, S, W>,
+        ray: &Ray<Lanes<'i, S, W>>,
+        lamp: [S::u64s; W],
+        wanted: [S::m64s; W],
+    ) -> [S::m64s; W] {
+        match self {
+            Self::Few(geometry) => geometry.occluded(cx, ray, lamp, wanted),
+            Self::Many(indexed) => indexed.occluded(cx, ray, lamp, wanted),
         }
     }
 }

@@ -7,12 +7,12 @@
 use pulp::bytemuck;
 use qrt_core::expr::Function;
 use qrt_core::sampling::cell_centre;
-use qrt_core::tracer::{Arith, Coordinate, Sampled};
+use qrt_core::tracer::{Arith, Coordinate, Sampled, Work};
 
 /// Paths traced between two hand-overs of sample indices.
 pub(crate) const BLOCK: usize = 256;
 
-/// What a block of paths reads: indices by dimension, and the pixel of each path.
+/// What a block of paths reads: indices by the slot of their coordinate, and the pixel of each path.
 pub(crate) struct Inputs {
     pub(crate) indices: Vec<[u32; BLOCK]>,
     pub(crate) column: [f64; BLOCK],
@@ -108,6 +108,28 @@ fn sample(function: &Sampled, indices: &[u64], values: &mut [f64]) {
 fn evaluate(function: &Sampled, indices: &[u64], values: &mut [f64]) {
     for (value, &index) in values.iter_mut().zip(indices) {
         *value = function.at(index as u32);
+    }
+}
+
+/// Work in a function of its own, which is compiled apart from the tracer, for the same
+/// instructions.
+struct Apart<'a, A: Arith, T: Work<A>> {
+    cx: &'a mut A,
+    work: T,
+    output: &'a mut Option<T::Output>,
+}
+
+#[inline(never)]
+fn in_a_function<S: pulp::Simd, T: pulp::WithSimd<Output = ()>>(simd: S, task: T) {
+    simd.vectorize(task);
+}
+
+impl<A: Arith, T: Work<A>> pulp::WithSimd for Apart<'_, A, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<U: pulp::Simd>(self, _: U) {
+        *self.output = Some(self.work.run(self.cx));
     }
 }
 
@@ -274,8 +296,24 @@ impl<S: pulp::Simd, const W: usize> Arith for Lanes<'_, S, W> {
     }
 
     #[inline(always)]
+    fn apart<T: Work<Self>>(&mut self, work: T) -> T::Output {
+        let mut output = None;
+        let cx = self;
+        in_a_function(
+            cx.simd,
+            Apart {
+                cx,
+                work,
+                output: &mut output,
+            },
+        );
+        // It was done.
+        #[allow(clippy::expect_used)]
+        output.expect("the work's output")
+    }
+    #[inline(always)]
     fn coordinate(&mut self, coordinate: Coordinate) -> Self::Index {
-        let indices = &self.inputs.indices[coordinate.dimension()];
+        let indices = &self.inputs.indices[coordinate.slot()];
         let mut wide = self.index(0);
         widen(
             &indices[self.first..self.first + Self::COUNT],

@@ -7,8 +7,8 @@ use super::lanes::{BLOCK, Inputs, Lanes, lanes};
 pub(super) const WIDTH: usize = 2;
 
 use pulp::WithSimd;
-use qrt_core::sampling::PathPoints;
-use qrt_core::tracer::{Stage, trace};
+use qrt_core::sampling::{Coordinate, PathPoints};
+use qrt_core::tracer::{PixelClass, Stage, trace};
 use qrt_core::valid::ValidScene;
 
 /// Which lanes to use. All give the same bits.
@@ -26,10 +26,10 @@ pub enum Simd {
 pub enum Points {
     /// The scene's sequence, as the circuit computes it.
     Sequence(PathPoints),
-    /// Independent for every path and dimension: classical Monte Carlo, to compare with.
+    /// Independent for every path and coordinate: classical Monte Carlo, to compare with.
     Independent {
-        /// Bits of each coordinate, by dimension.
-        bits: Vec<u32>,
+        /// The scene's sequence, whose coordinates and bits these have.
+        like: PathPoints,
         /// The paths of a pixel.
         paths: u64,
     },
@@ -44,21 +44,27 @@ impl Points {
         }
     }
 
-    fn dimensions(&self) -> usize {
+    fn sequence(&self) -> &PathPoints {
         match self {
-            Self::Sequence(points) => 2 * points.depths(),
-            Self::Independent { bits, .. } => bits.len(),
+            Self::Sequence(points) | Self::Independent { like: points, .. } => points,
         }
     }
 
-    fn fill(&self, seed: u64, [x, y]: [u32; 2], dimension: usize, first: u64, out: &mut [u32]) {
+    fn fill(
+        &self,
+        seed: u64,
+        [x, y]: [u32; 2],
+        coordinate: Coordinate,
+        first: u64,
+        out: &mut [u32],
+    ) {
         match self {
             Self::Sequence(points) => {
-                let shift = points.shift(seed, x, y, dimension);
-                points.indices(dimension / 2, dimension % 2, first, shift, out);
+                let shift = points.shift(seed, x, y, coordinate);
+                points.indices(coordinate, first, shift, out);
             }
-            Self::Independent { bits, .. } => {
-                let bits = bits[dimension];
+            Self::Independent { like, .. } => {
+                let (bits, dimension) = (like.bits(coordinate), like.dimension(coordinate));
                 for (id, slot) in (first..).zip(out) {
                     let word = qrt_core::sampling::pixel_shift(seed ^ mixed(id), x, y, dimension);
                     *slot = if bits == 0 {
@@ -112,8 +118,20 @@ impl Real {
     /// # Errors
     /// If the scene's sequence cannot be made; a valid scene's can.
     pub fn new(scene: &ValidScene, seed: u64) -> Result<Self, qrt_core::sampling::SamplingError> {
+        Self::of_class(scene, seed, PixelClass::default())
+    }
+
+    /// A machine for the pixels of one class of `scene`, with their scale.
+    ///
+    /// # Errors
+    /// As [`Real::new`].
+    pub fn of_class(
+        scene: &ValidScene,
+        seed: u64,
+        class: PixelClass,
+    ) -> Result<Self, qrt_core::sampling::SamplingError> {
         let points = Points::Sequence(PathPoints::new(&scene.scene().sampling)?);
-        let stage = Stage::rgb(scene);
+        let stage = Stage::rgb(scene, class);
         let many = stage.geometry().faces.len() > FEW_FACES;
         Ok(Self {
             bvh: many.then(|| Bvh::new(stage.geometry())),
@@ -139,13 +157,8 @@ impl Real {
 
     /// With independent paths instead of the scene's sequence.
     pub fn monte_carlo(mut self, paths: u64) -> Self {
-        let bits = match &self.points {
-            Points::Sequence(points) => (0..2 * points.depths())
-                .map(|d| points.bits(d / 2, d % 2))
-                .collect(),
-            Points::Independent { bits, .. } => bits.clone(),
-        };
-        self.points = Points::Independent { bits, paths };
+        let like = self.points.sequence().clone();
+        self.points = Points::Independent { like, paths };
         self
     }
 
@@ -173,7 +186,7 @@ impl Real {
         mut finished: impl FnMut(PathBlock<'_>),
     ) {
         let mut inputs = Inputs {
-            indices: vec![[0; BLOCK]; self.points.dimensions()],
+            indices: vec![[0; BLOCK]; 4 * self.points.sequence().depths()],
             column: [0.0; BLOCK],
             row: [0.0; BLOCK],
         };
@@ -186,9 +199,9 @@ impl Real {
             while first < ids.end {
                 let count = (ids.end - first).min((BLOCK - filled) as u64) as usize;
                 let range = filled..filled + count;
-                for (dimension, indices) in inputs.indices.iter_mut().enumerate() {
-                    let out = &mut indices[range.clone()];
-                    self.points.fill(self.seed, pixel, dimension, first, out);
+                for coordinate in self.points.sequence().coordinates() {
+                    let out = &mut inputs.indices[coordinate.slot()][range.clone()];
+                    self.points.fill(self.seed, pixel, coordinate, first, out);
                 }
                 inputs.column[range.clone()].fill(f64::from(pixel[0]));
                 inputs.row[range.clone()].fill(f64::from(pixel[1]));

@@ -28,8 +28,8 @@ impl Pilot<'_> {
         }
         // As many indices as the scene will have, or almost: more make no difference.
         let total = 1_u64 << (COMPARED + self.comparator_bits);
-        let good_of = |value: &[f64; 3]| -> [u64; 3] {
-            std::array::from_fn(|c| match self.bound[c] {
+        let good_of = |(value, bounds): (&[f64; 3], &[f64; 3])| -> [u64; 3] {
+            std::array::from_fn(|c| match bounds[c] {
                 0.0 => 0,
                 bound => ((value[c] / bound * total as f64).round() as u64).min(total),
             })
@@ -37,7 +37,7 @@ impl Pilot<'_> {
         // How colours are spread is known of those many paths alone; their mean is not quite the best
         // known, and estimates of it are off by as much.
         let good: Vec<[u64; 3]> = if self.octaves.is_empty() {
-            self.values.iter().map(good_of).collect()
+            self.values.iter().zip(&self.bounds).map(good_of).collect()
         } else {
             let good = |octaves: &[Octaves; 3]| octaves.each_ref().map(|o| o.good().iter().sum());
             self.octaves.iter().map(good).collect()
@@ -47,7 +47,7 @@ impl Pilot<'_> {
             noise: self.noise,
             seed: SHIFTS[2],
             count: self.draws,
-            counted: self.bound.map(|bound| bound > 0.0),
+            counted: std::array::from_fn(|c| self.bounds.iter().any(|bound| bound[c] > 0.0)),
             total,
         };
         let countable = if self.octaves.is_empty() {
@@ -58,11 +58,11 @@ impl Pilot<'_> {
         let found = draws.of(&self.pixels, &countable)?;
         let queries: u64 = found.iter().map(|drawn| drawn.queries).sum();
         let by_draw = |draw: usize| {
-            let pixels = found.iter().zip(&good);
-            let off = |(drawn, good): (&Drawn, &[u64; 3])| {
+            let pixels = found.iter().zip(&good).zip(&self.bounds);
+            let off = |((drawn, good), bound): ((&Drawn, &[u64; 3]), &[f64; 3])| {
                 std::array::from_fn(|c| {
                     let off = drawn.amplitudes[draw][c] - good[c] as f64 / total as f64;
-                    self.bound[c] * off / self.mean
+                    bound[c] * off / self.mean
                 })
             };
             pixels.map(off).collect()

@@ -4,13 +4,15 @@ use super::{Options, PlanError};
 use crate::counting::{Comparators, CountingError, Octaves};
 use crate::estimators::Noise;
 use crate::machines::{OracleMachine, Real};
-use crate::sample::{Means, counted_tallies, prefix_means, radiance, spread, tallies};
+use crate::sample::{Means, Tally, counted_tallies, prefix_means, radiance, spread, tallies};
 use crate::workers::Workers;
-use qrt_core::oracle::{CallCost, Oracle, call_cost};
+use qrt_core::oracle::{self, CallCost, Oracle, call_cost};
 use qrt_core::sampling::MAX_PATH_BITS;
 use qrt_core::scene::{Accuracy, Comparator, Estimator, Sequence};
+use qrt_core::tracer::{PixelClass, PixelClasses};
 use qrt_core::valid::{Parameters, ValidScene};
 use std::collections::BTreeMap;
+use std::ops::RangeInclusive;
 use std::sync::Arc;
 use std::sync::Mutex;
 
@@ -46,8 +48,11 @@ pub(super) struct Pilot<'a> {
     pub(super) pixels: Vec<[u32; 2]>,
     /// Runs of an estimator for every channel and sign of the paths' error.
     pub(super) draws: u64,
-    /// The bound of a path's colour, by channel.
-    pub(super) bound: [f64; 3],
+    classes: PixelClasses,
+    /// The bound of a path's colour, by class of pixels and channel.
+    bound_of: [[f64; 3]; 2],
+    /// The same, by pixel.
+    pub(super) bounds: Vec<[f64; 3]>,
     pub(super) comparator_bits: u32,
     /// The errors of the comparators that were chosen.
     pub(super) comparator_errors: Errors,
@@ -86,14 +91,24 @@ impl<'a> Pilot<'a> {
             )));
         }
         let workers = options.workers;
-        let bound = Real::new(&of_bits(scene, MEAN.1)?, 0)?.stage().bound();
+        let classes = PixelClasses::new(scene);
+        let mut bound_of = [[0.0; 3]; 2];
+        for (bound, class) in bound_of.iter_mut().zip(PixelClass::ALL) {
+            *bound = Real::of_class(&of_bits(scene, MEAN.1)?, 0, class)?
+                .stage()
+                .bound();
+        }
+        let bounds: Vec<[f64; 3]> = pixels
+            .iter()
+            .map(|&pixel| bound_of[classes.of(pixel) as usize])
+            .collect();
         let mean_of = |key: u64| {
             let machine = Real::new(&net(scene, MEAN.1)?, key)?;
             let means = prefix_means(&machine, &spread(film, MEAN.0), &[MEAN.1], &workers)?;
             Ok::<f64, PlanError>(means.first().map_or(0.0, |means| radiance(means)))
         };
         let mean = 0.5 * (mean_of(SHIFTS[0])? + mean_of(SHIFTS[1])?);
-        if mean <= 0.0 && bound != [0.0; 3] {
+        if mean <= 0.0 && bounds.iter().any(|bound| *bound != [0.0; 3]) {
             let why = "every pixel that was tried is black, and errors are relative to the mean";
             return Err(unreachable(why.to_owned()));
         }
@@ -105,7 +120,9 @@ impl<'a> Pilot<'a> {
             mean,
             pixels,
             draws,
-            bound,
+            classes,
+            bound_of,
+            bounds,
             comparator_bits: 0,
             comparator_errors: Vec::new(),
             values: Vec::new(),
@@ -196,19 +213,8 @@ impl<'a> Pilot<'a> {
     }
 
     fn choose_comparators(&mut self) -> Result<(), PlanError> {
-        let machine = Real::new(&net(self.scene, COMPARED)?, SHIFTS[0])?;
-        let mut comparators = Vec::new();
-        for bits in COMPARATORS {
-            comparators.push(self.comparators(bits)?);
-        }
         let paths = 1_u64 << COMPARED;
-        let found = tallies(
-            &machine,
-            &self.pixels,
-            0..paths,
-            &comparators,
-            &self.workers,
-        )?;
+        let found = self.tallied(COMPARATORS)?;
         let means: Means = found
             .iter()
             .map(|tally| tally.colour.map(|sum| sum / paths as f64))
@@ -217,8 +223,9 @@ impl<'a> Pilot<'a> {
             let ids = (paths << bits) as f64;
             let counted: Means = found
                 .iter()
-                .map(|tally| {
-                    std::array::from_fn(|c| self.bound[c] * (tally.good[number][c] as f64 / ids))
+                .zip(&self.bounds)
+                .map(|(tally, bound)| {
+                    std::array::from_fn(|c| bound[c] * (tally.good[number][c] as f64 / ids))
                 })
                 .collect();
             self.comparator_errors = if self.mean > 0.0 {
@@ -234,19 +241,31 @@ impl<'a> Pilot<'a> {
         }
         self.values = means;
         if self.estimator.counts_strata() {
-            let chosen = [self.comparators(self.comparator_bits)?];
-            let found = tallies(&machine, &self.pixels, 0..paths, &chosen, &self.workers)?;
+            let chosen = self.comparator_bits;
+            let found = self.tallied(chosen..=chosen)?;
             self.octaves = found.into_iter().map(|tally| tally.octaves).collect();
         }
         Ok(())
     }
 
-    fn comparators(&self, bits: u32) -> Result<[Comparators; 3], CountingError> {
+    /// The paths of the net that comparators are chosen with, counted against so many bits of them.
+    fn tallied(&self, bits: RangeInclusive<u32>) -> Result<Vec<Tally>, PlanError> {
+        let net = net(self.scene, COMPARED)?;
+        self.classes.apart(&self.pixels, |class, pixels| {
+            let machine = Real::of_class(&net, SHIFTS[0], class)?;
+            let comparators = bits.clone().map(|bits| self.comparators(class, bits));
+            let comparators: Vec<_> = comparators.collect::<Result<_, _>>()?;
+            let ids = 0..1 << COMPARED;
+            Ok(tallies(&machine, pixels, ids, &comparators, &self.workers)?)
+        })
+    }
+
+    fn comparators(&self, class: PixelClass, bits: u32) -> Result<[Comparators; 3], CountingError> {
         let comparator = Comparator {
             bits,
             ..Comparator::default()
         };
-        Comparators::rgb(self.bound, comparator)
+        Comparators::rgb(self.bound_of[class as usize], comparator)
     }
 
     /// The error of numbers with so many fraction bits, and what a call costs with so many paths;
@@ -263,22 +282,29 @@ impl<'a> Pilot<'a> {
         parameters.precision.fraction = Some(fraction);
         parameters.comparator.bits = self.comparator_bits;
         let scene = valid(self.scene, parameters)?;
-        let Ok((channels, oracle)) = Oracle::all(&scene) else {
+        let Ok((channels, _)) = Oracle::all(&scene) else {
             return Ok(None);
         };
         let spent = call_cost(&channels);
-        let machine = OracleMachine::fixed(Arc::new(oracle), SHIFTS[0], false);
-        let paths = machine.paths().min(1 << COMPARED);
-        let own = Real::new(&scene, SHIFTS[0])?;
-        let comparators = [self.comparators(self.comparator_bits)?];
-        let in_real = tallies(&own, &self.pixels, 0..paths, &comparators, &self.workers)?;
-        let in_fixed = counted_tallies(&machine, &self.pixels, 0..paths, &self.workers)?;
-        let ids = (paths << self.comparator_bits) as f64;
-        let [a, b]: [Means; 2] = [in_fixed, in_real].map(|tallies| {
-            let value =
-                |good: &[u64; 3]| std::array::from_fn(|c| self.bound[c] * (good[c] as f64 / ids));
-            tallies.iter().map(|tally| value(&tally.good[0])).collect()
-        });
+        let found = self.classes.apart(&self.pixels, |class, pixels| {
+            let oracle = Oracle::rgb(&scene, oracle::Options::of_class(class))
+                .map_err(|error| unreachable(error.to_string()))?;
+            let machine = OracleMachine::fixed(Arc::new(oracle), SHIFTS[0], false);
+            let paths = machine.paths().min(1 << COMPARED);
+            let own = Real::of_class(&scene, SHIFTS[0], class)?;
+            let comparators = [self.comparators(class, self.comparator_bits)?];
+            let in_real = tallies(&own, pixels, 0..paths, &comparators, &self.workers)?;
+            let in_fixed = counted_tallies(&machine, pixels, 0..paths, &self.workers)?;
+            let ids = (paths << self.comparator_bits) as f64;
+            let bound = self.bound_of[class as usize];
+            let value = |tally: &Tally| -> [f64; 3] {
+                std::array::from_fn(|c| bound[c] * (tally.good[0][c] as f64 / ids))
+            };
+            let pairs = in_fixed.iter().zip(&in_real);
+            let values = pairs.map(|(a, b)| (value(a), value(b)));
+            Ok::<_, PlanError>(values.collect::<Vec<_>>())
+        })?;
+        let (a, b): (Means, Means) = found.into_iter().unzip();
         Ok(Some((self.relative(&a, &b, 1.0), spent)))
     }
 }

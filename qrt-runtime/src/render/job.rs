@@ -1,7 +1,8 @@
 //! The work on a picture, tile by tile on all threads.
 
+use super::classes::Classes;
 use super::film::Film;
-use super::pixel::{Pixels, Source, Totals};
+use super::pixel::Totals;
 use super::tiles::{self, Tiles};
 use super::{Colour, Model, RenderError, Rendered, Request};
 use crate::checkpoint::{Header, Tile};
@@ -13,7 +14,7 @@ use std::time::Instant;
 /// A picture under way.
 pub(super) struct Job<'a> {
     request: Request<'a>,
-    pixels: Pixels,
+    pixels: Classes,
     tiles: Tiles,
     /// By pixel, whether a checkpoint has it; empty if there was none.
     resumed: Vec<bool>,
@@ -34,9 +35,7 @@ impl<E: Into<RenderError>> From<E> for Stop {
 
 impl<'a> Job<'a> {
     /// Prepares the work, and opens the checkpoint if there is one.
-    pub(super) fn new(request: Request<'a>, source: Source) -> Result<Self, RenderError> {
-        let written = request.scene.scene();
-        let pixels = Pixels::new(source, written, request.estimator, request.options)?;
+    pub(super) fn new(request: Request<'a>, pixels: Classes) -> Result<Self, RenderError> {
         let mut film = Film::new(request.crop, request.area)?;
         let resumed = film.open(request.options, || header(&request))?;
         Ok(Self {
@@ -94,7 +93,7 @@ impl<'a> Job<'a> {
                 seed: options.seed,
                 parameters: scene.parameters(),
                 plan: None,
-                bound: self.pixels.bound(),
+                scales: self.pixels.scales(),
                 ids: paths << scene.scene().comparator.bits,
                 paths: area * paths,
                 resumed_paths: resumed * paths,
@@ -132,7 +131,7 @@ impl<'a> Job<'a> {
                 !workers.cancelled()
             };
             for &place in &places {
-                let totals = self.pixels.many(place, &traced)?;
+                let totals = self.pixels.at(place).many(place, &traced)?;
                 self.finish(&mut tile, place, &totals.ok_or(Stop::Cancelled)?)?;
             }
         } else {
@@ -152,7 +151,7 @@ impl<'a> Job<'a> {
 
     /// Adds a pixel to its tile.
     fn finish(&self, tile: &mut Tile, place: [u32; 2], totals: &Totals) -> Result<(), RenderError> {
-        let pixel = self.pixels.finish(place, totals)?;
+        let pixel = self.pixels.at(place).finish(place, totals)?;
         tile.pixels.push(pixel.colour);
         tile.queries.push(pixel.queries);
         tile.good.push(pixel.good);

@@ -48,6 +48,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod classes;
 mod error;
 mod film;
 mod job;
@@ -57,6 +58,7 @@ mod pixel;
 mod tiles;
 mod visibility;
 
+pub use classes::Scales;
 pub use error::{CompiledError, RenderError};
 pub use visibility::{DEFAULT_FAILURE, Searched, Visibility};
 
@@ -66,10 +68,12 @@ use crate::machines::{NativeOracle, OracleMachine, Real, Simd};
 use crate::named::named;
 use crate::plan::{self, Figures, Plan, plan};
 use crate::workers::Workers;
+use classes::Classes;
 use job::Job;
-use pixel::Source;
+use pixel::{Pixels, Source};
 use qrt_core::oracle::{self, Oracle, OracleError};
 use qrt_core::scene::Estimator;
+use qrt_core::tracer::PixelClass;
 use qrt_core::valid::{Parameters, ValidScene};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -182,8 +186,8 @@ pub struct Rendered {
     pub parameters: Parameters,
     /// How these were chosen, if they were.
     pub plan: Option<Figures>,
-    /// The proven bound on a path's colour per channel: the radiance of S = N.
-    pub bound: [f64; 3],
+    /// The proven bounds on a path's colour, by pixel.
+    pub scales: Scales,
     /// N, the indices of a pixel's channel: paths times comparators.
     pub ids: u64,
     /// Paths of the picture.
@@ -236,7 +240,7 @@ impl Rendered {
                     value: pixel[channel],
                     good: self.good.as_ref().map(|good| good[place][channel]),
                     total: self.ids,
-                    scale: self.bound[channel],
+                    scale: self.scales.at([x, y])[channel],
                 })
             })
     }
@@ -258,11 +262,11 @@ pub fn render(scene: &ValidScene, options: &Options<'_>) -> Result<Rendered, Ren
         }
     };
     let request = Request::new(chosen.map_or(scene, |plan| &plan.scene), options, crop)?;
-    let (source, searched) = request.source()?;
+    let (classes, searched) = Classes::new(&request)?;
     Ok(Rendered {
         plan: chosen.map(|plan| plan.figures),
         searched,
-        ..Job::new(request, source)?.run()?
+        ..Job::new(request, classes)?.run()?
     })
 }
 
@@ -291,7 +295,8 @@ pub fn render_compiled<C: NativeOracle>(options: &Options<'_>) -> Result<Rendere
         Model::Fixed => OracleMachine::native::<C>(oracle, options.seed, false),
         Model::Gates => OracleMachine::gates(oracle, options.seed, false)?,
     };
-    Job::new(request, Source::Oracle(machine))?.run()
+    let pixels = request.pixels(Source::Oracle(machine))?;
+    Job::new(request, Classes::one(pixels))?.run()
 }
 
 /// A picture that can be rendered: its parameters are chosen, and its crop lies on the film.
@@ -331,23 +336,28 @@ impl<'a> Request<'a> {
         }
     }
 
-    /// What traces the paths, and what is searched for their primary hits, if they are searched
-    /// for.
-    fn source(&self) -> Result<(Source, Option<Searched>), RenderError> {
+    /// How the pixels get their colours whose paths `source` traces.
+    fn pixels(&self, source: Source) -> Result<Pixels, RenderError> {
+        Pixels::new(source, self.scene.scene(), self.estimator, self.options)
+    }
+
+    /// What traces the paths of the pixels of a class, and what is searched for their primary hits,
+    /// if they are searched for.
+    fn source(&self, class: PixelClass) -> Result<(Source, Option<Searched>), RenderError> {
         let Options { seed, model, .. } = *self.options;
         if self.options.visibility != Visibility::Classical {
-            let (machine, searched) = visibility::machine(self.scene, self.options)?;
+            let (machine, searched) = visibility::machine(self.scene, self.options, class)?;
             return Ok((Source::Oracle(machine), searched));
         }
         if model == Model::Real {
-            let real = Real::new(self.scene, seed)?.with_simd(self.options.simd);
+            let real = Real::of_class(self.scene, seed, class)?.with_simd(self.options.simd);
             return Ok((Source::Real(Box::new(real)), None));
         }
         let one_run = self.options.colour == Colour::OneRun;
         let oracle = if one_run {
-            Oracle::rgb_and_luminance(self.scene, oracle::Options::default())?
+            Oracle::rgb_and_luminance(self.scene, oracle::Options::of_class(class))?
         } else {
-            Oracle::rgb(self.scene, oracle::Options::default())?
+            Oracle::rgb(self.scene, oracle::Options::of_class(class))?
         };
         // The paths that one run measures give it the colours.
         let machine = if model == Model::Gates {

@@ -199,8 +199,9 @@ impl Pixels {
                 }
                 if self.by_octaves() {
                     for (octaves, good) in totals.octaves.iter_mut().zip(finished.good) {
-                        good.iter()
-                            .for_each(|good| octaves.add(good.cast_unsigned()));
+                        for good in good {
+                            octaves.add(good.cast_unsigned());
+                        }
                     }
                 }
             }),
@@ -275,9 +276,9 @@ impl Pixels {
                 Some(counter) if counter.by_strata => {
                     let comparators = &counter.comparators[channel];
                     let octaves = &mut totals.octaves[channel];
-                    colours
-                        .iter()
-                        .for_each(|&colour| octaves.add(comparators.good(colour).into()));
+                    for &colour in colours {
+                        octaves.add(comparators.good(colour).into());
+                    }
                 }
                 Some(counter) => {
                     totals.good[channel] += counter.comparators[channel].good_total(colours);

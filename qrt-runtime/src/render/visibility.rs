@@ -11,6 +11,7 @@ use crate::machines::{NearestMachine, OracleMachine, PrimaryHits};
 use crate::search::{FoundHits, Guess, Method, Rounds};
 use qrt_core::oracle::{NearestOracle, Oracle};
 use qrt_core::scene::{Estimator, Scene};
+use qrt_core::tracer::PixelClass;
 use qrt_core::valid::ValidScene;
 use std::sync::Arc;
 
@@ -100,12 +101,13 @@ impl Visibility {
 pub(super) fn machine(
     scene: &ValidScene,
     options: &Options<'_>,
+    class: PixelClass,
 ) -> Result<(OracleMachine, Option<Searched>), RenderError> {
     let seed = options.seed;
     if options.model == Model::Real {
         return Err(RenderError::SearchModel);
     }
-    let oracle = Arc::new(Oracle::given_primary_hit(scene)?);
+    let oracle = Arc::new(Oracle::given_primary_hit(scene, class)?);
     let gates = options.model == Model::Gates;
     let machine = if gates {
         OracleMachine::gates(oracle, seed, false)?

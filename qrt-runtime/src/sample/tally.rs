@@ -107,8 +107,9 @@ pub fn counted_tallies(
                 *sum += good.iter().sum::<i64>().cast_unsigned();
             }
             for (octaves, good) in tally.octaves.iter_mut().zip(finished.good) {
-                good.iter()
-                    .for_each(|good| octaves.add(good.cast_unsigned()));
+                for good in good {
+                    octaves.add(good.cast_unsigned());
+                }
             }
         })?;
         Ok(tallies)

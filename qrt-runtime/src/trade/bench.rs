@@ -12,8 +12,9 @@ use crate::sample::{
     self, Countable, Drawn, Draws, Means, SampleError, Tally, counted_tallies, tallies,
 };
 use crate::workers::Workers;
-use qrt_core::oracle::{CallCost, Oracle, call_cost};
+use qrt_core::oracle::{self, CallCost, Oracle, call_cost};
 use qrt_core::scene::{Circuit, Comparator, Estimator, Sampling};
+use qrt_core::tracer::{PixelClass, PixelClasses};
 use qrt_core::valid::{Parameters, ValidScene};
 use std::sync::Arc;
 use std::time::Instant;
@@ -61,7 +62,8 @@ struct Traced {
 
 #[derive(Clone)]
 struct Built {
-    oracle: Arc<Oracle>,
+    classes: PixelClasses,
+    oracles: Vec<(PixelClass, Arc<Oracle>)>,
     cost: CallCost,
 }
 
@@ -124,13 +126,14 @@ impl<'a> Bench<'a> {
             Model::Real => real.clone(),
             model => self.counted(&parameters, &built, model)?,
         };
-        let bound = Real::new(&scene, self.seed)?.stage().bound();
+        let bounds = self.bounds(&scene)?;
         let ids = (1_u64 << parameters.sampling.path_bits) << parameters.comparator.bits;
-        let value =
-            |good: &[u64; 3]| std::array::from_fn(|c| bound[c] * (good[c] as f64 / ids as f64));
+        let value = |(good, bound): (&[u64; 3], &[f64; 3])| {
+            std::array::from_fn(|c| bound[c] * (good[c] as f64 / ids as f64))
+        };
         let [in_real, in_model]: [Means; 2] =
-            [&real.good, &counted.good].map(|good| good.iter().map(value).collect());
-        let estimated = self.estimated(&parameters, &bound, &counted, ids)?;
+            [&real.good, &counted.good].map(|good| good.iter().zip(&bounds).map(value).collect());
+        let estimated = self.estimated(&parameters, &bounds, &counted, ids)?;
         let drawn = drawn(&estimated, &in_model, &truth, mean);
         let pixels = self.pixels.len() as f64;
         let depth = self.depth_error(setting.depths, mean)?;
@@ -157,10 +160,17 @@ impl<'a> Bench<'a> {
             return Ok(found.clone());
         }
         let start = Instant::now();
-        let real = Real::new(scene, self.seed)?;
-        let comparators = Comparators::rgb(real.stage().bound(), parameters.comparator)?;
-        let paths = real.paths();
-        let found = tallies(&real, &self.pixels, 0..paths, &[comparators], &self.workers)?;
+        let paths = 1 << parameters.sampling.path_bits;
+        let classes = PixelClasses::new(scene);
+        let found = classes.apart(&self.pixels, |class, pixels| {
+            let real = Real::of_class(scene, self.seed, class)?;
+            let comparators = [Comparators::rgb(
+                real.stage().bound(),
+                parameters.comparator,
+            )?];
+            let found = tallies(&real, pixels, 0..paths, &comparators, &self.workers)?;
+            Ok::<_, TradeError>(found)
+        })?;
         let traced = Traced {
             means: means(&found, paths),
             good: good(&found),
@@ -169,6 +179,15 @@ impl<'a> Bench<'a> {
         };
         self.real.push((key, traced.clone()));
         Ok(traced)
+    }
+
+    /// The bound of a path's colour, by pixel.
+    fn bounds(&self, scene: &ValidScene) -> Result<Vec<[f64; 3]>, TradeError> {
+        let classes = PixelClasses::new(scene);
+        classes.apart(&self.pixels, |class, pixels| {
+            let bound = Real::of_class(scene, self.seed, class)?.stage().bound();
+            Ok(vec![bound; pixels.len()])
+        })
     }
 
     fn built(
@@ -181,14 +200,21 @@ impl<'a> Bench<'a> {
             return Ok(Some(found.clone()));
         }
         let own = Setting::of(&self.parameters).parameters(&self.parameters);
-        let (channels, oracle) = match Oracle::all(scene) {
+        let (channels, _) = match Oracle::all(scene) {
             Ok(all) => all,
             // A row without a circuit is left out; a scene without one has no table.
             Err(_) if circuit_key(&own) != key => return Ok(None),
             Err(error) => return Err(error.into()),
         };
+        let classes = PixelClasses::new(scene);
+        let mut oracles = Vec::new();
+        for &class in classes.present() {
+            let oracle = Oracle::rgb(scene, oracle::Options::of_class(class))?;
+            oracles.push((class, Arc::new(oracle)));
+        }
         let built = Built {
-            oracle: Arc::new(oracle),
+            oracles,
+            classes,
             cost: call_cost(&channels),
         };
         // One is large, and rows of a circuit stand together, but for the scene's own.
@@ -208,14 +234,23 @@ impl<'a> Bench<'a> {
             return Ok(found.clone());
         }
         let start = Instant::now();
-        let oracle = Arc::clone(&built.oracle);
-        let machine = match model {
-            Model::Gates => {
-                OracleMachine::gates(oracle, self.seed, false).map_err(SampleError::from)?
-            }
-            Model::Real | Model::Fixed => OracleMachine::fixed(oracle, self.seed, false),
-        };
-        let found = counted_tallies(&machine, &self.pixels, 0..machine.paths(), &self.workers)?;
+        let found = built.classes.apart(&self.pixels, |class, pixels| {
+            let mut oracles = built.oracles.iter().filter(|(of, _)| *of == class);
+            // There is one for each class.
+            let Some((_, oracle)) = oracles.next() else {
+                return Ok(Vec::new());
+            };
+            let oracle = Arc::clone(oracle);
+            let machine = match model {
+                Model::Gates => {
+                    OracleMachine::gates(oracle, self.seed, false).map_err(SampleError::from)?
+                }
+                Model::Real | Model::Fixed => OracleMachine::fixed(oracle, self.seed, false),
+            };
+            let paths = 0..machine.paths();
+            let found = counted_tallies(&machine, pixels, paths, &self.workers)?;
+            Ok::<_, TradeError>(found)
+        })?;
         let traced = Traced {
             means: Means::new(),
             good: good(&found),
@@ -230,7 +265,7 @@ impl<'a> Bench<'a> {
     fn estimated(
         &self,
         parameters: &Parameters,
-        bound: &[f64; 3],
+        bounds: &[[f64; 3]],
         traced: &Traced,
         total: u64,
     ) -> Result<Estimated, TradeError> {
@@ -243,7 +278,7 @@ impl<'a> Bench<'a> {
             // The first draw is the picture's own.
             seed: self.seed,
             count: self.effort.draws,
-            counted: bound.map(|bound| bound > 0.0),
+            counted: std::array::from_fn(|c| bounds.iter().any(|bound| bound[c] > 0.0)),
             total,
         };
         let countable = if by_strata {
@@ -254,10 +289,12 @@ impl<'a> Bench<'a> {
         let found = draws.of(&self.pixels, &countable)?;
         let exact = parameters.counting.estimator == Estimator::Exact;
         let queries: u64 = found.iter().map(|drawn| drawn.queries).sum();
-        let value = |amplitudes: &[f64; 3]| std::array::from_fn(|c| bound[c] * amplitudes[c]);
-        let values = |drawn: Drawn| drawn.amplitudes.iter().map(value).collect();
+        let values = |(drawn, bound): (Drawn, &[f64; 3])| {
+            let value = |of: &[f64; 3]| std::array::from_fn(|c| bound[c] * of[c]);
+            drawn.amplitudes.iter().map(value).collect()
+        };
         Ok(Estimated {
-            values: found.into_iter().map(values).collect(),
+            values: found.into_iter().zip(bounds).map(values).collect(),
             queries: if exact { 0 } else { queries },
             seconds: start.elapsed().as_secs_f64(),
         })

@@ -37,6 +37,7 @@ impl Bench<'_> {
             sequence: Sequence::DigitalNet,
             path_bits: bits,
             depths: depths(&self.parameters.sampling, rays),
+            lights: self.parameters.sampling.lights,
         };
         // Nothing is counted here, so one comparator bit will do.
         parameters.comparator.bits = 1;

@@ -157,6 +157,7 @@ impl Setting {
                 sequence: self.sequence,
                 path_bits: self.path_bits,
                 depths,
+                lights: scene.lights,
             },
             // The scene's own distribution of its bits, or an even one of others.
             Sequence::ProductLattice
@@ -170,6 +171,7 @@ impl Setting {
                 sequence: self.sequence,
                 path_bits: self.path_bits,
                 depths: even(&depths, self.path_bits),
+                lights: scene.lights,
             },
         }
     }
@@ -199,12 +201,18 @@ pub(super) fn depths(scene: &Sampling, count: usize) -> Vec<DepthSampling> {
 
 /// A lattice's bits, the earlier coordinates first.
 fn even(depths: &[DepthSampling], bits: u32) -> Vec<DepthSampling> {
-    let coordinates = 2 * depths.len() as u32;
+    let squares = |depth: &DepthSampling| 1 + u32::from(depth.light.is_some());
+    let coordinates = 2 * depths.iter().map(squares).sum::<u32>();
     let of = |k: u32| bits / coordinates + u32::from(k < bits % coordinates);
-    let numbered = depths.iter().zip(0_u32..);
-    let depth = |(depth, k): (&DepthSampling, u32)| DepthSampling {
-        bits: [of(2 * k), of(2 * k + 1)],
+    let mut next = 0;
+    let mut square = || {
+        next += 2;
+        [of(next - 2), of(next - 1)]
+    };
+    let depth = |depth: &DepthSampling| DepthSampling {
+        light: depth.light.map(|_| square()),
+        bits: square(),
         map: depth.map,
     };
-    numbered.map(depth).collect()
+    depths.iter().map(depth).collect()
 }

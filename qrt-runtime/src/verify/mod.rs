@@ -18,6 +18,7 @@ use crate::sample::spread;
 use crate::workers::{Progress, Workers};
 use paths::{Found, Trio, show};
 use qrt_core::oracle::{self, Oracle};
+use qrt_core::tracer::PixelClasses;
 use qrt_core::valid::ValidScene;
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -126,9 +127,32 @@ pub fn verify(scene: &ValidScene, options: &Options<'_>) -> Result<Report, Verif
     };
     let planned = plan::plan(scene, &planning)?;
     let scene = planned.as_ref().map_or(scene, |plan| &plan.scene);
-    let oracle = Arc::new(Oracle::rgb(scene, oracle::Options::default())?);
-    let parts = OracleCircuits::new(&oracle);
-    verify_parts(scene, &oracle, parts, options)
+    let film = [scene.scene().film.width, scene.scene().film.height];
+    let chosen = spread(
+        film,
+        options
+            .pixels
+            .clamp(1, u64::from(film[0]) * u64::from(film[1])),
+    );
+    let classes = PixelClasses::new(scene);
+    // Each pixel by the circuit of its class.
+    let mut whole: Option<Report> = None;
+    for &class in classes.present() {
+        let mine = |pixel: &[u32; 2]| classes.of(*pixel) == class;
+        let pixels: Vec<[u32; 2]> = chosen.iter().copied().filter(mine).collect();
+        if pixels.is_empty() {
+            continue;
+        }
+        let oracle = Arc::new(Oracle::rgb(scene, oracle::Options::of_class(class))?);
+        let parts = OracleCircuits::new(&oracle);
+        let real = Real::of_class(scene, options.seed, class)?;
+        let report = verify_pixels(scene, &real, &oracle, parts, pixels, options)?;
+        whole = Some(match whole {
+            None => report,
+            Some(before) => before.and(report),
+        });
+    }
+    Ok(whole.unwrap_or_default())
 }
 
 /// As [`verify`], on circuits that are given, such as ones that were tampered with.
@@ -142,7 +166,20 @@ pub fn verify_parts(
     options: &Options<'_>,
 ) -> Result<Report, VerifyError> {
     let area = u64::from(oracle.film[0]) * u64::from(oracle.film[1]);
-    let count = options.pixels.clamp(1, area);
+    let pixels = spread(oracle.film, options.pixels.clamp(1, area));
+    let real = Real::new(scene, options.seed)?;
+    verify_pixels(scene, &real, oracle, parts, pixels, options)
+}
+
+fn verify_pixels(
+    scene: &ValidScene,
+    real: &Real,
+    oracle: &Arc<Oracle>,
+    parts: OracleCircuits,
+    pixels: Vec<[u32; 2]>,
+    options: &Options<'_>,
+) -> Result<Report, VerifyError> {
+    let count = pixels.len() as u64;
     let path_bits = oracle.points.path_bits();
     let Some(paths) = count.checked_mul(1 << path_bits) else {
         return Err(VerifyError::TooManyPaths {
@@ -152,13 +189,12 @@ pub fn verify_parts(
     };
     let mut report = Report {
         paths,
-        pixels: spread(oracle.film, count),
+        pixels,
         qubits: parts.compute.qubits,
         gates: parts.gates(),
         fraction: oracle.fraction,
         ..Report::default()
     };
-    let real = Real::new(scene, options.seed)?;
     let fixed = OracleMachine::fixed(oracle.clone(), options.seed, true);
     options.workers.run(|| {
         let gates = OracleMachine::of_parts(oracle.clone(), parts, options.seed, true);
@@ -166,7 +202,7 @@ pub fn verify_parts(
             Ok(gates) => {
                 let trio = Trio {
                     oracle,
-                    real: &real,
+                    real,
                     fixed: &fixed,
                     gates: &gates,
                     at: scene.scene().comparator.at,
@@ -180,6 +216,28 @@ pub fn verify_parts(
 }
 
 impl Report {
+    /// This and that of other pixels, whose circuit may be another: of the two, the larger counts.
+    fn and(mut self, other: Self) -> Self {
+        let share = |report: &Self| report.pixels.len() as f64;
+        let (a, b) = (share(&self), share(&other));
+        let mean = |x: f64, y: f64| (a * x + b * y) / (a + b);
+        for c in 0..3 {
+            self.mean[c] = mean(self.mean[c], other.mean[c]);
+            let squares = [self.width_error[c], other.width_error[c]].map(|e| e * e);
+            self.width_error[c] = mean(squares[0], squares[1]).sqrt();
+            self.greatest[c] = self.greatest[c].max(other.greatest[c]);
+        }
+        self.parted = mean(self.parted, other.parted);
+        self.pixels.extend(other.pixels);
+        self.paths += other.paths;
+        self.qubits = self.qubits.max(other.qubits);
+        self.gates = self.gates.max(other.gates);
+        self.mismatched += other.mismatched;
+        show(&mut self.mismatches, other.mismatches);
+        self.defect = self.defect.or(other.defect);
+        self
+    }
+
     /// Compares all paths of all pixels, in runs.
     fn compare(&mut self, trio: &Trio<'_>, workers: &Workers<'_>) -> Result<(), VerifyError> {
         workers.report(Progress::Started {

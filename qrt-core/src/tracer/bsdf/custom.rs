@@ -1,28 +1,38 @@
 //! The user's own BSDF: a value and a map, by expressions that [`crate::valid::bsdf`] has checked.
 
 use super::vertex::{Scattered, cos_to_mirror, to_scene};
-use super::{Sample, Square};
+use super::{Sample, Square, Way};
 use crate::expr::{Expr, Variable};
 use crate::tracer::Arith;
 use crate::tracer::compiled::{Angles, Compiled};
+use crate::tracer::vector::{self, Vector};
 use crate::valid::CustomBsdf;
 use crate::valid::bsdf::weight_bound;
+use std::f64::consts::PI;
 
 /// One surface with a BSDF of the author's own, for one depth.
 #[derive(Clone, Debug)]
 pub(super) struct CustomLobe<const C: usize> {
-    /// `phi`, unless the depth's map replaces it. Of its density, `1 / J(u, v)`, the square tells,
-    /// but no formula of the direction.
+    /// `phi`, unless the depth's map replaces it.
     pub(super) direction: Option<Compiled>,
-    /// Weights of the channels.
+    /// Of a direction that is sampled: the weights of the channels, and last the density per
+    /// steradian, if the author stated it.
     weight: Compiled,
+    /// Of any direction: by channel, `value cos_i` over the density that is last; or `pi value` of a
+    /// direction of the depth's map.
+    towards: Compiled,
+    states_density: bool,
     /// The greatest weight per channel.
     pub(super) weight_bound: [f64; C],
     pub(super) asks_for_angles: bool,
 }
 
+/// Channels and a density, at most.
+const ROOTS: usize = 4;
+
 impl<const C: usize> CustomLobe<C> {
     pub(super) fn new(bsdf: &CustomBsdf, channels: [usize; C], square: &Square) -> Self {
+        const { assert!(C < ROOTS) };
         let asks = |variables: [Variable; 2]| {
             let mut sets = bsdf.value.iter().map(|value| value.variables(value.root()));
             sets.any(|set| variables.iter().any(|variable| set.contains(*variable)))
@@ -35,14 +45,23 @@ impl<const C: usize> CustomLobe<C> {
         } else {
             (&bsdf.map, &bsdf.projected_jacobian, bsdf.weight_bound)
         };
-        let weights = channels.map(|channel| (&bsdf.value[channel] * projected).simplify());
-        let weights: Vec<&Expr> = weights.iter().collect();
+        let density = bsdf.pdf.as_ref().filter(|_| !replaced);
+        let pi = Expr::number(PI).filter(|_| replaced);
+        let factor = pi.unwrap_or_else(|| Expr::variable(Variable::CosI));
+        let of_channels = |by: &Expr| channels.map(|c| (&bsdf.value[c] * by).simplify());
+        let (weights, towards) = (of_channels(projected), of_channels(&factor));
+        let with_density = |values: &'_ [Expr; C], cos_i: Option<&Expr>| {
+            let roots: Vec<&Expr> = values.iter().chain(density).collect();
+            Compiled::new(&roots, square.bits, cos_i)
+        };
         let [x, y, z] = map;
         Self {
             direction: (!replaced).then(|| Compiled::new(&[x, y, z], square.bits, None)),
-            weight: Compiled::new(&weights, square.bits, Some(z)),
+            weight: with_density(&weights, Some(z)),
+            towards: with_density(&towards, None),
+            states_density: density.is_some(),
             weight_bound: channels.map(|channel| bound[channel]),
-            asks_for_angles: asks([Variable::CosO, Variable::CosA]),
+            asks_for_angles: asks([Variable::CosO, Variable::CosA]) || density.is_some(),
         }
     }
 
@@ -58,12 +77,80 @@ impl<const C: usize> CustomLobe<C> {
             Some(own) => own.evaluate(cx, depth, None),
             None => sample.mapped.direction,
         };
-        let angles = Angles {
-            cos_o: outgoing[2],
-            cos_a: cos_to_mirror(cx, &incoming, outgoing),
-        };
-        let weight = self.weight.evaluate(cx, depth, Some(angles));
+        let angles = angles(cx, outgoing, &incoming);
+        let values: [A::Real; ROOTS] = self.weight.evaluate(cx, depth, Some(angles));
         let direction = to_scene(cx, sample.at, &incoming);
-        Scattered { direction, weight }
+        let density = if !sample.asks_for_density {
+            cx.real(0.0)
+        } else if self.states_density {
+            cx.scale(values[C], PI)
+        } else {
+            // Of the depth's map; where there is none either, nobody uses it.
+            sample.square.map.own_density(cx, &incoming)
+        };
+        Scattered {
+            direction,
+            weight: channels(&values),
+            density,
+        }
+    }
+
+    /// Whether it tells how densely it samples directions.
+    pub(super) fn has_density(&self) -> bool {
+        self.direction.is_none() || self.states_density
+    }
+
+    /// The density of directions, as the author stated it.
+    #[inline(always)]
+    pub(super) fn density<A: Arith>(
+        &self,
+        cx: &mut A,
+        depth: usize,
+        outgoing: &Vector<A>,
+        incoming: &Vector<A>,
+    ) -> Option<A::Real> {
+        let angles = angles(cx, outgoing, incoming);
+        let values: [A::Real; ROOTS] = self.towards.evaluate(cx, depth, Some(angles));
+        self.states_density.then_some(values[C])
+    }
+
+    /// What of a lamp's light goes to the viewer.
+    #[inline(always)]
+    pub(super) fn light<A: Arith>(&self, cx: &mut A, depth: usize, way: &Way<A>) -> [A::Real; C] {
+        let angles = angles(cx, &way.outgoing, &way.incoming);
+        let values: [A::Real; ROOTS] = self.towards.evaluate(cx, depth, Some(angles));
+        let mut towards = channels(&values);
+        if !self.states_density {
+            let factor = math!(cx, way.mapped * way.balance);
+            return vector::scale(cx, &towards, factor);
+        }
+        let density = values[C];
+        // W F = value cos_i A c / (r^2 + p A c): never above the bound of the weight, whatever the
+        // density.
+        let [area, cos, square] = way.lamp;
+        let area = math!(cx, scale(area * cos, PI));
+        let both = math!(cx, square + density * area);
+        for (towards, &bound) in towards.iter_mut().zip(&self.weight_bound) {
+            *towards = math!(cx, div(*towards * area, both, bound));
+        }
+        towards
+    }
+}
+
+/// The first values, one for each channel.
+#[inline(always)]
+fn channels<R: Copy, const C: usize>(values: &[R; ROOTS]) -> [R; C] {
+    let mut channels = [values[0]; C];
+    channels.copy_from_slice(&values[..C]);
+    channels
+}
+
+/// The angles between the viewer's direction and a sampled one.
+#[inline(always)]
+fn angles<A: Arith>(cx: &mut A, outgoing: &Vector<A>, incoming: &Vector<A>) -> Angles<A::Real> {
+    Angles {
+        cos_i: cx.abs(incoming[2]),
+        cos_o: outgoing[2],
+        cos_a: cos_to_mirror(cx, incoming, outgoing),
     }
 }

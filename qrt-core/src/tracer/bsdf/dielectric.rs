@@ -55,6 +55,7 @@ impl DielectricLobe {
         Scattered {
             direction,
             weight: [weight; C],
+            density: cx.real(0.0),
         }
     }
 

@@ -14,15 +14,10 @@ pub(crate) struct Emitters<const C: usize> {
     radiance: Vec<[f64; C]>,
 }
 
-/// Whether `surface` emits in any channel.
-pub(crate) fn emits(surface: &Surface) -> bool {
-    surface.radiance.iter().any(|&channel| channel > 0.0)
-}
-
 impl<const C: usize> Emitters<C> {
     pub(crate) fn new(surfaces: &[&Surface], channels: [usize; C]) -> Self {
-        let emitting = surfaces.iter().filter(|surface| emits(surface));
-        let first = surfaces.iter().position(|surface| emits(surface));
+        let emitting = surfaces.iter().filter(|surface| surface.emits());
+        let first = surfaces.iter().position(|surface| surface.emits());
         let first = first.unwrap_or(0) as u32;
         Self {
             surfaces: first..first + emitting.count() as u32,
@@ -40,13 +35,7 @@ impl<const C: usize> Emitters<C> {
 
     /// Counts radiance in these units.
     pub(crate) fn in_units(&mut self, units: [f64; C]) {
-        for radiance in &mut self.radiance {
-            for (value, unit) in radiance.iter_mut().zip(units) {
-                if unit > 0.0 {
-                    *value /= unit;
-                }
-            }
-        }
+        in_units(&mut self.radiance, units);
     }
 
     /// The paths on an emitter, if there may be any.
@@ -55,7 +44,8 @@ impl<const C: usize> Emitters<C> {
         members(cx, at, &self.surfaces)
     }
 
-    /// What reaches the camera of what the `members` emit; 0 for other paths.
+    /// What reaches the camera of what the `members` emit, of which `share` counts; 0 for other
+    /// paths.
     #[inline(always)]
     pub(crate) fn shade<A: Arith>(
         &self,
@@ -63,6 +53,7 @@ impl<const C: usize> Emitters<C> {
         at: &Vertex<A>,
         members: A::Bool,
         throughput: Option<[A::Real; C]>,
+        share: Option<A::Real>,
     ) -> [A::Real; C] {
         let shows = math!(cx, members && at.front && at.alive);
         let radiance = cx.rows(&self.radiance, at.surface);
@@ -70,7 +61,22 @@ impl<const C: usize> Emitters<C> {
             Some(throughput) => vector::mul(cx, &throughput, &radiance),
             None => radiance,
         };
+        let arriving = match share {
+            Some(share) => vector::scale(cx, &arriving, share),
+            None => arriving,
+        };
         let none = [cx.real(0.0); C];
         vector::select(cx, shows, &arriving, &none)
+    }
+}
+
+/// Counts radiance in these units, where they are not 0.
+pub(crate) fn in_units<const C: usize>(radiance: &mut [[f64; C]], units: [f64; C]) {
+    for radiance in radiance {
+        for (value, unit) in radiance.iter_mut().zip(units) {
+            if unit > 0.0 {
+                *value /= unit;
+            }
+        }
     }
 }

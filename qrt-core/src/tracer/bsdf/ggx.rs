@@ -11,7 +11,7 @@
 //! Jacobian cancels all but the masking of the sampled direction: `W = reflectance G1(i)`.
 
 use super::vertex::{Scattered, to_scene};
-use super::{Mapped, Sample, Square, by_surface};
+use super::{Mapped, Sample, Square, Way, by_surface};
 use crate::tracer::Arith;
 use crate::tracer::vector::{self, Vector};
 use crate::valid::{Scatter, Surface};
@@ -60,18 +60,30 @@ impl GgxLobe {
         };
         let weight = vector::scale(cx, &sample.tint, factor);
         let direction = to_scene(cx, sample.at, &incoming);
-        Scattered { direction, weight }
+        let density = if !sample.asks_for_density {
+            cx.real(0.0)
+        } else if self.has_map {
+            let density = self.density(cx, sample.at.surface, outgoing, &incoming);
+            cx.scale(density, PI)
+        } else {
+            sample.square.map.own_density(cx, &incoming)
+        };
+        Scattered {
+            direction,
+            weight,
+            density,
+        }
     }
 
     /// The density of directions by the own map: `D(h) G1(o) / (4 cos_o)`, per steradian.
     pub(super) fn density<A: Arith>(
         &self,
         cx: &mut A,
-        surface: u32,
+        surface: A::Index,
         outgoing: &Vector<A>,
         incoming: &Vector<A>,
     ) -> A::Real {
-        let alpha = cx.real(self.roughness[surface as usize][0]);
+        let [alpha] = cx.rows(&self.roughness, surface);
         let half = vector!(cx, *outgoing + *incoming);
         let [d, alpha_squared] = distribution(cx, alpha, &half, self.least_alpha);
         let root = smith_root(cx, outgoing[2], alpha_squared);
@@ -79,6 +91,22 @@ impl GgxLobe {
         // No visible normal points below the surface; directions may.
         let density = math!(cx, scale(div(d, outgoing[2] + root, most), 0.5));
         math!(cx, select(0.0 < half[2], density, 0.0))
+    }
+
+    /// What of a lamp's light goes to the viewer, of a white surface.
+    #[inline(always)]
+    pub(super) fn light<A: Arith>(&self, cx: &mut A, surface: A::Index, way: &Way<A>) -> A::Real {
+        let [alpha] = cx.rows(&self.roughness, surface);
+        if self.has_map {
+            let density = self.density(cx, surface, &way.outgoing, &way.incoming);
+            let balance = way.balance(cx, density);
+            let alpha_squared = math!(cx, alpha * alpha);
+            let masking = masking(cx, way.incoming[2], alpha_squared);
+            math!(cx, masking * balance)
+        } else {
+            let value = value(cx, alpha, &way.outgoing, &way.incoming, self.least_alpha);
+            math!(cx, scale(value, PI) * way.mapped * way.balance)
+        }
     }
 
     /// The greatest weight of `surface`. Under the depth's map it is `pi f` times the map's factor:
@@ -121,12 +149,18 @@ impl GgxLobe {
         let normal = vector::normalize(cx, &[x, y, half[2]], 16.0 * longest);
         let incoming = vector!(cx, mirror(*outgoing, normal));
         let alpha_squared = math!(cx, alpha * alpha);
-        let root = smith_root(cx, incoming[2], alpha_squared);
-        let sum = math!(cx, incoming[2] + root);
-        let masking = math!(cx, div(incoming[2] + incoming[2], sum, 2.0));
-        let masking = math!(cx, select(0.0 < incoming[2], masking, 0.0));
+        let masking = masking(cx, incoming[2], alpha_squared);
         (incoming, masking)
     }
+}
+
+/// Smith's `G1` of a direction of this cosine: 0 below the surface.
+#[inline(always)]
+fn masking<A: Arith>(cx: &mut A, cos: A::Real, alpha_squared: A::Real) -> A::Real {
+    let root = smith_root(cx, cos, alpha_squared);
+    let sum = math!(cx, cos + root);
+    let masking = math!(cx, div(cos + cos, sum, 2.0));
+    math!(cx, select(0.0 < cos, masking, 0.0))
 }
 
 /// `sqrt(cos^2 + alpha^2 sin^2)`, the root in Smith's `G1`.

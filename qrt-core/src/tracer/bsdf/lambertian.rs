@@ -19,5 +19,14 @@ pub(super) fn scatter<A: Arith, const C: usize>(
     } else {
         vector::scale(cx, &sample.tint, sample.mapped.factor)
     };
-    Scattered { direction, weight }
+    let density = if sample.asks_for_density {
+        sample.square.map.own_density(cx, &sample.mapped.direction)
+    } else {
+        cx.real(0.0)
+    };
+    Scattered {
+        direction,
+        weight,
+        density,
+    }
 }

@@ -75,6 +75,24 @@ impl DepthMap {
         Mapped { direction, factor }
     }
 
+    /// [`Mapped::factor`] at `incoming`.
+    #[inline(always)]
+    pub(super) fn factor<A: Arith>(&self, cx: &mut A, incoming: &Vector<A>) -> A::Real {
+        match self.map {
+            Map::Auto | Map::CosineHemisphere => cx.real(1.0),
+            Map::UniformHemisphere => cx.scale(incoming[2], 2.0),
+        }
+    }
+
+    /// `pi / J` at `incoming`, which it was sampled at.
+    #[inline(always)]
+    pub(super) fn own_density<A: Arith>(&self, cx: &mut A, incoming: &Vector<A>) -> A::Real {
+        match self.map {
+            Map::Auto | Map::CosineHemisphere => incoming[2],
+            Map::UniformHemisphere => cx.real(0.5),
+        }
+    }
+
     /// `1 / J` at `incoming`, and 0 below the surface.
     #[inline(always)]
     pub(super) fn density<A: Arith>(&self, cx: &mut A, incoming: &Vector<A>) -> A::Real {

@@ -13,5 +13,6 @@ pub(super) fn scatter<A: Arith, const C: usize>(
     Scattered {
         direction: vector::unit(cx, &direction),
         weight: sample.tint,
+        density: cx.real(0.0),
     }
 }

@@ -18,9 +18,10 @@ mod phong;
 mod tests;
 mod vertex;
 
-pub(crate) use emitter::{Emitters, emits};
+pub(crate) use emitter::{Emitters, in_units};
 pub(crate) use vertex::{Vertex, members};
 
+use super::lights::{LightStage, Towards};
 use super::vector::{self, Vector};
 use super::{Arith, Coordinate, Part, Sampled};
 use crate::scene::{Map, Rgb};
@@ -30,7 +31,7 @@ use dielectric::DielectricLobe;
 use ggx::GgxLobe;
 use map::{DepthMap, Mapped};
 use phong::PhongLobe;
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 use std::ops::Range;
 use vertex::{Scattered, local_outgoing};
 
@@ -129,6 +130,8 @@ struct Sample<'a, A: Arith, const C: usize> {
     outgoing: Vector<A>,
     /// The surface's [`tint`].
     tint: [A::Real; C],
+    /// Whether [`Scattered::density`] is asked for.
+    asks_for_density: bool,
 }
 
 /// What scatters towards one depth's ray, made ready.
@@ -148,6 +151,8 @@ pub(crate) struct ScatterStage<const C: usize> {
     uses_map: bool,
     /// Whether any lobe reads angles to the arriving ray.
     pub(crate) asks_for_angles: bool,
+    /// How lamps are sampled at the vertices that the ray leaves, if they are.
+    pub(crate) lights: Option<LightStage<C>>,
 }
 
 impl<const C: usize> ScatterStage<C> {
@@ -199,6 +204,7 @@ impl<const C: usize> ScatterStage<C> {
             custom,
             uses_map: false,
             asks_for_angles: false,
+            lights: None,
             square,
         };
         let lobes = || (0..surfaces.len() as u32).filter_map(|number| stage.lobe(number));
@@ -206,6 +212,12 @@ impl<const C: usize> ScatterStage<C> {
         let asks_for_angles = lobes().any(|lobe| lobe.asks_for_angles());
         (stage.uses_map, stage.asks_for_angles) = (uses_map, asks_for_angles);
         stage
+    }
+
+    /// With lamps sampled at the vertices that the ray leaves.
+    pub(crate) fn sample_lights(&mut self, lights: Option<LightStage<C>>) {
+        // Cosines of a ray's ends are its direction's, which then must have unit length.
+        self.lights = lights;
     }
 
     /// The greatest weight of surface `number` towards this depth; 0 where nothing scatters.
@@ -220,6 +232,15 @@ impl<const C: usize> ScatterStage<C> {
             Some(Lobe::Ggx(lobe)) => tint.map(|tint| lobe.weight_bound(number, tint, factor)),
             Some(Lobe::Phong(lobe)) => lobe.weight_bound(factor),
             Some(Lobe::Custom(lobe)) => lobe.weight_bound,
+        }
+    }
+
+    /// As [`ScatterStage::weight_bound`], of what a point on a lamp sends: all parts of a lobe may
+    /// see it.
+    pub(crate) fn light_weight_bound(&self, number: u32) -> [f64; C] {
+        match self.lobe(number) {
+            Some(Lobe::Phong(lobe)) => lobe.light_weight_bound(self.square.map.factor_bound()),
+            _ => self.weight_bound(number),
         }
     }
 
@@ -239,13 +260,129 @@ impl<const C: usize> ScatterStage<C> {
             return Some(self.square.map.density(cx, incoming));
         }
         match lobe {
-            Lobe::Lambertian | Lobe::Mirror | Lobe::Dielectric(_) | Lobe::Custom(_) => None,
-            Lobe::Ggx(lobe) => Some(lobe.density(cx, number, outgoing, incoming)),
+            Lobe::Lambertian | Lobe::Mirror | Lobe::Dielectric(_) => None,
+            Lobe::Ggx(lobe) => {
+                let number = cx.index(number);
+                Some(lobe.density(cx, number, outgoing, incoming))
+            }
             Lobe::Phong(lobe) => {
                 let [base, lobe] = lobe.densities(cx, outgoing, incoming);
                 Some(cx.add(base, lobe))
             }
+            Lobe::Custom(lobe) => lobe.density(cx, self.square.depth, outgoing, incoming),
         }
+    }
+
+    /// Whether surface `number` is smooth glass.
+    pub(crate) fn is_glass(&self, number: u32) -> bool {
+        self.dielectric.0.contains(&number)
+    }
+
+    /// Whether surface `number` scatters at all.
+    pub(crate) fn scatters(&self, number: u32) -> bool {
+        self.lobe(number).is_some()
+    }
+
+    /// Whether surface `number` tells how densely it samples directions.
+    pub(crate) fn samples_lights(&self, number: u32) -> bool {
+        match self.lobe(number) {
+            None | Some(Lobe::Mirror | Lobe::Dielectric(_)) => false,
+            Some(Lobe::Lambertian | Lobe::Ggx(_) | Lobe::Phong(_)) => true,
+            Some(Lobe::Custom(lobe)) => lobe.has_density(),
+        }
+    }
+
+    /// Whether surface `number` is a Lambertian under the cosine map, whose weight is its albedo.
+    pub(crate) fn is_projected(&self, number: u32) -> bool {
+        self.square.map.is_projected() && self.lambertian.contains(&number)
+    }
+
+    /// Whether a lobe tells its density.
+    fn asks_for_densities(&self) -> bool {
+        self.lights
+            .as_ref()
+            .is_some_and(LightStage::asks_for_densities)
+    }
+
+    /// What of the light of a point on a lamp goes to the viewer, in the lamp's radiance.
+    #[inline(always)]
+    pub(crate) fn light<A: Arith>(
+        &self,
+        cx: &mut A,
+        at: &Vertex<A>,
+        towards: &Towards<A>,
+        lights: &LightStage<C>,
+    ) -> Lit<A, C> {
+        let tint = cx.rows(&self.tint, at.surface);
+        let zero = cx.real(0.0);
+        let mut lit = None;
+        let projected = self.square.map.is_projected();
+        if projected && let Some(mask) = members(cx, at, &self.lambertian) {
+            let factor = lights.projected(cx, at.surface, towards);
+            let new = Lit {
+                weight: tint,
+                factor,
+            };
+            choose_lit(cx, &mut lit, mask, new);
+        }
+        let matte = !projected && !self.lambertian.is_empty();
+        let (ggx, phong, custom) = (&self.ggx.0, &self.phong, &self.custom);
+        if !matte && ggx.is_empty() && phong.is_empty() && custom.is_empty() {
+            return lit.unwrap_or(Lit {
+                weight: tint,
+                factor: zero,
+            });
+        }
+        let way = Way::new(cx, at, towards, &self.square);
+        if matte && let Some(mask) = members(cx, at, &self.lambertian) {
+            let factor = math!(cx, way.mapped * way.balance);
+            let new = Lit {
+                weight: tint,
+                factor,
+            };
+            choose_lit(cx, &mut lit, mask, new);
+        }
+        if let Some(mask) = members(cx, at, ggx) {
+            let factor = self.ggx.1.light(cx, at.surface, &way);
+            let new = Lit {
+                weight: tint,
+                factor,
+            };
+            choose_lit(cx, &mut lit, mask, new);
+        }
+        let one = cx.real(1.0);
+        for (surface, lobe) in phong {
+            if let Some(mask) = members(cx, at, &(*surface..surface + 1)) {
+                let weight = lobe.light(cx, &way);
+                choose_lit(
+                    cx,
+                    &mut lit,
+                    mask,
+                    Lit {
+                        weight,
+                        factor: one,
+                    },
+                );
+            }
+        }
+        for (surface, lobe) in custom.iter().filter(|(_, lobe)| lobe.has_density()) {
+            if let Some(mask) = members(cx, at, &(*surface..surface + 1)) {
+                let weight = lobe.light(cx, self.square.depth, &way);
+                choose_lit(
+                    cx,
+                    &mut lit,
+                    mask,
+                    Lit {
+                        weight,
+                        factor: one,
+                    },
+                );
+            }
+        }
+        lit.unwrap_or(Lit {
+            weight: tint,
+            factor: zero,
+        })
     }
 
     /// The lobe of surface `number`; none if it is black.
@@ -281,6 +418,7 @@ impl<const C: usize> ScatterStage<C> {
             },
             outgoing: [zero; 3],
             tint: cx.rows(&self.tint, at.surface),
+            asks_for_density: self.asks_for_densities(),
         };
         if self.uses_map {
             // Asked for here, so that they belong to the ray and not to this part of it alone.
@@ -325,6 +463,7 @@ impl<const C: usize> ScatterStage<C> {
         chosen.unwrap_or(Scattered {
             direction: at.arriving,
             weight: [zero; C],
+            density: zero,
         })
     }
 }
@@ -343,8 +482,81 @@ fn choose<A: Arith, const C: usize>(
         Some(old) => Scattered {
             direction: vector::select(cx, mask, &new.direction, &old.direction),
             weight: vector::select(cx, mask, &new.weight, &old.weight),
+            density: cx.select(mask, new.density, old.density),
         },
     });
+}
+
+/// Replaces what is lit by `new` where `mask` holds. The first candidate needs no choice.
+#[inline(always)]
+fn choose_lit<A: Arith, const C: usize>(
+    cx: &mut A,
+    chosen: &mut Option<Lit<A, C>>,
+    mask: A::Bool,
+    new: Lit<A, C>,
+) {
+    *chosen = Some(match chosen.take() {
+        None => new,
+        Some(old) => Lit {
+            weight: vector::select(cx, mask, &new.weight, &old.weight),
+            factor: cx.select(mask, new.factor, old.factor),
+        },
+    });
+}
+
+/// What of a lamp's light goes to the viewer: weight times factor.
+pub(crate) struct Lit<A: Arith, const C: usize> {
+    /// By channel.
+    pub(crate) weight: [A::Real; C],
+    /// Common to all channels.
+    pub(crate) factor: A::Real,
+}
+
+/// The way to a point on a lamp, for lobes that ask for angles.
+struct Way<A: Arith> {
+    /// The unit direction to the point, in the local frame.
+    incoming: Vector<A>,
+    /// The viewer's direction in the local frame.
+    outgoing: Vector<A>,
+    /// Area over probability and pi, the cosine at the lamp, the distance's square.
+    lamp: [A::Real; 3],
+    /// By the depth's map: the weight of a white Lambertian, and the balance heuristic.
+    mapped: A::Real,
+    balance: A::Real,
+}
+
+impl<A: Arith> Way<A> {
+    #[inline(always)]
+    fn new(cx: &mut A, at: &Vertex<A>, towards: &Towards<A>, square: &Square) -> Self {
+        let length = math!(cx, sqrt(towards.square));
+        let mut unit = towards.to;
+        for component in &mut unit {
+            *component = math!(cx, div(*component, length, 1.0));
+        }
+        let incoming = [
+            math!(cx, known(dot(unit, at.tangent), -1.0, 1.0)),
+            math!(cx, known(dot(unit, at.bitangent), -1.0, 1.0)),
+            math!(cx, div(towards.rise, length, 1.0)),
+        ];
+        let cos = math!(cx, div(towards.fall, length, 1.0));
+        let lamp = [towards.area, cos, towards.square];
+        let density = square.map.density(cx, &incoming);
+        let density = cx.scale(density, PI);
+        Self {
+            outgoing: local_outgoing(cx, at),
+            lamp,
+            mapped: square.map.factor(cx, &incoming),
+            balance: LightStage::<1>::balance(cx, density, lamp),
+            incoming,
+        }
+    }
+
+    /// The balance heuristic of a lobe with this density per steradian.
+    #[inline(always)]
+    fn balance(&self, cx: &mut A, density: A::Real) -> A::Real {
+        let density = cx.scale(density, PI);
+        LightStage::<1>::balance(cx, density, self.lamp)
+    }
 }
 
 /// A table by surface: `value`, or `other` where that has none.

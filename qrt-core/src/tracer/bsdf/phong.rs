@@ -11,7 +11,7 @@
 //! density of directions is the parts' sum, `p cos_i / pi + (1 - p) (n + 1) / (2 pi) cos_a^n`.
 
 use super::vertex::{Scattered, cos_to_mirror, to_scene};
-use super::{Sample, Square};
+use super::{Sample, Square, Way};
 use crate::scene::{Phong, Rgb};
 use crate::tracer::compiled::integer_power;
 use crate::tracer::vector::{self, Vector};
@@ -168,17 +168,62 @@ impl<const C: usize> PhongLobe<C> {
         sample: &Sample<'_, A, C>,
     ) -> Scattered<A, C> {
         let outgoing = &sample.outgoing;
+        let mut density = cx.real(0.0);
         let (incoming, weight) = if self.has_map {
-            self.divided(cx, outgoing, sample.square)
+            let (incoming, weight) = self.divided(cx, outgoing, sample.square);
+            if sample.asks_for_density {
+                let parts = self.densities(cx, outgoing, &incoming);
+                let u = cx.coordinate(Coordinate::u(sample.square.depth));
+                let on_lobe = cx.sampled(&self.on_lobe, u);
+                density = math!(cx, scale(select(0.0 < on_lobe, parts[1], parts[0]), PI));
+            }
+            (incoming, weight)
         } else {
             let incoming = sample.mapped.direction;
             let cos_a = cos_to_mirror(cx, &incoming, outgoing);
             let value = self.value(cx, cos_a);
             let factor = cx.scale(sample.mapped.factor, PI);
+            if sample.asks_for_density {
+                density = sample.square.map.own_density(cx, &incoming);
+            }
             (incoming, vector::scale(cx, &value, factor))
         };
         let direction = to_scene(cx, sample.at, &incoming);
-        Scattered { direction, weight }
+        Scattered {
+            direction,
+            weight,
+            density,
+        }
+    }
+
+    /// What of a lamp's light goes to the viewer. Each part of the own map is weighed by itself, as
+    /// its rays are.
+    #[inline(always)]
+    pub(super) fn light<A: Arith>(&self, cx: &mut A, way: &Way<A>) -> [A::Real; C] {
+        if !self.has_map {
+            let cos_a = cos_to_mirror(cx, &way.incoming, &way.outgoing);
+            let value = self.value(cx, cos_a);
+            let factor = math!(cx, scale(way.mapped * way.balance, PI));
+            return vector::scale(cx, &value, factor);
+        }
+        let [base, lobe] = self.densities(cx, &way.outgoing, &way.incoming);
+        let base = way.balance(cx, base);
+        let lobe = way.balance(cx, lobe);
+        let lobe = math!(cx, lobe * way.incoming[2]);
+        let mut weight = [lobe; C];
+        let parts = self.base_weight.iter().zip(&self.lobe_weight);
+        for (weight, (&of_base, &of_lobe)) in weight.iter_mut().zip(parts) {
+            *weight = math!(cx, scale(base, of_base) + scale(lobe, of_lobe));
+        }
+        weight
+    }
+
+    /// As [`Self::weight_bound`], of the light of a lamp, which both parts of the own map reflect.
+    pub(super) fn light_weight_bound(&self, factor: f64) -> [f64; C] {
+        if !self.has_map {
+            return self.weight_bound(factor);
+        }
+        std::array::from_fn(|c| self.base_weight[c] + self.lobe_weight[c])
     }
 
     /// The greatest weights: by the own map, the greater part's; under the depth's, `pi f` times

@@ -5,13 +5,14 @@
 //! quadrature over the hemisphere judge the rest.
 
 mod density;
+mod lights;
 mod references;
 
 use super::*;
 use crate::front::parse;
 use crate::scene::Phong;
-use crate::tracer::Stage;
 use crate::tracer::scalar::Scalar;
+use crate::tracer::{PixelClass, Stage};
 use std::f64::consts::{PI, TAU};
 
 /// A surface of `material` on the plane z = 0, sampled with `bits` a coordinate through `map`.
@@ -34,7 +35,7 @@ sampling: {{ depths: [{{ bits: [0, 0] }}, {{ bits: [{bits}, {bits}], map: {map} 
         );
         match parse(&text, "bench.yaml", &[], "".as_ref()) {
             Ok(loaded) => Self {
-                stage: Stage::rgb(&loaded.valid),
+                stage: Stage::rgb(&loaded.valid, PixelClass::MayMeetLamp),
                 bits,
             },
             Err(report) => panic!("{report}"),

@@ -20,10 +20,22 @@ pub(crate) struct Vertex<A: Arith> {
     pub(crate) alive: A::Bool,
 }
 
+impl<A: Arith> Vertex<A> {
+    /// Takes the tangents from a row of the stage's frames.
+    #[inline(always)]
+    pub(crate) fn stand(&mut self, &[tx, ty, tz, bx, by, bz, ..]: &[A::Real; 9]) {
+        self.tangent = [tx, ty, tz];
+        self.bitangent = [bx, by, bz];
+    }
+}
+
 /// A sampled direction, in the scene's frame, and its weight per channel.
 pub(crate) struct Scattered<A: Arith, const C: usize> {
     pub(crate) direction: Vector<A>,
     pub(crate) weight: [A::Real; C],
+    /// How densely the direction was sampled, in units of `1 / pi` per steradian, by the part of the
+    /// lobe that it is of; 0 where nobody asks.
+    pub(crate) density: A::Real,
 }
 
 /// The paths on a surface of this run, if there may be any.

@@ -139,13 +139,18 @@ fn twice(map: &[Expr; 3], slopes: &Slopes) -> Option<Variables> {
     covered.iter().find(often).map(|(_, _, place)| *place)
 }
 
-/// Checks that a stated Jacobian is that of the map.
-pub(super) fn jacobian(map: &[Expr; 3], stated: &Expr) -> Option<Problem> {
+/// The map's Jacobian by point of the square: the solid angle per unit of it.
+pub(super) fn solid_angle(map: &[Expr; 3]) -> impl Fn(&Variables) -> f64 {
     let slopes = Slopes::of(map);
-    let right = |at: &Variables| {
+    move |at| {
         let [along_u, along_v] = slopes.at(at, &mut Vec::new());
         along_u.cross(along_v).length()
-    };
+    }
+}
+
+/// Checks that a stated Jacobian is that of the map.
+pub(super) fn jacobian(map: &[Expr; 3], stated: &Expr) -> Option<Problem> {
+    let right = solid_angle(map);
     let off = |given: f64, right: f64| {
         let error = (given - right).abs();
         error.is_nan() || error > OFF_JACOBIAN * right.abs().max(f64::MIN_POSITIVE)

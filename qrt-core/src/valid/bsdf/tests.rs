@@ -24,6 +24,7 @@ fn bsdf(map: [&str; 3], jacobian: &str, value: &[&str]) -> Bsdf {
             stated => Jacobian::Stated(stated.to_owned()),
         },
         value: value.iter().map(|v| (*v).to_owned()).collect(),
+        pdf: None,
     }
 }
 

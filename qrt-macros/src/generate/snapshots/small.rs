@@ -60,6 +60,11 @@ const _: () = {
         use ::qrt::core::oracle::compiled::{
             BlockDeclaration, CompiledOracle, Computed, Field, Outline, Vector,
         };
+        use ::qrt::core::sampling::{
+            Axis::{U, V},
+            Coordinate,
+            Square::{Light, Ray},
+        };
         use ::qrt::core::tracer::{Named, Quantity};
         use ::qrt::runtime::machines::native::{Integers, NativeOracle, Truths, Vectors, word};
         impl __Scene {
@@ -257,13 +262,19 @@ const _: () = {
         static T31: &[i64] = &[7, 39, 7, 7];
         const PARAMETERS: &[PixelWord] = &[
             PixelWord::Shift {
-                depth: 0,
-                axis: 0,
+                coordinate: Coordinate {
+                    depth: 0,
+                    square: Ray,
+                    axis: U,
+                },
                 bits: 1,
             },
             PixelWord::Shift {
-                depth: 0,
-                axis: 1,
+                coordinate: Coordinate {
+                    depth: 0,
+                    square: Ray,
+                    axis: V,
+                },
                 bits: 1,
             },
             PixelWord::Affine {
@@ -273,13 +284,19 @@ const _: () = {
                 width: 2,
             },
             PixelWord::Shift {
-                depth: 1,
-                axis: 0,
+                coordinate: Coordinate {
+                    depth: 1,
+                    square: Ray,
+                    axis: U,
+                },
                 bits: 2,
             },
             PixelWord::Shift {
-                depth: 1,
-                axis: 1,
+                coordinate: Coordinate {
+                    depth: 1,
+                    square: Ray,
+                    axis: V,
+                },
                 bits: 1,
             },
             PixelWord::Affine {

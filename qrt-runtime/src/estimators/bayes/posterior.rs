@@ -385,7 +385,9 @@ impl Posterior {
                     *mass *= density(index);
                 }
                 let scale = 1.0 / mass.iter().sum::<f64>();
-                mass.iter_mut().for_each(|mass| *mass *= scale);
+                for mass in &mut *mass {
+                    *mass *= scale;
+                }
                 Some(mass)
             }
         };

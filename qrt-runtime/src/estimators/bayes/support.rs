@@ -198,7 +198,7 @@ impl Support {
                 let slope = 2.0 * POWER - 1.0;
                 let mut prior = Vec::new();
                 self.turns(1, |_, sine| {
-                    prior.extend(sine.map(|sine| libm::pow(sine, slope)))
+                    prior.extend(sine.map(|sine| libm::pow(sine, slope)));
                 });
                 // What the first cell has, over what its midpoint says.
                 let end = libm::exp2(slope) / (2.0 * POWER);

@@ -113,6 +113,29 @@ impl Search for Hides<'_> {
     }
 }
 
+/// Any face before the end of a ray on an emitting face, one length of its direction away.
+struct Blocks<'a> {
+    bvh: &'a Bvh,
+    lamp: u32,
+}
+
+impl Search for Blocks<'_> {
+    #[inline(always)]
+    fn limit(&self) -> f64 {
+        // Faces in the emitter's plane are met at its end, up to rounding.
+        1.0 + 1e-6
+    }
+    #[inline(always)]
+    fn meet(&mut self, rank: u32, distance: f64) -> bool {
+        let (here, covered) = &self.bvh.emitters[rank as usize];
+        if here.contains(&self.lamp) {
+            *covered <= self.lamp
+        } else {
+            distance < 1.0
+        }
+    }
+}
+
 /// A walk of one ray, to be run as a function of its own: it has the registers to itself, and is
 /// compiled apart from the tracer.
 struct Walk<'a, S, T> {
@@ -150,17 +173,39 @@ impl Bvh {
         stack: &mut Stack,
         distance: f64,
     ) -> bool {
-        let mut search = Hides {
-            bvh: self,
-            distance,
-        };
+        let bvh = self;
+        self.finds(cx, line, stack, &mut Hides { bvh, distance })
+    }
+
+    /// Whether a face stands between the start of the ray and its end on emitting face `lamp`.
+    #[inline(always)]
+    pub(super) fn blocks<S: pulp::Simd>(
+        &self,
+        cx: Lanes<'_, S, 1>,
+        line: &Line,
+        stack: &mut Stack,
+        lamp: u32,
+    ) -> bool {
+        let bvh = self;
+        self.finds(cx, line, stack, &mut Blocks { bvh, lamp })
+    }
+
+    /// Whether `search` sees enough.
+    #[inline(always)]
+    fn finds<S: pulp::Simd>(
+        &self,
+        cx: Lanes<'_, S, 1>,
+        line: &Line,
+        stack: &mut Stack,
+        search: &mut impl Search,
+    ) -> bool {
         let mut enough = false;
         apart(Walk {
             bvh: self,
             cx,
             line,
             stack,
-            search: &mut search,
+            search,
             enough: &mut enough,
         });
         enough

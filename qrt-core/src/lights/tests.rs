@@ -1,0 +1,103 @@
+use super::*;
+
+fn square(corner: [f64; 3], u: [f64; 3], v: [f64; 3]) -> [DVec3; 4] {
+    let (a, u, v) = (DVec3::from(corner), DVec3::from(u), DVec3::from(v));
+    [a, a + u, a + u + v, a + v]
+}
+
+/// A floor below a lamp: `q / r^4` is greatest right below it, `1 / h^2`.
+#[test]
+fn a_floor_below_a_lamp_is_lit_most_right_below() {
+    for height in [0.5, 1.0, 3.0] {
+        let lamp = square([-0.1, height, -0.1], [0.2, 0.0, 0.0], [0.0, 0.0, 0.2]);
+        assert!(Lamp::new(&lamp).unwrap().normal.y < 0.0);
+        let floor = square([-4.0, 0.0, -4.0], [0.0, 0.0, 8.0], [8.0, 0.0, 0.0]);
+        let reached = strongest([&floor[..]].into_iter(), &lamp);
+        let exact = 1.0 / (height * height);
+        assert!(
+            reached.form >= exact && reached.form <= 1.2 * exact,
+            "{reached:?}"
+        );
+        assert!(reached.nearness >= exact && reached.nearness <= 1.2 * exact);
+        // From behind nothing arrives.
+        let mut turned = lamp;
+        turned.reverse();
+        let dark = strongest([&floor[..]].into_iter(), &turned);
+        assert_eq!(dark, Reached::NOTHING);
+    }
+}
+
+#[test]
+fn what_touches_a_lamp_has_no_bound_and_what_lies_in_its_plane_is_not_lit() {
+    let lamp = square([0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
+    let wall = square([0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]);
+    let reached = strongest([&wall[..]].into_iter(), &lamp);
+    assert_eq!(reached.form, f64::INFINITY);
+    let beside = square([2.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
+    let reached = strongest([&beside[..]].into_iter(), &lamp);
+    assert_eq!(reached, Reached::NOTHING);
+}
+
+/// Against points of a grid on both.
+#[test]
+fn no_pair_of_points_exceeds_the_bound() {
+    let lamp = [
+        DVec3::new(0.2, 1.0, 0.1),
+        DVec3::new(0.5, 1.1, 0.0),
+        DVec3::new(0.3, 0.9, 0.6),
+    ];
+    let faces = [
+        square([-1.0, 0.0, -1.0], [2.0, 0.1, 0.0], [0.0, 0.0, 2.0]),
+        square([-1.0, 0.0, -1.0], [0.0, 0.3, 2.0], [0.3, 0.6, 0.0]),
+    ];
+    let at = Lamp::new(&lamp).unwrap();
+    for face in &faces {
+        for lit in [&lamp[..], &[lamp[0], lamp[2], lamp[1]]] {
+            let reached = strongest([&face[..]].into_iter(), lit);
+            let from = Lamp::new(lit).unwrap();
+            let receiver = Lamp::new(face).unwrap();
+            let mut most: f64 = 0.0;
+            for cell in 0..24_usize.pow(4) {
+                let of = |k: u32| (cell / 24_usize.pow(k) % 24) as f64 / 23.0;
+                let x = receiver.corner + receiver.edges[0] * of(0) + receiver.edges[1] * of(1);
+                let (u, v) = (of(2), of(3) * (1.0 - of(2)));
+                let y = at.corner + at.edges[0] * u + at.edges[1] * v;
+                let d = y - x;
+                let q = receiver.normal.dot(d).abs() * (-from.normal.dot(d)).max(0.0);
+                most = most.max(q / d.length_squared().powi(2));
+            }
+            assert!(most <= reached.form, "{most} {reached:?}");
+            assert!(reached.form <= 1.3 * most, "{most} {reached:?}");
+        }
+    }
+}
+
+#[test]
+fn every_lamp_has_a_column_and_the_powers_decide_the_rest() {
+    for bits in 0..8 {
+        for lamps in 1..=(1_usize << bits) {
+            let powers: Vec<f64> = (0..lamps).map(|k| 1.0 + (k * k) as f64).collect();
+            let total: f64 = powers.iter().sum();
+            let given = columns(&powers, bits).unwrap();
+            assert_eq!(given.iter().sum::<u32>(), 1 << bits);
+            assert!(given.iter().all(|&columns| columns > 0));
+            for (power, &columns) in powers.iter().zip(&given) {
+                let exact = power / total * f64::from(1 << bits);
+                assert!(f64::from(columns) < exact + 1.0 || columns == 1);
+            }
+        }
+    }
+    assert_eq!(columns(&[], 4), None);
+}
+
+#[test]
+fn triangles_and_parallelograms_are_lamps_and_other_quads_are_not() {
+    let quad = square([1.0, 2.0, 3.0], [0.5, 0.0, 0.0], [0.25, 2.0, 0.0]);
+    let lamp = Lamp::new(&quad).unwrap();
+    assert!((lamp.area - 1.0).abs() < 1e-15 && !lamp.triangle);
+    let half = Lamp::new(&quad[..3]).unwrap();
+    assert!((half.area - 0.5).abs() < 1e-15 && half.triangle);
+    let mut kite = quad;
+    kite[2].x += 0.1;
+    assert_eq!(Lamp::new(&kite), None);
+}

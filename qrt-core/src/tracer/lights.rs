@@ -1,0 +1,581 @@
+//! Light sampling: at a vertex the path index also names a point on a lamp.
+//!
+//! Let `x` be the vertex, `y` the point, `d = y - x`, `r = |d|`, `n` the surface's normal on the
+//! viewer's side, `m` the lamp's, `q = max(0, n.d) max(0, -m.d)`, and `1 / A` the density of points
+//! per area, with the probability of the lamp in it. A ray of the surface's own sampling has the
+//! density `p` per steradian; as one per area of the lamp that is `p (-m.d) / r^3`. So the balance
+//! heuristic, which weighs each way to find the light by its density over the sum, gives
+//!
+//! ```text
+//! to the ray that meets the lamp:   F = p A c_m / (r^2 + p A c_m),    c_m = -m.d / r
+//! to the point on the lamp:         1 - F, of W Le F / (1 - F): so W Le F again,
+//! ```
+//!
+//! where `W = f |n.i| / p` is the weight that the surface's own sampling has in that direction. For
+//! a Lambertian under the cosine map, `p = n.d / (pi r)` and `W` is the albedo: neither a square root
+//! nor an angle is needed,
+//!
+//! ```text
+//! mis          F = A q / (pi r^4 + A q)      below 1, and what a ray of its own that meets y counts
+//! next-event   G = A q / (pi r^4)            and rays of its own that meet a lamp count nothing
+//! ```
+//!
+//! (Veach & Guibas 1995; Shirley, Wang & Zimmerman 1996.)
+
+use super::bsdf::{Lit, ScatterStage, Vertex};
+use super::geometry::Geometry;
+use super::ray::{Nearest, Ray};
+use super::vector::{self, Vector};
+use super::{Arith, Coordinate, Part, Sampled, Work};
+use crate::lights::{self, Lamp, Reached};
+use crate::scene::Lights;
+use crate::valid::Surface;
+use crate::valid::lights::MOST_PAIRS;
+use std::f64::consts::FRAC_1_PI;
+
+/// Where a lamp can be nearer than this, in stage units, `r^4` has too few bits: cosines and
+/// distance are divided one after the other.
+const NEAR: f64 = 0.3;
+
+/// The lamps of a scene and what they reach, for all depths.
+#[derive(Clone, Debug)]
+pub(super) struct Lamps {
+    shapes: Vec<Lamp>,
+    /// The face and the power of each.
+    faces: Vec<u32>,
+    powers: Vec<f64>,
+    /// By surface and lamp.
+    reached: Vec<Vec<Reached>>,
+}
+
+impl Lamps {
+    /// `surface_of` tells the surface of each face, in the order of `surfaces`. None if nothing emits,
+    /// or something of a shape that is not sampled, which a scene that samples lamps does not have.
+    pub(super) fn new(
+        geometry: &Geometry,
+        surfaces: &[&Surface],
+        surface_of: &[u32],
+    ) -> Option<Self> {
+        let (mut shapes, mut faces, mut powers) = (vec![], vec![], vec![]);
+        // Numbered as the geometry numbers its emitting faces.
+        for face in geometry.faces.iter().filter(|face| face.emits) {
+            let label = face.label as usize;
+            let lamp = Lamp::new(&geometry.corners[label])?;
+            let radiance = surfaces[surface_of[label] as usize].radiance;
+            shapes.push(lamp);
+            faces.push(face.label);
+            powers.push(lamp.area * radiance.iter().sum::<f64>());
+        }
+        if shapes.is_empty() {
+            return None;
+        }
+        let few = geometry.faces.len() * shapes.len() <= MOST_PAIRS;
+        let labels = || geometry.faces.iter().map(|face| face.label as usize);
+        let reached = |surface: usize| {
+            let all = |lamp: &u32| {
+                let mine = labels().filter(|&label| surface_of[label] as usize == surface);
+                let outlines = mine.map(|label| &*geometry.corners[label]);
+                let lamp = &geometry.corners[*lamp as usize];
+                if few {
+                    lights::strongest(outlines, lamp)
+                } else {
+                    Reached::UNBOUNDED
+                }
+            };
+            faces.iter().map(all).collect()
+        };
+        Some(Self {
+            reached: (0..surfaces.len()).map(reached).collect(),
+            shapes,
+            faces,
+            powers,
+        })
+    }
+}
+
+/// The sampling of lamps at the vertices that the rays of one depth leave.
+#[derive(Clone, Debug)]
+pub(crate) struct LightStage<const C: usize> {
+    depth: usize,
+    bits: [u32; 2],
+    /// By column of the first coordinate: the lamp, and the place along its first edge.
+    lamp_of: Vec<u32>,
+    along: Sampled,
+    /// By lamp: corner and edges.
+    places: Vec<[f64; 9]>,
+    /// By lamp: whether it is a triangle.
+    triangles: Vec<u32>,
+    /// By lamp: its normal, and how far its plane is from the origin along it.
+    normals: Vec<[f64; 4]>,
+    /// By lamp: area over probability and pi.
+    areas: Vec<[f64; 1]>,
+    /// By lamp: what its front emits.
+    radiance: Vec<[f64; C]>,
+    /// By lamp: its surface.
+    surfaces: Vec<u32>,
+    /// By face: `areas` of the lamp that it is, 0 for others.
+    area_of_face: Vec<[f64; 1]>,
+    receivers: Receivers,
+    /// By surface and lamp: a bound of the factor `F` or `G`.
+    factors: Vec<Vec<f64>>,
+    /// The greatest of these where rays of its own do not count.
+    most: f64,
+    /// Whether a lamp may be [`NEAR`].
+    near: bool,
+}
+
+/// How surfaces receive the light of lamps, by surface.
+#[derive(Clone, Debug)]
+struct Receivers {
+    /// Whether the surface samples lamps.
+    samples: Vec<u32>,
+    /// Whether its own rays count that meet one, weighed.
+    weighs: Vec<u32>,
+    /// Whether all that scatter sample lamps.
+    all_sample: bool,
+    /// Whether those weigh that sample lamps: all, none, or some.
+    weighing: Weighing,
+}
+
+/// Whether the own rays of surfaces that sample lamps count where they meet one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Weighing {
+    All,
+    None,
+    Some,
+}
+
+impl Receivers {
+    /// By surface: whether it samples lamps, whether it then weighs, and whether it scatters.
+    fn new(samples: &[bool], weighs: &[bool], scatters: &[bool]) -> Self {
+        let pairs = || samples.iter().zip(weighs).filter(|(samples, _)| **samples);
+        let weighing = if pairs().all(|(_, weighs)| *weighs) {
+            Weighing::All
+        } else if pairs().all(|(_, weighs)| !weighs) {
+            Weighing::None
+        } else {
+            Weighing::Some
+        };
+        let all_sample = samples
+            .iter()
+            .zip(scatters)
+            .all(|(s, scatters)| *s || !scatters);
+        // What is never asked is told as the others are: a table of one entry costs nothing.
+        Self {
+            samples: samples
+                .iter()
+                .map(|&s| u32::from(s || all_sample))
+                .collect(),
+            weighs: match weighing {
+                Weighing::All => vec![1; weighs.len()],
+                Weighing::None => vec![0; weighs.len()],
+                Weighing::Some => weighs.iter().map(|&weighs| u32::from(weighs)).collect(),
+            },
+            all_sample,
+            weighing,
+        }
+    }
+}
+
+impl<const C: usize> LightStage<C> {
+    /// None where no surface samples a lamp, or there is none.
+    pub(super) fn new(
+        lamps: &Lamps,
+        surfaces: &[&Surface],
+        radiance: &[[f64; C]],
+        surface_of: &[u32],
+        scatter: &ScatterStage<C>,
+        (depth, bits, mode): (usize, [u32; 2], Lights),
+    ) -> Option<Self> {
+        let columns = lights::columns(&lamps.powers, bits[0])?;
+        let all = f64::from(1_u32 << bits[0]);
+        let samples: Vec<bool> = (0..surfaces.len() as u32)
+            .map(|surface| scatter.samples_lights(surface))
+            .collect();
+        if !samples.contains(&true) {
+            return None;
+        }
+        let lit = lamps.shapes.iter().zip(&columns);
+        let areas: Vec<f64> = lit
+            .map(|(lamp, &columns)| lamp.area * all / f64::from(columns) * FRAC_1_PI)
+            .collect();
+        // The factor of next-event estimation, which that of `mis` is never above.
+        let next_event = |surface: usize| -> Vec<f64> {
+            let pairs = lamps.reached[surface].iter().zip(&areas);
+            // Nothing reached, at infinite strength, is nothing.
+            pairs.map(|(reached, area)| reached.form * area).collect()
+        };
+        let (mut weighs, mut factors, mut near) = (vec![], vec![], false);
+        let mut most: f64 = 0.0;
+        for (surface, &samples) in samples.iter().enumerate() {
+            let direct = next_event(surface);
+            let greatest = direct.iter().copied().fold(0.0, f64::max);
+            let alone = match mode {
+                Lights::None | Lights::Mis => false,
+                Lights::Auto => greatest <= 1.0,
+                Lights::NextEvent => greatest.is_finite(),
+            };
+            let matte = scatter.is_projected(surface as u32);
+            let alone = alone && matte;
+            if samples && alone {
+                most = most.max(greatest);
+            }
+            if samples && matte {
+                let nearest = lamps.reached[surface]
+                    .iter()
+                    .map(|reached| reached.nearness);
+                near |= nearest.fold(0.0, f64::max) > NEAR.powi(-2);
+            }
+            weighs.push(!alone);
+            let balanced = |direct: f64| {
+                if direct.is_finite() {
+                    direct / (1.0 + direct)
+                } else {
+                    1.0
+                }
+            };
+            factors.push(if alone {
+                direct
+            } else if matte {
+                direct.into_iter().map(balanced).collect()
+            } else {
+                vec![1.0; direct.len()]
+            });
+        }
+        let mut lamp_of = Vec::new();
+        let mut starts = Vec::new();
+        for (lamp, &columns) in (0..).zip(&columns) {
+            starts.push(lamp_of.len() as u32);
+            lamp_of.extend(std::iter::repeat_n(lamp, columns as usize));
+        }
+        let place = {
+            let (lamp_of, columns) = (lamp_of.clone(), columns.clone());
+            move |column: u32| {
+                let lamp = lamp_of[column as usize] as usize;
+                (f64::from(column - starts[lamp]) + 0.5) / f64::from(columns[lamp])
+            }
+        };
+        let mut area_of_face = vec![[0.0]; surface_of.len()];
+        for (&face, &area) in lamps.faces.iter().zip(&areas) {
+            area_of_face[face as usize] = [area];
+        }
+        let surface_of_lamp = lamps.faces.iter().map(|&face| surface_of[face as usize]);
+        let surface_of_lamp: Vec<u32> = surface_of_lamp.collect();
+        let numbers = 0..surfaces.len() as u32;
+        let scatters: Vec<bool> = numbers.map(|surface| scatter.scatters(surface)).collect();
+        Some(Self {
+            depth,
+            bits,
+            lamp_of,
+            along: Sampled::of_index(bits[0], place),
+            places: lamps.shapes.iter().map(place_row).collect(),
+            triangles: lamps.shapes.iter().map(|l| u32::from(l.triangle)).collect(),
+            normals: lamps.shapes.iter().map(normal_row).collect(),
+            areas: areas.iter().map(|&area| [area]).collect(),
+            radiance: surface_of_lamp
+                .iter()
+                .map(|&surface| radiance[surface as usize])
+                .collect(),
+            surfaces: surface_of_lamp,
+            area_of_face,
+            receivers: Receivers::new(&samples, &weighs, &scatters),
+            factors,
+            most,
+            near,
+        })
+    }
+
+    /// Counts radiance in these units.
+    pub(super) fn in_units(&mut self, units: [f64; C]) {
+        super::bsdf::in_units(&mut self.radiance, units);
+    }
+
+    /// An upper bound of the factor by which a ray of this depth that leaves `surface` counts the
+    /// emission of surface `other`.
+    pub(super) fn emission_bound(&self, surface: u32, other: u32, samples: bool) -> f64 {
+        if !samples {
+            return 1.0;
+        }
+        if self.receivers.weighs[surface as usize] == 0 {
+            return 0.0;
+        }
+        let mine = self.surfaces.iter().zip(&self.factors[surface as usize]);
+        let mine = mine.filter(|(lamp, _)| **lamp == other);
+        mine.map(|(_, &factor)| factor).fold(0.0, f64::max)
+    }
+
+    /// An upper bound of what a lamp adds at `surface`, over its weight there.
+    pub(super) fn light_bound(&self, surface: u32, samples: bool) -> [f64; C] {
+        let mut bound = [0.0; C];
+        if samples {
+            let lamps = self.radiance.iter().zip(&self.factors[surface as usize]);
+            for (radiance, factor) in lamps {
+                for (bound, radiance) in bound.iter_mut().zip(radiance) {
+                    *bound = f64::max(*bound, radiance * factor);
+                }
+            }
+        }
+        bound
+    }
+
+    /// Whether what rays of this depth meet counts anywhere.
+    pub(super) fn rays_count(&self) -> bool {
+        !(self.receivers.all_sample && self.receivers.weighing == Weighing::None)
+    }
+
+    /// Whether it is asked how densely such a ray was sampled.
+    pub(super) fn asks_for_densities(&self) -> bool {
+        self.receivers.weighing != Weighing::None
+    }
+
+    /// The point on a lamp, seen from `origin`.
+    #[inline(always)]
+    fn point<A: Arith>(&self, cx: &mut A, origin: &Vector<A>) -> Point<A> {
+        let u = cx.coordinate(Coordinate::light_u(self.depth));
+        let v = cx.coordinate(Coordinate::light_v(self.depth));
+        let lamp = if self.places.len() == 1 {
+            cx.index(0)
+        } else {
+            cx.entry(&self.lamp_of, u)
+        };
+        let mut first = cx.sampled(&self.along, u);
+        let mut second = cx.centre(v, self.bits[1]);
+        if self.triangles.contains(&1) {
+            let triangle = cx.entry(&self.triangles, lamp);
+            let triangle = cx.is(triangle, 1);
+            let beyond = math!(cx, triangle && 1.0 < first + second);
+            first = math!(cx, select(beyond, 1.0 - first, first));
+            second = math!(cx, select(beyond, 1.0 - second, second));
+        }
+        let [x, y, z, ax, ay, az, bx, by, bz] = cx.rows(&self.places, lamp);
+        let point = vector!(cx, [x, y, z] + [ax, ay, az] * first + [bx, by, bz] * second);
+        Point {
+            lamp,
+            to: vector!(cx, point - *origin),
+        }
+    }
+
+    /// `F`, or `G` where rays of their own do not count, of a Lambertian under the cosine map.
+    #[inline(always)]
+    pub(super) fn projected<A: Arith>(
+        &self,
+        cx: &mut A,
+        surface: A::Index,
+        towards: &Towards<A>,
+    ) -> A::Real {
+        let Towards {
+            both, square, area, ..
+        } = *towards;
+        let (share, beside) = if self.near {
+            // The product of both cosines.
+            let cosines = math!(cx, div(both, square, 1.0));
+            (math!(cx, cosines * area), square)
+        } else {
+            (math!(cx, both * area), math!(cx, square * square))
+        };
+        match self.receivers.weighing {
+            Weighing::None => math!(cx, div(share, beside, self.most)),
+            Weighing::All => math!(cx, div(share, beside + share, 1.0)),
+            Weighing::Some => {
+                let weighs = cx.entry(&self.receivers.weighs, surface);
+                let weighs = cx.is(weighs, 1);
+                let most = self.most.max(1.0);
+                math!(cx, div(share, beside + select(weighs, share, 0.0), most))
+            }
+        }
+    }
+
+    /// `F` of a direction that the surface's own sampling has with `density`, in units of `1 / pi`
+    /// per steradian, of a point of a lamp at `square` the distance's square under the cosine
+    /// `cos`, with `area`.
+    #[inline(always)]
+    pub(super) fn balance<A: Arith>(
+        cx: &mut A,
+        density: A::Real,
+        [area, cos, square]: [A::Real; 3],
+    ) -> A::Real {
+        let share = math!(cx, density * (area * cos));
+        math!(cx, div(share, square + share, 1.0))
+    }
+
+    /// Where a path was that goes on to its next vertex.
+    #[inline(always)]
+    pub(super) fn departed<A: Arith>(
+        &self,
+        cx: &mut A,
+        surface: A::Index,
+        density: A::Real,
+    ) -> Departure<A> {
+        let samples = cx.entry(&self.receivers.samples, surface);
+        let weighs = cx.entry(&self.receivers.weighs, surface);
+        Departure {
+            samples: cx.is(samples, 1),
+            weighs: cx.is(weighs, 1),
+            density,
+        }
+    }
+
+    /// By how much the emission counts of what a ray meets: 1 where no lamp was sampled.
+    #[inline(always)]
+    pub(super) fn emission<A: Arith>(
+        &self,
+        cx: &mut A,
+        departure: &Departure<A>,
+        face: A::Index,
+        distance: A::Real,
+        cos_theta: A::Real,
+    ) -> A::Real {
+        let [area] = cx.rows(&self.area_of_face, face);
+        Self::emission_of(cx, departure, area, distance, cos_theta)
+    }
+
+    /// The same, of a lamp with this area over probability and pi.
+    #[inline(always)]
+    pub(super) fn emission_of<A: Arith>(
+        cx: &mut A,
+        departure: &Departure<A>,
+        area: A::Real,
+        distance: A::Real,
+        cos_theta: A::Real,
+    ) -> A::Real {
+        let cos = cx.abs(cos_theta);
+        let square = math!(cx, distance * distance);
+        let balance = Self::balance(cx, departure.density, [area, cos, square]);
+        math!(
+            cx,
+            select(
+                departure.samples,
+                select(departure.weighs, balance, 0.0),
+                1.0
+            )
+        )
+    }
+}
+
+/// The light of a point on a lamp that the paths at a vertex reflect towards the camera, per channel;
+/// none if none do.
+pub(super) struct Lighting<'a, A: Arith, N, const C: usize> {
+    pub(super) lights: &'a LightStage<C>,
+    pub(super) scatter: &'a ScatterStage<C>,
+    pub(super) nearest: &'a N,
+    pub(super) at: &'a Vertex<A>,
+    pub(super) leaves: &'a Leaves<A>,
+    /// What the paths carry, before the vertex.
+    pub(super) throughput: Option<[A::Real; C]>,
+}
+
+impl<A: Arith, N: Nearest<A>, const C: usize> Work<A> for Lighting<'_, A, N, C> {
+    type Output = Option<[A::Real; C]>;
+
+    #[inline(always)]
+    fn run(self, cx: &mut A) -> Self::Output {
+        let Self {
+            lights,
+            scatter,
+            nearest,
+            at,
+            leaves,
+            throughput,
+        } = self;
+        cx.enter(Part::SampleLight(lights.depth));
+        let origin = &leaves.origin;
+        let point = lights.point(cx, origin);
+        let [mx, my, mz, height] = cx.rows(&lights.normals, point.lamp);
+        let rise = math!(cx, dot(at.normal, point.to));
+        let rise = math!(cx, max(select(at.front, rise, -rise), 0.0));
+        let fall = math!(cx, max(dot([mx, my, mz], *origin) - height, 0.0));
+        let lit = cx.entry(&lights.receivers.samples, at.surface);
+        let lit = cx.is(lit, 1);
+        let both = math!(cx, rise * fall);
+        // Where that is 0, so may be all that is divided by; coarse numbers are soon 0.
+        let wanted = math!(cx, at.alive && lit && 0.0 < both);
+        if !cx.any(wanted) {
+            cx.leave();
+            return None;
+        }
+        let [area] = cx.rows(&lights.areas, point.lamp);
+        let square = math!(cx, dot(point.to, point.to));
+        let Lit { weight, factor } = scatter.light(
+            cx,
+            at,
+            &Towards {
+                to: point.to,
+                rise,
+                fall,
+                both,
+                square,
+                area,
+            },
+            lights,
+        );
+        let weight = match throughput {
+            Some(throughput) => vector::mul(cx, &throughput, &weight),
+            None => weight,
+        };
+        let radiance = cx.rows(&lights.radiance, point.lamp);
+        let light = vector::mul(cx, &weight, &radiance);
+        let light = vector::scale(cx, &light, factor);
+        cx.leave();
+        cx.enter(Part::Shadow(lights.depth));
+        let ray = Ray {
+            origin: *origin,
+            direction: point.to,
+            from: leaves.from,
+            reach: 1.0,
+        };
+        let hidden = nearest.occluded(cx, &ray, point.lamp, wanted);
+        cx.leave();
+        let shown = math!(cx, wanted && !hidden);
+        let none = [cx.real(0.0); C];
+        Some(vector::select(cx, shown, &light, &none))
+    }
+}
+
+/// From where the rays go on that leave a vertex: a point, and the plane that it is on.
+pub(super) struct Leaves<A: Arith> {
+    pub(super) origin: Vector<A>,
+    pub(super) from: A::Index,
+}
+
+/// A point on a lamp.
+struct Point<A: Arith> {
+    lamp: A::Index,
+    /// From the vertex to the point; not of unit length.
+    to: Vector<A>,
+}
+
+/// The way from a vertex to a point on a lamp.
+pub(crate) struct Towards<A: Arith> {
+    /// `d`, not of unit length.
+    pub(super) to: Vector<A>,
+    /// `max(0, n.d)` and `max(0, -m.d)`.
+    pub(super) rise: A::Real,
+    pub(super) fall: A::Real,
+    /// `q`
+    pub(super) both: A::Real,
+    /// `r^2`
+    pub(super) square: A::Real,
+    /// Area over probability and pi.
+    pub(super) area: A::Real,
+}
+
+/// Where a path's ray started, for whoever weighs what it meets.
+pub(super) struct Departure<A: Arith> {
+    samples: A::Bool,
+    weighs: A::Bool,
+    /// The density with which the ray was sampled, in units of `1 / pi` per steradian.
+    density: A::Real,
+}
+
+fn place_row(lamp: &Lamp) -> [f64; 9] {
+    let [a, b] = lamp.edges.map(|edge| edge.to_array());
+    let c = lamp.corner.to_array();
+    [c[0], c[1], c[2], a[0], a[1], a[2], b[0], b[1], b[2]]
+}
+
+fn normal_row(lamp: &Lamp) -> [f64; 4] {
+    // What rounding leaves of an axis-aligned normal is no component.
+    let clean = |c: f64| if c.abs() < f64::EPSILON { 0.0 } else { c };
+    let n = lamp.normal.to_array().map(clean);
+    [n[0], n[1], n[2], lamp.normal.dot(lamp.corner)]
+}

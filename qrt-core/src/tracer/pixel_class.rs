@@ -1,0 +1,141 @@
+//! Which pixels may see a lamp at once, and which provably do not.
+//!
+//! A lamp's radiance is many times what it lights. Where no ray of a pixel meets one before it meets
+//! anything else, the colour scale need not hold it.
+
+use super::camera;
+use crate::valid::ValidScene;
+use glam::DVec2;
+
+/// How far outside its square a pixel's rays are taken to go, in pixels: far above rounding.
+const MARGIN: f64 = 1e-6;
+
+/// What primary rays of a pixel may meet.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum PixelClass {
+    /// Anything.
+    #[default]
+    MayMeetLamp,
+    /// No lamp, or its back.
+    MeetsNoLamp,
+}
+
+impl PixelClass {
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::MayMeetLamp, Self::MeetsNoLamp];
+}
+
+/// The class of each pixel of a scene's film.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PixelClasses {
+    /// The lamps' outlines on the film, in pixels; none where one has no outline.
+    outlines: Option<Vec<Vec<DVec2>>>,
+}
+
+impl PixelClasses {
+    /// The classes of `scene`'s pixels. Where no lamp is sampled, all may meet one: the scale is
+    /// then that of what their paths meet by chance.
+    pub fn new(scene: &ValidScene) -> Self {
+        let written = scene.scene();
+        let sampling = &written.sampling;
+        let lit = (0..sampling.depths.len()).any(|depth| sampling.light(depth).is_some());
+        if !lit {
+            return Self::one();
+        }
+        let view = camera::View::new(&written.camera, written.film);
+        let emits = |surface: u32| scene.surfaces()[surface as usize].emits();
+        let lamps = scene.polygons().iter().filter(|p| emits(p.surface));
+        let mut outlines = Vec::new();
+        for lamp in lamps {
+            match view.outline(lamp.outline()) {
+                camera::Seen::Not => {}
+                camera::Seen::Within(outline) => outlines.push(outline),
+                camera::Seen::Anywhere => return Self { outlines: None },
+            }
+        }
+        Self {
+            outlines: Some(outlines),
+        }
+    }
+
+    /// All pixels may meet a lamp.
+    pub fn one() -> Self {
+        Self { outlines: None }
+    }
+
+    /// The class of pixel (column, row).
+    pub fn of(&self, [x, y]: [u32; 2]) -> PixelClass {
+        let Some(outlines) = &self.outlines else {
+            return PixelClass::MayMeetLamp;
+        };
+        let low = DVec2::new(f64::from(x), f64::from(y)) - MARGIN;
+        let high = low + 1.0 + 2.0 * MARGIN;
+        if outlines.iter().any(|outline| meets(outline, low, high)) {
+            PixelClass::MayMeetLamp
+        } else {
+            PixelClass::MeetsNoLamp
+        }
+    }
+
+    /// What `run` gives for the pixels of each class, in the order of `pixels`.
+    ///
+    /// # Errors
+    /// The first of `run`.
+    pub fn apart<T, E>(
+        &self,
+        pixels: &[[u32; 2]],
+        mut run: impl FnMut(PixelClass, &[[u32; 2]]) -> Result<Vec<T>, E>,
+    ) -> Result<Vec<T>, E> {
+        let mut all: Vec<Option<T>> = pixels.iter().map(|_| None).collect();
+        for &class in self.present() {
+            let places = (0..pixels.len()).filter(|&place| self.of(pixels[place]) == class);
+            let places: Vec<usize> = places.collect();
+            let mine: Vec<[u32; 2]> = places.iter().map(|&place| pixels[place]).collect();
+            if mine.is_empty() {
+                continue;
+            }
+            for (place, found) in places.into_iter().zip(run(class, &mine)?) {
+                all[place] = Some(found);
+            }
+        }
+        // Every pixel is of one class.
+        Ok(all.into_iter().flatten().collect())
+    }
+
+    /// Those classes that a pixel may be of.
+    pub fn present(&self) -> &'static [PixelClass] {
+        match &self.outlines {
+            None => &PixelClass::ALL[..1],
+            Some(outlines) if outlines.is_empty() => &PixelClass::ALL[1..],
+            Some(_) => &PixelClass::ALL,
+        }
+    }
+}
+
+/// Whether a convex outline and a box of the film have a point in common.
+fn meets(outline: &[DVec2], low: DVec2, high: DVec2) -> bool {
+    let least = outline.iter().fold(DVec2::INFINITY, |low, p| low.min(*p));
+    let most = outline
+        .iter()
+        .fold(DVec2::NEG_INFINITY, |high, p| high.max(*p));
+    if least.cmpgt(high).any() || most.cmplt(low).any() {
+        return false;
+    }
+    let corners = [
+        low,
+        DVec2::new(high.x, low.y),
+        high,
+        DVec2::new(low.x, high.y),
+    ];
+    let centre = outline.iter().sum::<DVec2>() / outline.len() as f64;
+    // A line along an edge with the outline on one side and the box on the other.
+    !(0..outline.len()).any(|k| {
+        let (start, end) = (outline[k], outline[(k + 1) % outline.len()]);
+        let across = (end - start).perp();
+        let inside = across.dot(centre - start);
+        inside != 0.0
+            && corners
+                .iter()
+                .all(|c| across.dot(*c - start) * inside < 0.0)
+    })
+}

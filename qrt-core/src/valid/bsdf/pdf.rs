@@ -1,0 +1,87 @@
+//! A stated density of directions, held against the map that samples them.
+
+use super::shape::{points, solid_angle};
+use crate::expr::{Expr, Variable, Variables};
+use crate::syntax::{Bsdf, Mistake, Path, Problem};
+use std::f64::consts::TAU;
+
+/// The fraction by which a stated density may differ from the map's.
+const OFF_DENSITY: f64 = 1e-6;
+/// By how much its integral over the hemisphere may pass 1: what the quadrature leaves of a density
+/// with a peak.
+const OFF_WHOLE: f64 = 1e-2;
+/// Points of the quadrature.
+const RINGS: u32 = 4096;
+/// Angles of the viewer at which the density is tried: it is the map's, which knows of none.
+const VIEWERS: [f64; 3] = [1.0, 0.7, 0.2];
+
+/// Checks that `pdf` is one over the map's Jacobian, and that the map reaches all that it is the
+/// density of.
+pub(super) fn check(map: &[Expr; 3], values: &[Expr], pdf: &Expr) -> Option<Problem> {
+    let path = Path::root().key("pdf");
+    let squares = |value: &Expr| {
+        let asked = value.variables(value.root());
+        Variable::SQUARE.iter().any(|&axis| asked.contains(axis))
+    };
+    if values.iter().any(squares) {
+        return Some(Problem::new(path, Bsdf::PdfOfTheSquare));
+    }
+    let jacobian = solid_angle(map);
+    let mut room = Vec::new();
+    let mut inverse = true;
+    let mut wrong = None;
+    for at in points() {
+        let [x, _, z] = map.each_ref().map(|c| c.eval_in(&at, &mut room));
+        if z < -1e-12 {
+            return Some(Problem::new(path, Bsdf::PdfBelow));
+        }
+        let right = 1.0 / jacobian(&at);
+        for cos_o in VIEWERS {
+            let sin_o = (1.0 - cos_o * cos_o).sqrt();
+            let angles = Variables {
+                cos_i: z.abs(),
+                cos_o,
+                // The viewer at azimuth 0, mirrored.
+                cos_a: z * cos_o - x * sin_o,
+                ..at
+            };
+            let stated = pdf.eval(&angles);
+            let off = |right: f64| {
+                let error = (stated - right).abs();
+                error.is_nan() || error > OFF_DENSITY * right.abs().max(f64::MIN_POSITIVE)
+            };
+            inverse &= !off(1.0 / right);
+            if off(right) && wrong.is_none() {
+                wrong = Some((stated, right, [at.u, at.v]));
+            }
+        }
+    }
+    if let Some((stated, right, at)) = wrong {
+        let mistake = if inverse {
+            Mistake::NotInverse
+        } else {
+            Mistake::Density
+        };
+        let what = Bsdf::WrongPdf {
+            stated,
+            right,
+            at,
+            mistake,
+        };
+        return Some(Problem::new(path, what));
+    }
+    // It depends on no azimuth and no viewer: a ring of directions for each height.
+    let ring = |k: u32| {
+        let cos_i = (f64::from(k) + 0.5) / f64::from(RINGS);
+        let at = Variables {
+            cos_i,
+            cos_o: 1.0,
+            cos_a: cos_i,
+            ..Variables::default()
+        };
+        pdf.eval(&at) * TAU / f64::from(RINGS)
+    };
+    let whole: f64 = (0..RINGS).map(ring).sum();
+    let beyond = whole.is_nan() || whole > 1.0 + OFF_WHOLE;
+    beyond.then(|| Problem::new(path, Bsdf::PdfBeyondMap { whole }))
+}

@@ -1,0 +1,92 @@
+//! Pixels by class: those that may meet a lamp at once have another colour scale than others.
+
+use super::pixel::{Pixels, Totals};
+use super::{RenderError, Request, Searched};
+use crate::machines::Defect;
+use qrt_core::tracer::{PixelClass, PixelClasses};
+
+/// What traces and counts the pixels of each class.
+pub(super) struct Classes {
+    of: PixelClasses,
+    pixels: Vec<(PixelClass, Pixels)>,
+}
+
+impl Classes {
+    /// One for each class that the scene has, and what is searched for primary hits.
+    pub(super) fn new(request: &Request<'_>) -> Result<(Self, Option<Searched>), RenderError> {
+        let of = PixelClasses::new(request.scene);
+        let mut pixels = Vec::new();
+        let mut searched = None;
+        for &class in of.present() {
+            let (source, found) = request.source(class)?;
+            pixels.push((class, request.pixels(source)?));
+            searched = found;
+        }
+        Ok((Self { of, pixels }, searched))
+    }
+
+    /// One for all pixels.
+    pub(super) fn one(pixels: Pixels) -> Self {
+        Self {
+            of: PixelClasses::one(),
+            pixels: vec![(PixelClass::default(), pixels)],
+        }
+    }
+
+    /// That of a pixel's class.
+    pub(super) fn at(&self, pixel: [u32; 2]) -> &Pixels {
+        let class = self.of.of(pixel);
+        let mut pixels = self.pixels.iter();
+        let found = pixels.find(|(of, _)| *of == class);
+        // There is one for each class that a pixel may be of.
+        &found.unwrap_or(&self.pixels[0]).1
+    }
+
+    /// Which scale each pixel has.
+    pub(super) fn scales(&self) -> Scales {
+        let of = |(class, pixels): &(PixelClass, Pixels)| (*class, pixels.bound());
+        Scales {
+            of: self.of.clone(),
+            bounds: self.pixels.iter().map(of).collect(),
+        }
+    }
+
+    /// Whether the paths of one pixel are enough to occupy all threads.
+    pub(super) fn splits(&self) -> bool {
+        self.pixels.iter().any(|(_, pixels)| pixels.splits())
+    }
+
+    /// The totals of all paths of `places`, which have few each.
+    pub(super) fn few(&self, places: &[[u32; 2]]) -> Result<Vec<Totals>, Defect> {
+        self.of.apart(places, |_, mine| match mine {
+            [first, ..] => self.at(*first).few(mine),
+            [] => Ok(Vec::new()),
+        })
+    }
+}
+
+/// The proven bounds on a path's colour, by pixel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scales {
+    of: PixelClasses,
+    bounds: Vec<(PixelClass, [f64; 3])>,
+}
+
+impl Scales {
+    /// The proven bound on a path's colour in pixel (column, row) per channel: the radiance of
+    /// S = N.
+    pub fn at(&self, pixel: [u32; 2]) -> [f64; 3] {
+        let class = self.of.of(pixel);
+        let mut bounds = self.bounds.iter();
+        let found = bounds.find(|(of, _)| *of == class);
+        found.unwrap_or(&self.bounds[0]).1
+    }
+
+    /// The greatest of them.
+    pub fn greatest(&self) -> [f64; 3] {
+        let bounds = self.bounds.iter().map(|(_, bounds)| *bounds);
+        bounds.fold([0.0; 3], |most, bounds| {
+            std::array::from_fn(|c| f64::max(most[c], bounds[c]))
+        })
+    }
+}

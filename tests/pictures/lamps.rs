@@ -1,0 +1,223 @@
+//! Lamps that are sampled: the light is the same however it is found, and is found sooner.
+
+use super::independent::{mean, rms_difference, traced};
+use crate::common::scene::{from_file, written};
+use qrt::core::syntax::Problem;
+use qrt::core::tracer::{PixelClass, PixelClasses};
+use qrt::core::valid::ValidScene;
+use qrt::runtime::machines::Real;
+
+/// A floor that a camera looks down at, what hangs above it, and a material of the floor.
+fn room(material: &str, lamps: &str, more: &str, sampling: &str) -> ValidScene {
+    let text = format!(
+        "name: room
+camera: {{ perspective: {{ eye: [0, 1.6, 2.4], target: [0, 0.2, 0], vfov: 50 }} }}
+film: {{ width: 4, height: 4 }}
+materials:
+  floor: {material}
+  white: {{ lambertian: {{ albedo: [0.7, 0.6, 0.5] }} }}
+  lamp: {{ emitter: {{ radiance: [6, 5, 4] }} }}
+  pale: {{ emitter: {{ radiance: [1, 2, 3], albedo: [0.5, 0.6, 0.7] }} }}
+geometry:
+  - quad: {{ vertices: [[-2, 0, -2], [-2, 0, 2], [2, 0, 2], [2, 0, -2]], material: floor }}
+  - quad: {{ vertices: [[-2, 0, -2], [2, 0, -2], [2, 2, -2], [-2, 2, -2]], material: white }}
+{lamps}{more}
+sampling: {sampling}
+"
+    );
+    written(&text, &[])
+}
+
+const QUAD: &str = "  - quad: { vertices: [[-0.5, 1.5, -0.5], [0.5, 1.5, -0.5], [0.5, 1.5, 0.3], [-0.5, 1.5, 0.3]], material: lamp }\n";
+const TRIANGLE: &str = "  - triangle: { vertices: [[-0.5, 1.4, -0.5], [0.7, 1.5, -0.5], [0.2, 1.6, 0.5]], material: lamp }\n";
+const KITE: &str = "  - quad: { vertices: [[-0.6, 1.5, 0], [0, 1.5, -0.8], [0.4, 1.5, 0], [0, 1.5, 0.3]], material: lamp }\n";
+const TWISTED: &str = "  - quad: { vertices: [[-0.5, 1.3, -0.5], [0.5, 1.5, -0.5], [0.5, 1.3, 0.3], [-0.5, 1.6, 0.3]], material: lamp }\n";
+/// Two lamps, the second of which reflects, and stands on the floor.
+const TWO: &str =
+    "  - triangle: { vertices: [[0.6, 1.4, -0.5], [1, 1.5, -0.5], [0.8, 1.6, 0]], material: lamp }
+  - quad: { vertices: [[-1, 0, 0.2], [-1, 0, -1], [-1, 1, -1], [-1, 1, 0.2]], material: pale }\n";
+/// A card in the lamp's own plane, listed before it, that hides a part of it.
+const COVERED: &str = "  - quad: { vertices: [[-0.5, 1.5, -0.5], [0, 1.5, -0.5], [0, 1.5, 0.3], [-0.5, 1.5, 0.3]], material: white }
+  - quad: { vertices: [[-0.5, 1.5, -0.5], [0.5, 1.5, -0.5], [0.5, 1.5, 0.3], [-0.5, 1.5, 0.3]], material: lamp }\n";
+const BLOCK: &str = "  - quad: { vertices: [[-0.3, 0.7, -0.3], [-0.3, 0.7, 0.3], [0.3, 0.7, 0.3], [0.3, 0.7, -0.3]], material: white }\n";
+
+const MATTE: &str = "{ lambertian: { albedo: [0.8, 0.7, 0.6] } }";
+
+fn sampling(bits: u32, lights: &str, map: &str) -> String {
+    let depth = format!("{{ bits: [12, 12], light: [10, 10], map: {map} }}");
+    format!(
+        "{{ path_bits: {bits}, lights: {lights}, depths: [{{ bits: [12, 12] }}, {depth}, {depth}] }}"
+    )
+}
+
+/// The picture's mean under several seeds, and its standard error.
+fn measured(scene: &ValidScene) -> [f64; 2] {
+    const SEEDS: u64 = 6;
+    let means: Vec<f64> = (1..=SEEDS).map(|seed| mean(&traced(scene, seed))).collect();
+    let middle = means.iter().sum::<f64>() / SEEDS as f64;
+    let spread: f64 = means.iter().map(|m| (m - middle).powi(2)).sum();
+    [middle, (spread / (SEEDS * (SEEDS - 1)) as f64).sqrt()]
+}
+
+/// All ways find as much light, up to what their spread and the cells of coordinates explain.
+fn agree(name: &str, material: &str, lamps: &str, map: &str, ways: &[&str]) {
+    let of = |bits, way| measured(&room(material, lamps, BLOCK, &sampling(bits, way, map)));
+    let [truth, error] = of(15, "none");
+    assert!(truth > 0.0, "{name}");
+    for way in ways {
+        let [found, own] = of(10, way);
+        let off = (found - truth).abs();
+        assert!(
+            off <= 5.0 * error.hypot(own) + 1e-3 * truth,
+            "{name}, {way}: {found} +- {own}, {truth} +- {error} without"
+        );
+    }
+}
+
+#[test]
+fn lamps_of_all_shapes_give_the_light_that_is_found_by_chance() {
+    let ways = ["auto", "mis", "next-event"];
+    agree("quad", MATTE, QUAD, "auto", &ways);
+    agree("triangle", MATTE, TRIANGLE, "auto", &ways);
+    agree("kite", MATTE, KITE, "auto", &ways);
+    agree("twisted", MATTE, TWISTED, "auto", &ways);
+    agree("covered", MATTE, COVERED, "auto", &ways);
+    // One that stands on the floor has no bound of next-event estimation.
+    agree("two", MATTE, TWO, "auto", &["auto", "mis"]);
+}
+
+#[test]
+fn every_material_reflects_as_much_of_a_lamp() {
+    let ways = ["auto", "mis", "next-event"];
+    let ggx = "{ ggx: { alpha: 0.25, reflectance: [0.9, 0.8, 0.7] } }";
+    let phong = "{ phong: { diffuse: [0.3, 0.4, 0.2], specular: [0.5, 0.4, 0.3], exponent: 12 } }";
+    let cloth = r#"{ bsdf: { map: ["sqrt(u)*cos(2*pi*v)", "sqrt(u)*sin(2*pi*v)", "sqrt(1-u)"],
+        value: "0.6/pi*(1+0.3*cos_i)*(0.5+0.5*cos_o)", pdf: "cos_i/pi" } }"#;
+    let mute = r#"{ bsdf: { map: ["sqrt(u)*cos(2*pi*v)", "sqrt(u)*sin(2*pi*v)", "sqrt(1-u)"],
+        value: "0.6/pi*(1+0.3*cos_i)*(0.5+0.5*cos_o)" } }"#;
+    let mirror = "{ mirror: { reflectance: [0.9, 0.8, 0.7] } }";
+    for map in ["auto", "uniform-hemisphere"] {
+        agree(&format!("matte, {map}"), MATTE, TWO, map, &["auto", "mis"]);
+        agree(&format!("ggx, {map}"), ggx, QUAD, map, &ways);
+        agree(&format!("phong, {map}"), phong, QUAD, map, &ways);
+        agree(&format!("cloth, {map}"), cloth, QUAD, map, &ways);
+    }
+    agree("without a density", mute, QUAD, "auto", &ways);
+    agree("mirror", mirror, QUAD, "auto", &ways);
+}
+
+/// Pixels of the box that see no lamp: RMSE over the mean against many more paths.
+#[test]
+fn the_box_needs_few_paths() {
+    let lit = |bits: u32, seed: u64| -> Vec<[f64; 3]> {
+        let depth = "{ bits: [10, 10], light: [8, 8] }";
+        let depths = format!("sampling.depths=[{{ bits: [10, 10] }}, {depth}, {depth}]");
+        let bits = format!("sampling.path_bits={bits}");
+        let scene = from_file("scenes-yaml/cornell-box.yaml", &[&depths, &bits]);
+        let classes = PixelClasses::new(&scene);
+        let spread = (0..64 * 64).step_by(29).map(|k| [k % 64, k / 64]);
+        // Away from the lamp's rim too, whose light is none of what is sampled.
+        let away = |&[x, y]: &[u32; 2]| {
+            let near = |x, y| classes.of([x, y]) == PixelClass::MayMeetLamp;
+            let (left, above) = (x.saturating_sub(1), y.saturating_sub(1));
+            !(left..=x + 1).any(|x| (above..=y + 1).any(|y| near(x, y)))
+        };
+        let pixels: Vec<[u32; 2]> = spread.filter(away).collect();
+        assert!(pixels.len() > 100);
+        let real = Real::new(&scene, seed).unwrap();
+        let sums = real.sums(&pixels);
+        let paths = real.paths() as f64;
+        sums.iter()
+            .map(|sum| sum.colour.map(|c| c / paths))
+            .collect()
+    };
+    let truths = [lit(14, 101), lit(14, 102), lit(14, 103)];
+    let truth: Vec<[f64; 3]> = (0..truths[0].len())
+        .map(|k| [0, 1, 2].map(|c| truths.iter().map(|t| t[k][c]).sum::<f64>() / 3.0))
+        .collect();
+    for (bits, promise) in [(6, 0.08), (8, 0.04), (10, 0.013), (12, 0.007)] {
+        let of = |seed| rms_difference(&lit(bits, seed), &truth) / mean(&truth);
+        let error = (of(1).powi(2) + of(2).powi(2)).sqrt() * std::f64::consts::FRAC_1_SQRT_2;
+        assert!(error <= promise, "2^{bits} paths: {error}");
+    }
+}
+
+/// The scale of a pixel that meets no lamp is what a lamp lights, and no path exceeds it.
+#[test]
+fn scales_are_proven_by_class_of_pixel() {
+    let depth = "{ bits: [8, 8], light: [8, 8] }";
+    let depths = format!("sampling.depths=[{{ bits: [8, 8] }}, {depth}, {depth}]");
+    let scene = from_file(
+        "scenes-yaml/cornell-box.yaml",
+        &[&depths, "sampling.path_bits=8"],
+    );
+    let of = |class| Real::of_class(&scene, 0, class).unwrap();
+    let all = of(PixelClass::MayMeetLamp).stage().bound();
+    assert_eq!(all, [17.0, 12.0, 4.0]);
+    let dim = of(PixelClass::MeetsNoLamp).stage().bound();
+    assert!(dim[0] < 2.0 && dim[1] < 1.4 && dim[2] < 0.45, "{dim:?}");
+    let classes = PixelClasses::new(&scene);
+    let pixels: Vec<[u32; 2]> = (0..64 * 64).map(|k| [k % 64, k / 64]).collect();
+    let (lit, unlit): (Vec<_>, Vec<_>) = pixels
+        .into_iter()
+        .partition(|&pixel| classes.of(pixel) == PixelClass::MayMeetLamp);
+    assert!(lit.len() < 60, "{}", lit.len());
+    let greatest = |real: &Real, pixels: &[[u32; 2]]| {
+        let mut most = [0.0; 3];
+        real.trace(pixels, |block| {
+            for (most, colours) in most.iter_mut().zip(block.colours) {
+                *most = colours.iter().copied().fold(*most, f64::max);
+            }
+        });
+        most
+    };
+    let seen = greatest(&of(PixelClass::MeetsNoLamp), &unlit);
+    for c in 0..3 {
+        assert!(
+            seen[c] <= dim[c] && seen[c] > 0.4 * dim[c],
+            "{seen:?} {dim:?}"
+        );
+    }
+    // Those pixels meet none: with all emission their paths carry no more.
+    assert_eq!(seen, greatest(&of(PixelClass::MayMeetLamp), &unlit));
+}
+
+/// A closed block of glass multiplies no light, however many times a path refracts.
+#[test]
+fn closed_glass_does_not_multiply_the_scale() {
+    let scene = |depths: usize| {
+        let depths = vec!["{ bits: [8, 8] }"; depths].join(", ");
+        from_file(
+            "scenes-yaml/cornell-glass.yaml",
+            &[
+                &format!("sampling.depths=[{depths}]"),
+                "sampling.path_bits=8",
+            ],
+        )
+    };
+    let bound = |depths| Real::new(&scene(depths), 0).unwrap().stage().bound()[0];
+    let lamp = bound(1);
+    for depths in [2, 4, 6] {
+        assert!(bound(depths) <= lamp, "{depths}: {} {lamp}", bound(depths));
+        // And no path carries more.
+        let picture = traced(&scene(depths), 1);
+        assert!(mean(&picture) > 0.0);
+    }
+}
+
+#[test]
+fn sampling_what_is_not_there_is_told_and_changes_nothing() {
+    let dark = |light: &str| {
+        room(
+            MATTE,
+            "",
+            "",
+            &format!("{{ path_bits: 6, depths: [{{ bits: [4, 4] }}, {{ bits: [4, 4]{light} }}] }}"),
+        )
+    };
+    let warned = dark(", light: [4, 4]");
+    let codes: Vec<&str> = warned.warnings().iter().map(Problem::code).collect();
+    assert_eq!(codes, ["QRT0511"]);
+    assert_eq!(warned.scene().sampling, dark("").scene().sampling);
+    assert!(dark("").warnings().is_empty());
+}
