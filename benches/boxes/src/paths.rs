@@ -3,7 +3,7 @@
 use qrt::core::expr::Function;
 use qrt::core::sampling::{PathPoints, cell_centre};
 use qrt::core::tracer::trace;
-use qrt::core::tracer::{Arith, Axis, Coordinate, Hit, NO_FACE, NO_PLANE, Nearest, Ray, Sampled};
+use qrt::core::tracer::{Arith, Coordinate, Hit, NO_FACE, NO_PLANE, Nearest, Ray, Sampled};
 use qrt::core::valid::ValidScene;
 use qrt::runtime::machines::{Real, SingleRay};
 use std::cell::RefCell;
@@ -164,10 +164,9 @@ impl Arith for Path<'_> {
         table[row as usize]
     }
     fn coordinate(&mut self, coordinate: Coordinate) -> u32 {
-        let (depth, axis) = (coordinate.depth, usize::from(coordinate.axis == Axis::V));
         let [x, y] = self.pixel;
-        let shift = self.points.shift(1, x, y, coordinate.dimension());
-        self.points.index(depth, axis, self.id, shift)
+        let shift = self.points.shift(1, x, y, coordinate);
+        self.points.index(coordinate, self.id, shift)
     }
     fn centre(&mut self, index: u32, bits: u32) -> f64 {
         cell_centre(index, bits)

@@ -1,0 +1,155 @@
+//! Mitsuba 3, by way of `benches/peers/path_tracing.py`.
+
+use super::curve::{Curve, Point};
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+/// Pictures of the reference data with which its translation of scenes is compared.
+const REFERENCES: [&str; 2] = ["cornell_D3_16", "torusknot8k_D3_16"];
+
+/// What was measured.
+pub(crate) struct Mitsuba {
+    pub(crate) version: String,
+    pub(crate) variant: String,
+    pub(crate) truth: Truth,
+    /// The truth's standard error, as a fraction of its mean.
+    pub(crate) truth_error: f64,
+    /// By sampler.
+    pub(crate) curves: Vec<Curve>,
+}
+
+/// What pictures are compared with.
+pub(crate) struct Truth {
+    /// From the top left, row by row.
+    picture: Vec<[f64; 3]>,
+    /// Which pixels count.
+    judged: Vec<usize>,
+    /// The mean square of its own error.
+    variance: f64,
+}
+
+impl Truth {
+    /// The mean over the pixels that count.
+    pub(crate) fn mean(&self) -> f64 {
+        self.average(|pixel, channel| self.picture[pixel][channel])
+    }
+
+    /// The mean square of a picture's differences, without those that are the truth's.
+    pub(crate) fn squared_error(&self, picture: &[[f64; 3]]) -> f64 {
+        let square = |pixel: usize, channel: usize| {
+            let difference = picture[pixel][channel] - self.picture[pixel][channel];
+            difference * difference
+        };
+        self.average(square) - self.variance
+    }
+
+    fn average(&self, value: impl Fn(usize, usize) -> f64) -> f64 {
+        let pixels = self.judged.iter();
+        let sum: f64 = pixels
+            .flat_map(|&p| (0..3).map(move |c| (p, c)))
+            .map(|(p, c)| value(p, c))
+            .sum();
+        sum / (3 * self.judged.len()) as f64
+    }
+}
+
+/// How far its pictures of reference scenes are from the data, in standard errors.
+pub(crate) fn references() -> Result<Vec<(&'static str, f64)>, String> {
+    let compare = |name| {
+        let path = root().join("tests/references").join(name);
+        let found = run(&["--reference".as_ref(), &path])?;
+        let errors = number(&found, "standard_errors")?;
+        Ok((name, errors))
+    };
+    REFERENCES.into_iter().map(compare).collect()
+}
+
+/// What it takes for a scene of `scenes-yaml`.
+pub(crate) fn measure(name: &str, errors: &[(f64, f64)], seeds: u64) -> Result<Mitsuba, String> {
+    let scene = root().join(format!("scenes-yaml/{name}.yaml"));
+    let cache = target().join("equal_error");
+    let errors: Vec<String> = errors.iter().map(|(error, _)| error.to_string()).collect();
+    let found = run(&[
+        "--cache".as_ref(),
+        &cache,
+        "--errors".as_ref(),
+        errors.join(",").as_ref(),
+        "--seeds".as_ref(),
+        seeds.to_string().as_ref(),
+        &scene,
+    ])?;
+    let text = |key: &str| {
+        let text = found[key].as_str().ok_or(format!("no {key}"))?;
+        Ok::<_, String>(text.to_owned())
+    };
+    let array = |value: &Value| value.as_array().cloned().unwrap_or_default();
+    let numbers =
+        |value: &Value| -> Vec<f64> { array(value).iter().filter_map(Value::as_f64).collect() };
+    let picture = numbers(&found["truth"]).as_chunks().0.to_vec();
+    let judged = array(&found["judged"]);
+    let mut truth = Truth {
+        picture,
+        judged: judged
+            .iter()
+            .filter_map(Value::as_u64)
+            .map(|p| p as usize)
+            .collect(),
+        variance: 0.0,
+    };
+    let truth_error = number(&found, "truth_error")?;
+    truth.variance = (truth_error * truth.mean()).powi(2);
+    let curves = found["curves"].as_object().ok_or("no curves")?;
+    let curves = curves.iter().map(|(name, points)| {
+        let points = array(points);
+        let points = points.iter().map(|point| match numbers(point)[..] {
+            [samples, error, seconds] => Ok(Point {
+                samples: samples as u64,
+                error,
+                seconds,
+            }),
+            _ => Err(format!("a point of {name} is not three numbers")),
+        });
+        Ok::<_, String>(Curve {
+            name: name.clone(),
+            points: points.collect::<Result<_, _>>()?,
+        })
+    });
+    Ok(Mitsuba {
+        version: text("mitsuba")?,
+        variant: text("variant")?,
+        truth,
+        truth_error,
+        curves: curves.collect::<Result<_, _>>()?,
+    })
+}
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+fn target() -> PathBuf {
+    PathBuf::from(env!("CARGO_TARGET_TMPDIR"))
+}
+
+fn number(found: &Value, key: &str) -> Result<f64, String> {
+    found[key].as_f64().ok_or(format!("no {key}"))
+}
+
+/// What the script prints; if it fails, the last that it says.
+fn run(arguments: &[&Path]) -> Result<Value, String> {
+    let output = Command::new("python3")
+        .arg(root().join("benches/peers/path_tracing.py"))
+        .arg("--venv")
+        .arg(target().join("mitsuba"))
+        .args(arguments)
+        .stdin(Stdio::null())
+        .output()
+        .map_err(|error| format!("no python3: {error}"))?;
+    if !output.status.success() {
+        let said = String::from_utf8_lossy(&output.stderr);
+        let last = said.lines().last().unwrap_or("it failed");
+        return Err(last.to_owned());
+    }
+    serde_json::from_slice(&output.stdout).map_err(|error| error.to_string())
+}
