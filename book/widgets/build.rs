@@ -247,11 +247,15 @@ fn picture() -> Result<String, Box<dyn Error>> {
     for depth in &sampling.depths {
         writeln!(
             out,
-            "DepthSampling {{ bits: {:?}, map: Map::{:?} }},",
-            depth.bits, depth.map
+            "DepthSampling {{ bits: {:?}, map: Map::{:?}, light: {:?} }},",
+            depth.bits, depth.map, depth.light
         )?;
     }
-    writeln!(out, "] }}, precision: {precision:?},")?;
+    writeln!(
+        out,
+        "], lights: Lights::{:?} }}, precision: {precision:?},",
+        sampling.lights
+    )?;
     writeln!(
         out,
         "comparator: Comparator {{ bits: {}, at: ComparatorAt::{:?} }},",

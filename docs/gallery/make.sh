@@ -9,17 +9,18 @@ qrt=${1:-target/release/qrt}
 
 for scene in scenes-yaml/*.yaml; do
   name=$(basename "$scene" .yaml)
-  exposure=1 paths=13
+  exposure=1 paths=13 size=160
   case $name in
     furnace) exposure=0 paths=6 ;; # all of its paths are equal
     floor-and-light) exposure=0 ;;
+    lit-box) paths=10 size=256 ;; # as its file says
   esac
   echo "$name"
   "$qrt" render "$scene" -o "docs/gallery/$name.png" --exposure "$exposure" \
-    --set film.width=160 --set film.height=160 --set "sampling.path_bits=$paths" --quiet
+    --set film.width=$size --set film.height=$size --set "sampling.path_bits=$paths" --quiet
 done
 
-# By gates alone: two minutes.
-echo cornell-box-gates
-"$qrt" render scenes-yaml/cornell-box.yaml -o docs/gallery/cornell-box-gates.png --model gates \
-  --estimator exact --quiet
+# By gates alone: half a minute.
+echo lit-box-gates
+"$qrt" render scenes-yaml/lit-box.yaml -o docs/gallery/lit-box-gates.png --model gates \
+  --estimator exact --exposure 1 --set sampling.path_bits=6 --quiet

@@ -25,6 +25,7 @@ pages! {
     sampling = "sampling.md",
     intersection = "intersection.md",
     shading = "shading.md",
+    lights = "lights.md",
     comparator = "comparator.md",
     oracle = "oracle.md",
     grover = "grover.md",

@@ -10,7 +10,7 @@ use std::ops::RangeInclusive;
 pub(crate) const COUNT: u32 = 28;
 
 /// The paper's errata are called so.
-pub(crate) const ERRATA: RangeInclusive<char> = 'a'..='j';
+pub(crate) const ERRATA: RangeInclusive<char> = 'a'..='k';
 
 /// A place in the repository's sources: a file, and what it defines.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -223,7 +223,7 @@ mod tests {
             [
                 "x.md:4: `equation 29`: equations are numbered 1 to 28, as in ```equation 17",
                 "x.md:10: unknown key `tset`: there are what, code, test and erratum",
-                "x.md:11: `z` is no erratum: they are called a to j",
+                "x.md:11: `z` is no erratum: they are called a to k",
                 "x.md:4: `equation 29` does not say `test:`",
             ]
         );

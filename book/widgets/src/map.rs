@@ -96,6 +96,7 @@ fn own(text: &str) -> Result<Box<[Expr; 3]>, String> {
         jacobian: Jacobian::Auto,
         // What reflects nothing is no more wrong than its map.
         value: vec!["0".to_owned()],
+        pdf: None,
     };
     match bsdf::compile(&bsdf) {
         Ok(compiled) => Ok(Box::new(compiled.map)),

@@ -23,8 +23,8 @@ use std::ops::Range;
 mod made {
     use qrt_core::scene::{
         Camera, Circuit, Comparator, ComparatorAt, Counting, DepthSampling, Emitter, Estimator,
-        Film, Geometry, Lambertian, Map, Material, Nearest, Perspective, Precision, Sampling,
-        Scene, Sequence, Uncompute, Window,
+        Film, Geometry, Lambertian, Lights, Map, Material, Nearest, Perspective, Precision,
+        Sampling, Scene, Sequence, Uncompute, Window,
     };
     include!(concat!(env!("OUT_DIR"), "/picture.rs"));
 }

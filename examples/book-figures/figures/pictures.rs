@@ -1,6 +1,7 @@
 //! Pictures, enlarged so that their pixels are seen.
 
-use super::{Body, Figure, cornell};
+use super::{Body, Figure, cornell, root};
+use qrt::core::front;
 use qrt::core::scene::Estimator;
 use qrt::core::valid::ValidScene;
 use qrt::runtime::image::Image;
@@ -69,14 +70,18 @@ fn rendered(scene: &ValidScene, options: &Options<'_>) -> (Image, f64) {
     (rendered.image, queries)
 }
 
-/// The Cornell box as the plain command renders it.
+/// The Cornell box with its lamp sampled, half as large as the plain command renders it.
 pub(super) fn first() -> Figure {
-    let (image, queries) = rendered(&cornell(&[]), &Options::default());
+    let file = root().join("scenes-yaml/lit-box.yaml");
+    let film = ["film={ width: 128, height: 128 }".to_owned()];
+    let loaded = front::load(&file, &film).unwrap_or_else(|report| panic!("{report}"));
+    let (image, queries) = rendered(&loaded.valid, &Options::default());
     let says = format!(
-        "64 x 64 pixels, each shown as 5 x 5; 2^14 paths a pixel, adaptive-bayes, {queries:.0} \
-         queries a channel, exposure 0, as `qrt render scenes-yaml/cornell-box.yaml` renders it."
+        "128 x 128 pixels, each shown as 2 x 2; 2^10 paths a pixel, sine window, {queries:.0} \
+         queries a channel, exposure 1, as `qrt render scenes-yaml/lit-box.yaml --exposure 1` \
+         renders it at twice that size."
     );
-    let body = Body::Picture(enlarged(&image, 5), 0.0);
+    let body = Body::Picture(enlarged(&image, 2), 1.0);
     Figure { body, says }
 }
 

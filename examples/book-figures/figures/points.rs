@@ -2,7 +2,7 @@
 
 use super::Figure;
 use qrt::core::expr::Variables;
-use qrt::core::sampling::{PathPoints, cell_centre, maps};
+use qrt::core::sampling::{Coordinate, PathPoints, cell_centre, maps};
 use qrt::core::scene::{DepthSampling, Map, Sampling, Sequence};
 use qrt::drawing::{Canvas, polyline};
 use qrt::runtime::random::Stream;
@@ -22,15 +22,14 @@ impl Bands {
         let sampling = Sampling {
             sequence: Sequence::ProductLattice,
             path_bits: LATTICE[0] + LATTICE[1],
-            depths: vec![DepthSampling {
-                bits: LATTICE,
-                map: Map::Auto,
-            }],
+            depths: vec![DepthSampling::of_bits(LATTICE)],
+            ..Sampling::default()
         };
         let points = PathPoints::new(&sampling).expect("a lattice");
         let ids = 0..1_u64 << points.path_bits();
         let all = ids.map(|id| {
-            let [row, column] = [0, 1].map(|axis| points.index(0, axis, id, 0));
+            let [row, column] =
+                [Coordinate::u(0), Coordinate::v(0)].map(|c| points.index(c, id, 0));
             let at = Variables {
                 u: cell_centre(row, LATTICE[0]),
                 v: cell_centre(column, LATTICE[1]),
@@ -130,21 +129,19 @@ type Paths = Vec<[f64; 6]>;
 
 /// The paths of a sequence, with so many bits for each ray's u and v.
 fn paths(sequence: Sequence, bits: [[u32; 2]; 3]) -> Paths {
-    let depth = |bits| DepthSampling {
-        bits,
-        map: Map::Auto,
-    };
     let sampling = Sampling {
         sequence,
         path_bits: PATH_BITS,
-        depths: bits.map(depth).to_vec(),
+        depths: bits.map(DepthSampling::of_bits).to_vec(),
+        ..Sampling::default()
     };
     let points = PathPoints::new(&sampling).expect("a sequence");
     let coordinate = |id: u64, dimension: usize| {
-        let (ray, axis) = (dimension / 2, dimension % 2);
-        let shift = points.shift(0, 0, 0, dimension);
-        let index = points.index(ray, axis, id, shift);
-        cell_centre(index, points.bits(ray, axis))
+        let of_ray = [Coordinate::u, Coordinate::v][dimension % 2];
+        let coordinate = of_ray(dimension / 2);
+        let shift = points.shift(0, 0, 0, coordinate);
+        let index = points.index(coordinate, id, shift);
+        cell_centre(index, points.bits(coordinate))
     };
     let ids = 0..1_u64 << PATH_BITS;
     ids.map(|id| [0, 1, 2, 3, 4, 5].map(|d| coordinate(id, d)))

@@ -5,8 +5,13 @@ use crate::book::page::Page;
 /// The longest line of prose.
 const WIDTH: usize = 100;
 
-/// What a link's target stands between; no line can break within one.
-const TARGETS: [(&str, char); 3] = [("](", ')'), (" src=\"", '"'), (" href=\"", '"')];
+/// What the target of a link, or the name of one, stands between; no line can break within it.
+const TARGETS: [(&str, char); 4] = [
+    ("](", ')'),
+    (" src=\"", '"'),
+    (" href=\"", '"'),
+    (" id=\"", '"'),
+];
 
 /// Lines of prose that are too long even without the targets of their links, and how long they are.
 ///

@@ -43,14 +43,14 @@ const GROUPS: [(&str, &str, &str); 14] = [
         "The formulas of a BSDF of your own.",
     ),
     (
-        "QRT041",
+        "QRT041 QRT042",
         "Maps and BSDFs",
         "What the formulas of a BSDF say, once they can be read.",
     ),
     (
         "QRT05",
         "Paths and accuracy",
-        "How many paths there are, and how long they are.",
+        "How many paths there are, how long they are, and how they find lamps.",
     ),
     (
         "QRT06",

@@ -63,7 +63,7 @@ fn collected() -> BTreeMap<String, String> {
 fn split(text: &str) -> Vec<(String, String)> {
     let mut reports: Vec<String> = Vec::new();
     for line in text.lines() {
-        if line.starts_with("error") {
+        if line.starts_with("error") || line.starts_with("warning") {
             reports.push(String::new());
         }
         if let Some(report) = reports.last_mut() {
@@ -123,6 +123,17 @@ fn elsewhere() -> Vec<String> {
         texts.push(tell(&fine, vec![error.problem()]));
     }
 
+    let nothing = "\
+name: cellar
+camera: { perspective: { eye: [0, 0, 1], target: [0, 0, 0], vfov: 45 } }
+film: { width: 1, height: 1 }
+materials: { grey: { lambertian: { albedo: [0.5, 0.5, 0.5] } } }
+geometry: [quad: { vertices: [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], material: grey }]
+sampling: { depths: [{ bits: [8, 8] }, { bits: [8, 8], light: [8, 8] }] }
+";
+    let dark = parse(nothing, "cellar.yaml", &[], "".as_ref()).unwrap();
+    texts.extend(dark.warnings().map(|report| report.render(false)));
+
     let whole =
         |problem: Problem| Report::of_file("a scene made in Rust", problem.what).render(false);
     let mut scene = fine.valid.scene().clone();
@@ -134,6 +145,7 @@ fn elsewhere() -> Vec<String> {
         map: ["u".into(), "v".into(), "1".into()],
         jacobian: Jacobian::Auto,
         value: vec!["0.1".into(), "0.2".into()],
+        pdf: None,
     };
     let problems = bsdf::compile(&grey).unwrap_err();
     texts.extend(problems.into_iter().map(whole));
