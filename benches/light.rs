@@ -49,7 +49,7 @@ fn main() -> ExitCode {
             100.0 * chance
         );
         promises.judge(
-            &format!("2^{bits} paths are off by {} % at most", 100.0 * most),
+            &format!("2^{bits} paths are off by {:.1} % at most", 100.0 * most),
             lit <= most,
         );
     }

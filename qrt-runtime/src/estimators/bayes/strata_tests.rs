@@ -131,9 +131,9 @@ fn intervals_of_strata_hold_the_amplitude() {
     intervals_hold(100, &[15, 255], &[None, Some(2), Some(4)]);
 }
 
-/// Minutes.
+/// Not in `.ci/run` either: `cargo test -p qrt-runtime --lib ten_thousand -- --ignored`.
 #[test]
-#[ignore = "ten thousand runs of every kind take minutes"]
+#[ignore = "ten thousand runs of every kind take more than eight minutes"]
 fn intervals_of_strata_hold_the_amplitude_ten_thousand_times() {
     intervals_hold(10_000, &[255], &[None, Some(4)]);
 }
