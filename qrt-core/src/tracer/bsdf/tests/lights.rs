@@ -57,6 +57,19 @@ fn ways() -> Vec<(Direction, f64, f64)> {
     ways
 }
 
+/// Such a way, to a lamp with this area over probability and pi.
+fn towards((incoming, distance, cos): (Direction, f64, f64), area: f64) -> Towards<Scalar> {
+    let (rise, fall) = (incoming[2] * distance, cos * distance);
+    Towards {
+        to: incoming.map(|c| c * distance),
+        rise,
+        fall,
+        both: rise * fall,
+        square: distance * distance,
+        area,
+    }
+}
+
 /// Of a surface with this value and density of directions: what a point adds is its value times the
 /// share that a ray to it leaves.
 fn shares(name: &str, stage: &Stage<3>, value: impl Fn(Direction, Direction) -> f64) {
@@ -69,15 +82,7 @@ fn shares(name: &str, stage: &Stage<3>, value: impl Fn(Direction, Direction) -> 
         let outgoing = at(theta, phi);
         for (incoming, distance, cos) in ways() {
             let cx = &mut Scalar::default();
-            let (rise, fall) = (incoming[2] * distance, cos * distance);
-            let towards = Towards::<Scalar> {
-                to: incoming.map(|c| c * distance),
-                rise,
-                fall,
-                both: rise * fall,
-                square: distance * distance,
-                area,
-            };
+            let towards = towards((incoming, distance, cos), area);
             let lit = scatter.light(cx, &vertex(outgoing), &towards, lights);
             let density = scatter.density(cx, SURFACE, &outgoing, &incoming).unwrap();
             let departure = lights.departed(cx, SURFACE, density * PI);
@@ -142,15 +147,7 @@ fn next_event_estimation_counts_a_lamp_once() {
     assert!(!lights.rays_count() && !lights.asks_for_densities());
     let cx = &mut Scalar::default();
     let (incoming, distance, cos) = (at(30.0, 70.0), 0.9, 0.8);
-    let (rise, fall) = (incoming[2] * distance, cos * distance);
-    let towards = Towards::<Scalar> {
-        to: incoming.map(|c| c * distance),
-        rise,
-        fall,
-        both: rise * fall,
-        square: distance * distance,
-        area: 0.2,
-    };
+    let towards = towards((incoming, distance, cos), 0.2);
     let lit = scatter.light(cx, &vertex(at(10.0, 0.0)), &towards, lights);
     let expected = 0.2 * incoming[2] * cos / (distance * distance);
     assert!((lit.factor - expected).abs() < 1e-12);
