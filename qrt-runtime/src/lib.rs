@@ -1,6 +1,7 @@
 //! Machines, quantum counting and rendering.
 pub mod checkpoint;
 pub mod counting;
+pub mod disk;
 pub mod draw;
 pub mod estimators;
 pub mod image;

@@ -1,15 +1,29 @@
 //! Writing a result so that its name never shows half of it.
 
-use std::fs::{self, File, OpenOptions};
-use std::io::{self, BufWriter, Write};
+#[cfg(test)]
+mod tests;
+
+use crate::disk::{self, DiskFile, Lock, Place};
+use std::collections::hash_map::RandomState;
+use std::ffi::{OsStr, OsString};
+use std::fs::{self, Metadata};
+use std::hash::{BuildHasher as _, Hasher as _};
+use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
-use std::process;
+
+/// What the names of partial files and checkpoints end in.
+pub const PARTIAL: &str = ".qrt-partial";
+
+/// Random names that are tried before it is given up.
+const ATTEMPTS: u32 = 64;
 
 /// Writes the file at `path`, through `write`, all or nothing: the bytes go to a file beside it
-/// (`NAME.PID.qrt-partial`) that takes its name once everything is on the disk. If anything fails,
-/// what was at `path` is still there, whole, and the partial file is removed; a process killed
-/// meanwhile leaves only the partial file behind. A link is followed. A device or pipe (such as
-/// `/dev/stdout`) cannot be replaced and is written to directly.
+/// (`NAME.16 random hexadecimal digits.qrt-partial`) that takes its name, and the permissions of the
+/// file that it replaces, once everything is on the disk. If anything fails, what was at `path` is
+/// still there, whole, and the partial file is removed; a process killed meanwhile leaves only the
+/// partial file behind, which the next to write the same file removes. A link is followed, to a file
+/// that is not there yet, too. A device or pipe (such as `/dev/stdout`) cannot be replaced and is
+/// written to directly.
 ///
 /// # Errors
 /// What `write` returns, or what the file system says.
@@ -24,110 +38,147 @@ use std::process;
 /// ```
 pub fn replace_file<E: From<io::Error>>(
     path: &Path,
-    write: impl FnOnce(&mut BufWriter<File>) -> Result<(), E>,
+    write: impl FnOnce(&mut BufWriter<DiskFile>) -> Result<(), E>,
 ) -> Result<(), E> {
-    let target = match fs::metadata(path) {
-        Ok(found) if found.is_file() => fs::canonicalize(path)?,
-        Ok(found) if found.is_dir() => {
-            return Err(io::Error::new(io::ErrorKind::IsADirectory, "is a directory").into());
-        }
-        Ok(_) => return write_through(OpenOptions::new().write(true).open(path)?, write).map(drop),
-        Err(_) => path.to_path_buf(),
-    };
-    let partial = Partial(partial_name(&target)?);
-    let file = write_through(File::create(&partial.0)?, write)?;
-    file.sync_all()?;
+    let place = Place::of(path)?;
+    if place.is_device() {
+        return write_through(DiskFile::device(path)?, write).map(drop);
+    }
+    let (mut partial, file) = Partial::beside(&place)?;
+    let file = write_through(file, write)?;
+    file.sync()?;
+    // Its lock is held until it has its name.
+    disk::rename(&partial.path, place.path())?;
+    partial.renamed = true;
     drop(file);
-    fs::rename(&partial.0, &target)?;
+    disk::sync_folder(place.path())?;
     Ok(())
 }
 
+/// Finds out whether a file can be written at `place`, by making a partial file beside it and
+/// removing that.
+///
+/// # Errors
+/// What the file system says.
+pub fn try_writing(place: &Place) -> io::Result<()> {
+    if place.is_device() {
+        return Ok(());
+    }
+    Partial::beside(place).map(drop)
+}
+
 fn write_through<E: From<io::Error>>(
-    file: File,
-    write: impl FnOnce(&mut BufWriter<File>) -> Result<(), E>,
-) -> Result<File, E> {
+    file: DiskFile,
+    write: impl FnOnce(&mut BufWriter<DiskFile>) -> Result<(), E>,
+) -> Result<DiskFile, E> {
     let mut out = BufWriter::new(file);
     write(&mut out)?;
     out.flush()?;
     Ok(out.into_inner().map_err(io::IntoInnerError::into_error)?)
 }
 
-fn partial_name(target: &Path) -> io::Result<PathBuf> {
-    let Some(name) = target.file_name() else {
-        return Err(io::Error::new(io::ErrorKind::InvalidInput, "names no file"));
-    };
-    let mut partial = name.to_owned();
-    partial.push(format!(".{}.qrt-partial", process::id()));
-    Ok(target.with_file_name(partial))
+/// The name of a partial file, which is removed when this is dropped unless it was renamed.
+struct Partial {
+    path: PathBuf,
+    renamed: bool,
 }
 
-/// A partial file, removed when dropped. After the rename nothing has its name.
-struct Partial(PathBuf);
+impl Partial {
+    /// A new file beside the one at `place`, locked until it is closed.
+    fn beside(place: &Place) -> io::Result<(Self, DiskFile)> {
+        if place.is_folder() {
+            return Err(io::Error::new(ErrorKind::IsADirectory, "is a directory"));
+        }
+        let target = place.path();
+        let Some(name) = target.file_name() else {
+            return Err(io::Error::new(ErrorKind::InvalidInput, "names no file"));
+        };
+        remove_abandoned(target, name);
+        for _ in 0..ATTEMPTS {
+            let path = target.with_file_name(partial_name(name));
+            let file = match disk::create_new(&path) {
+                Ok(file) => file,
+                Err(error) if error.kind() == ErrorKind::AlreadyExists => continue,
+                Err(error) => return Err(error),
+            };
+            let renamed = false;
+            let partial = Self { path, renamed };
+            // Before it was locked, another process may have taken it for abandoned.
+            if file.try_lock()? == Lock::Others || !file.has_its_name()? {
+                continue;
+            }
+            if place.is_file() {
+                keep_permissions(&file, &fs::metadata(target)?)?;
+            }
+            return Ok((partial, file));
+        }
+        let message = "no name for a partial file is free";
+        Err(io::Error::new(ErrorKind::AlreadyExists, message))
+    }
+}
 
 impl Drop for Partial {
     fn drop(&mut self) {
-        // There is nobody to tell, and a file that is left over does no harm.
-        let _ = fs::remove_file(&self.0);
+        if !self.renamed {
+            // There is nobody to tell, and the next to write the same file tries again.
+            let _ = disk::remove(&self.path);
+        }
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::scratch::Scratch;
+/// A name that nobody can foresee: `NAME.16 hexadecimal digits.qrt-partial`.
+fn partial_name(name: &OsStr) -> OsString {
+    // Keyed by the system's own random numbers.
+    let random = RandomState::new().build_hasher().finish();
+    let mut partial = name.to_owned();
+    partial.push(format!(".{random:016x}{PARTIAL}"));
+    partial
+}
 
-    #[test]
-    fn a_failed_write_leaves_the_old_file_and_nothing_else() {
-        let folder = Scratch::new();
-        let path = folder.path("result");
-        replace_file(&path, |out| out.write_all(b"old")).unwrap();
-        let failed = replace_file(&path, |out| {
-            out.write_all(&vec![b'x'; 100_000])?;
-            Err(io::Error::other("the pen broke"))
-        });
-        assert_eq!(failed.unwrap_err().to_string(), "the pen broke");
-        assert_eq!(fs::read(&path).unwrap(), b"old");
-        assert_eq!(folder.names(), ["result"]);
-        replace_file(&path, |out| out.write_all(b"new")).unwrap();
-        assert_eq!(fs::read(&path).unwrap(), b"new");
-        assert_eq!(folder.names(), ["result"]);
-    }
+/// Whether `partial` is such a name.
+fn is_partial_name(partial: &OsStr, name: &OsStr) -> bool {
+    let partial = partial.as_encoded_bytes();
+    let digits = partial
+        .strip_prefix(name.as_encoded_bytes())
+        .and_then(|rest| rest.strip_prefix(b"."))
+        .and_then(|rest| rest.strip_suffix(PARTIAL.as_bytes()));
+    let hexadecimal = |digit: &u8| matches!(digit, b'0'..=b'9' | b'a'..=b'f');
+    digits.is_some_and(|digits| digits.len() == 16 && digits.iter().all(hexadecimal))
+}
 
-    #[test]
-    fn the_name_appears_only_when_all_is_written() {
-        let folder = Scratch::new();
-        let path = folder.path("result");
-        replace_file(&path, |out| {
-            out.write_all(b"half")?;
-            out.flush()?;
-            assert!(!path.exists());
-            out.write_all(b" and half")
-        })
-        .unwrap();
-        assert_eq!(fs::read(&path).unwrap(), b"half and half");
+/// Removes the partial files of `target` that processes left which were killed: those that nobody
+/// has locked. What can't be looked at or removed stays.
+fn remove_abandoned(target: &Path, name: &OsStr) {
+    let entries = fs::read_dir(disk::folder(target)).into_iter().flatten();
+    for entry in entries.flatten() {
+        if !is_partial_name(&entry.file_name(), name) {
+            continue;
+        }
+        let path = target.with_file_name(entry.file_name());
+        let Ok(file) = disk::open(&path, false) else {
+            continue;
+        };
+        let ours = matches!(file.try_lock(), Ok(Lock::Ours));
+        // A process that wrote it may have given it its name meanwhile.
+        if ours && file.has_its_name().unwrap_or(false) {
+            let _ = disk::remove(&path);
+        }
     }
+}
 
-    #[test]
-    fn folders_and_missing_folders_are_errors() {
-        let folder = Scratch::new();
-        let nothing = |_: &mut BufWriter<File>| Ok::<(), io::Error>(());
-        assert!(replace_file(&folder.path(""), nothing).is_err());
-        assert!(replace_file(&folder.path("none/result"), nothing).is_err());
-        assert!(replace_file(Path::new(""), nothing).is_err());
-        assert!(replace_file(Path::new(".."), nothing).is_err());
+/// Gives a file the permissions of the one that it will replace.
+#[cfg(unix)]
+fn keep_permissions(file: &DiskFile, replaced: &Metadata) -> io::Result<()> {
+    use std::os::unix::fs::PermissionsExt as _;
+    // Reading, writing and running; whose the file is may change, and so no `setuid`.
+    let mode = replaced.permissions().mode() & 0o777;
+    if file.metadata()?.permissions().mode() & 0o777 == mode {
+        return Ok(());
     }
+    file.set_permissions(fs::Permissions::from_mode(mode))
+}
 
-    #[cfg(unix)]
-    #[test]
-    fn links_are_followed_and_devices_are_written_to() {
-        let folder = Scratch::new();
-        let (real, link) = (folder.path("real"), folder.path("link"));
-        fs::write(&real, "old").unwrap();
-        std::os::unix::fs::symlink(&real, &link).unwrap();
-        replace_file(&link, |out| out.write_all(b"new")).unwrap();
-        assert_eq!(fs::read(&real).unwrap(), b"new");
-        assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
-        replace_file(Path::new("/dev/null"), |out| out.write_all(b"gone")).unwrap();
-        assert!(!fs::metadata("/dev/null").unwrap().is_file());
-    }
+#[cfg(not(unix))]
+fn keep_permissions(_: &DiskFile, _: &Metadata) -> io::Result<()> {
+    Ok(())
 }

@@ -28,8 +28,9 @@ const MODULES: &[(&str, &[&str])] = &[
         &[
             "named",
             "peak_memory",
-            "replace_file",
             "scratch",
+            "disk",
+            "replace_file",
             "random",
             "workers",
             "image",

@@ -1,0 +1,202 @@
+//! Faults for tests: what is done below a watched folder, by any thread, can be made to fail.
+
+use super::Operation;
+use std::collections::BTreeMap;
+use std::fs::{self, File};
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+static WATCHED: Mutex<Vec<Arc<Watch>>> = Mutex::new(Vec::new());
+
+/// A watched folder, until it is dropped.
+pub(crate) struct Watched(Arc<Watch>);
+
+struct Watch {
+    folder: PathBuf,
+    state: Mutex<State>,
+}
+
+struct State {
+    plan: Plan,
+    /// Operations so far.
+    done: Vec<Operation>,
+    disk: Durable,
+}
+
+/// What is to go wrong.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Plan {
+    Nothing,
+    /// The operation of this number, from 0, fails.
+    Fail(usize),
+    /// From this one on all fail, and nothing reaches the disk.
+    Cut(usize),
+}
+
+/// A file: its number on the disk, and how many files had that number before it.
+type Id = (u64, u32);
+
+/// The names of a folder's files, and their contents.
+type Listed = (BTreeMap<PathBuf, Id>, BTreeMap<Id, Vec<u8>>);
+
+/// What a disk has that loses its power: the folder's names as they were synced, and of each file
+/// what was.
+#[derive(Clone, Default)]
+struct Durable {
+    names: BTreeMap<PathBuf, Id>,
+    contents: BTreeMap<Id, Vec<u8>>,
+    /// How often each number was given to a new file.
+    created: BTreeMap<u64, u32>,
+    /// What there was when the power was cut, synced or not.
+    seen: Option<Listed>,
+}
+
+impl Durable {
+    fn id(&self, found: &fs::Metadata) -> Id {
+        let number = number(found);
+        (number, self.created.get(&number).copied().unwrap_or(0))
+    }
+
+    fn listed(&self, folder: &Path) -> Listed {
+        let mut listed = Listed::default();
+        for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+            let id = self.id(&entry.metadata().unwrap());
+            listed.1.insert(id, fs::read(entry.path()).unwrap());
+            listed.0.insert(entry.path(), id);
+        }
+        listed
+    }
+}
+
+fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+#[cfg(unix)]
+fn number(found: &fs::Metadata) -> u64 {
+    std::os::unix::fs::MetadataExt::ino(found)
+}
+
+#[cfg(not(unix))]
+fn number(_: &fs::Metadata) -> u64 {
+    0
+}
+
+impl Watched {
+    /// Watches a folder, whose files are all durable.
+    pub(crate) fn new(folder: &Path, plan: Plan) -> Self {
+        let folder = fs::canonicalize(folder).unwrap();
+        let mut disk = Durable::default();
+        (disk.names, disk.contents) = disk.listed(&folder);
+        let done = Vec::new();
+        let state = Mutex::new(State { plan, done, disk });
+        let watch = Arc::new(Watch { folder, state });
+        locked(&WATCHED).push(Arc::clone(&watch));
+        Self(watch)
+    }
+
+    /// What was done, or was to be done.
+    pub(crate) fn done(&self) -> Vec<Operation> {
+        locked(&self.0.state).done.clone()
+    }
+
+    /// Ends the watch, and leaves in the folder what a power cut leaves: what was synced and nothing
+    /// else; or where `luck` says so for a name or a file's contents, what was not.
+    pub(crate) fn after_the_cut(self, mut luck: impl FnMut() -> bool) {
+        let folder = self.0.folder.clone();
+        let disk = locked(&self.0.state).disk.clone();
+        drop(self);
+        let now = disk.listed(&folder);
+        for path in now.0.keys() {
+            fs::remove_file(path).unwrap();
+        }
+        let (seen, written) = disk.seen.unwrap_or(now);
+        let all = disk.names.keys().chain(seen.keys());
+        for name in all.cloned().collect::<std::collections::BTreeSet<_>>() {
+            let names = if luck() { &seen } else { &disk.names };
+            let Some(file) = names.get(&name) else {
+                continue;
+            };
+            let synced = disk.contents.get(file).cloned().unwrap_or_default();
+            let written = written.get(file).unwrap_or(&synced);
+            // Of what was not synced, a beginning.
+            let bytes = match luck() {
+                true if luck() => &written[..],
+                true => &written[..synced.len().midpoint(written.len()).min(written.len())],
+                false => &synced[..],
+            };
+            fs::write(name, bytes).unwrap();
+        }
+    }
+}
+
+impl Drop for Watched {
+    fn drop(&mut self) {
+        locked(&WATCHED).retain(|watch| !Arc::ptr_eq(watch, &self.0));
+    }
+}
+
+fn watching(path: &Path) -> Option<Arc<Watch>> {
+    let path = fs::canonicalize(super::folder(path)).ok()?;
+    let watched = locked(&WATCHED);
+    let found = watched.iter().find(|watch| path.starts_with(&watch.folder));
+    found.cloned()
+}
+
+/// Counts an operation, which fails if it is to.
+pub(super) fn begin(operation: Operation, path: &Path) -> io::Result<()> {
+    let own = path.join("file");
+    let path = if operation == Operation::SyncFolder {
+        &own
+    } else {
+        path
+    };
+    let Some(watch) = watching(path) else {
+        return Ok(());
+    };
+    let mut state = locked(&watch.state);
+    let number = state.done.len();
+    state.done.push(operation);
+    match state.plan {
+        Plan::Fail(which) if which == number => Err(io::Error::other("a fault of this test")),
+        Plan::Cut(from) if from <= number => {
+            if state.disk.seen.is_none() {
+                state.disk.seen = Some(state.disk.listed(&watch.folder));
+            }
+            Err(io::Error::other("the power is cut"))
+        }
+        _ => {
+            if operation == Operation::SyncFolder {
+                state.disk.names = state.disk.listed(&watch.folder).0;
+            }
+            Ok(())
+        }
+    }
+}
+
+/// Takes down that a file's contents are durable.
+pub(super) fn synced(path: &Path, file: &File) {
+    use std::io::{Read as _, Seek as _, SeekFrom};
+    let Some(watch) = watching(path) else {
+        return;
+    };
+    let mut file = file;
+    let at = file.stream_position().unwrap();
+    let mut bytes = Vec::new();
+    file.rewind().unwrap();
+    file.read_to_end(&mut bytes).unwrap();
+    file.seek(SeekFrom::Start(at)).unwrap();
+    let mut state = locked(&watch.state);
+    let id = state.disk.id(&file.metadata().unwrap());
+    state.disk.contents.insert(id, bytes);
+}
+
+/// Takes down that there is a new file.
+pub(super) fn created(path: &Path, file: &File) {
+    let Some(watch) = watching(path) else {
+        return;
+    };
+    let number = number(&file.metadata().unwrap());
+    *locked(&watch.state).disk.created.entry(number).or_default() += 1;
+}

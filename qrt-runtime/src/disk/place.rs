@@ -1,0 +1,203 @@
+//! Which file a path leads to.
+
+use std::fs::{self, Metadata};
+use std::io::{self, ErrorKind};
+use std::path::{Path, PathBuf};
+
+/// Links that are followed one after another, at most.
+const LINKS: usize = 40;
+
+/// A file's own identity, whatever its names are; none where the system tells of none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Identity(Option<[u64; 2]>);
+
+impl Identity {
+    #[cfg(unix)]
+    pub(super) fn of(found: &Metadata) -> Self {
+        use std::os::unix::fs::MetadataExt;
+        Self(Some([found.dev(), found.ino()]))
+    }
+
+    #[cfg(not(unix))]
+    pub(super) fn of(_: &Metadata) -> Self {
+        Self(None)
+    }
+}
+
+/// Where a path leads, through all links, whether there is a file already or not.
+///
+/// ```
+/// use qrt_runtime::disk::Place;
+/// use std::path::Path;
+/// let [one, other] = [Place::of("new.png".as_ref())?, Place::of("./new.png".as_ref())?];
+/// assert!(one.is_same_as(&other));
+/// # Ok::<(), std::io::Error>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Place {
+    path: PathBuf,
+    kind: Kind,
+}
+
+#[derive(Clone, Debug)]
+enum Kind {
+    /// Nothing is there yet.
+    New,
+    File(Identity),
+    Folder,
+    /// A device or a pipe.
+    Device,
+}
+
+impl Place {
+    /// Where `path` leads.
+    ///
+    /// # Errors
+    /// A path that names no file, or whose folder is not there; and what the file system says.
+    pub fn of(path: &Path) -> io::Result<Self> {
+        let mut path = path.to_path_buf();
+        for _ in 0..LINKS {
+            match fs::metadata(&path) {
+                Ok(found) => return Self::found(path, &found),
+                Err(error) if error.kind() != ErrorKind::NotFound => return Err(error),
+                Err(_) => {}
+            }
+            let Some(name) = path.file_name() else {
+                return Err(io::Error::new(ErrorKind::InvalidInput, "names no file"));
+            };
+            let below = folder(&path);
+            let whole = fs::canonicalize(below).map_err(|error| match error.kind() {
+                ErrorKind::NotFound => {
+                    let message = format!("there is no folder `{}`", below.display());
+                    io::Error::new(ErrorKind::NotFound, message)
+                }
+                _ => error,
+            })?;
+            let Ok(target) = fs::read_link(&path) else {
+                let path = whole.join(name);
+                let kind = Kind::New;
+                return Ok(Self { path, kind });
+            };
+            // A link to what is not there yet.
+            path = whole.join(target);
+        }
+        Err(io::Error::other("too many links, one after another"))
+    }
+
+    fn found(path: PathBuf, found: &Metadata) -> io::Result<Self> {
+        if !found.is_file() && !found.is_dir() {
+            // Not every device has a path without links: `/dev/stdout` may be a pipe.
+            let kind = Kind::Device;
+            return Ok(Self { path, kind });
+        }
+        let kind = if found.is_dir() {
+            Kind::Folder
+        } else {
+            Kind::File(Identity::of(found))
+        };
+        let path = fs::canonicalize(path)?;
+        Ok(Self { path, kind })
+    }
+
+    /// The path without links; a device's is as it was given.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Whether a file is there.
+    pub fn is_file(&self) -> bool {
+        matches!(self.kind, Kind::File(_))
+    }
+
+    /// Whether a folder is there.
+    pub fn is_folder(&self) -> bool {
+        matches!(self.kind, Kind::Folder)
+    }
+
+    /// Whether a device or a pipe is there.
+    pub fn is_device(&self) -> bool {
+        matches!(self.kind, Kind::Device)
+    }
+
+    /// Whether what is written at one is read at the other: they are one file, or will be. Devices
+    /// take what is written to them one after another, and are the same as nothing.
+    pub fn is_same_as(&self, other: &Self) -> bool {
+        match (&self.kind, &other.kind) {
+            (Kind::Device, _) | (_, Kind::Device) => false,
+            (Kind::File(Identity(Some(one))), Kind::File(Identity(Some(another)))) => {
+                one == another
+            }
+            _ => self.path == other.path,
+        }
+    }
+}
+
+/// The folder that a file is in.
+pub(crate) fn folder(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if folder != Path::new("") => folder,
+        _ => Path::new("."),
+    }
+}
+
+#[cfg(test)]
+#[cfg(unix)]
+mod tests {
+    use super::*;
+    use crate::scratch::Scratch;
+    use std::os::unix::fs::symlink;
+
+    fn same(one: &Path, other: &Path) -> bool {
+        let [one, other] = [one, other].map(|path| Place::of(path).unwrap());
+        assert_eq!(one.is_same_as(&other), other.is_same_as(&one));
+        one.is_same_as(&other)
+    }
+
+    #[test]
+    fn a_file_is_the_same_by_all_its_names() {
+        let folder = Scratch::new();
+        let path = |name: &str| folder.path(name);
+        fs::write(path("file"), "").unwrap();
+        fs::write(path("other"), "").unwrap();
+        fs::hard_link(path("file"), path("hard")).unwrap();
+        symlink("file", path("soft")).unwrap();
+        symlink(".", path("here")).unwrap();
+        for name in ["file", "./file", "hard", "soft", "here/file", "here/hard"] {
+            assert!(same(&path("file"), &path(name)), "{name}");
+            assert!(!same(&path("other"), &path(name)), "{name}");
+        }
+        assert!(!same(Path::new("/dev/null"), Path::new("/dev/null")));
+    }
+
+    #[test]
+    fn what_is_not_there_yet_is_known_by_where_it_will_be() {
+        let folder = Scratch::new();
+        let path = |name: &str| folder.path(name);
+        fs::create_dir(path("below")).unwrap();
+        symlink(".", path("here")).unwrap();
+        symlink("new", path("dangling")).unwrap();
+        symlink("../dangling", path("below/twice")).unwrap();
+        for name in [
+            "new",
+            "./new",
+            "below/../new",
+            "here/new",
+            "dangling",
+            "below/twice",
+        ] {
+            assert!(same(&path("new"), &path(name)), "{name}");
+            assert!(!same(&path("below/new"), &path(name)), "{name}");
+        }
+        symlink("loop", path("loop")).unwrap();
+        for name in ["loop", "none/new", "below/none/new"] {
+            assert!(Place::of(&path(name)).is_err(), "{name}");
+        }
+        symlink("none/new", path("lost")).unwrap();
+        let error = Place::of(&path("lost")).unwrap_err().to_string();
+        assert!(error.starts_with("there is no folder `"), "{error}");
+        for name in ["", "..", "/"] {
+            let place = Place::of(Path::new(name));
+            assert!(place.is_err() || place.unwrap().is_folder(), "{name}");
+        }
+    }
+}
