@@ -4,6 +4,10 @@
 //! record for each finished tile, in the order they were finished. Every part ends in a CRC-32. A
 //! write that was torn (the process killed, the disk full) leaves a last record that is short or
 //! fails its sum: it is dropped, and the file is cut back to the tiles that are whole.
+//!
+//! The file is locked from its first byte until the picture is safe and the file is removed, so that
+//! two renders never write one checkpoint, and none removes another's. What is appended reaches the
+//! disk itself within a second or two: that much a power cut may take.
 
 mod error;
 mod format;
@@ -12,11 +16,17 @@ mod tests;
 
 pub use error::{CheckpointError, Difference};
 
+use crate::disk::{self, DiskFile, Lock};
 use format::MAGIC;
 use std::collections::BTreeMap;
-use std::fs::{File, OpenOptions, TryLockError};
-use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::io::{self, ErrorKind, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+/// Tiles that were finished in less may wait together to be made durable.
+pub(crate) const AT_STAKE: Duration = Duration::from_secs(1);
+/// How often the file of a name is opened that changes meanwhile.
+const ATTEMPTS: u32 = 64;
 
 /// Which render a checkpoint belongs to: whatever decides a pixel's value.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -96,23 +106,31 @@ impl Tile {
 /// ```
 #[derive(Debug)]
 pub struct Checkpoint {
-    file: File,
+    file: DiskFile,
     path: PathBuf,
     crop: [u32; 4],
-    /// Where the last whole record ends.
+    /// The header, while the file still holds another render's tiles.
+    waiting: Option<Vec<u8>>,
+    /// Where the header ends, and the last whole record.
+    start: u64,
     end: u64,
+    /// Whether a record that failed may stand behind it.
+    torn: bool,
+    /// When all of it was last made durable.
+    synced: Instant,
 }
 
 impl Checkpoint {
-    /// Starts a checkpoint without tiles, in place of any that was there.
+    /// Starts a checkpoint without tiles. One that is there is replaced when the first tile is
+    /// appended, and not before: work that never begins costs no finished work.
     ///
     /// # Errors
     /// If the file can't be written, another process has it open, or it is not a checkpoint: no
-    /// other file is overwritten.
+    /// other file is overwritten, and no link followed.
     pub fn create(path: &Path, header: &Header) -> Result<Self, CheckpointError> {
         let mut checkpoint = Self::lock(path, header, true)?;
         let mut start = Vec::new();
-        let read = (&checkpoint.file)
+        let read = (&mut checkpoint.file)
             .take(MAGIC.len() as u64)
             .read_to_end(&mut start);
         checkpoint.io(read)?;
@@ -121,7 +139,16 @@ impl Checkpoint {
                 path: path.to_path_buf(),
             });
         }
-        checkpoint.restart(header)?;
+        if start.is_empty() {
+            let begun = checkpoint.restart(&header.encode());
+            if begun.is_err() {
+                // It holds nothing.
+                let _ = checkpoint.remove_own();
+            }
+            begun?;
+        } else {
+            checkpoint.waiting = Some(header.encode());
+        }
         Ok(checkpoint)
     }
 
@@ -139,7 +166,7 @@ impl Checkpoint {
         let expected = header.encode();
         if bytes.len() < expected.len() && expected.starts_with(&bytes) {
             // Killed while it was created.
-            checkpoint.restart(header)?;
+            checkpoint.restart(&expected)?;
             return Ok((checkpoint, Vec::new()));
         }
         let mut rest = bytes.as_slice();
@@ -153,18 +180,19 @@ impl Checkpoint {
         }
         let mut tiles = Vec::new();
         let mut whole = bytes.len() - rest.len();
+        checkpoint.start = whole as u64;
         while let Some(tile) = Tile::decode(&mut rest, header.crop) {
             tiles.push(tile);
             whole = bytes.len() - rest.len();
         }
-        let cut = checkpoint.file.set_len(whole as u64);
+        checkpoint.end = whole as u64;
+        let cut = checkpoint.cut_back();
         checkpoint.io(cut)?;
-        let end = checkpoint.file.seek(SeekFrom::End(0));
-        checkpoint.end = checkpoint.io(end)?;
         Ok((checkpoint, tiles))
     }
 
-    /// Adds a finished tile.
+    /// Adds a finished tile. It is durable within a second, if another follows; [`Self::sync`] makes
+    /// it so at once.
     ///
     /// # Errors
     /// If the tile does not lie in the crop or its vectors don't fill it, or if it can't be
@@ -192,59 +220,156 @@ impl Checkpoint {
                 height,
             });
         }
+        if let Some(header) = self.waiting.clone() {
+            self.restart(&header)?;
+            self.waiting = None;
+        }
         let record = tile.encode();
-        // One write, so that a kill between two of them tears nothing; and when the disk is full,
-        // no torn record stands before those that may follow.
-        let write = self.file.write_all(&record).or_else(|e| {
-            self.file.set_len(self.end)?;
-            self.file.seek(SeekFrom::Start(self.end))?;
-            Err(e)
-        });
-        self.io(write)?;
-        self.end += record.len() as u64;
+        let written = self.write_record(&record);
+        self.io(written)?;
+        if self.synced.elapsed() >= AT_STAKE {
+            self.sync()?;
+        }
+        Ok(())
+    }
+
+    /// Makes durable what was appended.
+    ///
+    /// # Errors
+    /// What the file system says.
+    pub fn sync(&mut self) -> Result<(), CheckpointError> {
+        let synced = self.file.sync();
+        self.io(synced)?;
+        self.synced = Instant::now();
+        Ok(())
+    }
+
+    /// Closes the checkpoint of a render that ends without a picture, and returns whether it has
+    /// tiles to go on from. Then they are durable; without any, its file is removed, unless it is
+    /// another render's that was not replaced yet.
+    ///
+    /// # Errors
+    /// What the file system says; [`CheckpointError::Lost`] if the file with the tiles was removed or
+    /// replaced.
+    pub fn close(mut self) -> Result<bool, CheckpointError> {
+        if self.waiting.is_some() {
+            return Ok(false);
+        }
+        if self.end == self.start {
+            let removed = self.remove_own();
+            self.io(removed)?;
+            return Ok(false);
+        }
+        self.sync()?;
+        let there = self.file.has_its_name();
+        if self.io(there)? {
+            Ok(true)
+        } else {
+            Err(CheckpointError::Lost { path: self.path })
+        }
+    }
+
+    /// Removes the checkpoint, whose tiles are safe elsewhere. A file that has got its name meanwhile
+    /// stays.
+    ///
+    /// # Errors
+    /// What the file system says.
+    pub fn remove(self) -> Result<(), CheckpointError> {
+        let removed = self.remove_own();
+        self.io(removed)
+    }
+
+    fn remove_own(&self) -> io::Result<()> {
+        // It is locked: nobody else who keeps to locks can put another in its place.
+        if self.file.has_its_name()? {
+            disk::remove(&self.path)?;
+        }
         Ok(())
     }
 
     fn lock(path: &Path, header: &Header, create: bool) -> Result<Self, CheckpointError> {
-        let options = OpenOptions::new()
-            .read(true)
-            .write(true)
-            .create(create)
-            .truncate(false)
-            .open(path);
-        let io = |source| CheckpointError::Io {
+        let io = |source: io::Error| CheckpointError::Io {
             path: path.to_path_buf(),
             source,
         };
-        let file = options.map_err(io)?;
-        match file.try_lock() {
-            Ok(()) => {}
-            Err(TryLockError::WouldBlock) => {
-                return Err(CheckpointError::InUse {
+        for _ in 0..ATTEMPTS {
+            let file = match disk::open(path, true) {
+                Err(error) if create && error.kind() == ErrorKind::NotFound => {
+                    disk::create_new(path)
+                }
+                opened => opened,
+            };
+            let file = match file {
+                Ok(file) => file,
+                // It was made or removed meanwhile.
+                Err(error) if create && error.kind() == ErrorKind::NotFound && in_folder(path) => {
+                    continue;
+                }
+                Err(error) if error.kind() == ErrorKind::AlreadyExists => continue,
+                Err(error) if error.kind() == ErrorKind::InvalidInput => {
+                    return Err(CheckpointError::Irregular {
+                        path: path.to_path_buf(),
+                    });
+                }
+                Err(error) => return Err(io(error)),
+            };
+            if file.try_lock().map_err(io)? == Lock::Others {
+                break;
+            }
+            // It may have been finished with, and removed, before it was locked.
+            if file.has_its_name().map_err(io)? {
+                return Ok(Self {
+                    file,
                     path: path.to_path_buf(),
+                    crop: header.crop,
+                    waiting: None,
+                    start: 0,
+                    end: 0,
+                    torn: false,
+                    synced: Instant::now(),
                 });
             }
-            // Some network file systems have no locks.
-            Err(TryLockError::Error(e)) if e.kind() == io::ErrorKind::Unsupported => {}
-            Err(TryLockError::Error(e)) => return Err(io(e)),
         }
-        Ok(Self {
-            file,
+        Err(CheckpointError::InUse {
             path: path.to_path_buf(),
-            crop: header.crop,
-            end: 0,
         })
     }
 
-    fn restart(&mut self, header: &Header) -> Result<(), CheckpointError> {
-        let bytes = header.encode();
-        let done = self
-            .file
-            .set_len(0)
+    /// Makes it a checkpoint of nothing but a header.
+    fn restart(&mut self, header: &[u8]) -> Result<(), CheckpointError> {
+        let done = (self.file.set_len(0))
             .and_then(|()| self.file.rewind())
-            .and_then(|()| self.file.write_all(&bytes));
-        self.end = bytes.len() as u64;
+            .and_then(|()| self.file.write_all(header))
+            .and_then(|()| self.file.sync())
+            .and_then(|()| disk::sync_folder(&self.path));
+        self.start = header.len() as u64;
+        self.end = self.start;
+        self.synced = Instant::now();
         self.io(done)
+    }
+
+    /// One write, so that a kill between two of them tears nothing.
+    fn write_record(&mut self, record: &[u8]) -> io::Result<()> {
+        if self.torn {
+            self.cut_back()?;
+        }
+        self.torn = true;
+        if let Err(error) = self.file.write_all(record) {
+            // When the disk is full, no torn record stands before those that may follow.
+            let _ = self.cut_back();
+            return Err(error);
+        }
+        self.torn = false;
+        self.end += record.len() as u64;
+        Ok(())
+    }
+
+    /// Cuts off what follows the last whole record.
+    fn cut_back(&mut self) -> io::Result<()> {
+        self.file.set_len(self.end)?;
+        self.file.seek(SeekFrom::Start(self.end))?;
+        self.torn = false;
+        Ok(())
     }
 
     fn io<T>(&self, result: io::Result<T>) -> Result<T, CheckpointError> {
@@ -253,4 +378,9 @@ impl Checkpoint {
             source,
         })
     }
+}
+
+/// Whether the folder of `path` is there.
+fn in_folder(path: &Path) -> bool {
+    disk::folder(path).is_dir()
 }

@@ -19,3 +19,7 @@ pub mod search;
 pub mod trade;
 pub mod verify;
 pub mod workers;
+
+/// Names this build: a hash of the sources that decide a picture's bits. Within a version, what one
+/// build has left is not gone on with by another.
+pub(crate) const BUILD: &str = env!("QRT_BUILD");

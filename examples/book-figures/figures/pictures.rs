@@ -30,6 +30,7 @@ fn enlarged(image: &Image, times: u32) -> Image {
         width,
         height,
         pixels: (0..width * height).map(pixel).collect(),
+        window: None,
     }
 }
 
@@ -50,6 +51,7 @@ fn strip(images: &[Image]) -> Image {
         width,
         height: side,
         pixels: (0..width * side).map(pixel).collect(),
+        window: None,
     }
 }
 
@@ -95,6 +97,7 @@ fn mean_of(real: &Real) -> Image {
         width: SIDE,
         height: SIDE,
         pixels: sums.into_iter().map(pixel).collect(),
+        window: None,
     }
 }
 

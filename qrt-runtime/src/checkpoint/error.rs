@@ -26,6 +26,19 @@ pub enum CheckpointError {
     /// Another process is writing to it.
     #[error("`{}` is being written by another render", .path.display())]
     InUse { path: PathBuf },
+    /// It is a link, a folder or a device.
+    #[error(
+        "`{}` is a link or no regular file, which a checkpoint never is: remove it, or name another \
+         picture",
+        .path.display()
+    )]
+    Irregular { path: PathBuf },
+    /// The file is gone in which the finished tiles were.
+    #[error(
+        "`{}` was removed or replaced while it was written: the tiles that it had are lost",
+        .path.display()
+    )]
+    Lost { path: PathBuf },
     /// The file is no checkpoint.
     #[error("`{}` is not a checkpoint of qrt", .path.display())]
     Foreign { path: PathBuf },

@@ -1,4 +1,8 @@
+mod faults;
+
 use super::*;
+use crate::disk::Operation;
+use crate::disk::faults::{Plan, Watched};
 use crate::scratch::Scratch;
 use proptest::prelude::*;
 use std::fs;
@@ -179,12 +183,154 @@ fn what_is_no_checkpoint_of_ours_is_left_alone() {
 }
 
 #[test]
-fn creating_forgets_what_was_there() {
+fn creating_forgets_what_was_there_once_there_is_a_tile() {
     let folder = Scratch::new();
     let path = folder.path("c");
-    written(&path);
+    let before = written(&path);
+    let other = Header {
+        seed: 8,
+        ..header()
+    };
+    // A render that is refused after all.
+    assert!(!Checkpoint::create(&path, &other).unwrap().close().unwrap());
+    drop(Checkpoint::create(&path, &other).unwrap());
+    assert_eq!(fs::read(&path).unwrap(), before);
+    let mut checkpoint = Checkpoint::create(&path, &other).unwrap();
+    checkpoint.append(&tile(6, 1, 1, 1)).unwrap();
+    assert!(checkpoint.close().unwrap());
+    assert_eq!(
+        Checkpoint::open(&path, &other).unwrap().1,
+        [tile(6, 1, 1, 1)]
+    );
+}
+
+#[test]
+fn a_render_without_a_tile_leaves_no_checkpoint() {
+    let folder = Scratch::new();
+    let path = folder.path("c");
+    assert!(
+        !Checkpoint::create(&path, &header())
+            .unwrap()
+            .close()
+            .unwrap()
+    );
+    assert!(folder.names().is_empty());
     drop(Checkpoint::create(&path, &header()).unwrap());
-    assert_eq!(Checkpoint::open(&path, &header()).unwrap().1, []);
+    let (opened, _) = Checkpoint::open(&path, &header()).unwrap();
+    assert!(!opened.close().unwrap());
+    assert!(folder.names().is_empty());
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_is_never_followed() {
+    let folder = Scratch::new();
+    let path = folder.path("c");
+    for target in ["thesis", "missing", "tiles", "."] {
+        std::os::unix::fs::symlink(target, &path).unwrap();
+        fs::write(folder.path("thesis"), "").unwrap();
+        let bytes = written(&folder.path("tiles"));
+        for result in [
+            Checkpoint::create(&path, &header()).err(),
+            Checkpoint::open(&path, &header()).err(),
+        ] {
+            assert!(matches!(result, Some(CheckpointError::Irregular { .. })));
+        }
+        fs::remove_file(&path).unwrap();
+        assert_eq!(fs::read(folder.path("thesis")).unwrap(), b"");
+        assert_eq!(fs::read(folder.path("tiles")).unwrap(), bytes);
+        assert_eq!(folder.names(), ["thesis", "tiles"]);
+    }
+    let device = Checkpoint::create(Path::new("/dev/null"), &header());
+    assert!(matches!(
+        device.err(),
+        Some(CheckpointError::Irregular { .. })
+    ));
+}
+
+#[cfg(unix)]
+#[test]
+fn what_another_has_put_in_its_place_is_not_removed() {
+    let folder = Scratch::new();
+    let path = folder.path("c");
+    let mut first = Checkpoint::create(&path, &header()).unwrap();
+    first.append(&tile(6, 1, 1, 1)).unwrap();
+    fs::remove_file(&path).unwrap();
+    let second = written(&path);
+    assert!(matches!(first.close(), Err(CheckpointError::Lost { .. })));
+    let (first, _) = Checkpoint::open(&path, &header()).unwrap();
+    fs::remove_file(&path).unwrap();
+    written(&path);
+    first.remove().unwrap();
+    assert_eq!(fs::read(&path).unwrap(), second);
+}
+
+#[test]
+fn of_many_renders_at_a_time_one_has_the_checkpoint() {
+    use std::sync::atomic::{AtomicU32, Ordering};
+    let folder = Scratch::new();
+    let path = folder.path("c");
+    let (holders, finished) = (AtomicU32::new(0), AtomicU32::new(0));
+    let render = |number: u32| {
+        let opened = if number.is_multiple_of(2) {
+            Checkpoint::create(&path, &header())
+        } else {
+            Checkpoint::open(&path, &header()).map(|(checkpoint, _)| checkpoint)
+        };
+        let mut checkpoint = match opened {
+            Ok(checkpoint) => checkpoint,
+            Err(CheckpointError::InUse { .. }) => return,
+            Err(CheckpointError::Io { source, .. }) if source.kind() == ErrorKind::NotFound => {
+                assert!(!number.is_multiple_of(2), "a folder is there");
+                return;
+            }
+            Err(error) => panic!("{error}"),
+        };
+        assert_eq!(holders.fetch_add(1, Ordering::SeqCst), 0);
+        checkpoint.append(&tile(6, 1, 1, 1)).unwrap();
+        let bytes = fs::read(&path).unwrap();
+        assert!(bytes.ends_with(&tile(6, 1, 1, 1).encode()));
+        finished.fetch_add(1, Ordering::SeqCst);
+        holders.fetch_sub(1, Ordering::SeqCst);
+        if number.is_multiple_of(3) {
+            assert!(checkpoint.close().unwrap());
+        } else {
+            checkpoint.remove().unwrap();
+        }
+    };
+    std::thread::scope(|scope| {
+        for _ in 0..4 {
+            scope.spawn(|| {
+                let mut number = 0;
+                while finished.load(Ordering::SeqCst) < 100 {
+                    render(number);
+                    number += 1;
+                }
+            });
+        }
+    });
+}
+
+#[test]
+fn what_is_appended_is_durable_a_second_later() {
+    let folder = Scratch::new();
+    let path = folder.path("c");
+    let watched = Watched::new(&folder.path(""), Plan::Nothing);
+    let mut checkpoint = Checkpoint::create(&path, &header()).unwrap();
+    // The file itself, and its name.
+    let begun = [Operation::Sync, Operation::SyncFolder];
+    assert!(watched.done().ends_with(&begun));
+    checkpoint.append(&tiles()[0]).unwrap();
+    assert_eq!(watched.done().last(), Some(&Operation::Write));
+    std::thread::sleep(AT_STAKE);
+    checkpoint.append(&tiles()[1]).unwrap();
+    assert_eq!(watched.done().last(), Some(&Operation::Sync));
+    checkpoint.append(&tiles()[2]).unwrap();
+    assert_eq!(watched.done().last(), Some(&Operation::Write));
+    drop(checkpoint);
+    watched.after_the_cut(|| false);
+    let (_, finished) = Checkpoint::open(&path, &header()).unwrap();
+    assert_eq!(finished, tiles()[..2]);
 }
 
 #[test]

@@ -5,8 +5,8 @@
 //! read it with, writes attributes in a hash map's order). Layout after "OpenEXR File Layout",
 //! <https://openexr.com/en/latest/OpenEXRFileLayout.html>; all numbers are little-endian.
 
-use super::Image;
 use super::metadata::{Metadata, PREFIX};
+use super::{Image, Window};
 use std::io::{self, Write};
 
 const MAGIC: u32 = 20_000_630;
@@ -29,8 +29,9 @@ pub(super) fn write(out: &mut impl Write, image: &Image, metadata: &Metadata) ->
     for y in 0..u64::from(image.height) {
         out.write_all(&(first + y * line_bytes).to_le_bytes())?;
     }
-    for (y, row) in image.pixels.chunks_exact(image.width as usize).enumerate() {
-        out.write_all(&(y as u32).to_le_bytes())?;
+    let top = image.window().origin[1];
+    for (y, row) in (top..).zip(image.pixels.chunks_exact(image.width as usize)) {
+        out.write_all(&y.to_le_bytes())?;
         out.write_all(&(12 * image.width).to_le_bytes())?;
         for (_, channel) in CHANNELS {
             for pixel in row {
@@ -51,10 +52,13 @@ fn header(image: &Image, metadata: &Metadata) -> Vec<u8> {
         channels.extend(1i32.to_le_bytes()); // and down
     }
     channels.push(0);
-    let window: Vec<u8> = [0, 0, image.width - 1, image.height - 1]
-        .iter()
-        .flat_map(|v| v.to_le_bytes())
-        .collect();
+    // First and last column and row, both of them inside.
+    let Window { origin, film } = image.window();
+    let window = |[x, y]: [u32; 2], [width, height]: [u32; 2]| -> Vec<u8> {
+        let corners = [x, y, x + width - 1, y + height - 1];
+        corners.iter().flat_map(|v| v.to_le_bytes()).collect()
+    };
+    let data = window(origin, [image.width, image.height]);
     let chromaticities: Vec<u8> = CHROMATICITIES
         .iter()
         .flat_map(|v| v.to_le_bytes())
@@ -74,8 +78,8 @@ fn header(image: &Image, metadata: &Metadata) -> Vec<u8> {
     attribute("channels", "chlist", &channels);
     attribute("chromaticities", "chromaticities", &chromaticities);
     attribute("compression", "compression", &[0]);
-    attribute("dataWindow", "box2i", &window);
-    attribute("displayWindow", "box2i", &window);
+    attribute("dataWindow", "box2i", &data);
+    attribute("displayWindow", "box2i", &window([0, 0], film));
     attribute("lineOrder", "lineOrder", &[0]);
     attribute("pixelAspectRatio", "float", &1f32.to_le_bytes());
     attribute("screenWindowCenter", "v2f", &[0; 8]);

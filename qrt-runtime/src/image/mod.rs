@@ -27,6 +27,18 @@ pub struct Image {
     pub width: u32,
     pub height: u32,
     pub pixels: Vec<[f64; 3]>,
+    /// Where it lies in a larger picture, if it is cut out of one. EXR keeps it (as `dataWindow` within
+    /// `displayWindow`), PNG does not.
+    pub window: Option<Window>,
+}
+
+/// The place of a picture in a larger one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Window {
+    /// Column and row of its top left pixel.
+    pub origin: [u32; 2],
+    /// Width and height of the larger picture.
+    pub film: [u32; 2],
 }
 
 /// How a picture becomes a file.
@@ -83,7 +95,7 @@ impl Encoding {
 /// ```
 /// use qrt_runtime::image::{Encoding, Image, Metadata, save};
 /// let path = std::env::temp_dir().join(format!("qrt-doc-{}.png", std::process::id()));
-/// let image = Image { width: 2, height: 1, pixels: vec![[0.0, 0.5, 1.0], [0.2, 0.2, 17.0]] };
+/// let image = Image { width: 2, height: 1, pixels: vec![[0.0, 0.5, 1.0], [0.2, 0.2, 17.0]], window: None };
 /// let clipped = save(&path, &image, &Metadata::new(), Encoding::of(&path, None)?)?;
 /// assert_eq!(clipped, 1);
 /// # std::fs::remove_file(path).ok();
@@ -117,18 +129,35 @@ pub fn save(
 }
 
 impl Image {
+    /// Where it lies: by itself, where it is all.
+    fn window(&self) -> Window {
+        self.window.unwrap_or(Window {
+            origin: [0, 0],
+            film: [self.width, self.height],
+        })
+    }
+
     fn check(&self, encoding: Encoding) -> Result<(), ImageError> {
         let &Self {
             width,
             height,
             ref pixels,
+            ..
         } = self;
+        let Window { origin, film } = self.window();
         // What PNG and EXR can say of a size.
         let largest = (1 << 31) - 1;
-        let shape = (1..=largest).contains(&width)
-            && (1..=largest).contains(&height)
-            && u64::from(width) * u64::from(height) == pixels.len() as u64
-            && width.checked_mul(12).is_some();
+        let shape =
+            (1..=largest).contains(&width)
+                && (1..=largest).contains(&height)
+                && u64::from(width) * u64::from(height) == pixels.len() as u64
+                && width.checked_mul(12).is_some()
+                && film.into_iter().all(|side| side <= largest)
+                && [width, height].into_iter().zip(origin).zip(film).all(
+                    |((size, first), whole)| {
+                        first.checked_add(size).is_some_and(|end| end <= whole)
+                    },
+                );
         if !shape {
             return Err(ImageError::Shape {
                 width,
@@ -184,7 +213,7 @@ pub enum ImageError {
         "an EXR picture keeps linear radiance and has no exposure: leave it out, or write a `.png`"
     )]
     ExposureOfExr,
-    /// A side of 0 or too long, or pixels that don't fill it.
+    /// A side of 0 or too long, pixels that don't fill it, or a window that it does not fit in.
     #[error("a picture of {width} x {height} cannot be made of {pixels} pixels")]
     Shape {
         width: u32,

@@ -35,6 +35,7 @@ fn gradient(width: u32, height: u32) -> Image {
         width,
         height,
         pixels,
+        window: None,
     }
 }
 
@@ -62,6 +63,7 @@ fn a_png_shows_rows_from_the_top_in_srgb() {
         width: 2,
         height: 2,
         pixels,
+        window: None,
     };
     assert_eq!(save(&path, &image, &metadata(), PNG).unwrap(), 0);
     let (info, levels, srgb) = decode_png(&path);
@@ -93,6 +95,7 @@ fn exposure_counts_in_stops_and_clipped_pixels_are_counted() {
         width: 4,
         height: 1,
         pixels,
+        window: None,
     };
     let save = |exposure| {
         let clipped = save(&path, &image, &metadata(), Encoding::Png { exposure }).unwrap();
@@ -117,6 +120,7 @@ fn decode_exr(path: &Path) -> (Image, Vec<(String, Vec<u8>)>) {
             width: size.x() as u32,
             height: size.y() as u32,
             pixels: vec![[0.0; 3]; size.area()],
+            window: None,
         },
         |image, at, (r, g, b, _): (f32, f32, f32, f32)| {
             image.pixels[at.y() * image.width as usize + at.x()] = [r, g, b].map(f64::from);
@@ -156,6 +160,46 @@ fn an_exr_keeps_radiance_and_another_reader_finds_all_of_it() {
         .collect();
     expected.sort();
     assert_eq!(attributes, expected);
+}
+
+#[test]
+fn an_exr_says_where_it_was_cut_out() {
+    let folder = Scratch::new();
+    let path = folder.path("p.exr");
+    let window = |origin, film| Some(Window { origin, film });
+    for (window, position, display) in [
+        (None, (0, 0), (5, 3)),
+        (window([2, 7], [13, 11]), (2, 7), (13, 11)),
+        (window([8, 8], [13, 11]), (8, 8), (13, 11)),
+    ] {
+        let image = Image {
+            window,
+            ..gradient(5, 3)
+        };
+        save(&path, &image, &metadata(), Encoding::Exr).unwrap();
+        assert_eq!(decode_exr(&path).0.pixels.len(), 15);
+        let read = openexr::read_all_flat_layers_from_file(&path).unwrap();
+        let layer = &read.layer_data[0];
+        assert_eq!((layer.size.x(), layer.size.y()), (5, 3));
+        let at = layer.attributes.layer_position;
+        assert_eq!((at.x(), at.y()), position);
+        let shown = read.attributes.display_window;
+        assert_eq!((shown.position.x(), shown.position.y()), (0, 0));
+        assert_eq!((shown.size.x(), shown.size.y()), display);
+        // Its scan lines are numbered from there.
+        let (found, expected) = (decode_exr(&path).0, gradient(5, 3));
+        let rounded = |pixel: &[f64; 3]| pixel.map(|value| f64::from(value as f32));
+        let expected: Vec<_> = expected.pixels.iter().map(rounded).collect();
+        assert_eq!(found.pixels, expected);
+    }
+    for outside in [window([9, 8], [13, 11]), window([u32::MAX, 0], [13, 11])] {
+        let image = Image {
+            window: outside,
+            ..gradient(5, 3)
+        };
+        let error = save(&path, &image, &metadata(), Encoding::Exr).unwrap_err();
+        assert!(matches!(error, ImageError::Shape { .. }));
+    }
 }
 
 #[test]
@@ -205,6 +249,7 @@ fn a_value_that_no_file_can_hold_is_refused_and_nothing_is_written() {
             width,
             height,
             pixels: vec![[0.0; 3]; 12],
+            window: None,
         };
         let error = save(&folder.path("p"), &image, &metadata(), PNG).unwrap_err();
         assert!(matches!(error, ImageError::Shape { .. }));

@@ -1,8 +1,8 @@
 //! Pixels by class: those that may meet a lamp at once have another colour scale than others.
 
-use super::pixel::{Pixels, Totals};
+use super::pixel::{Pixels, Stop, Totals};
 use super::{RenderError, Request, Searched};
-use crate::machines::Defect;
+use crate::workers::Workers;
 use qrt_core::tracer::{PixelClass, PixelClasses};
 
 /// What traces and counts the pixels of each class.
@@ -57,9 +57,13 @@ impl Classes {
     }
 
     /// The totals of all paths of `places`, which have few each.
-    pub(super) fn few(&self, places: &[[u32; 2]]) -> Result<Vec<Totals>, Defect> {
+    pub(super) fn few(
+        &self,
+        places: &[[u32; 2]],
+        workers: &Workers<'_>,
+    ) -> Result<Vec<Totals>, Stop> {
         self.of.apart(places, |_, mine| match mine {
-            [first, ..] => self.at(*first).few(mine),
+            [first, ..] => self.at(*first).few(mine, workers),
             [] => Ok(Vec::new()),
         })
     }

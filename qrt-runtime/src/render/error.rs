@@ -177,7 +177,10 @@ impl RenderError {
     pub fn is_refusal(&self) -> bool {
         match self {
             Self::Plan(error) => error.is_refusal(),
-            Self::Checkpoint(error) => matches!(error, CheckpointError::Differs { .. }),
+            Self::Checkpoint(error) => matches!(
+                error,
+                CheckpointError::Differs { .. } | CheckpointError::Irregular { .. }
+            ),
             Self::Memory { .. }
             | Self::Threads(_)
             | Self::Defect(_)

@@ -2,8 +2,11 @@
 
 use super::tiles::rows;
 use super::{Options, RenderError};
-use crate::checkpoint::{Checkpoint, Header, Tile};
-use crate::image::Image;
+use crate::checkpoint::{AT_STAKE, Checkpoint, CheckpointError, Header, Tile};
+use crate::image::{Image, Window};
+use std::io::ErrorKind;
+use std::path::Path;
+use std::time::Duration;
 
 /// The part of the picture that is finished.
 pub(super) struct Film {
@@ -14,17 +17,24 @@ pub(super) struct Film {
     pub(super) strata: Vec<[u8; 3]>,
     /// Pixels that are finished.
     pub(super) finished: u64,
-    checkpoint: Option<Checkpoint>,
+    pub(super) checkpoint: Option<Checkpoint>,
 }
 
 impl Film {
-    pub(super) fn new(crop: [u32; 4], area: u64) -> Result<Self, RenderError> {
+    /// For the part `crop` (x, y, width, height) of a film of so many columns and rows.
+    pub(super) fn new(crop: [u32; 4], film: [u32; 2]) -> Result<Self, RenderError> {
+        let area = u64::from(crop[2]) * u64::from(crop[3]);
+        let window = Window {
+            origin: [crop[0], crop[1]],
+            film,
+        };
         Ok(Self {
             crop,
             image: Image {
                 width: crop[2],
                 height: crop[3],
                 pixels: filled([0.0; 3], area)?,
+                window: (film != [crop[2], crop[3]]).then_some(window),
             },
             queries: filled(0, area)?,
             good: filled([0; 3], area)?,
@@ -44,8 +54,13 @@ impl Film {
         let Some(path) = &options.checkpoint else {
             return Ok(finished);
         };
-        if options.resume && path.exists() {
-            let (checkpoint, tiles) = Checkpoint::open(path, &header())?;
+        let header = header();
+        let there = if options.resume {
+            there(path, &header)?
+        } else {
+            None
+        };
+        if let Some((checkpoint, tiles)) = there {
             if !tiles.is_empty() {
                 finished.resize(self.queries.len(), false);
             }
@@ -58,15 +73,19 @@ impl Film {
             self.finished = finished.iter().filter(|&&f| f).count() as u64;
             self.checkpoint = Some(checkpoint);
         } else {
-            self.checkpoint = Some(Checkpoint::create(path, &header())?);
+            self.checkpoint = Some(Checkpoint::create(path, &header)?);
         }
         Ok(finished)
     }
 
-    /// Takes in a finished tile, once it is in the checkpoint.
-    pub(super) fn keep(&mut self, tile: &Tile) -> Result<(), RenderError> {
+    /// Takes in a tile that took so long, once it is in the checkpoint.
+    pub(super) fn keep(&mut self, tile: &Tile, took: Duration) -> Result<(), RenderError> {
         if let Some(checkpoint) = &mut self.checkpoint {
             checkpoint.append(tile)?;
+            // Nobody knows when the next is finished.
+            if took >= AT_STAKE {
+                checkpoint.sync()?;
+            }
         }
         self.paint(tile);
         self.finished += tile.pixels.len() as u64;
@@ -82,6 +101,14 @@ impl Film {
             self.strata[row.clone()].copy_from_slice(&tile.strata[own.clone()]);
             self.queries[row].copy_from_slice(&tile.queries[own]);
         }
+    }
+}
+
+/// The checkpoint at `path`, if there is one.
+fn there(path: &Path, header: &Header) -> Result<Option<(Checkpoint, Vec<Tile>)>, CheckpointError> {
+    match Checkpoint::open(path, header) {
+        Err(CheckpointError::Io { source, .. }) if source.kind() == ErrorKind::NotFound => Ok(None),
+        opened => opened.map(Some),
     }
 }
 

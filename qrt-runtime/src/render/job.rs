@@ -2,10 +2,10 @@
 
 use super::classes::Classes;
 use super::film::Film;
-use super::pixel::Totals;
+use super::pixel::{Stop, Totals, go_on};
 use super::tiles::{self, Tiles};
 use super::{Colour, Model, RenderError, Rendered, Request};
-use crate::checkpoint::{Header, Tile};
+use crate::checkpoint::{Checkpoint, CheckpointError, Header, Tile};
 use crate::workers::Progress;
 use rayon::prelude::*;
 use std::sync::{Mutex, PoisonError};
@@ -21,22 +21,11 @@ pub(super) struct Job<'a> {
     film: Mutex<Film>,
 }
 
-/// Why the work on a tile ended early.
-enum Stop {
-    Cancelled,
-    Failed(RenderError),
-}
-
-impl<E: Into<RenderError>> From<E> for Stop {
-    fn from(error: E) -> Self {
-        Self::Failed(error.into())
-    }
-}
-
 impl<'a> Job<'a> {
     /// Prepares the work, and opens the checkpoint if there is one.
     pub(super) fn new(request: Request<'a>, pixels: Classes) -> Result<Self, RenderError> {
-        let mut film = Film::new(request.crop, request.area)?;
+        let whole = &request.scene.scene().film;
+        let mut film = Film::new(request.crop, [whole.width, whole.height])?;
         let resumed = film.open(request.options, || header(&request))?;
         Ok(Self {
             tiles: Tiles::new(request.crop, request.options.tile, request.paths),
@@ -47,8 +36,8 @@ impl<'a> Job<'a> {
         })
     }
 
-    /// Renders all tiles that the checkpoint does not have.
-    pub(super) fn run(self) -> Result<Rendered, RenderError> {
+    /// Renders all tiles that the checkpoint does not have. The checkpoint comes back open.
+    pub(super) fn run(self) -> Result<(Rendered, Option<Checkpoint>), RenderError> {
         let Request {
             scene,
             options,
@@ -62,7 +51,7 @@ impl<'a> Job<'a> {
             total: area * paths,
             resumed: resumed * paths,
         });
-        let (done, seconds, threads) = options.workers.run(|| {
+        let worked = options.workers.run(|| {
             let start = Instant::now();
             // Each tile by itself: halves of a film rarely take equally long.
             let tiles = (0..self.tiles.count() as usize).into_par_iter();
@@ -71,41 +60,54 @@ impl<'a> Job<'a> {
                 .try_for_each(|number| self.tile(number as u64));
             let seconds = start.elapsed().as_secs_f64();
             (done, seconds, rayon::current_num_threads())
-        })?;
+        });
+        let (done, seconds, threads) =
+            worked.unwrap_or_else(|error| (Err(Stop::from(error)), 0.0, 0));
         let film = self
             .film
             .into_inner()
             .unwrap_or_else(PoisonError::into_inner);
+        let finished = film.finished;
         match done {
-            Ok(()) => Ok(Rendered {
-                image: film.image,
-                queries: film.queries,
-                strata: film.strata,
-                good: (options.model != Model::Real && options.colour == Colour::ThreeRuns)
-                    .then_some(film.good),
-                model: options.model,
-                visibility: options.visibility,
-                searched: None,
-                crop,
-                estimator,
-                colour: options.colour,
-                noise: options.noise,
-                seed: options.seed,
-                parameters: scene.parameters(),
-                plan: None,
-                scales: self.pixels.scales(),
-                ids: paths << scene.scene().comparator.bits,
-                paths: area * paths,
-                resumed_paths: resumed * paths,
-                seconds,
-                threads,
-            }),
-            Err(Stop::Cancelled) => Err(RenderError::Interrupted {
-                finished: film.finished,
-                pixels: area,
-                checkpoint: options.checkpoint.clone(),
-            }),
-            Err(Stop::Failed(error)) => Err(error),
+            Ok(()) => {
+                let rendered = Rendered {
+                    image: film.image,
+                    queries: film.queries,
+                    strata: film.strata,
+                    good: (options.model != Model::Real && options.colour == Colour::ThreeRuns)
+                        .then_some(film.good),
+                    model: options.model,
+                    visibility: options.visibility,
+                    searched: None,
+                    crop,
+                    estimator,
+                    colour: options.colour,
+                    noise: options.noise,
+                    seed: options.seed,
+                    parameters: scene.parameters(),
+                    plan: None,
+                    scales: self.pixels.scales(),
+                    ids: paths << scene.scene().comparator.bits,
+                    paths: area * paths,
+                    resumed_paths: resumed * paths,
+                    seconds,
+                    threads,
+                };
+                Ok((rendered, film.checkpoint))
+            }
+            Err(Stop::Cancelled) => {
+                let kept = closed(film.checkpoint)?;
+                Err(RenderError::Interrupted {
+                    finished,
+                    pixels: area,
+                    checkpoint: options.checkpoint.clone().filter(|_| kept),
+                })
+            }
+            Err(Stop::Failed(error)) => {
+                // What failed first is what is told.
+                let _ = closed(film.checkpoint);
+                Err(error)
+            }
         }
     }
 
@@ -121,43 +123,42 @@ impl<'a> Job<'a> {
         if tiles::rows(&tile, crop).all(resumed) {
             return Ok(());
         }
-        if workers.cancelled() {
-            return Err(Stop::Cancelled);
-        }
+        go_on(workers)?;
+        let start = Instant::now();
         let places: Vec<[u32; 2]> = tiles::pixels(self.tiles.rectangle(number)).collect();
         if self.pixels.splits() {
-            let traced = |paths| {
-                workers.report(Progress::Finished(paths));
-                !workers.cancelled()
-            };
             for &place in &places {
-                let totals = self.pixels.at(place).many(place, &traced)?;
-                self.finish(&mut tile, place, &totals.ok_or(Stop::Cancelled)?)?;
+                let totals = self.pixels.at(place).many(place, workers)?;
+                self.finish(&mut tile, place, &totals)?;
             }
         } else {
-            for (&place, totals) in places.iter().zip(&self.pixels.few(&places)?) {
-                if workers.cancelled() {
-                    return Err(Stop::Cancelled);
-                }
+            for (&place, totals) in places.iter().zip(&self.pixels.few(&places, workers)?) {
+                go_on(workers)?;
                 self.finish(&mut tile, place, totals)?;
             }
             let paths = places.len() as u64 * self.request.paths;
             workers.report(Progress::Finished(paths));
         }
         let mut film = self.film.lock().unwrap_or_else(PoisonError::into_inner);
-        film.keep(&tile)?;
+        film.keep(&tile, start.elapsed())?;
         Ok(())
     }
 
     /// Adds a pixel to its tile.
-    fn finish(&self, tile: &mut Tile, place: [u32; 2], totals: &Totals) -> Result<(), RenderError> {
-        let pixel = self.pixels.at(place).finish(place, totals)?;
+    fn finish(&self, tile: &mut Tile, place: [u32; 2], totals: &Totals) -> Result<(), Stop> {
+        let workers = &self.request.options.workers;
+        let pixel = self.pixels.at(place).finish(place, totals, workers)?;
         tile.pixels.push(pixel.colour);
         tile.queries.push(pixel.queries);
         tile.good.push(pixel.good);
         tile.strata.push(pixel.strata);
         Ok(())
     }
+}
+
+/// Whether there is something to go on from.
+fn closed(checkpoint: Option<Checkpoint>) -> Result<bool, CheckpointError> {
+    checkpoint.map_or(Ok(false), Checkpoint::close)
 }
 
 /// What decides a pixel.
@@ -169,6 +170,7 @@ fn header(request: &Request<'_>) -> Header {
         ("colour", options.colour.name().to_owned()),
         ("noise", options.noise.to_string()),
         ("version", env!("CARGO_PKG_VERSION").to_owned()),
+        ("build", crate::BUILD.to_owned()),
     ];
     let decisive = decisive.map(|(key, value)| (key.to_owned(), value));
     Header {

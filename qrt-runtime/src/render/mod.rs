@@ -62,6 +62,7 @@ pub use classes::Scales;
 pub use error::{CompiledError, RenderError};
 pub use visibility::{DEFAULT_FAILURE, Searched, Visibility};
 
+use crate::checkpoint::Checkpoint;
 use crate::estimators::Noise;
 use crate::image::{Count, Image};
 use crate::machines::{NativeOracle, OracleMachine, Real, Simd};
@@ -132,9 +133,10 @@ pub struct Options<'a> {
     /// Width and height of the tiles in pixels; chosen by the number of paths unless set.
     pub tile: Option<[u32; 2]>,
     /// Where finished tiles are kept until the picture is finished; they are not kept unless set.
-    /// It stays when the picture is finished, too: remove it when the picture is safe.
+    /// It stays when the picture is finished, too: [`render_keeping`] hands it over, so that it can
+    /// be removed when the picture is safe.
     pub checkpoint: Option<PathBuf>,
-    /// Go on from the checkpoint, if there is one. Otherwise it is replaced.
+    /// Go on from the checkpoint, if there is one. Otherwise it is replaced, by the first tile.
     pub resume: bool,
 }
 
@@ -251,6 +253,18 @@ impl Rendered {
 /// # Errors
 /// See [`RenderError`]. An interruption is one: what is finished then is in the checkpoint.
 pub fn render(scene: &ValidScene, options: &Options<'_>) -> Result<Rendered, RenderError> {
+    render_keeping(scene, options).map(without_checkpoint)
+}
+
+/// As [`render`], and hands over the checkpoint, open and locked, if there is one: nobody else can
+/// begin with it before the picture is safe, and it is removed ([`Checkpoint::remove`]) or dropped.
+///
+/// # Errors
+/// As [`render`].
+pub fn render_keeping(
+    scene: &ValidScene,
+    options: &Options<'_>,
+) -> Result<(Rendered, Option<Checkpoint>), RenderError> {
     let crop = crop(scene, options)?;
     let planned;
     let chosen = match (scene.scene().accuracy, options.plan) {
@@ -263,11 +277,13 @@ pub fn render(scene: &ValidScene, options: &Options<'_>) -> Result<Rendered, Ren
     };
     let request = Request::new(chosen.map_or(scene, |plan| &plan.scene), options, crop)?;
     let (classes, searched) = Classes::new(&request)?;
-    Ok(Rendered {
+    let (rendered, checkpoint) = Job::new(request, classes)?.run()?;
+    let rendered = Rendered {
         plan: chosen.map(|plan| plan.figures),
         searched,
-        ..Job::new(request, classes)?.run()?
-    })
+        ..rendered
+    };
+    Ok((rendered, checkpoint))
 }
 
 /// Renders a scene of `qrt!` by the circuit that was compiled with it: the same picture as
@@ -296,7 +312,16 @@ pub fn render_compiled<C: NativeOracle>(options: &Options<'_>) -> Result<Rendere
         Model::Gates => OracleMachine::gates(oracle, options.seed, false)?,
     };
     let pixels = request.pixels(Source::Oracle(machine))?;
-    Job::new(request, Classes::one(pixels))?.run()
+    let job = Job::new(request, Classes::one(pixels))?;
+    job.run().map(without_checkpoint)
+}
+
+fn without_checkpoint((rendered, checkpoint): (Rendered, Option<Checkpoint>)) -> Rendered {
+    if let Some(checkpoint) = checkpoint {
+        // The picture is there; what becomes of its parts is no reason to lose it.
+        let _ = checkpoint.close();
+    }
+    rendered
 }
 
 /// A picture that can be rendered: its parameters are chosen, and its crop lies on the film.

@@ -15,14 +15,14 @@
 //! Its luminance is as good as counting makes it. Its colour has the error of so many samples as
 //! good indices were measured, which is none where all paths have one colour.
 
-use super::RenderError;
-use super::pixel::{Pixels, Source};
+use super::pixel::{Pixels, Source, Stop, go_on};
 use crate::counting::{Comparators, CountingError, Octaves, Stratum};
 use crate::estimators::{
     AmplitudeEstimator, CountedStratum, Device, EstimatorError, Noise, Problem,
 };
 use crate::machines::Defect;
 use crate::random::Stream;
+use crate::workers::Workers;
 use qrt_core::oracle::{LUMINANCE_CHANNEL, luminance};
 use qrt_core::scene::Scene;
 use std::ops::Range;
@@ -50,6 +50,7 @@ struct GoodPaths<'a> {
     stratum: Stratum,
     good: &'a [u64],
     paths: u64,
+    workers: &'a Workers<'a>,
 }
 
 /// What the paths of a pixel add up to: by segment, good indices of the luminance.
@@ -134,11 +135,11 @@ impl OneRun {
     pub(super) fn finish(
         &self,
         pixels: &Pixels,
-        estimator: &dyn AmplitudeEstimator,
-        noise: Noise,
+        (estimator, noise): (&dyn AmplitudeEstimator, Noise),
         [x, y]: [u32; 2],
         segments: &Segments,
-    ) -> Result<([f64; 3], u64, u8), RenderError> {
+        workers: &Workers<'_>,
+    ) -> Result<([f64; 3], u64, u8), Stop> {
         if self.comparators.step() == 0.0 {
             return Ok(([0.0; 3], 0, 0));
         }
@@ -168,6 +169,7 @@ impl OneRun {
                 stratum: part.stratum,
                 good: &good,
                 paths: segments.paths,
+                workers,
             };
             self.paths_of(pixels, [x, y], &places, &ids, |colour| {
                 let luminance = luminance(&colour);
@@ -232,7 +234,7 @@ impl OneRun {
         places: &GoodPaths<'_>,
         ids: &[u64],
         mut colour: impl FnMut([f64; 3]),
-    ) -> Result<(), Defect> {
+    ) -> Result<(), Stop> {
         let mut ids = ids.iter().copied().peekable();
         let mut first = 0;
         for (number, &sum) in (0_u64..).zip(places.good) {
@@ -240,13 +242,19 @@ impl OneRun {
                 let start = number * self.segment;
                 let end = (start + self.segment).min(places.paths);
                 let mut before = first;
-                self.trace(pixels, pixel, start..end, |count, rgb| {
-                    let good = places.stratum.good(count);
-                    while ids.next_if(|&id| id < before + good).is_some() {
-                        colour(rgb);
-                    }
-                    before += good;
-                })?;
+                let mut run = start;
+                while run < end {
+                    go_on(places.workers)?;
+                    let next = (run + pixels.run()).min(end);
+                    self.trace(pixels, pixel, run..next, |count, rgb| {
+                        let good = places.stratum.good(count);
+                        while ids.next_if(|&id| id < before + good).is_some() {
+                            colour(rgb);
+                        }
+                        before += good;
+                    })?;
+                    run = next;
+                }
             }
             first += sum;
         }

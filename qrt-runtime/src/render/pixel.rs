@@ -9,6 +9,7 @@ use crate::estimators::{
 use crate::machines::{Defect, OracleMachine, PathBlock, Real};
 use crate::random::Stream;
 use crate::sample::Sum;
+use crate::workers::{Progress, Workers};
 use qrt_core::scene::{Estimator, Scene};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -17,8 +18,9 @@ use std::ops::Range;
 /// the same numbers in different orders.
 const ROUNDING: f64 = 1e-12;
 
-/// Paths that are traced without looking up.
-const RUN: u64 = 1 << 16;
+/// Paths that are traced without looking up: in floating point, and by a circuit, of which large ones
+/// take some 100 microseconds a path.
+const RUN: [u64; 2] = [1 << 16, 1 << 12];
 /// Above this many, the paths of a pixel are cut into parts for several threads.
 const SPLIT: u64 = 1 << 18;
 /// Parts of a pixel, at most.
@@ -49,6 +51,18 @@ pub(super) struct Pixel {
     pub(super) strata: [u8; 3],
 }
 
+/// Why the work on a pixel or a tile ended early.
+pub(super) enum Stop {
+    Cancelled,
+    Failed(RenderError),
+}
+
+impl<E: Into<RenderError>> From<E> for Stop {
+    fn from(error: E) -> Self {
+        Self::Failed(error.into())
+    }
+}
+
 /// What traces the paths.
 pub(super) enum Source {
     /// Colours, in radiance.
@@ -75,6 +89,20 @@ struct Counter {
     by_strata: bool,
     noise: Noise,
     one_run: Option<OneRun>,
+}
+
+/// Whether the work is to go on.
+pub(super) fn go_on(workers: &Workers<'_>) -> Result<(), Stop> {
+    if workers.cancelled() {
+        return Err(Stop::Cancelled);
+    }
+    Ok(())
+}
+
+fn report(workers: &Workers<'_>, paths: u64) {
+    if paths > 0 {
+        workers.report(Progress::Finished(paths));
+    }
 }
 
 impl Pixels {
@@ -167,11 +195,44 @@ impl Pixels {
         self.paths > SPLIT
     }
 
+    /// Paths that are traced without looking up.
+    pub(super) fn run(&self) -> u64 {
+        match self.source {
+            Source::Real(_) => RUN[0],
+            Source::Oracle(_) => RUN[1],
+        }
+    }
+
     /// The totals of all paths of `pixels`, which have few each.
-    pub(super) fn few(&self, pixels: &[[u32; 2]]) -> Result<Vec<Totals>, Defect> {
+    pub(super) fn few(
+        &self,
+        pixels: &[[u32; 2]],
+        workers: &Workers<'_>,
+    ) -> Result<Vec<Totals>, Stop> {
         let mut totals = vec![self.none(); pixels.len()];
-        self.trace(pixels, 0..self.paths, &mut totals)?;
+        let together = (self.run() / self.paths).max(1) as usize;
+        for (pixels, totals) in pixels.chunks(together).zip(totals.chunks_mut(together)) {
+            self.trace_in_runs(pixels, 0..self.paths, totals, |_| go_on(workers))?;
+        }
         Ok(totals)
+    }
+
+    /// As [`Pixels::trace`], in runs, each of which `before` allows or stops.
+    fn trace_in_runs(
+        &self,
+        pixels: &[[u32; 2]],
+        ids: Range<u64>,
+        totals: &mut [Totals],
+        mut before: impl FnMut(u64) -> Result<(), Stop>,
+    ) -> Result<(), Stop> {
+        let mut first = ids.start;
+        while first < ids.end {
+            let end = (first + self.run()).min(ids.end);
+            before(end - first)?;
+            self.trace(pixels, first..end, totals)?;
+            first = end;
+        }
+        Ok(())
     }
 
     /// Adds the paths `ids` of `pixels` to their `totals`.
@@ -208,49 +269,31 @@ impl Pixels {
         }
     }
 
-    /// The totals of the many paths of one pixel, on all threads. `traced` is told of every run
-    /// of paths when it is finished, and says whether to go on.
-    pub(super) fn many(
-        &self,
-        pixel: [u32; 2],
-        traced: &(impl Fn(u64) -> bool + Sync),
-    ) -> Result<Option<Totals>, Defect> {
-        let part = RUN.max(self.paths / PARTS);
+    /// The totals of the many paths of one pixel, on all threads; `workers` are told of every run of
+    /// paths.
+    pub(super) fn many(&self, pixel: [u32; 2], workers: &Workers<'_>) -> Result<Totals, Stop> {
+        let part = RUN[0].max(self.paths / PARTS);
         let parts = (0..self.paths.div_ceil(part)).into_par_iter();
         let totals = parts.map(|n| {
-            let end = ((n + 1) * part).min(self.paths);
-            self.part(pixel, n * part..end, traced)
+            let ids = n * part..((n + 1) * part).min(self.paths);
+            let mut totals = [self.none()];
+            let mut traced = 0;
+            self.trace_in_runs(&[pixel], ids, &mut totals, |paths| {
+                report(workers, traced);
+                traced = paths;
+                go_on(workers)
+            })?;
+            report(workers, traced);
+            let [totals] = totals;
+            Ok(totals)
         });
         // In the order of path indices, whichever was first.
-        let totals: Vec<Option<Totals>> = totals.collect::<Result<_, _>>()?;
-        let Some(totals) = totals.into_iter().collect::<Option<Vec<Totals>>>() else {
-            return Ok(None);
-        };
+        let totals: Vec<Totals> = totals.collect::<Result<_, Stop>>()?;
         let mut whole = self.none();
         for later in &totals {
             whole.append(later);
         }
-        Ok(Some(whole))
-    }
-
-    fn part(
-        &self,
-        pixel: [u32; 2],
-        ids: Range<u64>,
-        traced: &impl Fn(u64) -> bool,
-    ) -> Result<Option<Totals>, Defect> {
-        let mut totals = [self.none()];
-        let mut first = ids.start;
-        while first < ids.end {
-            let end = (first + RUN).min(ids.end);
-            self.trace(&[pixel], first..end, &mut totals)?;
-            if !traced(end - first) {
-                return Ok(None);
-            }
-            first = end;
-        }
-        let [totals] = totals;
-        Ok(Some(totals))
+        Ok(whole)
     }
 
     fn take(&self, totals: &mut Totals, block: &PathBlock<'_>) {
@@ -292,7 +335,12 @@ impl Pixels {
 
     /// The colour of a pixel, and the queries that it took: without an estimator the mean of its
     /// paths, without queries.
-    pub(super) fn finish(&self, pixel: [u32; 2], totals: &Totals) -> Result<Pixel, RenderError> {
+    pub(super) fn finish(
+        &self,
+        pixel: [u32; 2],
+        totals: &Totals,
+        workers: &Workers<'_>,
+    ) -> Result<Pixel, Stop> {
         self.check(pixel, totals)?;
         let mut finished = Pixel {
             colour: [0.0; 3],
@@ -308,8 +356,10 @@ impl Pixels {
             return Ok(finished);
         };
         if let Some(one_run) = &counter.one_run {
-            let estimator = &*counter.estimator;
-            let found = one_run.finish(self, estimator, counter.noise, pixel, &totals.segments)?;
+            let estimator: &dyn AmplitudeEstimator = &*counter.estimator;
+            let device = (estimator, counter.noise);
+            let segments = &totals.segments;
+            let found = one_run.finish(self, device, pixel, segments, workers)?;
             (finished.colour, finished.queries, finished.strata[0]) = found;
             finished.good = [0; 3];
             return Ok(finished);
@@ -317,6 +367,7 @@ impl Pixels {
         for channel in 0..3 {
             // Where nothing is to be counted, black is proven.
             if self.bound[channel] > 0.0 {
+                go_on(workers)?;
                 let estimate = self.estimate(counter, pixel, channel, totals)?;
                 // At most 3 * 2^40 * 10^6, below 2^62.
                 finished.queries += estimate.queries;
@@ -418,32 +469,36 @@ sampling: { path_bits: 5 }
         Pixels::new(real, scene.scene(), estimator, &Options::default()).unwrap()
     }
 
+    fn few(pixels: &Pixels) -> Vec<Totals> {
+        pixels.few(&[[1, 0]], &Workers::default()).ok().unwrap()
+    }
+
+    fn finish(pixels: &Pixels, totals: &Totals) -> Result<Pixel, Stop> {
+        pixels.finish([1, 0], totals, &Workers::default())
+    }
+
     #[test]
     fn a_path_beyond_its_bound_is_reported_and_never_clamped() {
         for estimator in [Estimator::Exact, Estimator::Sine] {
             let mut pixels = wall(estimator);
-            let totals = pixels.few(&[[1, 0]]).unwrap();
-            assert!(pixels.finish([1, 0], &totals[0]).is_ok());
+            let totals = few(&pixels);
+            assert!(finish(&pixels, &totals[0]).is_ok());
             // Rounding is no defect; anything above is.
             pixels.bound = [2.0 - 1e-12, 1.0, 0.0];
-            assert!(
-                pixels
-                    .finish([1, 0], &pixels.few(&[[1, 0]]).unwrap()[0])
-                    .is_ok()
-            );
+            assert!(finish(&pixels, &few(&pixels)[0]).is_ok());
             pixels.bound = [2.0, 1.0 - 1e-9, 0.0];
-            match pixels.finish([1, 0], &pixels.few(&[[1, 0]]).unwrap()[0]) {
-                Err(RenderError::OutOfBounds {
+            match finish(&pixels, &few(&pixels)[0]) {
+                Err(Stop::Failed(RenderError::OutOfBounds {
                     pixel: [1, 0],
                     channel: 1,
                     paths: 32,
                     colour: 1.0,
                     ..
-                }) => {}
-                other => panic!("{:?}", other.map(|pixel| pixel.colour)),
+                })) => {}
+                other => panic!("{:?}", other.ok().map(|pixel| pixel.colour)),
             }
-            let parts = pixels.many([1, 0], &|_| true).unwrap().unwrap();
-            assert!(pixels.finish([1, 0], &parts).is_err());
+            let parts = pixels.many([1, 0], &Workers::default()).ok().unwrap();
+            assert!(finish(&pixels, &parts).is_err());
         }
     }
 
@@ -460,7 +515,7 @@ sampling: { path_bits: 5 }
             pixels.take(&mut totals, &block);
             assert_eq!(totals.stray[0].0, 1);
             assert_eq!(totals.stray[0].1.to_bits(), colour.to_bits());
-            assert!(pixels.finish([0, 0], &totals).is_err());
+            assert!(finish(&pixels, &totals).is_err());
         }
     }
 }

@@ -25,8 +25,8 @@
 //!
 //! # The table
 //!
-//! `trade.csv` begins with a line that names what its rows depend on: version, scene hash, seed,
-//! pixels, quick. Its columns:
+//! `trade.csv` begins with a line that names what its rows depend on: version, build, scene hash,
+//! seed, pixels, quick. Its columns:
 //!
 //! * the setting: `sweep` (the parameter that the row is about), `model`, `estimator`,
 //!   `phase_bits`, `repetitions`, `sequence`, `path_bits`, `depths`, `fraction`, `comparator_bits`,
@@ -37,9 +37,11 @@
 //! * `mean`: the mean radiance, over pixels and channels, that errors are relative to;
 //! * `e_r`, `e_c`, `e_w`, `e_t`, `e_d`, `e_total`, each followed by the ends of its 95 % interval
 //!   (`e_r_low`, `e_r_high`, ...);
-//! * `seconds`: wall time of tracing and counting a pixel. It alone differs from run to run.
+//! * `seconds`: wall time of tracing and counting a pixel. It alone differs from run to run;
+//! * `crc32`: the checksum of the row before it, in hexadecimal.
 //!
-//! Rows are written as they are finished, and not measured again when they are there.
+//! Rows are written as they are finished, and not measured again when they are there and their
+//! checksums are right.
 
 mod band;
 mod bench;
@@ -98,6 +100,8 @@ pub struct Trade {
     pub rows: Vec<Row>,
     /// Rows that an earlier run had left.
     pub resumed: usize,
+    /// Rows that it had left damaged, and that were measured again.
+    pub damaged: usize,
     /// Settings that have no circuit.
     pub without_circuit: Vec<Setting>,
 }
@@ -166,6 +170,7 @@ fn measure(scene: &ValidScene, folder: &Path, options: &Options<'_>) -> Result<T
     };
     let header = vec![
         ("version", env!("CARGO_PKG_VERSION").to_owned()),
+        ("build", crate::BUILD.to_owned()),
         ("scene_hash", scene.fingerprint().to_string()),
         ("seed", options.seed.to_string()),
         ("pixels", pixels.len().to_string()),
@@ -175,8 +180,8 @@ fn measure(scene: &ValidScene, folder: &Path, options: &Options<'_>) -> Result<T
     let mut bench = Bench::new(scene, pixels, options.seed, effort, options.workers);
     // What cannot be measured at all is told before a file is written.
     bench.check()?;
-    let mut table = table::Table::open(&folder.join("trade.csv"), &header)?;
-    let found = table.found(&settings)?;
+    let mut table = table::Table::open(&folder.join("trade.csv"), &header, &settings)?;
+    let found = std::mem::take(&mut table.found);
     let resumed = found.iter().flatten().count();
     options.workers.report(Progress::Started {
         total: settings.len() as u64,
@@ -189,18 +194,20 @@ fn measure(scene: &ValidScene, folder: &Path, options: &Options<'_>) -> Result<T
         reference_bits: effort.reference_bits,
         rows: Vec::new(),
         resumed,
+        damaged: table.damaged,
         without_circuit: Vec::new(),
     };
-    for (setting, found) in settings.into_iter().zip(found) {
+    for (at, (setting, found)) in settings.into_iter().zip(found).enumerate() {
         if let Some(row) = found {
             measured.rows.push(row);
             continue;
         }
         match bench.row(setting)? {
-            Some(row) => measured.rows.push(table.append(&row)?),
+            Some(row) => measured.rows.push(table.append(at, &row)?),
             None => measured.without_circuit.push(setting),
         }
         options.workers.report(Progress::Finished(1));
     }
+    table.finish()?;
     Ok(measured)
 }

@@ -1,14 +1,16 @@
 //! `trade.csv`: one row a setting, written as each is finished.
 //!
 //! The first line names what the rows depend on; a table of anything else is refused. The second
-//! names the columns, which the module above describes.
+//! names the columns, which the module above describes. The last of them is the CRC-32 of the row
+//! before it: a row that fails it is damaged, and left out.
 
 use super::band::Band;
 use super::error::TradeError;
 use super::setting::{KEY, Setting};
+use crate::replace_file::replace_file;
 use qrt_core::oracle::CallCost;
 use std::fs::{File, OpenOptions};
-use std::io::Write as _;
+use std::io::{self, Seek as _, SeekFrom, Write as _};
 use std::path::{Path, PathBuf};
 
 /// Errors of a row, in their order.
@@ -16,7 +18,7 @@ pub const ERRORS: [&str; 6] = ["e_r", "e_c", "e_w", "e_t", "e_d", "e_total"];
 
 /// Columns of figures before and after those of errors.
 const FIGURES: [&str; 5] = ["queries", "toffoli", "qubits", "toffoli_x_queries", "mean"];
-/// How many columns the table has.
+/// How many columns the table has, without that of sums.
 const COLUMNS: usize = KEY.len() + FIGURES.len() + 3 * ERRORS.len() + 1;
 
 /// A finished row of the table: one setting, and what was measured of it.
@@ -103,83 +105,134 @@ pub(super) type Header = Vec<(&'static str, String)>;
 pub(super) struct Table {
     file: File,
     path: PathBuf,
-    /// Lines that an earlier run has left, not looked up yet.
-    left: Vec<String>,
+    /// The first two lines.
+    head: String,
+    /// By setting: its line.
+    lines: Vec<Option<String>>,
+    /// By setting: the row that an earlier run has left.
+    pub(super) found: Vec<Option<Row>>,
+    /// Rows that were damaged.
+    pub(super) damaged: usize,
 }
 
 impl Table {
-    /// Goes on with the table at `path`, or begins it.
-    pub(super) fn open(path: &Path, header: &Header) -> Result<Self, TradeError> {
-        let failed = |source| TradeError::File {
-            path: path.to_path_buf(),
-            source,
-        };
-        let text = match std::fs::read_to_string(path) {
-            Ok(text) => text,
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => String::new(),
+    /// Goes on with the table of these settings at `path`, or begins it. Damaged rows are taken out
+    /// of it.
+    pub(super) fn open(
+        path: &Path,
+        header: &Header,
+        settings: &[Setting],
+    ) -> Result<Self, TradeError> {
+        let failed = failed(path);
+        let bytes = match std::fs::read(path) {
+            Ok(bytes) => bytes,
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Vec::new(),
             Err(error) => return Err(failed(error)),
         };
-        let first = first_line(header);
-        let columns = columns();
+        // What is no text is damaged.
+        let text = String::from_utf8_lossy(&bytes);
         // A last line without its end was cut off while it was written.
         let whole = text.rfind('\n').map_or("", |end| &text[..=end]);
+        let unreadable = |line| {
+            let path = path.to_path_buf();
+            TradeError::Unreadable { path, line }
+        };
         let mut lines = whole.lines();
-        let mut left = Vec::new();
         if let Some(found) = lines.next() {
             check(path, found, header)?;
-            if lines.next().is_some_and(|line| line != columns) {
-                let path = path.to_path_buf();
-                return Err(TradeError::Unreadable { path, line: 2 });
+            if lines.next().is_some_and(|line| line != columns()) {
+                return Err(unreadable(2));
             }
-            left.extend(lines.map(str::to_owned));
         }
-        let mut file = OpenOptions::new()
-            .create(true)
-            .truncate(false)
-            .write(true)
-            .open(path)
-            .map_err(failed)?;
-        let begun = whole.lines().count() >= 2;
-        file.set_len(if begun { whole.len() as u64 } else { 0 })
-            .map_err(failed)?;
-        std::io::Seek::seek(&mut file, std::io::SeekFrom::End(0)).map_err(failed)?;
-        if !begun {
-            writeln!(file, "{first}\n{columns}").map_err(failed)?;
-        }
-        Ok(Self {
-            file,
+        let head = format!("{}\n{}\n", first_line(header), columns());
+        let mut table = Self {
+            // Not truncated: what is in it is not known to be worthless before this.
+            file: (OpenOptions::new().create(true).truncate(false).write(true))
+                .open(path)
+                .map_err(&failed)?,
             path: path.to_path_buf(),
-            left,
-        })
-    }
-
-    /// The rows of these settings that an earlier run has left.
-    pub(super) fn found(&self, settings: &[Setting]) -> Result<Vec<Option<Row>>, TradeError> {
-        let mut rows = vec![None; settings.len()];
-        for (number, line) in self.left.iter().enumerate() {
-            let row = (settings.iter().enumerate())
-                .find_map(|(at, &setting)| Some((at, Row::read(setting, line)?)));
-            let Some((at, row)) = row else {
-                return Err(TradeError::Unreadable {
-                    path: self.path.clone(),
-                    line: number + 3,
-                });
-            };
-            rows[at] = Some(row);
-        }
-        Ok(rows)
-    }
-
-    /// Writes a finished row; and gives it back as it will be read again.
-    pub(super) fn append(&mut self, row: &Row) -> Result<Row, TradeError> {
-        let failed = |source| TradeError::File {
-            path: self.path.clone(),
-            source,
+            head,
+            lines: vec![None; settings.len()],
+            found: vec![None; settings.len()],
+            damaged: 0,
         };
+        for (number, line) in lines.enumerate() {
+            let Some(row) = checked(line) else {
+                table.damaged += 1;
+                continue;
+            };
+            let mut rows = (settings.iter().enumerate())
+                .filter_map(|(at, &setting)| Some((at, Row::read(setting, row)?)));
+            let (at, row) = rows.next().ok_or_else(|| unreadable(number + 3))?;
+            table.lines[at] = Some(line.to_owned());
+            table.found[at] = Some(row);
+        }
+        if table.damaged > 0 {
+            table.rewrite()?;
+        } else if whole.lines().count() >= 2 {
+            table.go_on_at(whole.len() as u64).map_err(&failed)?;
+        } else {
+            table.go_on_at(0).map_err(&failed)?;
+            table
+                .file
+                .write_all(table.head.as_bytes())
+                .map_err(&failed)?;
+        }
+        Ok(table)
+    }
+
+    /// Writes a finished row, so that it is durable; and gives it back as it will be read again.
+    pub(super) fn append(&mut self, at: usize, row: &Row) -> Result<Row, TradeError> {
         let line = row.line();
-        writeln!(self.file, "{line}").map_err(failed)?;
+        let summed = format!("{line},{:08x}", crc32fast::hash(line.as_bytes()));
+        (self.file.write_all(format!("{summed}\n").as_bytes()))
+            .and_then(|()| self.file.sync_data())
+            .map_err(failed(&self.path))?;
+        self.lines[at] = Some(summed);
         Ok(Row::read(row.setting, &line).unwrap_or(*row))
     }
+
+    /// Puts rows that were measured again in their places.
+    pub(super) fn finish(mut self) -> Result<(), TradeError> {
+        if self.damaged > 0 {
+            self.rewrite()?;
+        }
+        Ok(())
+    }
+
+    /// Writes the table anew, and goes on behind it.
+    fn rewrite(&mut self) -> Result<(), TradeError> {
+        let failed = failed(&self.path);
+        let mut text = self.head.clone();
+        for line in self.lines.iter().flatten() {
+            text.push_str(line);
+            text.push('\n');
+        }
+        replace_file(&self.path, |out| out.write_all(text.as_bytes())).map_err(&failed)?;
+        let file = OpenOptions::new().write(true).open(&self.path);
+        self.file = file.map_err(&failed)?;
+        self.go_on_at(text.len() as u64).map_err(&failed)
+    }
+
+    fn go_on_at(&mut self, end: u64) -> io::Result<()> {
+        self.file.set_len(end)?;
+        self.file.seek(SeekFrom::Start(end)).map(drop)
+    }
+}
+
+fn failed(path: &Path) -> impl Fn(io::Error) -> TradeError + use<> {
+    let path = path.to_path_buf();
+    move |source| TradeError::File {
+        path: path.clone(),
+        source,
+    }
+}
+
+/// A row without its sum, if that is right.
+pub(super) fn checked(line: &str) -> Option<&str> {
+    let (row, sum) = line.rsplit_once(',')?;
+    let right = format!("{:08x}", crc32fast::hash(row.as_bytes()));
+    (sum == right).then_some(row)
 }
 
 /// `# qrt trade: scene_hash=..., seed=0`.
@@ -194,7 +247,7 @@ fn first_line(header: &Header) -> String {
 fn columns() -> String {
     let errors = ERRORS.map(|name| format!("{name},{name}_low,{name}_high"));
     let (key, figures, errors) = (KEY.join(","), FIGURES.join(","), errors.join(","));
-    format!("{key},{figures},{errors},seconds")
+    format!("{key},{figures},{errors},seconds,crc32")
 }
 
 /// That the first line of a table names the same things.

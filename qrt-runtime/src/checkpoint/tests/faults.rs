@@ -1,0 +1,157 @@
+//! A render, as far as files see it, in which every operation fails once, and the power at any time.
+
+use super::*;
+use crate::replace_file::replace_file;
+
+/// All tiles of a picture, in their order.
+fn picture() -> Vec<Tile> {
+    let places = (1..5).flat_map(|y| (2..7).map(move |x| (x, y)));
+    places.map(|(x, y)| tile(x, y, 1, 1)).collect()
+}
+
+/// The picture's bytes.
+fn bytes(tiles: &[Tile]) -> Vec<u8> {
+    let mut tiles = tiles.to_vec();
+    tiles.sort_by_key(|tile| (tile.y, tile.x));
+    tiles.iter().flat_map(Tile::encode).collect()
+}
+
+/// Renders the picture into `folder`, as the command does: what the checkpoint has is taken, the rest
+/// appended, and the checkpoint removed when the picture is safe. Every fourth tile is made durable.
+fn job(folder: &Scratch, resume: bool) -> Result<(), CheckpointError> {
+    let path = folder.path("p.png.qrt-partial");
+    let there = resume && path.exists();
+    let (mut checkpoint, mut tiles) = if there {
+        Checkpoint::open(&path, &header())?
+    } else {
+        (Checkpoint::create(&path, &header())?, Vec::new())
+    };
+    let work = (|| {
+        for (number, tile) in picture().into_iter().enumerate() {
+            if !tiles.contains(&tile) {
+                checkpoint.append(&tile)?;
+                if number % 4 == 3 {
+                    checkpoint.sync()?;
+                }
+                tiles.push(tile);
+            }
+        }
+        let picture = folder.path("p.png");
+        replace_file(&picture, |out| out.write_all(&bytes(&tiles))).map_err(|source| {
+            CheckpointError::Io {
+                path: picture,
+                source,
+            }
+        })
+    })();
+    match work {
+        Ok(()) => checkpoint.remove(),
+        Err(error) => {
+            let _ = checkpoint.close();
+            Err(error)
+        }
+    }
+}
+
+/// That the folder holds the old picture or the new one.
+fn whole(folder: &Scratch, old: &[u8]) {
+    let found = fs::read(folder.path("p.png")).unwrap();
+    assert!(found == old || found == bytes(&picture()), "half a picture");
+}
+
+/// That a later run with `--resume` makes the picture, and leaves nothing else.
+fn goes_on(folder: &Scratch) {
+    job(folder, true).unwrap();
+    assert_eq!(fs::read(folder.path("p.png")).unwrap(), bytes(&picture()));
+    assert_eq!(folder.names(), ["p.png"]);
+}
+
+#[test]
+fn whichever_operation_fails_it_is_told_and_the_render_goes_on_to_the_same_bytes() {
+    let mut failed = std::collections::BTreeSet::new();
+    // From the beginning, and from a checkpoint that was torn.
+    for resume in [false, true] {
+        for which in 0.. {
+            let folder = Scratch::new();
+            fs::write(folder.path("p.png"), "old").unwrap();
+            if resume {
+                let path = folder.path("p.png.qrt-partial");
+                let mut checkpoint = Checkpoint::create(&path, &header()).unwrap();
+                for tile in &picture()[3..9] {
+                    checkpoint.append(tile).unwrap();
+                }
+                drop(checkpoint);
+                let bytes = fs::read(&path).unwrap();
+                fs::write(&path, &bytes[..bytes.len() - 9]).unwrap();
+            }
+            let watched = Watched::new(&folder.path(""), Plan::Fail(which));
+            let result = job(&folder, resume);
+            let done = watched.done();
+            drop(watched);
+            whole(&folder, b"old");
+            let Some(operation) = done.get(which) else {
+                result.unwrap();
+                break;
+            };
+            failed.insert(*operation);
+            // A file to be made is first looked for.
+            let harmless = *operation == Operation::Open && !resume;
+            if !harmless || result.is_err() {
+                let error = result.unwrap_err().to_string();
+                assert!(error.contains("a fault of this test"), "{error}");
+            }
+            for name in folder.names() {
+                assert!(["p.png", "p.png.qrt-partial"].contains(&&*name), "{name}");
+            }
+            goes_on(&folder);
+        }
+    }
+    let all = [
+        Operation::Create,
+        Operation::Open,
+        Operation::Write,
+        Operation::SetLength,
+        Operation::Sync,
+        Operation::Lock,
+        Operation::Rename,
+        Operation::Remove,
+        Operation::SyncFolder,
+    ];
+    assert_eq!(failed, all.into_iter().collect());
+}
+
+#[test]
+fn whenever_the_power_is_cut_the_render_goes_on_to_the_same_bytes() {
+    let operations = {
+        let folder = Scratch::new();
+        let watched = Watched::new(&folder.path(""), Plan::Nothing);
+        job(&folder, false).unwrap();
+        watched.done().len()
+    };
+    let mut draw = crate::random::Stream::new(0, 0, 0, 0);
+    let mut resumed = 0;
+    for _ in 0..100 {
+        let folder = Scratch::new();
+        fs::write(folder.path("p.png"), "old").unwrap();
+        let strict = draw.below(2) == 0;
+        // Again and again, until it is through.
+        for cuts in 0..3 {
+            let at = draw.below(operations as u64) as usize;
+            let watched = Watched::new(&folder.path(""), Plan::Cut(at));
+            let result = job(&folder, cuts > 0);
+            watched.after_the_cut(|| !strict && draw.below(2) == 0);
+            whole(&folder, b"old");
+            let path = folder.path("p.png.qrt-partial");
+            if let Ok((_, tiles)) = Checkpoint::open(&path, &header()) {
+                resumed += tiles.len();
+            }
+            if result.is_ok() {
+                let picture = fs::read(folder.path("p.png")).unwrap();
+                assert!(picture != b"old");
+                break;
+            }
+        }
+        goes_on(&folder);
+    }
+    assert!(resumed > 100, "only {resumed} tiles survived");
+}
