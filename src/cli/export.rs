@@ -2,7 +2,7 @@
 
 use super::args::{SceneArgs, choice, numbers};
 use super::failure::Failure;
-use super::files::{can_be_written, keep_apart, named_after};
+use super::files::{Output, keep_apart, named_after};
 use super::inspect::{CHANNEL_CHOICES, channel_name, keep_budget};
 use super::progress::Bar;
 use super::{interrupt, plan, terminal};
@@ -197,11 +197,15 @@ pub(crate) fn run(args: &ExportArgs) -> Result<(), Failure> {
         let message = "`-o -` writes where `--json` does; name a file for the circuit";
         return Err(Failure::Usage(message.to_owned()));
     }
-    if !to_stdout {
-        keep_apart([&*args.scene.scene, &*file].into_iter())?;
-        can_be_written(&file)?;
+    let output = (!to_stdout).then(|| Output::new(&file)).transpose()?;
+    if let Some(output) = &output {
+        keep_apart([&*args.scene.scene], &[output])?;
     }
     let loaded = args.scene.load()?;
+    if let Some(output) = &output {
+        keep_apart(loaded.valid.files().iter().map(PathBuf::as_path), &[output])?;
+        output.try_writing()?;
+    }
     let cancel = interrupt::cancel_on_interrupt()?;
     let planning = PlanOptions {
         workers: Workers {
@@ -256,10 +260,9 @@ pub(crate) fn run(args: &ExportArgs) -> Result<(), Failure> {
         stratum,
         file: &file,
     };
-    let tally = if to_stdout {
-        exported.to_stdout()
-    } else {
-        exported.to_file()
+    let tally = match &output {
+        None => exported.to_stdout(),
+        Some(output) => exported.to_file(output),
     };
     bar.clear();
     let Some(tally) = tally? else {
@@ -344,9 +347,9 @@ impl Exported<'_> {
         self.export.write(self.args.format, &self.comments(), out)
     }
 
-    fn to_file(&self) -> Result<Option<Tally>, Failure> {
+    fn to_file(&self, output: &Output) -> Result<Option<Tally>, Failure> {
         let mut tally = None;
-        let written = replace_file(self.file, |out| {
+        let written = replace_file(output.path()?, |out| {
             tally = Some(self.write(out)?);
             Ok::<(), ExportError>(())
         });

@@ -1,24 +1,103 @@
 //! What can be known of files before the work that fills them.
 
 use super::failure::Failure;
+use super::terminal;
+use qrt_runtime::disk::Place;
+use qrt_runtime::replace_file::try_writing;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Finds out before the work what can be known of it: that there is a folder to write to, and no
-/// folder in the file's place.
-pub(crate) fn can_be_written(file: &Path) -> Result<(), Failure> {
-    if file.is_dir() {
-        let message = format!("`{}` is a folder", file.display());
-        return Err(Failure::Usage(message));
+/// A file that a command writes: as it was asked for, and where that leads.
+#[derive(Clone, Debug)]
+pub(crate) struct Output {
+    asked: PathBuf,
+    place: Place,
+}
+
+impl Output {
+    /// Finds out where `asked` leads.
+    ///
+    /// # Errors
+    /// A folder is in its place, or there is none to write to.
+    pub(crate) fn new(asked: &Path) -> Result<Self, Failure> {
+        let place = Place::of(asked).map_err(|error| Failure::file(asked, &error))?;
+        if place.is_folder() {
+            let message = format!("`{}` is a folder", asked.display());
+            return Err(Failure::Usage(message));
+        }
+        let asked = asked.to_path_buf();
+        Ok(Self { asked, place })
     }
-    match file.parent() {
-        Some(folder) if folder != Path::new("") && !folder.is_dir() => Err(Failure::Job(format!(
-            "`{}`: there is no folder `{}`",
-            file.display(),
-            folder.display()
-        ))),
-        _ => Ok(()),
+
+    /// That it can be written, as far as that can be known beforehand.
+    ///
+    /// # Errors
+    /// What the file system says.
+    pub(crate) fn try_writing(&self) -> Result<(), Failure> {
+        try_writing(&self.place).map_err(|error| Failure::file(&self.asked, &error))
     }
+
+    /// Whether it is a device or a pipe.
+    pub(crate) fn is_device(&self) -> bool {
+        self.place.is_device()
+    }
+
+    /// The path to write to. A folder that has vanished since the beginning is made again, so that no
+    /// work is lost with it.
+    ///
+    /// # Errors
+    /// What the file system says.
+    pub(crate) fn path(&self) -> Result<&Path, Failure> {
+        let path = self.place.path();
+        if let Some(folder) = path.parent().filter(|folder| !folder.exists()) {
+            fs::create_dir_all(folder).map_err(|error| Failure::file(folder, &error))?;
+            terminal::note(&format!(
+                "the folder `{}` has vanished, and is made again",
+                folder.display()
+            ));
+        }
+        Ok(path)
+    }
+}
+
+/// Refuses to write one of `outputs` over another or over one of `inputs`, whatever they are called.
+/// Devices take what is written to them one after another.
+///
+/// # Errors
+/// The first that would be.
+pub(crate) fn keep_apart<'a>(
+    inputs: impl IntoIterator<Item = &'a Path>,
+    outputs: &[&Output],
+) -> Result<(), Failure> {
+    let refused = |output: &Output, other: &Path| {
+        let message = if output.asked == other {
+            format!("`{}` is used for two different things", other.display())
+        } else {
+            format!(
+                "`{}` is `{}`: one file is used for two different things",
+                output.asked.display(),
+                other.display()
+            )
+        };
+        Err(Failure::Usage(message))
+    };
+    for input in inputs {
+        // One that can't be found is told of when it is read.
+        if let Ok(place) = Place::of(input)
+            && let Some(output) = outputs
+                .iter()
+                .find(|output| output.place.is_same_as(&place))
+        {
+            return refused(output, input);
+        }
+    }
+    for (number, output) in outputs.iter().enumerate() {
+        let mut earlier = outputs[..number].iter();
+        if let Some(other) = earlier.find(|other| other.place.is_same_as(&output.place)) {
+            return refused(output, &other.asked);
+        }
+    }
+    Ok(())
 }
 
 /// A scene's result in the current folder: `folder/box.yaml` and `png` make `box.png`.
@@ -27,25 +106,4 @@ pub(crate) fn named_after(scene: &Path, extension: &str) -> PathBuf {
     name.push(".");
     name.push(extension);
     name.into()
-}
-
-/// Whether `path` is a device or a pipe: it exists and is no ordinary file.
-pub(crate) fn is_device(path: &Path) -> bool {
-    fs::metadata(path).is_ok_and(|found| !found.is_file())
-}
-
-/// Refuses to write one file over another, or over the scene. Devices take what is written to them
-/// one after another.
-pub(crate) fn keep_apart<'a>(files: impl Iterator<Item = &'a Path>) -> Result<(), Failure> {
-    let mut known: Vec<PathBuf> = Vec::new();
-    for file in files {
-        // A file that isn't there yet is told by its name.
-        let real = fs::canonicalize(file).unwrap_or_else(|_| file.to_path_buf());
-        if !is_device(&real) && known.contains(&real) {
-            let message = format!("`{}` is used for two different things", file.display());
-            return Err(Failure::Usage(message));
-        }
-        known.push(real);
-    }
-    Ok(())
 }

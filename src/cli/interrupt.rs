@@ -1,4 +1,4 @@
-//! Ctrl-C.
+//! Signals: Ctrl-C, and the limit on the size of files.
 
 use super::failure::Failure;
 use std::sync::Arc;
@@ -19,3 +19,17 @@ pub(crate) fn cancel_on_interrupt() -> Result<Arc<AtomicBool>, Failure> {
         Err(error) => Err(Failure::Job(format!("Ctrl-C cannot be handled: {error}"))),
     }
 }
+
+/// Lets a write beyond the limit on the size of files (`ulimit -f`) fail as any other does, and be
+/// told of. Otherwise the system would end the process without a word.
+#[cfg(unix)]
+pub(crate) fn outlive_file_limits() {
+    // SAFETY: no handler is installed, so that nothing runs in a signal's context; and no other
+    // thread was started yet that could change what this signal does.
+    unsafe {
+        libc::signal(libc::SIGXFSZ, libc::SIG_IGN);
+    }
+}
+
+#[cfg(not(unix))]
+pub(crate) fn outlive_file_limits() {}

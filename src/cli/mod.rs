@@ -63,6 +63,7 @@ enum Command {
 }
 
 pub(crate) fn main() -> ExitCode {
+    interrupt::outlive_file_limits();
     let done = match Cli::parse().command {
         Command::Render(args) => render::run(&args),
         Command::Inspect(args) => inspect::run(&args),

@@ -1,12 +1,12 @@
 //! `qrt new`: a first scene.
 
 use super::failure::Failure;
-use super::files::can_be_written;
+use super::files::Output;
 use super::terminal;
 use clap::Args;
 use qrt_core::scene::text::Data;
 use qrt_runtime::replace_file::replace_file;
-use std::fs::OpenOptions;
+use std::fs::{self, OpenOptions};
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
@@ -31,7 +31,7 @@ pub(crate) struct NewArgs {
 
 pub(crate) fn run(args: &NewArgs) -> Result<(), Failure> {
     let path = file(&args.name)?;
-    can_be_written(&path)?;
+    Output::new(&path)?;
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     let name = format!("name: {}", Data::text(stem).canonical());
     let text = TEMPLATE.replacen(NAME, &name, 1);
@@ -70,5 +70,9 @@ fn file(name: &Path) -> Result<PathBuf, Failure> {
 
 fn create(path: &Path, text: &str) -> io::Result<()> {
     let mut file = OpenOptions::new().write(true).create_new(true).open(path)?;
-    file.write_all(text.as_bytes())
+    let written = file.write_all(text.as_bytes());
+    if written.is_err() {
+        let _ = fs::remove_file(path);
+    }
+    written
 }

@@ -2,7 +2,7 @@
 
 use super::args::{SceneArgs, ThreadsArgs, choice, numbers};
 use super::failure::Failure;
-use super::files::{can_be_written, is_device, keep_apart, named_after};
+use super::files::{Output, keep_apart, named_after};
 use super::inspect::check_circuit;
 use super::progress::Bar;
 use super::{interrupt, plan, stats, terminal};
@@ -12,14 +12,15 @@ use qrt_core::front::Loaded;
 use qrt_core::inspect::grouped;
 use qrt_core::scene::Estimator;
 use qrt_core::valid::ValidScene;
+use qrt_runtime::checkpoint::Checkpoint;
 use qrt_runtime::estimators::{Noise, NoiseError};
 use qrt_runtime::image::{self, Encoding, Metadata};
 use qrt_runtime::render::{
-    Colour, DEFAULT_FAILURE, Model, Options, RenderError, Rendered, Visibility, render,
+    Colour, DEFAULT_FAILURE, Model, Options, RenderError, Rendered, Visibility, render_keeping,
 };
+use qrt_runtime::replace_file::PARTIAL;
 use qrt_runtime::search::Guess;
 use qrt_runtime::workers::Workers;
-use std::fs;
 use std::path::{Path, PathBuf};
 
 const MODELS: [(Model, &str); 3] = [
@@ -170,6 +171,46 @@ fn crop(text: &str) -> Result<[u32; 4], String> {
     numbers(text, "four whole numbers, such as 10,20,4,4")
 }
 
+/// The files that are written.
+struct Outputs {
+    picture: Output,
+    stats: Option<Output>,
+    counts: Option<Output>,
+    /// Where finished tiles are kept; none for a picture that goes to a pipe or a device, beside which
+    /// there is no place.
+    checkpoint: Option<PathBuf>,
+}
+
+impl Outputs {
+    fn new(args: &RenderArgs, picture: &Path) -> Result<Self, Failure> {
+        let output = |path: &PathBuf| Output::new(path);
+        let asked = Output::new(picture)?;
+        let mut partial = picture.as_os_str().to_owned();
+        partial.push(PARTIAL);
+        let outputs = Self {
+            stats: args.stats.as_ref().map(output).transpose()?,
+            counts: args.counts.as_ref().map(output).transpose()?,
+            checkpoint: (!asked.is_device()).then_some(partial.into()),
+            picture: asked,
+        };
+        outputs.keep_off([&*args.scene.scene])?;
+        Ok(outputs)
+    }
+
+    /// The files that were asked for.
+    fn asked(&self) -> impl Iterator<Item = &Output> {
+        let others = self.stats.iter().chain(&self.counts);
+        std::iter::once(&self.picture).chain(others)
+    }
+
+    /// That none is one of `inputs`, or another of these.
+    fn keep_off<'a>(&self, inputs: impl IntoIterator<Item = &'a Path>) -> Result<(), Failure> {
+        let checkpoint = self.checkpoint.as_deref().map(Output::new).transpose()?;
+        let all: Vec<&Output> = self.asked().chain(&checkpoint).collect();
+        keep_apart(inputs, &all)
+    }
+}
+
 pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     let visibility = args.visibility()?;
     let output = args
@@ -177,30 +218,13 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
         .clone()
         .unwrap_or_else(|| named_after(&args.scene.scene, "png"));
     let encoding = Encoding::of(&output, args.exposure)?;
-    let files = [
-        Some(&*output),
-        args.stats.as_deref(),
-        args.counts.as_deref(),
-    ];
-    let files = files.into_iter().flatten();
-    keep_apart(std::iter::once(&*args.scene.scene).chain(files.clone()))?;
-    for file in files {
-        can_be_written(file)?;
-    }
+    let outputs = Outputs::new(args, &output)?;
     let loaded = args.scene.load()?;
     let scene = &loaded.valid;
     // Known before the work, not after it.
+    outputs.keep_off(scene.files().iter().map(PathBuf::as_path))?;
+    outputs.asked().try_for_each(Output::try_writing)?;
     Metadata::new().set("scene", scene.scene().name.as_str())?;
-    let checkpoint = checkpoint(&output);
-    if let Some(path) = checkpoint
-        .as_ref()
-        .filter(|path| path.exists() && !args.resume)
-    {
-        terminal::note(&format!(
-            "`{}` of an interrupted render is replaced; `--resume` would go on from it",
-            path.display()
-        ));
-    }
     let cancel = interrupt::cancel_on_interrupt()?;
     let bar = Bar::paths(!args.quiet);
     let show = |progress| bar.show(progress);
@@ -217,7 +241,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
             cancel: Some(&cancel),
             progress: Some(&show),
         },
-        checkpoint: checkpoint.clone(),
+        checkpoint: outputs.checkpoint.clone(),
         resume: args.resume,
         ..Options::default()
     };
@@ -226,18 +250,40 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     if args.model != Model::Real {
         check_circuit(&loaded, planned.as_ref().map_or(scene, |plan| &plan.scene))?;
     }
-    let rendered = render(scene, &options);
+    if let Some(path) = (outputs.checkpoint.as_ref()).filter(|path| path.exists() && !args.resume) {
+        terminal::note(&format!(
+            "`{}` of an interrupted render is replaced; `--resume` would go on from it",
+            path.display()
+        ));
+    }
+    let rendered = render_keeping(scene, &options);
     bar.clear();
-    let rendered = rendered.map_err(|error| failure(error, &loaded))?;
-    let clipped = write(args, &output, encoding, scene, &rendered)?;
-    // Only now is everything safe.
-    if let Some(path) = &checkpoint {
-        fs::remove_file(path).map_err(|error| Failure::file(path, &error))?;
+    let (rendered, checkpoint) = rendered.map_err(|error| failure(error, &loaded))?;
+    let clipped = match write(&outputs, encoding, scene, &rendered) {
+        Ok(clipped) => clipped,
+        Err(error) => return Err(kept(error, checkpoint, &outputs)),
+    };
+    // Only now is everything safe. Until here nobody else could begin with the checkpoint.
+    if let Some(checkpoint) = checkpoint {
+        checkpoint.remove().map_err(RenderError::from)?;
     }
     if args.quiet {
         return Ok(());
     }
     terminal::print(&summary(&output, &rendered, clipped))
+}
+
+/// What was rendered can't be written: says where it is kept.
+fn kept(error: Failure, checkpoint: Option<Checkpoint>, outputs: &Outputs) -> Failure {
+    let there = checkpoint.is_some_and(|checkpoint| checkpoint.close().unwrap_or(false));
+    match &outputs.checkpoint {
+        Some(path) if there => Failure::Job(format!(
+            "{error}; all pixels are finished, and `{}` keeps them: the same command with `--resume` \
+             writes them",
+            path.display()
+        )),
+        _ => error,
+    }
 }
 
 /// Why there is no picture: at its place in the scene, or with what the user can do.
@@ -256,8 +302,7 @@ fn failure(error: RenderError, loaded: &Loaded) -> Failure {
 
 /// Writes the picture and what is asked beside it; how many pixels were clipped.
 fn write(
-    args: &RenderArgs,
-    output: &Path,
+    outputs: &Outputs,
     encoding: Encoding,
     scene: &ValidScene,
     rendered: &Rendered,
@@ -266,24 +311,15 @@ fn write(
     if let Encoding::Png { exposure } = encoding {
         metadata.set("exposure", exposure.to_string())?;
     }
-    let clipped = image::save(output, &rendered.image, &metadata, encoding)?;
-    if let Some(path) = &args.counts {
-        image::write_counts(path, rendered.counts())?;
+    let picture = outputs.picture.path()?;
+    let clipped = image::save(picture, &rendered.image, &metadata, encoding)?;
+    if let Some(output) = &outputs.counts {
+        image::write_counts(output.path()?, rendered.counts())?;
     }
-    if let Some(path) = &args.stats {
-        stats::write(path, scene, rendered, clipped)?;
+    if let Some(output) = &outputs.stats {
+        stats::write(output.path()?, scene, rendered, clipped)?;
     }
     Ok(clipped)
-}
-
-/// Beside the picture; none for a pipe or a device, beside which there is no place.
-fn checkpoint(output: &Path) -> Option<PathBuf> {
-    if is_device(output) {
-        return None;
-    }
-    let mut name = output.as_os_str().to_owned();
-    name.push(".qrt-partial");
-    Some(name.into())
 }
 
 fn summary(output: &Path, rendered: &Rendered, clipped: u64) -> String {

@@ -2,6 +2,7 @@
 
 use super::args::{SceneArgs, ThreadsArgs};
 use super::failure::Failure;
+use super::files::{Output, keep_apart};
 use super::progress::Bar;
 use super::{interrupt, plan, terminal};
 use clap::Args;
@@ -9,7 +10,9 @@ use qrt_runtime::plan::Options as PlanOptions;
 use qrt_runtime::sample::SampleError;
 use qrt_runtime::trade::{Options, TradeError, trade};
 use qrt_runtime::workers::Workers;
-use std::path::PathBuf;
+use std::ffi::OsStr;
+use std::fs;
+use std::path::{Path, PathBuf};
 
 /// Measure what a scene's accuracy costs, parameter by parameter
 ///
@@ -51,12 +54,28 @@ pub(crate) struct TradeArgs {
     quiet: bool,
 }
 
+/// That none of the files in `folder` that would be written is one that the scene was read from, or
+/// another of them.
+fn keep_apart_from(folder: &Path, scene: &Path, files: &[PathBuf]) -> Result<(), Failure> {
+    let there = fs::read_dir(folder).into_iter().flatten().flatten();
+    let written = there.map(|entry| entry.path()).filter(|path| {
+        let name = path.file_name().and_then(OsStr::to_str);
+        let drawn = path.extension().is_some_and(|extension| extension == "svg");
+        drawn || matches!(name, Some("trade.csv" | "index.html"))
+    });
+    let outputs = written.map(|path| Output::new(&path));
+    let outputs = outputs.collect::<Result<Vec<_>, _>>()?;
+    let inputs = files.iter().map(PathBuf::as_path).chain([scene]);
+    keep_apart(inputs, &outputs.iter().collect::<Vec<_>>())
+}
+
 pub(crate) fn run(args: &TradeArgs) -> Result<(), Failure> {
     if args.output.exists() && !args.output.is_dir() {
         let message = format!("`{}` is no folder", args.output.display());
         return Err(Failure::Usage(message));
     }
     let loaded = args.scene.load()?;
+    keep_apart_from(&args.output, &args.scene.scene, loaded.valid.files())?;
     let cancel = interrupt::cancel_on_interrupt()?;
     let bar = Bar::settings(!args.quiet);
     let show = |progress| bar.show(progress);
@@ -89,6 +108,13 @@ pub(crate) fn run(args: &TradeArgs) -> Result<(), Failure> {
     })?;
     if args.quiet {
         return Ok(());
+    }
+    if measured.damaged > 0 {
+        terminal::note(&format!(
+            "{} damaged rows of `{}` were measured again",
+            measured.damaged,
+            args.output.join("trade.csv").display()
+        ));
     }
     let page = args.output.join("index.html");
     terminal::print(&format!("{}{}\n", measured.summary(), page.display()))

@@ -5,7 +5,7 @@ mod text;
 
 use super::args::{SceneArgs, choice};
 use super::failure::Failure;
-use super::files::{can_be_written, keep_apart};
+use super::files::{Output, keep_apart};
 use super::terminal;
 use clap::Args;
 use qrt_core::front::Loaded;
@@ -78,12 +78,13 @@ pub(crate) fn run(args: &InspectArgs) -> Result<(), Failure> {
         return Err(Failure::Usage(message.to_owned()));
     }
     let circuit = args.circuit.as_deref().filter(|_| !in_terminal);
-    let files = [circuit, args.registers.as_deref()].into_iter().flatten();
-    keep_apart(std::iter::once(&*args.scene.scene).chain(files.clone()))?;
-    for file in files {
-        can_be_written(file)?;
-    }
+    let circuit = circuit.map(Output::new).transpose()?;
+    let registers = args.registers.as_deref().map(Output::new).transpose()?;
+    let outputs: Vec<&Output> = circuit.iter().chain(&registers).collect();
+    keep_apart([&*args.scene.scene], &outputs)?;
     let loaded = args.scene.load()?;
+    keep_apart(loaded.valid.files().iter().map(PathBuf::as_path), &outputs)?;
+    outputs.iter().try_for_each(|output| output.try_writing())?;
     let planned = plan(&loaded.valid, &PlanOptions::default())?;
     let scene = planned.as_ref().map_or(&loaded.valid, |plan| &plan.scene);
     let refused = |error: qrt_core::oracle::OracleError| loaded.report(vec![error.problem()]);
@@ -91,10 +92,10 @@ pub(crate) fn run(args: &InspectArgs) -> Result<(), Failure> {
     let passes = inspection.passes(scene).map_err(refused)?;
 
     let name = &scene.scene().name;
-    if let Some(file) = &args.registers {
+    if let Some(file) = &registers {
         write(file, &draw::registers(&inspection, name).svg())?;
     }
-    if let Some(file) = circuit {
+    if let Some(file) = &circuit {
         write(file, &draw::frame(&inspection, name).svg())?;
     }
     let shown = Shown {
@@ -141,7 +142,8 @@ pub(super) fn keep_budget(loaded: &Loaded, inspection: &Inspection) -> Result<()
     check_budget(&loaded.valid, spent).map_err(|problems| loaded.report(problems).into())
 }
 
-fn write(file: &Path, text: &str) -> Result<(), Failure> {
+fn write(output: &Output, text: &str) -> Result<(), Failure> {
+    let file = output.path()?;
     replace_file(file, |out| out.write_all(text.as_bytes()))
         .map_err(|error| Failure::file(file, &error))
 }
