@@ -227,6 +227,38 @@ fn interrupted_and_resumed_or_not() {
 }
 
 #[test]
+fn an_interruption_waits_for_no_pixel() {
+    // Of 2^40 paths, cut into 4,096 parts.
+    let scene = scene(&["sampling.path_bits=40", "film={ width: 1, height: 1 }"]);
+    for model in [Model::Real, Model::Fixed] {
+        let (cancel, later) = (AtomicBool::new(false), AtomicU64::new(0));
+        let progress = |progress: Progress| {
+            if let Progress::Finished(paths) = progress
+                && cancel.swap(true, Ordering::SeqCst)
+            {
+                later.fetch_add(paths, Ordering::SeqCst);
+            }
+        };
+        let options = Options {
+            model,
+            workers: Workers {
+                cancel: Some(&cancel),
+                progress: Some(&progress),
+                ..threads(2)
+            },
+            ..Options::default()
+        };
+        let error = render(&scene, &options).unwrap_err();
+        assert!(matches!(
+            error,
+            RenderError::Interrupted { finished: 0, .. }
+        ));
+        // Each thread may be within a run.
+        assert!(later.into_inner() <= 2 << 16, "{model:?}");
+    }
+}
+
+#[test]
 fn what_is_finished_is_not_traced_again() {
     let scene = scene(&[]);
     let partial = Partial::new("finished");

@@ -18,9 +18,9 @@ use std::ops::Range;
 /// the same numbers in different orders.
 const ROUNDING: f64 = 1e-12;
 
-/// Paths that are traced without looking up: in floating point, and by a circuit, of which large ones
-/// take some 100 microseconds a path.
-const RUN: [u64; 2] = [1 << 16, 1 << 12];
+/// Paths that are traced without looking up: in floating point, and by a circuit, as many as the
+/// gates machine traces together.
+const RUN: [u64; 2] = [1 << 16, 1 << 11];
 /// Above this many, the paths of a pixel are cut into parts for several threads.
 const SPLIT: u64 = 1 << 18;
 /// Parts of a pixel, at most.
