@@ -49,6 +49,12 @@ pub enum TradeError {
         /// What the file system says.
         source: io::Error,
     },
+    /// Another process measures into the same table.
+    #[error("`{}` is being written by another `qrt trade`", .path.display())]
+    InUse {
+        /// The table's file.
+        path: PathBuf,
+    },
     /// The table that is there is another's.
     #[error(
         "`{}` is the table of another {what}: {found}, not {asked}; remove it, or name another \
@@ -86,6 +92,9 @@ fn first(problems: &[Problem]) -> String {
 impl TradeError {
     /// Whether it is the request that can't be met, rather than the job that failed.
     pub fn is_refusal(&self) -> bool {
-        !matches!(self, Self::Sample(_) | Self::Threads(_) | Self::File { .. })
+        !matches!(
+            self,
+            Self::Sample(_) | Self::Threads(_) | Self::File { .. } | Self::InUse { .. }
+        )
     }
 }

@@ -9,7 +9,7 @@ use super::error::TradeError;
 use super::setting::{KEY, Setting};
 use crate::replace_file::replace_file;
 use qrt_core::oracle::CallCost;
-use std::fs::{File, OpenOptions};
+use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{self, Seek as _, SeekFrom, Write as _};
 use std::path::{Path, PathBuf};
 
@@ -124,11 +124,8 @@ impl Table {
         settings: &[Setting],
     ) -> Result<Self, TradeError> {
         let failed = failed(path);
-        let bytes = match std::fs::read(path) {
-            Ok(bytes) => bytes,
-            Err(error) if error.kind() == io::ErrorKind::NotFound => Vec::new(),
-            Err(error) => return Err(failed(error)),
-        };
+        let file = opened(path)?;
+        let bytes = std::fs::read(path).map_err(&failed)?;
         // What is no text is damaged.
         let text = String::from_utf8_lossy(&bytes);
         // A last line without its end was cut off while it was written.
@@ -146,10 +143,7 @@ impl Table {
         }
         let head = format!("{}\n{}\n", first_line(header), columns());
         let mut table = Self {
-            // Not truncated: what is in it is not known to be worthless before this.
-            file: (OpenOptions::new().create(true).truncate(false).write(true))
-                .open(path)
-                .map_err(&failed)?,
+            file,
             path: path.to_path_buf(),
             head,
             lines: vec![None; settings.len()],
@@ -209,14 +203,31 @@ impl Table {
             text.push('\n');
         }
         replace_file(&self.path, |out| out.write_all(text.as_bytes())).map_err(&failed)?;
-        let file = OpenOptions::new().write(true).open(&self.path);
-        self.file = file.map_err(&failed)?;
+        self.file = opened(&self.path)?;
         self.go_on_at(text.len() as u64).map_err(&failed)
     }
 
     fn go_on_at(&mut self, end: u64) -> io::Result<()> {
         self.file.set_len(end)?;
         self.file.seek(SeekFrom::Start(end)).map(drop)
+    }
+}
+
+/// The file, made if it is not there, and locked against others who measure.
+fn opened(path: &Path) -> Result<File, TradeError> {
+    let mut options = OpenOptions::new();
+    let file = (options.create(true).truncate(false).write(true))
+        .open(path)
+        .map_err(failed(path))?;
+    match file.try_lock() {
+        Err(TryLockError::WouldBlock) => Err(TradeError::InUse {
+            path: path.to_path_buf(),
+        }),
+        // Some network file systems have no locks.
+        Err(TryLockError::Error(error)) if error.kind() != io::ErrorKind::Unsupported => {
+            Err(failed(path)(error))
+        }
+        _ => Ok(file),
     }
 }
 

@@ -168,6 +168,17 @@ fn a_damaged_row_is_measured_again_wherever_it_is_damaged() {
 }
 
 #[test]
+fn two_do_not_measure_into_one_table() {
+    let folder = Scratch::new();
+    let path = folder.path("trade.csv");
+    let first = std::fs::File::create(&path).unwrap();
+    first.try_lock().unwrap();
+    let error = trade(&scene(LIT), &folder.path(""), &quick()).unwrap_err();
+    assert!(matches!(error, TradeError::InUse { .. }) && !error.is_refusal());
+    assert_eq!(std::fs::read(&path).unwrap(), b"");
+}
+
+#[test]
 fn any_changed_byte_of_a_row_is_noticed() {
     let row = "paths,fixed,sine,1.0e0";
     let line = format!("{row},{:08x}", crc32fast::hash(row.as_bytes()));
