@@ -9,6 +9,7 @@ mod command_line {
     mod inspect_command;
     mod pictures_by_circuits;
     mod render_command;
+    mod scenes_from_strangers;
     mod search_command;
     mod small_commands;
     mod trade_command;

@@ -329,6 +329,12 @@ impl Builder<'_> {
             ComparatorAt::Midpoints => 0,
             ComparatorAt::Edges => (1 << step) - 1,
         };
+        if let Operand::Constant(value) = operand {
+            // A constant is not rounded as registers are.
+            let count = (value + rise) >> step << bits.saturating_sub(fraction);
+            self.leave();
+            return (operand, Operand::Constant(count));
+        }
         let rise = self.real(rise as f64 / (1_u64 << fraction) as f64);
         let raised = self.add(colour, rise);
         let raised = self.held(raised);

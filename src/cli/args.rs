@@ -1,10 +1,12 @@
 //! Arguments that several commands have.
 
 use super::failure::Failure;
+use super::memory::{self, Memory};
 use super::terminal;
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use qrt_core::front::{self, Loaded};
+use qrt_core::scene::meshes::MOST_FACES;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
@@ -17,12 +19,27 @@ pub(crate) struct SceneArgs {
     /// Override a key of the scene; may be repeated
     #[arg(long = "set", value_name = "KEY=VALUE")]
     sets: Vec<String>,
+    /// Let the scene read files below this folder, too, not only below its own; may be repeated
+    #[arg(long, value_name = "DIR")]
+    allow_files: Vec<PathBuf>,
+    /// The memory that the work may take, such as 500M or 4G: what would take more is refused before it
+    /// begins [default: three quarters of what the machine has]
+    #[arg(long, value_name = "SIZE", value_parser = memory::size)]
+    max_memory: Option<u64>,
 }
 
 impl SceneArgs {
+    /// The memory that the work may take.
+    pub(crate) fn memory(&self) -> Memory {
+        Memory::of(self.max_memory)
+    }
+
     /// Reads the scene and checks it.
     pub(crate) fn load(&self) -> Result<Loaded, Failure> {
-        let loaded = front::load(&self.scene, &self.sets)?;
+        let loaded = front::load_with(&self.scene, &self.sets, |files| {
+            let most = self.memory().faces().min(MOST_FACES);
+            files.allowing(&self.allow_files).most_faces(most)
+        })?;
         if let Some(warnings) = loaded.warnings() {
             terminal::warn(&warnings);
         }
@@ -40,6 +57,12 @@ pub(crate) struct ThreadsArgs {
 }
 
 impl ThreadsArgs {
+    /// How many there will be.
+    pub(crate) fn or_cores(&self) -> usize {
+        let cores = || std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
+        self.count().map_or_else(cores, NonZeroUsize::get)
+    }
+
     pub(crate) fn count(&self) -> Option<NonZeroUsize> {
         self.threads.and_then(|n| NonZeroUsize::new(n as usize))
     }

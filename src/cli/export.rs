@@ -4,6 +4,7 @@ use super::args::{SceneArgs, choice, numbers};
 use super::failure::Failure;
 use super::files::{Output, keep_apart, named_after};
 use super::inspect::{CHANNEL_CHOICES, channel_name, keep_budget};
+use super::memory::Work;
 use super::progress::Bar;
 use super::{interrupt, plan, terminal};
 use clap::Args;
@@ -219,6 +220,7 @@ pub(crate) fn run(args: &ExportArgs) -> Result<(), Failure> {
     let written = scene.scene();
     let pixel = on_film(args.pixel, [written.film.width, written.film.height])?;
     let options = Options::of_class(PixelClasses::new(scene).of(pixel));
+    args.scene.memory().keep_circuit(scene, Work::Export)?;
     let inspection = Inspection::new(scene, args.channel, options)
         .map_err(|error| loaded.report(vec![error.problem()]))?;
     keep_budget(&loaded, &inspection)?;

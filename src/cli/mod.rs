@@ -11,6 +11,7 @@ mod failure;
 mod files;
 mod inspect;
 mod interrupt;
+mod memory;
 mod new;
 mod plan;
 mod progress;

@@ -225,6 +225,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     outputs.keep_off(scene.files().iter().map(PathBuf::as_path))?;
     outputs.asked().try_for_each(Output::try_writing)?;
     Metadata::new().set("scene", scene.scene().name.as_str())?;
+    args.scene.memory().keep_picture(scene, args.crop)?;
     let cancel = interrupt::cancel_on_interrupt()?;
     let bar = Bar::paths(!args.quiet);
     let show = |progress| bar.show(progress);
@@ -248,6 +249,11 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     let planned = plan::of(scene, &options.planning(), args.quiet)?;
     options.plan = planned.as_ref();
     if args.model != Model::Real {
+        let traced = planned.as_ref().map_or(scene, |plan| &plan.scene);
+        let threads = args.threads.or_cores();
+        args.scene
+            .memory()
+            .keep_model(traced, args.model, threads)?;
         check_circuit(&loaded, planned.as_ref().map_or(scene, |plan| &plan.scene))?;
     }
     if let Some(path) = (outputs.checkpoint.as_ref()).filter(|path| path.exists() && !args.resume) {

@@ -2,7 +2,7 @@
 
 use super::failure::Failure;
 use qrt_core::valid::ValidScene;
-use qrt_runtime::peak_memory::peak_resident_bytes;
+use qrt_runtime::memory::peak_resident_bytes;
 use qrt_runtime::render::{Rendered, Visibility};
 use qrt_runtime::replace_file::replace_file;
 use serde_json::{Value, json};

@@ -3,6 +3,7 @@
 use super::args::{SceneArgs, ThreadsArgs};
 use super::failure::Failure;
 use super::inspect::check_circuit;
+use super::memory::Work;
 use super::progress::Bar;
 use super::{interrupt, plan, terminal};
 use clap::Args;
@@ -75,6 +76,8 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
     };
     let planned = plan::of(&loaded.valid, &planning, args.json)?;
     let scene = planned.map_or_else(|| loaded.valid.clone(), |plan| plan.scene);
+    let work = Work::Gates(args.threads.or_cores());
+    args.scene.memory().keep_circuit(&scene, work)?;
     check_circuit(&loaded, &scene)?;
     let options = Options {
         pixels: args.pixels,

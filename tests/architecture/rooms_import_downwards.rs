@@ -27,7 +27,7 @@ const MODULES: &[(&str, &[&str])] = &[
         "qrt-runtime/src",
         &[
             "named",
-            "peak_memory",
+            "memory",
             "scratch",
             "disk",
             "replace_file",

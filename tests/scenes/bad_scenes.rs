@@ -101,14 +101,15 @@ fn a_file_that_cannot_be_read_is_an_error_like_others() {
 }
 
 /// Codes that no scene file gets from its checks: the first two only scenes that are built in Rust,
-/// the third only a file of 256 MiB, the fourth only where the OBJ library disagrees with the
+/// the third only a file of 256 MiB, the fourth only millions of faces, the fifth only where the OBJ library disagrees with the
 /// checks before it, the next ones only when the scene's circuit is compiled, the last as a warning.
 /// The unit tests of `valid`, of the OBJ reader and of `oracle`, `inspect_command` and the test
 /// below show them.
-const ELSEWHERE: [&str; 10] = [
+const ELSEWHERE: [&str; 11] = [
     codes::DUPLICATE_NAME,
     codes::BSDF_CHANNELS,
     codes::OBJ_TOO_LARGE,
+    codes::MESH_TOO_MANY,
     codes::OBJ_REFUSED,
     codes::BUDGET_QUBITS,
     codes::BUDGET_TOFFOLI,

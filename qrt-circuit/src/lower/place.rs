@@ -171,9 +171,36 @@ pub fn parts(program: &Program, cuts: &[usize]) -> Vec<Circuit> {
     parts
 }
 
+/// As [`parts`], where the first and the last part are too large to be kept: of the first there is what
+/// registers hold after it, of the last nothing. Their gates are counted.
+pub fn parts_between(program: &Program, cuts: &[usize]) -> (Vec<Circuit>, usize) {
+    let mut parts: Vec<Circuit> = vec![Circuit::default(); cuts.len() + 1];
+    let mut lowering = Lowering::on(program);
+    let mut left_out = 0;
+    for (place, instruction) in program.instructions.iter().enumerate() {
+        let number = cuts.partition_point(|cut| *cut <= place);
+        if number == 1 && parts[0].outputs.is_empty() {
+            parts[0].outputs = lowering.held();
+        }
+        let op = &program.ops[instruction.op as usize];
+        lowering.instruction(program, op, instruction.inverse);
+        if number == 0 || number == cuts.len() {
+            left_out += lowering.gates.len();
+            lowering.gates.clear();
+        } else {
+            parts[number].gates.append(&mut lowering.gates);
+        }
+    }
+    for part in &mut parts {
+        part.parameters.clone_from(&program.parameters);
+        part.qubits = lowering.pool.made;
+    }
+    (parts, left_out)
+}
+
 /// Lowers a program instruction by instruction: `each` gets its gates, which are not kept, and how
 /// many qubits are in use meanwhile. The number of qubits in all is returned.
-pub(super) fn walk(program: &Program, mut each: impl FnMut(&[Gate], u32)) -> u32 {
+pub fn each_instruction(program: &Program, mut each: impl FnMut(&[Gate], u32)) -> u32 {
     let mut lowering = Lowering::on(program);
     for instruction in &program.instructions {
         let op = &program.ops[instruction.op as usize];

@@ -1,7 +1,7 @@
 //! How many qubits circuits have, and their Toffoli depth.
 
 use super::super::{Circuit, Gate, Program, Qubit};
-use super::place::walk;
+use super::place::each_instruction;
 
 /// The size of a program's circuit in qubits and in Toffoli depth.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -19,7 +19,7 @@ pub struct Size {
 pub fn size(program: &Program) -> Size {
     let mut clock = Clock::default();
     let mut in_use = Vec::with_capacity(program.instructions.len());
-    let qubits = walk(program, |gates, meanwhile| {
+    let qubits = each_instruction(program, |gates, meanwhile| {
         clock.run(gates);
         in_use.push(meanwhile);
     });
@@ -32,7 +32,7 @@ pub fn size(program: &Program) -> Size {
 
 /// The qubits of [`size`] alone.
 pub fn most_qubits(program: &Program) -> u32 {
-    walk(program, |_, _| {})
+    each_instruction(program, |_, _| {})
 }
 
 /// The Toffoli depth of a circuit: each gate runs as early as its qubits allow, and only Toffolis

@@ -5,8 +5,8 @@
 //! error at their quarter points is below half a unit in the last place, or there are
 //! `2^MOST_PIECES` of them.
 
-use super::Builder;
 use super::value::{Real, Tabulated};
+use super::{BuildError, Builder, MAX_BITS};
 use qrt_circuit::{Operand, Word};
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -61,6 +61,11 @@ impl Builder<'_> {
     pub(super) fn fitted(&mut self, word: Word, range: [i64; 2], f: impl Fn(i64) -> f64) -> Real {
         let word = Word { shift: 0, ..word };
         let bits = word.width;
+        if bits > MAX_BITS {
+            let what = "a function's operand";
+            self.fail(BuildError::TooWide { what, bits });
+            return Real::constant(0.0);
+        }
         let sign = word.signed;
         // The number that `code`, the word's bits, stands for; those that don't occur stand for
         // the nearest that does.

@@ -275,6 +275,12 @@ impl Expr {
         self.with(self, |a, _| Node::Abs(a))
     }
 
+    /// The greater of this expression and 0.
+    pub fn positive(&self) -> Self {
+        let zero = self.with(self, |_, _| Node::Number(0.0));
+        self.with(&zero, Node::Max)
+    }
+
     /// The square root of this expression.
     pub fn sqrt(&self) -> Self {
         self.with(self, |a, _| Node::Sqrt(a))

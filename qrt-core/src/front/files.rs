@@ -1,10 +1,14 @@
 //! Where the files come from that a scene names: a folder on disk, or bytes that a program holds.
 
+use crate::scene::meshes::MOST_FACES;
 use std::fs::File;
 use std::io::{self, Read as _};
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 /// A scene's own files: its meshes and their material libraries.
+///
+/// A scene may come from a stranger, so of a disk only what lies below the scene's folder is read, links
+/// followed, unless [`Files::allowing`] names other folders; and only regular files.
 ///
 /// ```
 /// use qrt_core::front::{Files, parse_with};
@@ -25,6 +29,8 @@ use std::path::{Path, PathBuf};
 pub struct Files<'a> {
     folder: &'a Path,
     origin: Origin<'a>,
+    allowed: &'a [PathBuf],
+    most_faces: usize,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -43,16 +49,35 @@ impl<'a> Files<'a> {
 
     /// The files of `folder`, itself relative to `root`; errors call them as seen from `root`.
     pub fn below(root: &'a Path, folder: &'a Path) -> Self {
-        let origin = Origin::Disk(root);
-        Self { folder, origin }
+        Self::new(folder, Origin::Disk(root))
+    }
+
+    fn new(folder: &'a Path, origin: Origin<'a>) -> Self {
+        Self {
+            folder,
+            origin,
+            allowed: &[],
+            most_faces: MOST_FACES,
+        }
+    }
+
+    /// The same, and what lies below these folders on disk, which are relative to the current one.
+    pub fn allowing(self, folders: &'a [PathBuf]) -> Self {
+        Self {
+            allowed: folders,
+            ..self
+        }
+    }
+
+    /// The same, with meshes of at most so many triangles in all, each time they are placed; by itself,
+    /// [`MOST_FACES`].
+    pub fn most_faces(self, most_faces: usize) -> Self {
+        Self { most_faces, ..self }
     }
 
     /// The files of these names and contents, and no others.
     pub fn held(files: &'a [(&'a str, &'a [u8])]) -> Self {
-        Self {
-            folder: Path::new(""),
-            origin: Origin::Held(files),
-        }
+        Self::new(Path::new(""), Origin::Held(files))
     }
 
     /// What errors call the file that the scene calls `name`.
@@ -60,19 +85,60 @@ impl<'a> Files<'a> {
         self.folder.join(name)
     }
 
-    /// The bytes at `path`, at most `most`. Only of a regular file: anything else (a pipe, a
-    /// device) might never end. Whatever a front end reads, it reads here.
+    pub(crate) fn faces_allowed(&self) -> usize {
+        self.most_faces
+    }
+
+    /// What stands around the scene's files, in words.
+    pub(crate) fn boundary(&self) -> [&'static str; 2] {
+        match self.origin {
+            Origin::Disk(root) if root != Path::new("") => [
+                "the crate's folder",
+                "`qrt!` reads files of the crate alone",
+            ],
+            _ => [
+                "the scene's folder",
+                "put it there, or allow its folder: `--allow-files DIR`",
+            ],
+        }
+    }
+
+    /// Whether `path` leads to a place below the scene's folder, or below one that is allowed.
+    fn is_inside(&self, root: &Path, path: &Path) -> bool {
+        let path = real(&root.join(path));
+        let folder = root.join(self.folder);
+        std::iter::once(&folder)
+            .chain(self.allowed)
+            .any(|folder| path.starts_with(real(folder)))
+    }
+
+    /// The bytes at `path`, at most `most`, if it is inside. Whatever a front end reads, it reads here or
+    /// by [`Files::read_named`].
     pub(crate) fn read(&self, path: &Path, most: u64) -> Result<Vec<u8>, Unread> {
+        match self.origin {
+            Origin::Disk(root) if !self.is_inside(root, path) => Err(Unread::Outside),
+            _ => self.read_named(path, most),
+        }
+    }
+
+    /// The bytes at `path`, at most `most`, wherever it is: somebody named it who may. Only of a regular
+    /// file: anything else (a pipe, a device) might never end.
+    pub(crate) fn read_named(&self, path: &Path, most: u64) -> Result<Vec<u8>, Unread> {
         let bytes = match self.origin {
             Origin::Disk(root) => {
                 let path = root.join(path);
-                let kind = std::fs::metadata(&path)?;
-                if !kind.is_file() {
+                let regular = |kind: std::fs::Metadata| {
                     let is_folder = kind.is_dir();
-                    return Err(Unread::Irregular { is_folder });
-                }
+                    kind.is_file()
+                        .then_some(())
+                        .ok_or(Unread::Irregular { is_folder })
+                };
+                // Before it is opened, for a pipe would wait; and after, for it may be another by then.
+                regular(std::fs::metadata(&path)?)?;
+                let file = File::open(path)?;
+                regular(file.metadata()?)?;
                 let mut bytes = Vec::new();
-                File::open(path)?.take(most + 1).read_to_end(&mut bytes)?;
+                file.take(most + 1).read_to_end(&mut bytes)?;
                 bytes
             }
             Origin::Held(files) => {
@@ -88,8 +154,28 @@ impl<'a> Files<'a> {
     }
 }
 
+/// Where `path` leads, links followed as far as there are files; the rest is taken by its words.
+fn real(path: &Path) -> PathBuf {
+    let path = if path == Path::new("") {
+        Path::new(".")
+    } else {
+        path
+    };
+    if let Ok(real) = path.canonicalize() {
+        return real;
+    }
+    let above = path.parent().map(real).unwrap_or_default();
+    match path.components().next_back() {
+        Some(Component::Normal(name)) => above.join(name),
+        Some(Component::ParentDir) => above.parent().map(Path::to_path_buf).unwrap_or_default(),
+        _ => above,
+    }
+}
+
 /// Why a file cannot be read.
 pub(crate) enum Unread {
+    /// It lies outside the folders that may be read.
+    Outside,
     /// It is not a regular file, but perhaps a folder.
     Irregular { is_folder: bool },
     /// It has more bytes than may be.

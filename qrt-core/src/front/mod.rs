@@ -48,10 +48,29 @@ impl Loaded {
 /// # Errors
 /// Everything that is wrong with it, with places.
 pub fn load(path: &std::path::Path, sets: &[String]) -> Result<Loaded, Report> {
-    load_below("".as_ref(), path, sets)
+    load_with(path, sets, |files| files)
 }
 
-/// As [`load`], of a path relative to `root`; errors name files as seen from there.
+/// As [`load`], with what `access` makes of the scene's own files: [`Files::allowing`].
+///
+/// # Errors
+/// Everything that is wrong with it, with places.
+pub fn load_with<'a>(
+    path: &'a std::path::Path,
+    sets: &[String],
+    access: impl FnOnce(Files<'a>) -> Files<'a>,
+) -> Result<Loaded, Report> {
+    let files = access(Files::of_folder(folder_of(path)));
+    let source = read_file(path, |most| files.read_named(path, most))?;
+    from_source(source, sets, files)
+}
+
+fn folder_of(path: &std::path::Path) -> &std::path::Path {
+    path.parent().unwrap_or(std::path::Path::new(""))
+}
+
+/// As [`load`], of a path relative to `root`, below which all its files are; errors name files as seen
+/// from there.
 ///
 /// # Errors
 /// Everything that is wrong with it, with places.
@@ -60,9 +79,10 @@ pub fn load_below(
     path: &std::path::Path,
     sets: &[String],
 ) -> Result<Loaded, Report> {
-    let folder = path.parent().unwrap_or(std::path::Path::new(""));
-    let files = Files::below(root, folder);
-    let source = read_file(files, path)?;
+    let allowed = [root.to_path_buf()];
+    let files = Files::below(root, folder_of(path)).allowing(&allowed);
+    let all = Files::below(root, "".as_ref());
+    let source = read_file(path, |most| all.read(path, most))?;
     from_source(source, sets, files)
 }
 
@@ -142,7 +162,10 @@ fn decoded(
     valid::check(scene, &meshes, problems)
 }
 
-fn read_file(files: Files<'_>, path: &std::path::Path) -> Result<Source, Report> {
+fn read_file(
+    path: &std::path::Path,
+    read: impl FnOnce(u64) -> Result<Vec<u8>, Unread>,
+) -> Result<Source, Report> {
     let name = path.display().to_string();
     let fail = |what| Report::of_file(&name, what);
     let unreadable = |why: Unread| {
@@ -151,6 +174,7 @@ fn read_file(files: Files<'_>, path: &std::path::Path) -> Result<Source, Report>
             Unread::Irregular { is_folder: true } => File::Folder,
             Unread::Irregular { is_folder: false } => File::Irregular,
             Unread::TooLarge => File::TooLarge { most: MAX_BYTES },
+            Unread::Outside => File::Outside,
             Unread::Failed(error) => match error.kind() {
                 ErrorKind::NotFound => File::Missing,
                 ErrorKind::PermissionDenied => File::Denied,
@@ -160,7 +184,7 @@ fn read_file(files: Files<'_>, path: &std::path::Path) -> Result<Source, Report>
             },
         })
     };
-    let bytes = files.read(path, MAX_BYTES).map_err(unreadable)?;
+    let bytes = read(MAX_BYTES).map_err(unreadable)?;
     let text = String::from_utf8(bytes).map_err(|error| {
         let byte = error.utf8_error().valid_up_to();
         let before = &error.as_bytes()[..byte];

@@ -16,7 +16,7 @@ mod scan;
 mod tests;
 
 use super::{Files, Unread};
-use crate::scene::meshes::{Meshes, ObjError, ObjFace, ObjMesh};
+use crate::scene::meshes::{MOST_FACES, Meshes, ObjError, ObjFace, ObjMesh};
 use crate::scene::{Geometry, Scene};
 use crate::syntax::codes;
 use glam::DVec3;
@@ -30,6 +30,9 @@ use std::rc::Rc;
 
 /// The largest file that is read, in bytes: about five million triangles.
 pub const MAX_BYTES: u64 = 256 << 20;
+
+/// Bytes that all mesh files of a scene may have.
+const MAX_TOTAL: u64 = 1 << 30;
 
 /// The meshes that a scene names. Each file is read once, however many entries name it.
 pub fn load_all(scene: &Scene, files: Files<'_>) -> Meshes {
@@ -45,20 +48,33 @@ pub fn load_all(scene: &Scene, files: Files<'_>) -> Meshes {
         let bytes = || bytes_of(files, path, codes::MTL_UNREADABLE);
         read.entry(path.to_owned()).or_insert_with(bytes).clone()
     };
-    let mut meshes = Meshes::default();
+    let mut meshes = Meshes::of_most(files.faces_allowed());
+    let (mut bytes_left, mut faces_left) = (MAX_TOTAL, files.faces_allowed());
     for (name, kinds) in wanted {
         let path = files.path(name);
-        let bytes = bytes_of(files, &path, codes::OBJ_UNREADABLE);
+        let bytes = bytes_of(files, &path, codes::OBJ_UNREADABLE).and_then(|bytes| {
+            let left = bytes_left.checked_sub(bytes.len() as u64);
+            bytes_left = left.ok_or_else(|| {
+                let most = MAX_TOTAL >> 20;
+                let message = format!("with this file the scene's meshes exceed {most} MiB");
+                too_large(message).at(&path, None)
+            })?;
+            Ok(bytes)
+        });
         for wants_materials in kinds {
-            let bytes = bytes.clone();
-            let mesh = bytes.and_then(|bytes| parse(&path, &bytes, wants_materials, &mut library));
+            let parsed = bytes
+                .as_ref()
+                .map_err(ObjError::clone)
+                .and_then(|bytes| parse(&path, bytes, wants_materials, faces_left, &mut library));
+            let mesh = parsed.inspect(|mesh| faces_left -= mesh.faces.len());
             meshes.insert(name, wants_materials, mesh);
         }
     }
     meshes
 }
 
-/// Reads a mesh, and with `wants_materials` the libraries that it names, which stand beside it.
+/// Reads a mesh, and with `wants_materials` the libraries that it names, which stand beside it or below
+/// its folder.
 ///
 /// ```
 /// use qrt_core::front::obj;
@@ -74,10 +90,14 @@ pub fn load_all(scene: &Scene, files: Files<'_>) -> Meshes {
 ///
 /// The first problem of the file: see [`ObjError`].
 pub fn load(path: &Path, wants_materials: bool) -> Result<ObjMesh, ObjError> {
-    let files = Files::of_folder("".as_ref());
+    let files = Files::of_folder(path.parent().unwrap_or(Path::new("")));
     let bytes = bytes_of(files, path, codes::OBJ_UNREADABLE)?;
     let mut library = |path: &Path| bytes_of(files, path, codes::MTL_UNREADABLE);
-    parse(path, &bytes, wants_materials, &mut library)
+    parse(path, &bytes, wants_materials, MOST_FACES, &mut library)
+}
+
+fn too_large(message: String) -> ObjError {
+    ObjError::new(codes::OBJ_TOO_LARGE, message).help("use a coarser mesh")
 }
 
 /// The whole of a file.
@@ -85,8 +105,12 @@ fn bytes_of(files: Files<'_>, path: &Path, code: &'static str) -> Result<Rc<[u8]
     let unreadable = |why| {
         let error = match why {
             Unread::TooLarge => {
-                let message = format!("the file is larger than {} MiB", MAX_BYTES >> 20);
-                ObjError::new(codes::OBJ_TOO_LARGE, message).help("use a coarser mesh")
+                too_large(format!("the file is larger than {} MiB", MAX_BYTES >> 20))
+            }
+            Unread::Outside => {
+                let [boundary, help] = files.boundary();
+                let message = format!("`{}` is outside {boundary}", path.display());
+                ObjError::new(codes::OUTSIDE, message).help(help)
             }
             Unread::Irregular { .. } => {
                 ObjError::new(code, format!("`{}` is not a regular file", path.display()))
@@ -116,10 +140,11 @@ fn parse(
     path: &Path,
     bytes: &[u8],
     wants_materials: bool,
+    most_faces: usize,
     library: Library<'_>,
 ) -> Result<ObjMesh, ObjError> {
     let text = text_of(path, bytes)?;
-    let mut scanner = Scanner::new(path, &text, wants_materials);
+    let mut scanner = Scanner::new(path, &text, wants_materials, most_faces);
     let mut shape = BufReader::new(&mut scanner);
     // The scanner hands on no `mtllib`.
     let no_library = |_: &Path| tobj::load_mtl_buf(&mut std::io::empty());
@@ -143,7 +168,7 @@ fn parse(
     let mesh = mesh.unwrap_or_default();
     let corner = |index: &u32| DVec3::from_slice(&mesh.positions[3 * *index as usize..]);
     let mut corners = mesh.indices.iter().map(corner);
-    let mut faces = Vec::with_capacity(scanner.faces.len());
+    let mut faces = Vec::with_capacity(scanner.triangles);
     for (number, (line, use_before)) in scanner.faces.iter().enumerate() {
         // Without arities, every face is a triangle.
         let arity = mesh.face_arities.get(number).map_or(3, |n| *n as usize);

@@ -8,6 +8,7 @@ use crate::scene::text::Data;
 use crate::scene::{Circuit, Comparator, Counting, Precision, Sampling, shape::Part};
 use crate::syntax::tree::{Entry, Node, Scalar, Span, Value};
 use crate::syntax::{Override as Fault, Problems, Source, Step};
+use std::sync::Arc;
 
 /// An override that was read: where to put what.
 #[derive(Clone, Debug)]
@@ -74,12 +75,13 @@ pub fn apply(tree: &mut Node, set: Override, problems: &mut Problems) {
     let mut node = tree;
     for (step, span) in set.steps {
         if node.value == Value::Null {
-            node.value = Value::Map(Vec::new());
+            node.value = Value::Map(Arc::default());
             node.span = span;
         }
         let found = node.found();
         node = match (step, &mut node.value) {
             (Step::Key(key) | Step::Name(key), Value::Map(entries)) => {
+                let entries = Arc::make_mut(entries);
                 default = default.and_then(|data| data.get(&key));
                 let index = entries.iter().position(|entry| entry.key == key);
                 let index = index.unwrap_or_else(|| {
@@ -97,7 +99,7 @@ pub fn apply(tree: &mut Node, set: Override, problems: &mut Problems) {
             (Step::Item(index), Value::List(items)) => {
                 default = None;
                 let count = items.len();
-                let Some(item) = items.get_mut(index) else {
+                let Some(item) = Arc::make_mut(items).get_mut(index) else {
                     return problems.add(span, Fault::NoElement { index, count });
                 };
                 item
@@ -137,14 +139,14 @@ fn value_of(data: &Data, span: Span) -> Value {
             text: text.clone(),
             quoted: true,
         }),
-        Data::List(items) => Value::List(items.iter().map(node).collect()),
+        Data::List(items) => Value::List(Arc::new(items.iter().map(node).collect())),
         Data::Map(entries) => {
             let entry = |(key, data): &(String, Data)| Entry {
                 key: key.clone(),
                 key_span: span,
                 value: node(data),
             };
-            Value::Map(entries.iter().map(entry).collect())
+            Value::Map(Arc::new(entries.iter().map(entry).collect()))
         }
         Data::Number(_) | Data::Bool(_) => Value::Scalar(Scalar {
             text: data.canonical(),

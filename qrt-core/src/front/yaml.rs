@@ -2,8 +2,9 @@
 //!
 //! The events of `saphyr-parser` carry the places of every key and value, and from them the tree is
 //! built here, with an explicit stack: what YAML allows but a scene does not mean (duplicate keys,
-//! tags, several documents, merge keys, keys that are not names) is an error with its place; aliases
-//! are expanded within a budget of nodes, and nesting has a limit.
+//! tags, several documents, merge keys, keys that are not names) is an error with its place. Aliases
+//! share what they stand for; how many values a scene holds, what aliases add to them and how deep
+//! they nest has limits.
 //!
 //! ARCHITECTURE.md says why this is not left to a reader that goes from YAML straight to types.
 
@@ -15,9 +16,14 @@ use locator::Locator;
 use saphyr_parser::{Event, Parser, ScalarStyle};
 use std::collections::HashMap;
 use std::ops::Range;
+use std::sync::Arc;
 
-/// Nodes that aliases may add to a scene.
+/// Values that a scene's text may hold, before aliases are expanded.
+pub const MAX_VALUES: usize = 1 << 20;
+/// Values that aliases may add to a scene.
 pub const ALIAS_BUDGET: usize = 1 << 18;
+/// Bytes of text that aliases may add to a scene.
+pub const ALIAS_BYTES: usize = 1 << 24;
 /// Levels of lists and maps in a scene.
 pub const MAX_DEPTH: usize = 64;
 
@@ -36,7 +42,8 @@ pub fn read(
         stack: Vec::new(),
         root: None,
         anchors: HashMap::new(),
-        expanded: 0,
+        values: 0,
+        expanded: [0; 2],
         documents: 0,
         problems,
         merged: false,
@@ -88,7 +95,9 @@ struct Builder<'a> {
     stack: Vec<Frame>,
     root: Option<Node>,
     anchors: HashMap<usize, Node>,
-    expanded: usize,
+    values: usize,
+    /// Values and bytes that aliases have added.
+    expanded: [usize; 2],
     documents: usize,
     problems: &'a mut Problems,
     /// Whether there was a merge key.
@@ -113,6 +122,10 @@ impl<'a> Builder<'a> {
     }
 
     fn event(&mut self, event: Event<'a>, span: Span) -> Result<(), Stop> {
+        self.values += 1;
+        if self.values > MAX_VALUES {
+            return self.stop(span, Yaml::TooMany { most: MAX_VALUES });
+        }
         let tag = match &event {
             Event::Scalar(_, _, _, tag)
             | Event::SequenceStart(_, tag)
@@ -212,13 +225,13 @@ impl<'a> Builder<'a> {
         let (value, last) = match body {
             Body::List(items) => {
                 let last = items.last().map_or(start.end, |item| item.span.end);
-                (Value::List(items), last)
+                (Value::List(Arc::new(items)), last)
             }
             Body::Map { entries, .. } => {
                 let last = entries.last().map_or(start.end, |entry| {
                     entry.key_span.end.max(entry.value.span.end)
                 });
-                (Value::Map(entries), last)
+                (Value::Map(Arc::new(entries)), last)
             }
         };
         // The end of a block is found only at what follows it, often lines below.
@@ -300,10 +313,15 @@ impl<'a> Builder<'a> {
         let Some(node) = self.anchors.get(&anchor) else {
             return self.stop(span, Yaml::RecursiveAlias);
         };
-        let (count, height) = (node.count(), node.height());
-        self.expanded = self.expanded.saturating_add(count);
-        if self.expanded > ALIAS_BUDGET {
+        let (size, height) = (node.size(), node.height());
+        for (sum, more) in self.expanded.iter_mut().zip(size) {
+            *sum = sum.saturating_add(more);
+        }
+        if self.expanded[0] > ALIAS_BUDGET {
             return self.stop(span, Yaml::AliasBudget { most: ALIAS_BUDGET });
+        }
+        if self.expanded[1] > ALIAS_BYTES {
+            return self.stop(span, Yaml::AliasBytes { most: ALIAS_BYTES });
         }
         if self.stack.len() + height > MAX_DEPTH {
             return self.stop(span, Yaml::TooDeep { most: MAX_DEPTH });

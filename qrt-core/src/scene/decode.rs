@@ -37,7 +37,7 @@ impl Problems {
             return false;
         };
         let mut misspelt = Vec::new();
-        for entry in entries {
+        for entry in entries.iter() {
             let key = entry.key.as_str();
             if keys.contains(&key) {
                 continue;

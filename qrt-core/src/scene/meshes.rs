@@ -11,20 +11,43 @@ use std::sync::Arc;
 
 /// The meshes of a scene, or why they cannot be read. Entries that name one file share its mesh, and
 /// so do copies of this.
-#[derive(Clone, Debug, Default)]
-pub struct Meshes(BTreeMap<Key, Result<Arc<ObjMesh>, ObjError>>);
+#[derive(Clone, Debug)]
+pub struct Meshes {
+    read: BTreeMap<Key, Result<Arc<ObjMesh>, ObjError>>,
+    most_faces: usize,
+}
+
+/// As many triangles a scene's meshes may have, each time they are placed, unless memory allows fewer.
+pub const MOST_FACES: usize = 1 << 22;
 
 /// A file as the scene calls it, and whether its own materials are wanted.
 type Key = (String, bool);
 
+impl Default for Meshes {
+    fn default() -> Self {
+        Self::of_most(MOST_FACES)
+    }
+}
+
 impl Meshes {
+    /// None yet, of a scene that may have so many faces.
+    pub fn of_most(most_faces: usize) -> Self {
+        let read = BTreeMap::new();
+        Self { read, most_faces }
+    }
+
+    /// As many faces the scene may have with them.
+    pub fn most_faces(&self) -> usize {
+        self.most_faces
+    }
+
     /// What an entry of the scene places.
     ///
     /// # Errors
     /// What is wrong with its file, or that nobody read it.
     pub fn get(&self, mesh: &Mesh) -> Result<&ObjMesh, ObjError> {
         let key = (mesh.obj.clone(), mesh.material.is_none());
-        let Some(read) = self.0.get(&key) else {
+        let Some(read) = self.read.get(&key) else {
             let message = format!("`{}` is not among the meshes that were read", mesh.obj);
             return Err(ObjError::new(codes::OBJ_UNREADABLE, message));
         };
@@ -34,7 +57,7 @@ impl Meshes {
     /// Adds the file that a scene calls `obj`, read with its own materials or without.
     pub fn insert(&mut self, obj: &str, own_materials: bool, read: Result<ObjMesh, ObjError>) {
         let key = (obj.to_owned(), own_materials);
-        self.0.insert(key, read.map(Arc::new));
+        self.read.insert(key, read.map(Arc::new));
     }
 }
 

@@ -21,6 +21,7 @@ use shape::{
     Array, AutoOr, Channels, Expression, LARGEST, List, Maybe, Named, Number, Part, Text, number,
     part, point, whole, word,
 };
+use std::sync::Arc;
 use text::{Data, Fingerprint};
 
 /// Most bits of a path index. Path counts up to `2^52` and their sums stay exact in f64.
@@ -520,7 +521,7 @@ record! {
 fn of_defaults<T: Part>() -> T {
     let node = Node {
         span: Span::default(),
-        value: Value::Map(Vec::new()),
+        value: Value::Map(Arc::default()),
     };
     T::decode(&node, &Place::ROOT, &mut Problems::default())
 }

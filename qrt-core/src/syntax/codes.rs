@@ -52,7 +52,7 @@ codes! {
         "Write the scene with fewer or smaller aliases";
     TOO_DEEP = "QRT0112", "the text nests too deeply",
         "A scene needs fewer than ten levels";
-    TOO_LARGE = "QRT0113", "the scene file is too large",
+    TOO_LARGE = "QRT0113", "the scene is too large",
         "Put large geometry into OBJ meshes";
     UNKNOWN_KEY = "QRT0120", "an unknown key",
         "Compare with the nearest name, or remove the key";
@@ -102,6 +102,10 @@ codes! {
         "Use a larger scale or a smaller translation";
     MESH_RANGE = "QRT0307", "a mesh that its transform takes out of range",
         "Use a smaller scale or translation";
+    MESH_TOO_MANY = "QRT0308", "more faces than a scene may have",
+        "Use a coarser mesh, or fewer copies of it";
+    OUTSIDE = "QRT0319", "a file outside the scene's folder",
+        "Put it beside the scene, or allow its folder with `--allow-files DIR`";
     OBJ_UNREADABLE = "QRT0320", "a mesh file that cannot be read",
         "Check the path, which is relative to the scene's folder";
     OBJ_TOO_LARGE = "QRT0321", "a mesh file that is too large",

@@ -113,6 +113,8 @@ problems! {
         Irregular = UNREADABLE "this is not a regular file" help "name a scene file";
         Missing = UNREADABLE "there is no such file"
             help "check the path, or start a scene with `qrt new NAME`";
+        Outside = OUTSIDE "the file is outside the crate's folder"
+            help "`qrt!` reads files of the crate alone";
         Denied = UNREADABLE "you may not read this file";
         Failed { why: String } = UNREADABLE "the file cannot be read: {why}";
         TooLarge { most: u64 } = TOO_LARGE { format!("the file is larger than {} MiB", most >> 20) }
@@ -147,6 +149,11 @@ problems! {
             help "a value cannot contain itself";
         AliasBudget { most: usize } = ALIAS_BUDGET
             "aliases expand to more than {most} values by here"
+            help "put large geometry into OBJ meshes";
+        AliasBytes { most: usize } = ALIAS_BUDGET
+            { format!("aliases expand to more than {} MiB of text by here", most >> 20) }
+            help "use shorter names and expressions, or fewer aliases";
+        TooMany { most: usize } = TOO_LARGE "the scene holds more than {most} values by here"
             help "put large geometry into OBJ meshes";
         TooDeep { most: usize } = TOO_DEEP "more than {most} levels of nesting"
             help "a scene needs fewer than ten";
@@ -272,6 +279,9 @@ problems! {
         Far { triangles: Triangles } = MESH_RANGE
             { triangles.that("are out of range once scaled and moved") }
             help "use a smaller transform";
+        TooMany { triangles: usize, most: usize } = MESH_TOO_MANY
+            { format!("with this mesh the scene has {triangles} faces; the limit is {most}") }
+            help "use a coarser mesh, or fewer copies of it";
         TooBright { material: String, radiance: f64, most: f64 } = RADIANCE
             { format!("the radiance {} of `{material}` is too large", number(*radiance)) }
             label "must be at most {most:e}";

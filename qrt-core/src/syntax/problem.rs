@@ -100,6 +100,9 @@ impl Problem {
     }
 }
 
+/// As many problems are kept.
+pub(crate) const KEPT: usize = 1 << 16;
+
 /// Everything that is wrong so far: the one gatherer of all readers and checks.
 ///
 /// A value that cannot be taken as it is gets reported, marked, and replaced by a harmless one, so that
@@ -107,6 +110,7 @@ impl Problem {
 /// follow from what is known.
 #[derive(Debug, Default)]
 pub struct Problems {
+    /// At most [`KEPT`]: nobody reads more, and a hostile scene may have any number.
     found: Vec<Problem>,
     /// Values that are replaced, or out of their range.
     marked: Vec<Path>,
@@ -124,16 +128,21 @@ impl Problems {
     /// As [`Problems::add`].
     pub fn push(&mut self, problem: Problem) {
         let follows = |at: &At| matches!(at, At::Path(path) if self.touches(path));
-        if !follows(&problem.at) && !problem.also.as_ref().is_some_and(follows) {
+        if self.found.len() < KEPT
+            && !follows(&problem.at)
+            && !problem.also.as_ref().is_some_and(follows)
+        {
             self.found.push(problem);
         }
     }
 
     /// Adds a problem about the value at `path`, which is not to be relied on.
     pub(crate) fn refuse(&mut self, path: impl Into<Path>, what: impl Into<What>) {
-        let path = path.into();
-        self.mark(path.clone());
-        self.found.push(Problem::new(path, what));
+        if self.found.len() < KEPT {
+            let path = path.into();
+            self.mark(path.clone());
+            self.found.push(Problem::new(path, what));
+        }
     }
 
     /// The value at `path` is not to be relied on.

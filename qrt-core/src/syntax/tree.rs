@@ -5,6 +5,7 @@
 
 use super::path::{Path, Step};
 use std::fmt;
+use std::sync::Arc;
 
 /// A place in a source. Only the front end that made it knows what the numbers mean: for text they
 /// are byte offsets into source number `source`.
@@ -36,10 +37,10 @@ pub enum Value {
     Unread,
     /// A number, a word or a text; [`Scalar::kind`] tells which.
     Scalar(Scalar),
-    /// A list of elements, in their order.
-    List(Vec<Node>),
-    /// Entries in the order written; keys are distinct.
-    Map(Vec<Entry>),
+    /// A list of elements, in their order. Copies share them, as aliases do in YAML.
+    List(Arc<Vec<Node>>),
+    /// Entries in the order written; keys are distinct. Copies share them.
+    Map(Arc<Vec<Entry>>),
 }
 
 /// The text of a scalar.
@@ -218,12 +219,20 @@ impl Node {
         }
     }
 
-    /// Nodes in this tree, itself included.
-    pub fn count(&self) -> usize {
-        1 + match &self.value {
-            Value::Null | Value::Unread | Value::Scalar(_) => 0,
-            Value::List(items) => items.iter().map(Node::count).sum(),
-            Value::Map(entries) => entries.iter().map(|entry| entry.value.count()).sum(),
+    /// Nodes in this tree, itself included, and bytes of their texts and keys; what copies share
+    /// counts each time.
+    pub fn size(&self) -> [usize; 2] {
+        let one = |bytes: usize, below: [usize; 2]| [1 + below[0], bytes + below[1]];
+        let sum = |a: [usize; 2], b: [usize; 2]| [a[0] + b[0], a[1] + b[1]];
+        match &self.value {
+            Value::Null | Value::Unread => one(0, [0; 2]),
+            Value::Scalar(scalar) => one(scalar.text.len(), [0; 2]),
+            Value::List(items) => one(0, items.iter().map(Node::size).fold([0; 2], sum)),
+            Value::Map(entries) => {
+                let keys = entries.iter().map(|entry| entry.key.len()).sum();
+                let values = entries.iter().map(|entry| entry.value.size());
+                one(keys, values.fold([0; 2], sum))
+            }
         }
     }
 

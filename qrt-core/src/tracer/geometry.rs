@@ -4,10 +4,11 @@
 //! by a power of two so that its largest half extent lies in `(1/2, 1]`. A scene a million units
 //! across or at a billion from the origin is traced with the same precision as one at home.
 
+use super::overlap::Outlines;
 use super::polygon::{edge_tests, frame, plane_of, stage_units};
 use crate::valid::Polygon;
 use glam::DVec3;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 
 /// The face that a ray meets where it meets none.
@@ -26,7 +27,7 @@ pub const TOLERANCE: f64 = 1.0 / (1_u64 << 49) as f64;
 pub const INWARD: f64 = 1.0 / (1_u64 << 32) as f64;
 
 /// Planes nearer than this to each other (in coefficients and offset) are one.
-const SAME_PLANE: f64 = 1.0 / (1_u64 << 42) as f64;
+pub(super) const SAME_PLANE: f64 = 1.0 / (1_u64 << 42) as f64;
 
 /// Up to so many pairs of a plane and a corner are compared: enough for scenes whose planes are all
 /// tried for each ray.
@@ -97,18 +98,24 @@ pub struct Frame {
     pub centre: DVec3,
 }
 
-/// Whether two convex polygons of one plane have more than edges in common.
-fn overlap(a: &[DVec3], b: &[DVec3]) -> bool {
-    let apart = |a: &[DVec3], b: &[DVec3]| {
-        let normal = (a[1] - a[0]).cross(a[2] - a[0]).normalize();
-        (0..a.len()).any(|k| {
-            let (start, end) = (a[k], a[(k + 1) % a.len()]);
-            let outward = (end - start).cross(normal).normalize();
-            b.iter()
-                .all(|corner| outward.dot(*corner - start) >= -SAME_PLANE)
-        })
+/// Faces of one plane, each once: a second copy of a face is hidden by the first.
+fn without_copies(mut faces: Vec<Face>) -> Vec<Face> {
+    fn numbers(face: &Face) -> impl Iterator<Item = f64> {
+        let tests = face.edge_tests.iter();
+        tests.flat_map(|test| [test.form[0], test.form[1], test.low, test.high])
+    }
+    let compare = |a: &Face, b: &Face| {
+        let by_numbers = numbers(a).partial_cmp(numbers(b));
+        by_numbers.unwrap_or(std::cmp::Ordering::Equal)
     };
-    !apart(a, b) && !apart(b, a)
+    let mut order: Vec<usize> = (0..faces.len()).collect();
+    // Copies come one after the other, the first of the scene first.
+    order.sort_by(|&a, &b| compare(&faces[a], &faces[b]));
+    let is_copy = |pair: &&[usize]| faces[pair[0]].edge_tests == faces[pair[1]].edge_tests;
+    let copies = order.windows(2).filter(is_copy).map(|pair| pair[1]);
+    let copies: HashSet<u32> = copies.map(|copy| faces[copy].label).collect();
+    faces.retain(|face| !copies.contains(&face.label));
+    faces
 }
 
 /// All polygons of a scene, in stage units.
@@ -178,23 +185,13 @@ impl Geometry {
             geometry.frames.push(frame);
             geometry.plane_of.push(plane);
             geometry.corners.push(corners);
-            let faces = &mut on_plane[plane as usize];
-            // A second copy of a face is hidden by the first.
-            if !faces.iter().any(|face| face.edge_tests == edge_tests) {
-                let emits = emits(polygon);
-                if emits {
-                    for face in faces.iter_mut() {
-                        face.hides_emitter = !face.emits;
-                    }
-                }
-                faces.push(Face {
-                    label: label as u32,
-                    emits,
-                    hides_emitter: false,
-                    covers: None,
-                    edge_tests,
-                });
-            }
+            on_plane[plane as usize].push(Face {
+                label: label as u32,
+                emits: emits(polygon),
+                hides_emitter: false,
+                covers: None,
+                edge_tests,
+            });
         }
         geometry.arrange(on_plane);
         geometry
@@ -223,9 +220,9 @@ impl Geometry {
         known: &mut HashMap<[i64; 4], Vec<u32>>,
         on_plane: &mut Vec<Vec<Face>>,
     ) -> u32 {
-        // Buckets far wider than the tolerance; a plane near a bucket's edge is looked for in the
-        // bucket beyond it, too.
-        let width = SAME_PLANE * 1024.0;
+        // Buckets so narrow that few planes that are not one fit into them; a plane near a bucket's edge
+        // is looked for in the bucket beyond it, too.
+        let width = SAME_PLANE * 4.0;
         let values = |plane: &Plane| [plane.form[0], plane.form[1], plane.offset];
         let key = |shift: [f64; 3]| {
             let bucket = |k: usize| ((values(&new)[k] + shift[k]) / width).floor() as i64;
@@ -274,16 +271,21 @@ impl Geometry {
         }
     }
 
-    /// Tells which of these faces, which are on one plane, may cover a later one that emits.
-    fn cover(&mut self, faces: Range<usize>) {
-        let emitting: Vec<usize> = faces.clone().filter(|&n| self.faces[n].emits).collect();
-        for number in faces {
-            let outline = |number: usize| &*self.corners[self.faces[number].label as usize];
+    /// Tells which of these faces, which are on one plane of this main axis, hide or may cover a later one
+    /// that emits.
+    fn cover(&self, axis: usize, faces: &mut [Face]) {
+        let outline = |face: &Face| &*self.corners[face.label as usize];
+        let emitting: Vec<usize> = (0..faces.len()).filter(|&n| faces[n].emits).collect();
+        let Some(&last) = emitting.last() else {
+            return;
+        };
+        let outlines = emitting.iter().map(|&n| outline(&faces[n]));
+        let outlines = Outlines::new(axis, outlines.collect());
+        for (number, face) in faces.iter_mut().enumerate() {
             let earlier = emitting.partition_point(|&other| other <= number);
-            let later = emitting[earlier..].iter();
-            let covered = later.map(|&other| overlap(outline(number), outline(other)));
-            let first = covered.into_iter().position(|covered| covered);
-            self.faces[number].covers = first.map(|skipped| (earlier + skipped) as u32);
+            let covered = outlines.first_overlapped(earlier, &self.corners[face.label as usize]);
+            face.covers = covered.map(|covered| covered as u32);
+            face.hides_emitter = !face.emits && number < last;
         }
     }
 
@@ -297,12 +299,13 @@ impl Geometry {
         for (new, &old) in order.iter().enumerate() {
             place[old] = new as u32;
             let start = self.faces.len();
-            self.faces.extend(on_plane[old].take().unwrap_or_default());
+            let mut faces = without_copies(on_plane[old].take().unwrap_or_default());
+            self.cover(self.planes[old].axis, &mut faces);
+            self.faces.append(&mut faces);
             let faces = start..self.faces.len();
             let emitting = self.faces[start..].iter().filter(|face| face.emits);
             let emitters = self.emitters..self.emitters + emitting.count() as u32;
             self.emitters = emitters.end;
-            self.cover(faces.clone());
             planes.push(Plane {
                 faces,
                 emitters,

@@ -32,6 +32,7 @@ mod frame;
 mod geometry;
 mod intersect;
 mod lights;
+mod overlap;
 mod paper;
 mod pixel_class;
 mod polygon;

@@ -109,7 +109,15 @@ pub fn compile(bsdf: &Bsdf) -> Result<CustomBsdf, Vec<Problem>> {
         }
     }
     if problems.is_empty() {
-        let value = value.map(|f| f.simplify());
+        // Rounding's size below zero is zero, and what the points of the check have missed, too.
+        let value = value.map(|f| {
+            let f = f.simplify();
+            if bound::may_be_negative(&f) {
+                f.positive().simplify()
+            } else {
+                f
+            }
+        });
         Ok(CustomBsdf {
             map,
             projected_jacobian,

@@ -44,6 +44,8 @@ pub(super) fn polygons(
         out: vec![],
         files: BTreeSet::new(),
         unknown: 0,
+        own_materials: HashMap::new(),
+        is_full: false,
     };
     for (index, (name, _)) in scene.materials.iter().enumerate() {
         build.names.entry(name.as_str()).or_insert(index as u32);
@@ -80,9 +82,13 @@ struct Build<'a> {
     files: BTreeSet<PathBuf>,
     /// Unknown materials so far.
     unknown: usize,
+    /// By mesh, the first of its own materials among the surfaces: copies of a mesh share them.
+    own_materials: HashMap<&'a str, u32>,
+    /// Whether a mesh was one too many.
+    is_full: bool,
 }
 
-impl Build<'_> {
+impl<'a> Build<'a> {
     /// The surface called `name`. An unknown one is reported, and the first stands for it, so that
     /// the primitive's shape is still checked.
     fn surface(&mut self, name: &str, path: &Path) -> u32 {
@@ -153,7 +159,7 @@ impl Build<'_> {
         }
     }
 
-    fn mesh(&mut self, mesh: &Mesh, path: &Path) {
+    fn mesh(&mut self, mesh: &'a Mesh, path: &Path) {
         let named = mesh.material.as_ref().map(|name| self.surface(name, path));
         let read = match self.meshes.get(mesh) {
             Ok(read) => read,
@@ -173,9 +179,21 @@ impl Build<'_> {
             }
         };
         self.files.extend(read.files.iter().cloned());
+        let triangles = self.out.len() + read.faces.len();
+        let most = self.meshes.most_faces();
+        if triangles > most {
+            let what = Unplaced::TooMany { triangles, most };
+            if !std::mem::replace(&mut self.is_full, true) {
+                self.problems.add(path.key("obj"), what);
+            }
+            return;
+        }
         let transform = Transform::of(mesh);
-        let first = self.surfaces.len() as u32;
-        if named.is_none() {
+        let first = self.own_materials.get(mesh.obj.as_str()).copied();
+        let is_new = first.is_none() && named.is_none();
+        let first = first.unwrap_or(self.surfaces.len() as u32);
+        if is_new {
+            self.own_materials.insert(&mesh.obj, first);
             for material in &read.materials {
                 if let Some(radiance) = material.radiance.iter().find(|value| **value > LARGEST) {
                     let what = Unplaced::TooBright {
@@ -192,6 +210,7 @@ impl Build<'_> {
                 });
             }
         }
+        self.out.reserve_exact(read.faces.len());
         let mut flat = Vec::new();
         let mut bare = Vec::new();
         let mut far = Vec::new();

@@ -6,6 +6,7 @@ use super::values::{Reader, entry, faulty, text};
 use proc_macro2::Delimiter;
 use qrt_core::syntax::tree::{Entry, Node, Span, Value};
 use qrt_core::syntax::{codes, listed, nearest};
+use std::sync::Arc;
 
 /// The words that an entry can begin with.
 pub(super) const ENTRIES: [&str; 17] = [
@@ -333,7 +334,7 @@ impl Body {
         let entries = vec![entry(name, kind.place(), record)];
         Node {
             span: join(kind.place(), at),
-            value: Value::Map(entries),
+            value: Value::Map(entries.into()),
         }
     }
 
@@ -345,25 +346,25 @@ impl Body {
         }
         let map = |span, entries| Node {
             span,
-            value: Value::Map(entries),
+            value: Value::Map(Arc::new(entries)),
         };
         let materials = map(place, std::mem::take(&mut self.materials));
         entries.push(entry("materials", place, materials));
         let geometry = Node {
             span: place,
-            value: Value::List(std::mem::take(&mut self.geometry)),
+            value: Value::List(Arc::new(std::mem::take(&mut self.geometry))),
         };
         entries.push(entry("geometry", place, geometry));
         if let (Some(first), Some(last)) = (self.depths.first(), self.depths.last()) {
             let span = join(first.span, last.span);
             let key_span = super::tokens::place(first.span.start, first.span.start);
-            let value = Value::List(std::mem::take(&mut self.depths));
+            let value = Value::List(Arc::new(std::mem::take(&mut self.depths)));
             let depths = entry("depths", key_span, Node { span, value });
             let sampling = entries.iter_mut().find(|entry| entry.key == "sampling");
             match sampling.map(|entry| &mut entry.value.value) {
                 None => entries.push(entry("sampling", key_span, map(span, vec![depths]))),
                 Some(Value::Map(own)) => match own.iter().find(|entry| entry.key == "depths") {
-                    None => own.push(depths),
+                    None => Arc::make_mut(own).push(depths),
                     Some(first) => {
                         let what = "depths are given both here and within `sampling`";
                         self.reader

@@ -5,6 +5,7 @@ use super::tokens::{Kind, Token, place_of};
 use super::values::{entry, faulty};
 use proc_macro2::Delimiter;
 use qrt_core::syntax::tree::{Node, Value};
+use std::sync::Arc;
 
 impl Body {
     /// Reads what follows `film:`.
@@ -26,7 +27,10 @@ impl Body {
             let node = self.reader.value("film", key, place, tokens);
             entry(key, node.span, node)
         };
-        let value = Value::Map(vec![side("width", &width), side("height", &height)]);
+        let value = Value::Map(Arc::new(vec![
+            side("width", &width),
+            side("height", &height),
+        ]));
         Node { span: place, value }
     }
 }

@@ -13,6 +13,7 @@ use qrt_core::syntax::codes;
 use qrt_core::syntax::tree::{Entry, Node, Span, Value};
 use qrt_core::valid::ValidScene;
 use std::path::Path;
+use std::sync::Arc;
 
 /// A scene that was read, checked if nothing is wrong with it.
 pub(crate) type Read = (Parsed, Option<ValidScene>);
@@ -251,7 +252,7 @@ impl<'t> Input<'t> {
             }
             let at = second.place();
             let fraction = entry("fraction", at, scalar(fraction.clone(), false, at));
-            let value = Value::Map(vec![fraction]);
+            let value = Value::Map(Arc::new(vec![fraction]));
             return Some(entry("precision", place, Node { span: place, value }));
         }
         self.faults

@@ -5,6 +5,7 @@ use super::tokens::{Token, join};
 use super::values::{entry, faulty, text};
 use qrt_core::syntax::codes;
 use qrt_core::syntax::tree::{Node, Span, Value};
+use std::sync::Arc;
 
 impl Body {
     pub(super) fn material(&mut self, first: &Token, rest: &[Token], place: Span) {
@@ -62,13 +63,13 @@ impl Body {
             let Some(points) = self.points(kind, inner, at) else {
                 return self.add_primitive(kind, label, faulty(place));
             };
-            let value = Value::Map(vec![entry("vertices", at, points)]);
+            let value = Value::Map(vec![entry("vertices", at, points)].into());
             Node { span: place, value }
         };
         if let Value::Map(entries) = &mut record.value {
-            entries.extend(material);
+            Arc::make_mut(entries).extend(material);
         }
-        let value = Value::Map(vec![entry(kind, first.place(), record)]);
+        let value = Value::Map(vec![entry(kind, first.place(), record)].into());
         self.add_primitive(kind, label, Node { span: place, value });
     }
 

@@ -5,6 +5,7 @@ use super::tokens::{Kind, Token, join, place_of};
 use super::values::{Reader, entry, text};
 use qrt_core::syntax::codes;
 use qrt_core::syntax::tree::{Entry, Node, Span, Value};
+use std::sync::Arc;
 
 impl Reader {
     /// A map of keys; `place` is that of its braces.
@@ -33,7 +34,7 @@ impl Reader {
             let value = self.value(name, key, at, rest);
             self.enter(&mut entries, entry(key, at, value));
         }
-        let value = Value::Map(entries);
+        let value = Value::Map(Arc::new(entries));
         Node { span: place, value }
     }
 

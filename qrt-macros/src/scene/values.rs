@@ -8,6 +8,7 @@ use super::tokens::{Kind, Token, between_commas, join, place_of};
 use proc_macro2::Delimiter;
 use qrt_core::syntax::codes;
 use qrt_core::syntax::tree::{Entry, Node, Scalar, Span, Value};
+use std::sync::Arc;
 
 /// Reads values; keeps what later readers and reports need.
 #[derive(Debug, Default)]
@@ -179,7 +180,7 @@ impl Reader {
             before = here;
             nodes.push(read(self, key, item, here));
         }
-        let value = Value::List(nodes);
+        let value = Value::List(Arc::new(nodes));
         Node { span: place, value }
     }
 
@@ -266,7 +267,7 @@ impl Reader {
         if nodes.len() == 1 {
             return nodes.remove(0);
         }
-        let value = Value::List(nodes);
+        let value = Value::List(Arc::new(nodes));
         Node { span: place, value }
     }
 

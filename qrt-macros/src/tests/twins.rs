@@ -120,12 +120,13 @@ const WITHOUT_TWIN: [&str; 40] = [
 ];
 
 /// Codes of the checker that these scenes do not show: what the grammar says itself (a variant has
-/// one kind, an expression something in it), and what only scenes built in Rust, files of 256 MiB
-/// and disagreements of the OBJ library get; a warning is none of its errors.
-const ELSEWHERE: [&str; 7] = [
+/// one kind, an expression something in it), and what only scenes built in Rust, files of 256 MiB,
+/// millions of faces and disagreements of the OBJ library get; a warning is none of its errors.
+const ELSEWHERE: [&str; 8] = [
     codes::ONE_VARIANT,
     codes::DUPLICATE_NAME,
     codes::OBJ_TOO_LARGE,
+    codes::MESH_TOO_MANY,
     codes::OBJ_REFUSED,
     codes::EXPR_EMPTY,
     codes::BSDF_CHANNELS,

@@ -1,6 +1,7 @@
 //! A YAML scene written as `qrt!` would have it, as far as it has a form there.
 
 use qrt_core::syntax::tree::{Entry, Kind, Node, Scalar, Value};
+use std::sync::Arc;
 
 /// The scene as tokens' text; nothing where YAML says what no token can.
 pub(super) fn scene(tree: &Node) -> Option<String> {
@@ -66,7 +67,8 @@ fn sampling(node: &Node) -> Option<String> {
                 .iter()
                 .filter(|entry| entry.key != "depths")
                 .cloned()
-                .collect(),
+                .collect::<Vec<_>>()
+                .into(),
         ),
         ..*node
     };
@@ -95,7 +97,7 @@ fn primitive(node: &Node) -> Option<String> {
     };
     let body = if key == "mesh" {
         let rest = map(node)?.iter().filter(|entry| entry.key != "material");
-        let value = Value::Map(rest.cloned().collect());
+        let value = Value::Map(Arc::new(rest.cloned().collect()));
         record("mesh", &Node { value, ..*node })?
     } else {
         let known = |entry: &Entry| matches!(entry.key.as_str(), "vertices" | "material");

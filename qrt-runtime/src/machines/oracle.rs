@@ -31,7 +31,7 @@ use super::span::Span;
 use qrt_circuit::{Operand, Word};
 use qrt_core::oracle::{Channel, LUMINANCE_CHANNEL, Oracle};
 use std::ops::Range;
-use std::sync::Arc;
+use std::sync::{Arc, PoisonError};
 
 /// An oracle of all three channels on a machine.
 pub struct OracleMachine {
@@ -162,7 +162,10 @@ impl OracleMachine {
         let mut circuits = vec![&parts.compute];
         circuits.extend(&parts.flips);
         circuits.push(&parts.uncompute);
-        let gates = Box::new(Gates::new(&circuits)?);
+        let mut gates = Box::new(Gates::new(&circuits)?);
+        if parts.streamed.is_some() {
+            *gates = gates.with_few_lanes();
+        }
         flips::try_all(&oracle, &parts)?;
         let outputs = outputs(&oracle, colours);
         let machine = Machine::Gates {
@@ -211,7 +214,7 @@ impl OracleMachine {
         let parameters: Vec<Vec<u64>> = pixels.iter().map(|&pixel| self.words(pixel)).collect();
         let most = match &self.machine {
             Machine::Fixed { .. } | Machine::Native { .. } => Fixed::LANES,
-            Machine::Gates { .. } => Gates::LANES,
+            Machine::Gates { gates, .. } => gates.lanes(),
         };
         let mut block = OracleBlock {
             ids: Vec::with_capacity(most),
@@ -307,10 +310,14 @@ impl OracleMachine {
                 let runs: Vec<_> = runs.collect();
                 run(*instructions, &runs, &mut block.values);
             }
-            Machine::Gates { gates, rows, parts } => rows.lend(
-                || gates.rows(),
-                |own| self.run_gates(gates, parts, own, block, &spans),
-            )?,
+            Machine::Gates { gates, rows, parts } => {
+                let turn = parts.streamed.as_ref().map(|streamed| &streamed.turn);
+                let _turn = turn.map(|turn| turn.lock().unwrap_or_else(PoisonError::into_inner));
+                rows.lend(
+                    || gates.rows(),
+                    |own| self.run_gates(gates, parts, own, block, &spans),
+                )?;
+            }
         }
         self.complete(block);
         Ok(())

@@ -6,6 +6,7 @@ mod text;
 use super::args::{SceneArgs, choice};
 use super::failure::Failure;
 use super::files::{Output, keep_apart};
+use super::memory::Work;
 use super::terminal;
 use clap::Args;
 use qrt_core::front::Loaded;
@@ -88,6 +89,7 @@ pub(crate) fn run(args: &InspectArgs) -> Result<(), Failure> {
     let planned = plan(&loaded.valid, &PlanOptions::default())?;
     let scene = planned.as_ref().map_or(&loaded.valid, |plan| &plan.scene);
     let refused = |error: qrt_core::oracle::OracleError| loaded.report(vec![error.problem()]);
+    args.scene.memory().keep_circuit(scene, Work::Program)?;
     let inspection = Inspection::new(scene, args.channel, Options::default()).map_err(refused)?;
     let passes = inspection.passes(scene).map_err(refused)?;
 

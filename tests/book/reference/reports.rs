@@ -1,7 +1,7 @@
 //! Reports of real faults, one for each code.
 
 use qrt::core::compile::BuildError;
-use qrt::core::front::{Loaded, obj, parse};
+use qrt::core::front::{Files, Loaded, obj, parse, parse_with};
 use qrt::core::oracle::{MOST_FACES, Oracle, OracleError, call_cost, check_budget};
 use qrt::core::scene::meshes::Meshes;
 use qrt::core::scene::{Bsdf, Jacobian};
@@ -163,6 +163,16 @@ materials: { grey: { lambertian: { albedo: [0.5, 0.5, 0.5] } } }
 geometry: [mesh: { obj: large.obj, material: grey }]
 ";
     let report = parse(large, "large.yaml", &[], &folder).unwrap_err();
+    texts.push(report.render(false));
+    fs::write(
+        folder.join("large.obj"),
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+    )
+    .unwrap();
+    let entry = "mesh: { obj: large.obj, material: grey }";
+    let twice = large.replace(entry, &format!("{{ {entry} }}, {{ {entry} }}"));
+    let files = Files::of_folder(&folder).most_faces(1);
+    let report = parse_with(&twice, "large.yaml", &[], files).unwrap_err();
     texts.push(report.render(false));
     fs::remove_dir_all(folder).unwrap();
     texts

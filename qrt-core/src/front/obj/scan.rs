@@ -1,6 +1,6 @@
 //! The check of an OBJ file, statement by statement, as `tobj` reads it.
 
-use super::{ObjError, name, numbers, split, statements, words};
+use super::{ObjError, name, numbers, split, statements, too_large, words};
 use crate::syntax::tree::shorten;
 use crate::syntax::{codes, nearest};
 use glam::DVec3;
@@ -25,6 +25,10 @@ pub(super) struct Scanner<'a> {
     path: &'a Path,
     statements: Box<dyn Iterator<Item = (usize, Cow<'a, str>)> + 'a>,
     wants_materials: bool,
+    /// As many triangles there may be, and as many vertices.
+    most: usize,
+    /// The triangles of the faces so far.
+    pub(super) triangles: usize,
     /// How many there are so far of each of [`KINDS`].
     counts: [i64; 3],
     /// The greatest index of each kind so far, and its line: a vertex may follow its face.
@@ -61,11 +65,13 @@ impl Read for Scanner<'_> {
 }
 
 impl<'a> Scanner<'a> {
-    pub(super) fn new(path: &'a Path, text: &'a str, wants_materials: bool) -> Self {
+    pub(super) fn new(path: &'a Path, text: &'a str, wants_materials: bool, most: usize) -> Self {
         Self {
             path,
             statements: Box::new(statements(text)),
             wants_materials,
+            most,
+            triangles: 0,
             counts: [0; 3],
             greatest: [(0, 0); 3],
             pending: VecDeque::new(),
@@ -148,6 +154,9 @@ impl<'a> Scanner<'a> {
             _ => 3,
         };
         self.counts[0] += 1;
+        if self.counts[0] > self.most as i64 {
+            return Err(too_large(format!("more than {} vertices", self.most)));
+        }
         self.hand_on("v", words(rest).take(kept));
         Ok(())
     }
@@ -164,6 +173,10 @@ impl<'a> Scanner<'a> {
             let message = "this face has no material: no `usemtl` stands before it";
             return Err(ObjError::new(codes::OBJ_NO_MATERIAL, message)
                 .help("give the mesh a `material` in the scene, or the face one in the file"));
+        }
+        self.triangles += corners - 2;
+        if self.triangles > self.most {
+            return Err(too_large(format!("more than {} triangles", self.most)));
         }
         for corner in words(rest) {
             self.corner(line, corner)?;

@@ -22,6 +22,7 @@ fn read_with(text: &str, files: &[(&str, &str)]) -> Result<ObjMesh, ObjError> {
         Path::new("dir/mesh.obj"),
         text.as_bytes(),
         !files.is_empty(),
+        MOST_FACES,
         &mut library,
     )
 }
@@ -412,18 +413,22 @@ fn files_are_looked_up_beside_the_mesh() {
     let dir = std::env::temp_dir().join(format!("qrt-obj-{}", std::process::id()));
     std::fs::create_dir_all(dir.join("deep")).unwrap();
     let obj = dir.join("deep/mesh.obj");
-    let text = TWO.replace("my colours.mtl", "../colours.mtl");
-    std::fs::write(&obj, text).unwrap();
+    let text = |library: &str| TWO.replace("my colours.mtl", library);
+    std::fs::write(&obj, text("../colours.mtl")).unwrap();
+    std::fs::write(dir.join("colours.mtl"), COLOURS).unwrap();
+    refused(load(&obj, true), "QRT0319", Some(4), "is outside");
+    std::fs::write(&obj, text("more/colours.mtl")).unwrap();
     refused(
         load(&obj, true),
         "QRT0334",
         Some(4),
         "there is no such file",
     );
-    std::fs::write(dir.join("colours.mtl"), COLOURS).unwrap();
+    std::fs::create_dir(dir.join("deep/more")).unwrap();
+    std::fs::write(dir.join("deep/more/colours.mtl"), COLOURS).unwrap();
     assert_eq!(
         load(&obj, true).unwrap().materials[1].name,
-        "../colours.mtl:lamp"
+        "more/colours.mtl:lamp"
     );
     refused(load(&dir, false), "QRT0320", None, "not a regular file");
     refused(
@@ -584,7 +589,7 @@ proptest! {
         wants in any::<bool>(),
     ) {
         let mut library = |_: &Path| Ok(mtl.clone().into());
-        match parse(Path::new("mesh.obj"), &obj, wants, &mut library) {
+        match parse(Path::new("mesh.obj"), &obj, wants, MOST_FACES, &mut library) {
             Ok(mesh) => {
                 prop_assert!(!mesh.faces.is_empty());
                 for face in &mesh.faces {

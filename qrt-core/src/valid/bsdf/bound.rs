@@ -91,3 +91,8 @@ pub(super) fn supremum(e: &Expr) -> f64 {
     }
     least_bound * (1.0 + 1e-9)
 }
+
+/// Whether no proof is found that `e` is nowhere below zero.
+pub(super) fn may_be_negative(e: &Expr) -> bool {
+    supremum(&-e) > 0.0
+}

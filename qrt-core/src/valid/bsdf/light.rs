@@ -5,7 +5,7 @@ use crate::expr::{Expr, Variable, VariableSet, Variables};
 use crate::syntax::{Bsdf, Path, Problem};
 use std::cell::OnceCell;
 
-/// Values of rounding's size below zero are zero.
+/// Values of rounding's size below zero are zero; a constant's are not rounding.
 const NEGATIVE: f64 = -1e-12;
 /// The energy that a BSDF may gain by the quadrature's error.
 const GAIN: f64 = 2e-3;
@@ -50,13 +50,15 @@ fn seen(at: Variables, direction: [f64; 3], (cos_o, turn): (f64, f64)) -> Variab
 /// Checks that the value is finite and not negative.
 pub(super) fn value(map: &[Expr; 3], f: &Expr, path: &Path) -> Option<Problem> {
     let viewers = viewers(f);
+    let is_constant = f.constant().is_some();
     let mut room = Vec::new();
     for at in points() {
         let direction = map.each_ref().map(|c| c.eval_in(&at, &mut room));
         for viewer in &viewers {
             let at = seen(at, direction, *viewer);
             let value = f.eval_in(&at, &mut room);
-            if value >= NEGATIVE && value.is_finite() {
+            let least = if is_constant { 0.0 } else { NEGATIVE };
+            if value >= least && value.is_finite() {
                 continue;
             }
             let at = situation(f, &at);

@@ -33,6 +33,8 @@ fn built(vertices: &[DVec3; 4]) -> Vec<Polygon> {
         out: vec![],
         files: BTreeSet::new(),
         unknown: 0,
+        own_materials: HashMap::new(),
+        is_full: false,
     };
     build.quad(vertices, 0, &Path::root());
     let out = build.out;

@@ -61,9 +61,9 @@ impl Wiring {
             .flat_map(|(place, (first, bits))| (0..*bits).map(move |bit| (place, bit, first + bit)))
     }
 
-    /// The code of `circuit`, or the place of its first gate that is none.
-    pub(super) fn compile(&self, circuit: &Circuit) -> Result<Box<[u32]>, usize> {
-        let gates = circuit.gates.iter().enumerate();
+    /// The code of `gates`, or the place of the first that is none.
+    pub(super) fn compile(&self, gates: &[Gate]) -> Result<Box<[u32]>, usize> {
+        let gates = gates.iter().enumerate();
         let rows = gates.map(|(place, gate)| self.on_rows(*gate).ok_or(place));
         let rows: Vec<Gate> = rows.collect::<Result<_, _>>()?;
         Ok(code(&rows).into())

@@ -20,7 +20,7 @@ pub use rows::{Dirty, Rows};
 use super::instructions::InstructionSet;
 use compile::Wiring;
 use pulp::{Simd, WithSimd, bytemuck};
-use qrt_circuit::Circuit;
+use qrt_circuit::{Circuit, Gate};
 use rayon::prelude::*;
 use rows::LANES;
 use std::cell::Cell;
@@ -63,10 +63,12 @@ pub struct Gates {
     lengths: Vec<usize>,
     wiring: Wiring,
     instructions: InstructionSet,
+    /// Words of a row.
+    words: usize,
 }
 
 impl Gates {
-    /// States that a machine's rows hold.
+    /// States that a machine's rows hold, unless it is of few lanes.
     pub const LANES: usize = LANES;
 
     /// A machine for circuits that share their qubits and their list of classical parameters: one
@@ -77,7 +79,7 @@ impl Gates {
     pub fn new(circuits: &[&Circuit]) -> Result<Self, InvalidGate> {
         let wiring = Wiring::new(circuits);
         let code = circuits.iter().enumerate().map(|(place, circuit)| {
-            let compiled = wiring.compile(circuit);
+            let compiled = wiring.compile(&circuit.gates);
             compiled.map_err(|gate| InvalidGate {
                 circuit: place,
                 gate,
@@ -88,6 +90,7 @@ impl Gates {
             lengths: circuits.iter().map(|circuit| circuit.gates.len()).collect(),
             wiring,
             instructions: InstructionSet::widest(),
+            words: rows::WORDS,
         })
     }
 
@@ -95,6 +98,17 @@ impl Gates {
     pub fn with_instructions(mut self, instructions: InstructionSet) -> Self {
         self.instructions = instructions;
         self
+    }
+
+    /// With rows of 256 states alone, for circuits of very many qubits.
+    pub fn with_few_lanes(mut self) -> Self {
+        self.words = rows::FEW_WORDS;
+        self
+    }
+
+    /// States that this machine's rows hold.
+    pub fn lanes(&self) -> usize {
+        64 * self.words
     }
 
     /// Gates of circuit `circuit` of those given.
@@ -107,17 +121,33 @@ impl Gates {
         self.lengths[circuit] == 0
     }
 
-    /// Rows for [`Gates::LANES`] states, all of whose qubits are zero.
+    /// Rows for [`Gates::lanes`] states, all of whose qubits are zero.
     pub fn rows(&self) -> Rows {
-        Rows::new(&self.wiring)
+        Rows::new(&self.wiring, self.words)
     }
 
     /// Runs circuit `circuit` of those given on every state of `rows`, which are of this machine.
     pub fn run(&self, circuit: usize, rows: &mut Rows) {
+        self.run_code(&self.code[circuit], rows);
+    }
+
+    fn run_code(&self, code: &[u32], rows: &mut Rows) {
         self.instructions.dispatch(Run {
-            code: &self.code[circuit],
+            code,
+            words: self.words,
             rows: rows.all(),
         });
+    }
+
+    /// Runs gates that are no part of what was given, but work on its qubits and parameters.
+    ///
+    /// # Errors
+    /// If a gate is not one.
+    pub fn run_gates(&self, gates: &[Gate], rows: &mut Rows) -> Result<(), InvalidGate> {
+        let code = self.wiring.compile(gates);
+        let code = code.map_err(|gate| InvalidGate { circuit: 0, gate })?;
+        self.run_code(&code, rows);
+        Ok(())
     }
 
     /// Calls `block` for each of `0..blocks`, on all threads, each with rows of its own; they come
@@ -136,6 +166,8 @@ impl Gates {
 
 struct Run<'a> {
     code: &'a [u32],
+    /// Words of a row.
+    words: usize,
     rows: &'a mut [u64],
 }
 
@@ -144,7 +176,15 @@ impl WithSimd for Run<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        const WORDS: usize = LANES / 64;
+        const WORDS: usize = rows::WORDS;
+        const FEW: usize = rows::FEW_WORDS;
+        if self.words == FEW {
+            return match S::U64_LANES {
+                4 => run::<S, { FEW / 4 }>(simd, self.code, self.rows),
+                2 => run::<S, { FEW / 2 }>(simd, self.code, self.rows),
+                _ => run::<pulp::Scalar, FEW>(pulp::Scalar::new(), self.code, self.rows),
+            };
+        }
         match S::U64_LANES {
             8 => run::<S, { WORDS / 8 }>(simd, self.code, self.rows),
             4 => run::<S, { WORDS / 4 }>(simd, self.code, self.rows),

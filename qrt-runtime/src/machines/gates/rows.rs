@@ -14,7 +14,10 @@ use std::fmt;
 pub(super) const LANES: usize = 2048;
 
 /// Words of a row.
-const WORDS: usize = LANES / 64;
+pub(super) const WORDS: usize = LANES / 64;
+
+/// Words of a row where there are very many qubits.
+pub(super) const FEW_WORDS: usize = 4;
 
 /// Words that rows are aligned to: a cache line. Vectors across two lines halve the speed.
 const LINE: usize = 8;
@@ -34,35 +37,38 @@ impl fmt::Display for Dirty {
     }
 }
 
-/// [`super::Gates::LANES`] states: their qubits, the signs of their amplitudes, and the classical
+/// [`super::Gates::lanes`] states: their qubits, the signs of their amplitudes, and the classical
 /// parameters of their pixels.
 #[derive(Debug)]
 pub struct Rows {
     words: Vec<u64>,
     start: usize,
+    /// Words of a row.
+    length: usize,
     wiring: Wiring,
 }
 
 impl Rows {
-    pub(super) fn new(wiring: &Wiring) -> Self {
-        let words = vec![0; wiring.rows() * WORDS + LINE];
+    pub(super) fn new(wiring: &Wiring, length: usize) -> Self {
+        let words = vec![0; wiring.rows() * length + LINE];
         Self {
             start: words.as_ptr().align_offset(LINE * size_of::<u64>()) % LINE,
             words,
+            length,
             wiring: wiring.clone(),
         }
     }
 
     pub(super) fn all(&mut self) -> &mut [u64] {
-        &mut self.words[self.start..][..self.wiring.rows() * WORDS]
+        &mut self.words[self.start..][..self.wiring.rows() * self.length]
     }
 
     fn row(&self, row: u32) -> &[u64] {
-        &self.words[self.start..][row as usize * WORDS..][..WORDS]
+        &self.words[self.start..][row as usize * self.length..][..self.length]
     }
 
     fn row_mut(&mut self, row: u32) -> &mut [u64] {
-        &mut self.words[self.start..][row as usize * WORDS..][..WORDS]
+        &mut self.words[self.start..][row as usize * self.length..][..self.length]
     }
 
     /// Sets `qubits`, bit 0 first, to the bits of `values`, one a lane. Lanes beyond these hold the
@@ -73,7 +79,7 @@ impl Rows {
     pub fn set(&mut self, qubits: &[Qubit], values: &[u64]) {
         assert!(qubits.len() <= 64, "a value has 64 bits");
         let last = values.last().copied().unwrap_or(0);
-        for word in 0..WORDS {
+        for word in 0..self.length {
             let mut square = [last; 64];
             let values = values.iter().skip(64 * word);
             for (slot, value) in square.iter_mut().zip(values) {
@@ -90,7 +96,7 @@ impl Rows {
     /// `values`.
     ///
     /// # Panics
-    /// If there are more than 64 qubits or [`super::Gates::LANES`] values, or a qubit that the
+    /// If there are more than 64 qubits or [`super::Gates::lanes`] values, or a qubit that the
     /// circuits do not have.
     pub fn get(&self, qubits: &[Qubit], values: &mut [u64]) {
         assert!(qubits.len() <= 64, "a value has 64 bits");
@@ -107,15 +113,16 @@ impl Rows {
     /// Sets the classical parameters to those of the spans' pixels, lane after lane from 0 on.
     /// Lanes beyond belong to the last span.
     pub fn set_parameters(&mut self, spans: &[Span<'_>]) {
+        let lanes = 64 * self.length;
         for (parameter, bit, row) in self.wiring.clone().parameters() {
             let words = self.row_mut(row);
             words.fill(0);
             let mut first = 0;
             for (place, span) in spans.iter().enumerate() {
                 let last = place + 1 == spans.len();
-                let end = if last { LANES } else { first + span.lanes };
+                let end = if last { lanes } else { first + span.lanes };
                 if span.parameters[parameter] >> bit & 1 == 1 {
-                    set_lanes(words, first, end.min(LANES));
+                    set_lanes(words, first, end.min(lanes));
                 }
                 first = end;
             }
@@ -151,7 +158,8 @@ impl Rows {
     /// Zeroes all qubits and signs.
     pub fn clear(&mut self) {
         let rows = self.wiring.sign() as usize + 1;
-        self.all()[..rows * WORDS].fill(0);
+        let words = rows * self.length;
+        self.all()[..words].fill(0);
     }
 }
 

@@ -143,7 +143,7 @@ proptest! {
 fn each_pattern_is_recognised_and_does_what_its_gates_do() {
     for (number, pattern) in PATTERNS.iter().enumerate() {
         let wiring = Wiring::new(&[&circuit(Vec::new(), QUBITS)]);
-        let code = wiring.compile(&circuit(pattern.gates.to_vec(), QUBITS));
+        let code = wiring.compile(pattern.gates);
         assert_eq!(compile::parts(code.unwrap()[0]), (number, 1));
         for set in InstructionSet::available() {
             check(pattern.gates, set);

@@ -2,6 +2,7 @@
 
 use qrt_circuit::{Circuit, Instruction, Operand, Program, Qubit, RegisterId, lower};
 use qrt_core::oracle::Oracle;
+use std::sync::{Arc, Mutex};
 
 /// The parts of an oracle's circuit, which share their qubits.
 #[derive(Clone, Debug)]
@@ -12,11 +13,38 @@ pub struct OracleCircuits {
     pub flips: Vec<Circuit>,
     /// From colours back to path indices alone.
     pub uncompute: Circuit,
+    /// What takes the place of the gates of compute and uncompute where these are too many to be held.
+    pub(super) streamed: Option<Box<Streamed>>,
+}
+
+/// A program whose gates are made anew each time they run.
+#[derive(Clone, Debug)]
+pub(super) struct Streamed {
+    /// Compute and uncompute.
+    pub(super) program: Program,
+    /// The first instruction of uncompute.
+    pub(super) cut: usize,
+    /// Held while one thread runs it: rows of so many qubits are there once.
+    pub(super) turn: Arc<Mutex<()>>,
+    gates: usize,
 }
 
 impl OracleCircuits {
+    /// With more bits in registers than these, gates of compute and uncompute are not held.
+    pub const MOST_QUBITS: u64 = 1 << 19;
+
     /// Lowers an oracle to gates: compute, all channels' flips one after another, uncompute.
+    ///
+    /// If registers come to more than [`OracleCircuits::MOST_QUBITS`], the gates of compute and uncompute are not
+    /// held: [`Circuit::gates`] is empty, and the gates machine lowers operations as it runs them.
     pub fn new(oracle: &Oracle) -> Self {
+        let widths = oracle.program.registers.iter();
+        let qubits: u64 = widths.map(|register| u64::from(register.width)).sum();
+        Self::lowered(oracle, qubits <= Self::MOST_QUBITS)
+    }
+
+    /// Lowers an oracle to gates, those of compute and uncompute held or not.
+    pub(super) fn lowered(oracle: &Oracle, held: bool) -> Self {
         let mut whole = oracle.program.clone();
         let undo = whole.inverse().instructions;
         let mut cuts = vec![whole.instructions.len()];
@@ -33,21 +61,39 @@ impl OracleCircuits {
                 }));
             cuts.push(whole.instructions.len());
         }
-        whole.instructions.extend(undo);
-        let mut parts = lower::parts(&whole, &cuts).into_iter();
+        whole.instructions.extend(undo.iter().copied());
+        let (parts, streamed) = if held {
+            (lower::parts(&whole, &cuts), None)
+        } else {
+            let (parts, gates) = lower::parts_between(&whole, &cuts);
+            let mut program = oracle.program.clone();
+            program.instructions.extend(undo);
+            let cut = cuts[0];
+            let streamed = Streamed {
+                program,
+                cut,
+                turn: Arc::default(),
+                gates,
+            };
+            (parts, Some(Box::new(streamed)))
+        };
+        let mut parts = parts.into_iter();
         let compute = parts.next().unwrap_or_default();
         let uncompute = parts.next_back().unwrap_or_default();
         Self {
             compute,
             flips: parts.collect(),
             uncompute,
+            streamed,
         }
     }
 
     /// Gates of all parts.
     pub fn gates(&self) -> usize {
         let flips = self.flips.iter().map(|flip| flip.gates.len());
-        self.compute.gates.len() + flips.sum::<usize>() + self.uncompute.gates.len()
+        let streamed = self.streamed.as_ref().map_or(0, |streamed| streamed.gates);
+        let held = self.compute.gates.len() + self.uncompute.gates.len();
+        held + flips.sum::<usize>() + streamed
     }
 
     /// The qubits of an operand after compute, its lowest bit first; none for a constant.
@@ -87,4 +133,63 @@ pub(in crate::machines) fn name(compute: &Circuit, program: &Program, qubit: Qub
         || "an ancilla".to_owned(),
         |(register, _)| program.registers[register.index()].name.clone(),
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::machines::{Defect, OracleMachine};
+    use qrt_core::front::parse;
+    use qrt_core::oracle::Options;
+
+    const ROOM: &str = "
+name: room
+camera: { perspective: { eye: [0, 1, 3], target: [0, 0.5, 0], vfov: 60 } }
+film: { width: 3, height: 2 }
+materials:
+  grey: { lambertian: { albedo: [0.5, 0.7, 0.2] } }
+  lamp: { emitter: { radiance: [4, 2, 1] } }
+geometry:
+  - quad: { vertices: [[-1, 0, -1], [-1, 0, 1], [1, 0, 1], [1, 0, -1]], material: grey }
+  - quad: { vertices: [[-1, 0, -1], [1, 0, -1], [1, 2, -1], [-1, 2, -1]], material: grey }
+  - triangle: { vertices: [[-0.5, 1.9, 0.5], [0.5, 1.9, -0.5], [0.5, 1.9, 0.5]], material: lamp }
+precision: { fraction: 10 }
+comparator: { bits: 6 }
+sampling: { path_bits: 9, depths: [{ bits: [3, 3] }, { bits: [5, 5] }] }
+";
+
+    /// What the gates machine hands over of every path of every pixel: counts and colours by channel.
+    fn traced(oracle: &Arc<Oracle>, parts: OracleCircuits) -> Result<[Vec<i64>; 6], Defect> {
+        let machine = OracleMachine::of_parts(Arc::clone(oracle), parts, 3, true)?;
+        let pixels: Vec<[u32; 2]> = (0..6).map(|n| [n % 3, n / 3]).collect();
+        let mut all: [Vec<i64>; 6] = Default::default();
+        machine.trace(&pixels, 0..512, |run| {
+            let columns = run.good.into_iter().chain(run.colours);
+            for (all, column) in all.iter_mut().zip(columns) {
+                all.extend_from_slice(column);
+            }
+        })?;
+        Ok(all)
+    }
+
+    #[test]
+    fn gates_that_are_not_held_compute_what_those_held_do() {
+        let scene = parse(ROOM, "room.yaml", &[], "".as_ref()).unwrap().valid;
+        let oracle = Oracle::rgb(&scene, Options::default());
+        let oracle = Arc::new(oracle.unwrap());
+        let [held, streamed] = [true, false].map(|held| OracleCircuits::lowered(&oracle, held));
+        assert!(held.compute.gates.len() > 10_000);
+        assert!(streamed.compute.gates.is_empty() && streamed.uncompute.gates.is_empty());
+        assert_eq!(streamed.gates(), held.gates());
+        assert_eq!(streamed.flips[2].gates, held.flips[2].gates);
+        let of_held = traced(&oracle, held).unwrap();
+        assert_eq!(of_held.concat().len(), 6 * 6 * 512);
+        assert!(traced(&oracle, streamed.clone()).unwrap() == of_held);
+        // An operation less is noticed.
+        let mut wrong = streamed;
+        if let Some(streamed) = &mut wrong.streamed {
+            streamed.program.instructions.pop();
+        }
+        assert!(matches!(traced(&oracle, wrong), Err(Defect::Dirty { .. })));
+    }
 }

@@ -1,9 +1,13 @@
 //! Blocks of paths through the gates: compute, read, uncompute, look at every qubit.
 
+use super::parts::Streamed;
 use super::{Defect, OracleBlock, OracleCircuits, OracleMachine, word_of};
-use crate::machines::gates::{Gates, Rows};
+use crate::machines::gates::{Gates, InvalidGate, Rows};
 use crate::machines::span::Span;
-use qrt_circuit::{Qubit, Word};
+use qrt_circuit::{Gate, Qubit, Word, lower};
+
+/// Gates of a streamed circuit that are run together.
+const AT_ONCE: usize = 1 << 14;
 
 impl OracleMachine {
     pub(super) fn run_gates(
@@ -21,20 +25,29 @@ impl OracleMachine {
         rows.set(&id, &block.ids);
         rows.set(&hit, &block.hits);
         rows.set_parameters(spans);
-        gates.run(0, rows);
-        let mut bits = vec![0; count];
-        for (output, values) in self.outputs.iter().zip(&mut block.values) {
-            let Some(word) = word_of(*output) else {
-                continue;
-            };
-            rows.get(&parts.qubits(*output), &mut bits);
-            // The word is all that was read.
-            let alone = Word { offset: 0, ..word };
-            for (value, bits) in values.iter_mut().zip(&bits) {
-                *value = alone.read(*bits);
+        let values = &mut block.values;
+        let read = |rows: &Rows| {
+            let mut bits = vec![0; count];
+            for (output, values) in self.outputs.iter().zip(values) {
+                let Some(word) = word_of(*output) else {
+                    continue;
+                };
+                rows.get(&parts.qubits(*output), &mut bits);
+                // The word is all that was read.
+                let alone = Word { offset: 0, ..word };
+                for (value, bits) in values.iter_mut().zip(&bits) {
+                    *value = alone.read(*bits);
+                }
             }
+        };
+        match &parts.streamed {
+            None => {
+                gates.run(0, rows);
+                read(rows);
+                gates.run(1 + parts.flips.len(), rows);
+            }
+            Some(streamed) => streamed.run(gates, rows, read)?,
         }
-        gates.run(1 + parts.flips.len(), rows);
         let place = |lane: usize| {
             let mut start = 0;
             let runs = block.runs.iter();
@@ -47,6 +60,43 @@ impl OracleMachine {
         let inputs = [(&id[..], &block.ids[..]), (&hit, &block.hits)];
         let path = |lane| (place(lane), block.ids[lane]);
         check(rows, &inputs, path, |qubit| parts.name(&self.oracle, qubit))
+    }
+}
+
+impl Streamed {
+    /// Lowers the program and runs its gates, some at a time; between compute and uncompute, `read` is
+    /// called.
+    fn run(
+        &self,
+        gates: &Gates,
+        rows: &mut Rows,
+        read: impl FnOnce(&Rows),
+    ) -> Result<(), InvalidGate> {
+        let mut pending = Vec::with_capacity(2 * AT_ONCE);
+        let mut read = Some(read);
+        let mut ran = Ok(());
+        let mut step = 0;
+        let mut run = |pending: &mut Vec<Gate>, rows: &mut Rows| {
+            if ran.is_ok() {
+                ran = gates.run_gates(pending, rows);
+            }
+            pending.clear();
+        };
+        lower::each_instruction(&self.program, |next, _| {
+            if step == self.cut {
+                run(&mut pending, rows);
+                if let Some(read) = read.take() {
+                    read(rows);
+                }
+            }
+            pending.extend_from_slice(next);
+            if pending.len() >= AT_ONCE {
+                run(&mut pending, rows);
+            }
+            step += 1;
+        });
+        run(&mut pending, rows);
+        ran
     }
 }
 
