@@ -1,6 +1,10 @@
 //! `qrt new`, `schema`, `completions`, and what holds for every command.
 
 use crate::common::command::Folder;
+use qrt::prelude::{Options, render};
+use qrt::runtime::machines::Real;
+use qrt::runtime::sample::{prefix_means, radiance, spread};
+use qrt::runtime::workers::Workers;
 use std::fs;
 use std::process::Stdio;
 
@@ -35,6 +39,29 @@ fn a_new_scene_renders_and_says_its_name() {
         let scene = qrt::prelude::load(&folder.path(file), &[]).unwrap().valid;
         assert_eq!(scene.scene().name, file.strip_suffix(".yaml").unwrap());
     }
+}
+
+/// Off by less than can be seen: an RMSE of a fiftieth of the mean, against sixteen times the paths.
+#[test]
+fn the_first_picture_of_a_new_scene_is_one_to_show() {
+    let folder = Folder::new();
+    folder.works(&["new", "box"]);
+    let scene = |sets: &[String]| qrt::prelude::load(&folder.path("box.yaml"), sets).unwrap();
+    let scene = [&[][..], &["sampling.path_bits=12".to_owned()]].map(|sets| scene(sets).valid);
+    let shown = render(&scene[0], &Options::default()).unwrap().image;
+    let limit = Real::new(&scene[1], 1).unwrap();
+    let pixels = spread([shown.width, shown.height], 256);
+    let limit = prefix_means(&limit, &pixels, &[12], &Workers::default()).unwrap();
+    let squares = pixels.iter().zip(&limit[0]).map(|([x, y], limit)| {
+        let shown = shown.pixels[(y * shown.width + x) as usize];
+        let pairs = shown.iter().zip(limit);
+        pairs.map(|(a, b)| (a - b).powi(2)).sum::<f64>() / 3.0
+    });
+    let error = (squares.sum::<f64>() / 256.0).sqrt() / radiance(&limit[0]);
+    assert!(error < 0.02, "{error}");
+    // Neither black nor burnt out.
+    let mean = radiance(&shown.pixels);
+    assert!((0.2..0.6).contains(&mean), "{mean}");
 }
 
 #[test]
@@ -117,7 +144,7 @@ fn readers_that_go_away_are_no_failure() {
     // On standard error neither.
     for arguments in [
         &["render", "none.yaml"][..],
-        &["render", "box.yaml", "--crop", "99,0,1,1"],
+        &["render", "box.yaml", "--crop", "999,0,1,1"],
     ] {
         let mut child = folder
             .command(arguments)

@@ -184,8 +184,10 @@ pub(super) fn trade() -> Figure {
         ..point
     };
     let mut rest = Vec::new();
+    // Neither of other lengths of paths, nor of fewer pixels and no circuit.
+    let others = ["depth", "beside-rivals", "random-paths", "classical-net"];
     for sweep in table.values("sweep") {
-        if sweep != "depth" {
+        if !others.contains(&sweep.as_str()) {
             rest.extend(
                 points(&table, &[("sweep", &sweep)], "e_total")
                     .into_iter()

@@ -1,6 +1,6 @@
 //! One scene under other parameters.
 
-use super::{ValidScene, counting, sampling};
+use super::{ValidScene, counting, lights, sampling};
 use crate::scene::shape::Part;
 use crate::scene::{Circuit, Comparator, Counting, Precision, Sampling};
 use crate::syntax::{Place, Problem, Problems};
@@ -31,7 +31,8 @@ impl ValidScene {
     }
 
     /// The same scene under other parameters, and without an `accuracy` that would choose them.
-    /// Geometry and materials are as they were read.
+    /// Geometry and materials are as they were read, but for lamps that are sampled now and were not:
+    /// they are cut into shapes that can be.
     ///
     /// # Errors
     /// Everything that is wrong with the parameters.
@@ -67,6 +68,7 @@ impl ValidScene {
         problems.finalize();
         sampling::check(scene, &mut problems);
         counting::check(scene, &mut problems);
+        lights::check(&mut changed, &mut problems);
         problems.result(changed)
     }
 }

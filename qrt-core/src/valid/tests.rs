@@ -122,3 +122,30 @@ fn phong_lobes_reflect_at_most_what_arrives() {
         }
     }
 }
+
+/// What a scene's text is refused for, its other parameters are.
+#[test]
+fn lamps_are_looked_at_when_parameters_begin_to_sample_them() {
+    let text = "
+name: a
+film: { width: 1, height: 1 }
+camera: { perspective: { eye: [0, 0, 1], target: [0, 0, 0], vfov: 40 } }
+materials: { m: { lambertian: { albedo: [0.5, 0.5, 0.5] } }, l: { emitter: { radiance: [1, 1, 1] } } }
+geometry:
+  - triangle: { vertices: [[0, 0, 0], [1, 0, 0], [0, 1, 0]], material: m }
+  - triangle: { vertices: [[0, 0, 2], [0, 1, 2], [1, 0, 2]], material: l }
+  # No parallelogram.
+  - quad: { vertices: [[0, 0, 3], [0, 1, 3], [1, 2, 3], [1, 0, 3]], material: l }
+sampling: { depths: [{ bits: [8, 8] }, { bits: [8, 8] }] }
+";
+    let scene = crate::front::parse(text, "scene.yaml", &[], "".as_ref());
+    let scene = scene.unwrap().valid;
+    let with = |light: [u32; 2]| {
+        let mut parameters = scene.parameters();
+        parameters.sampling.depths[1].light = Some(light);
+        scene.with_parameters(parameters)
+    };
+    assert_eq!(with([8, 8]).unwrap().polygons().len(), 4);
+    let problems = with([1, 8]).unwrap_err();
+    assert_eq!(problems[0].code(), codes::FEW_LIGHT_BITS);
+}

@@ -3,7 +3,7 @@
 use super::tokens::Table;
 use proc_macro2::{Delimiter, Group, Literal, Punct, Spacing, Span, TokenStream, TokenTree};
 use qrt_core::syntax::tree;
-use quote::quote_spanned;
+use quote::{quote, quote_spanned};
 use std::fmt::Write as _;
 
 /// One thing that is wrong, at a place.
@@ -136,6 +136,20 @@ impl Faults {
     /// Adds the faults of another scene of the same input.
     pub(crate) fn append(&mut self, mut other: Self) {
         self.0.append(&mut other.0);
+    }
+}
+
+/// The compiler's warning `text` at a span. A macro can't warn on stable Rust; but what is deprecated
+/// is warned about where it is used, and its note says why.
+pub(crate) fn compile_warning(text: &str, (first, _): (Span, Span)) -> TokenStream {
+    let note = Literal::string(text);
+    let used = quote_spanned!(first=> QRT_WARNING);
+    quote! {
+        const _: () = {
+            #[deprecated(note = #note)]
+            const #used: () = ();
+            #used
+        };
     }
 }
 

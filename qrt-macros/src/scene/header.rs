@@ -50,13 +50,11 @@ impl Header {
         name
     }
 
-    /// Adds what is wrong with the file.
-    pub(crate) fn report(&self, report: &Report, faults: &mut Faults) {
+    /// Adds what is wrong with the file, after the words `what`.
+    pub(crate) fn report(&self, what: &str, report: &Report, faults: &mut Faults) {
         let place = self.path.unwrap_or_default();
         let code = report.codes().first().copied().unwrap_or(codes::UNREADABLE);
-        faults
-            .add(code, place, "this file is not a scene that qrt can take")
-            .body(report.render(false));
+        faults.add(code, place, what).body(report.render(false));
     }
 }
 

@@ -1,17 +1,18 @@
 //! The macro's input: one scene after another.
 
 use super::body::Body;
-use super::fault::{Faults, compile_error};
+use super::fault::{Faults, compile_error, compile_warning};
 use super::header::Header;
 use super::terms::{Asked, Terms};
 use super::tokens::{self, Kind, Table, Token, place_of};
 use super::values::{entry, scalar};
-use super::{Parsed, check, emit};
+use super::{Parsed, REFUSED, check, emit};
 use proc_macro2::{Delimiter, Ident, TokenStream, TokenTree};
 use qrt_core::front::load_below;
 use qrt_core::syntax::codes;
 use qrt_core::syntax::tree::{Entry, Node, Span, Value};
 use qrt_core::valid::ValidScene;
+use quote::quote;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -28,6 +29,15 @@ pub(crate) fn expand(asked: Asked, root: &Path) -> TokenStream {
     let mut faults = Faults::default();
     let (terms, mut out) = asked.terms();
     for (parsed, valid) in read(asked.input, &terms, root, &mut table, &mut faults) {
+        if let Some(valid) = &valid {
+            let mut warnings = Faults::default();
+            parsed.warnings(valid, &mut warnings);
+            let conditions = parsed.header.conditions();
+            for warning in warnings.finalize() {
+                let shown = compile_warning(&warning.text(&table), warning.ends(&table));
+                out.extend(quote!(#conditions #shown));
+            }
+        }
         let generated = valid.and_then(|valid| match crate::generate::scene(&parsed, &valid) {
             Ok(code) => Some(emit::expansion(&parsed, &valid, root, &code)),
             Err(problems) => {
@@ -209,7 +219,7 @@ impl<'t> Input<'t> {
                 (Parsed::of_file(header, loaded), Some(valid))
             }
             Err(report) => {
-                header.report(&report, self.faults);
+                header.report(REFUSED, &report, self.faults);
                 (Parsed::nothing(header), None)
             }
         }

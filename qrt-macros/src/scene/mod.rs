@@ -34,6 +34,9 @@ use qrt_core::syntax::{At, Problem, Step, Structure, What, codes};
 use qrt_core::valid::ValidScene;
 use std::path::Path as FilePath;
 
+/// What is said before the errors of a file.
+const REFUSED: &str = "this file is not a scene that qrt can take";
+
 /// A scene of a macro, and where its parts were written.
 #[derive(Debug)]
 pub(crate) struct Parsed {
@@ -93,9 +96,21 @@ impl Parsed {
             }
             Source::File(loaded) => {
                 let report = loaded.report(problems);
-                self.header.report(&report, faults);
+                self.header.report(REFUSED, &report, faults);
             }
             Source::Nothing => {}
+        }
+    }
+
+    /// Adds what the scene asks for in vain.
+    pub(crate) fn warnings(&self, valid: &ValidScene, faults: &mut Faults) {
+        match &self.source {
+            Source::File(loaded) => {
+                if let Some(report) = loaded.warnings() {
+                    self.header.report("of this file", &report, faults);
+                }
+            }
+            _ => self.report(valid.warnings().to_vec(), faults),
         }
     }
 

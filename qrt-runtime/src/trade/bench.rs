@@ -1,7 +1,7 @@
 //! What is measured on the sample of pixels, each thing once.
 
 use super::band::Band;
-use super::error::TradeError;
+use super::error::{TradeError, first};
 use super::setting::Setting;
 use super::table::Row;
 use crate::counting::{Comparators, Octaves};
@@ -90,11 +90,6 @@ impl<'a> Bench<'a> {
         }
     }
 
-    /// The scene under a setting; `None` where there can be no such scene.
-    fn scene_of(&self, parameters: Parameters) -> Option<ValidScene> {
-        self.scene.with_parameters(parameters).ok()
-    }
-
     /// That the scene as it is has a circuit.
     pub(super) fn check(&mut self) -> Result<(), TradeError> {
         let parameters = Setting::of(&self.parameters).parameters(&self.parameters);
@@ -102,21 +97,29 @@ impl<'a> Bench<'a> {
             .scene
             .with_parameters(parameters.clone())
             .map_err(TradeError::Parameters)?;
-        self.built(&scene, &parameters)?;
+        // The scene's own circuit is there, or an error.
+        let _ = self.built(&scene, &parameters)?;
         Real::new(&scene, self.seed)?;
         Ok(())
     }
 
-    /// Measures a row. None where the setting has no circuit.
-    pub(super) fn row(&mut self, setting: Setting) -> Result<Option<Row>, TradeError> {
+    /// Measures a row; or says why the setting is no scene, or has no circuit.
+    pub(super) fn row(&mut self, setting: Setting) -> Result<Result<Row, String>, TradeError> {
+        if setting.sweep.is_rival() {
+            return self.rival(setting).map(Ok);
+        }
         let parameters = setting.parameters(&self.parameters);
-        let Some(scene) = self.scene_of(parameters.clone()) else {
-            return Ok(None);
+        let scene = match self.scene.with_parameters(parameters.clone()) {
+            Ok(scene) => scene,
+            Err(problems) => return Ok(Err(first(&problems))),
         };
-        let Some(built) = self.built(&scene, &parameters)? else {
-            return Ok(None);
+        let built = match self.built(&scene, &parameters)? {
+            Ok(built) => built,
+            Err(why) => return Ok(Err(why)),
         };
-        let mean = sample::radiance(self.reference(self.parameters.sampling.depths.len())?);
+        let kept = self.kept(setting)?;
+        let own = self.reference(self.parameters.sampling.depths.len())?;
+        let mean = sample::radiance(&picked(own, &kept));
         if mean <= 0.0 {
             return Err(TradeError::Black);
         }
@@ -133,18 +136,21 @@ impl<'a> Bench<'a> {
         };
         let [in_real, in_model]: [Means; 2] =
             [&real.good, &counted.good].map(|good| good.iter().zip(&bounds).map(value).collect());
-        let estimated = self.estimated(&parameters, &bounds, &counted, ids)?;
+        let mut estimated = self.estimated(&parameters, &bounds, &counted, ids)?;
+        let [real_means, in_real, in_model, truth] =
+            [&real.means, &in_real, &in_model, &truth].map(|means| picked(means, &kept));
+        estimated.values = picked(&estimated.values, &kept);
         let drawn = drawn(&estimated, &in_model, &truth, mean);
         let pixels = self.pixels.len() as f64;
         let depth = self.depth_error(setting.depths, mean)?;
-        Ok(Some(Row {
+        Ok(Ok(Row {
             setting,
             queries: estimated.queries as f64 / pixels / self.effort.draws as f64,
             cost: built.cost,
             mean,
             errors: [
-                Band::of_difference(&real.means, &truth, mean),
-                Band::of_difference(&in_real, &real.means, mean),
+                Band::of_difference(&real_means, &truth, mean),
+                Band::of_difference(&in_real, &real_means, mean),
                 Band::of_difference(&in_model, &in_real, mean),
                 drawn[0],
                 depth,
@@ -194,16 +200,16 @@ impl<'a> Bench<'a> {
         &mut self,
         scene: &ValidScene,
         parameters: &Parameters,
-    ) -> Result<Option<Built>, TradeError> {
+    ) -> Result<Result<Built, String>, TradeError> {
         let key = circuit_key(parameters);
         if let Some((_, found)) = self.circuits.iter().find(|(of, _)| *of == key) {
-            return Ok(Some(found.clone()));
+            return Ok(Ok(found.clone()));
         }
         let own = Setting::of(&self.parameters).parameters(&self.parameters);
         let (channels, _) = match Oracle::all(scene) {
             Ok(all) => all,
             // A row without a circuit is left out; a scene without one has no table.
-            Err(_) if circuit_key(&own) != key => return Ok(None),
+            Err(why) if circuit_key(&own) != key => return Ok(Err(why.to_string())),
             Err(error) => return Err(error.into()),
         };
         let classes = PixelClasses::new(scene);
@@ -220,7 +226,7 @@ impl<'a> Bench<'a> {
         // One is large, and rows of a circuit stand together, but for the scene's own.
         self.circuits.retain(|(of, _)| *of == circuit_key(&own));
         self.circuits.push((key, built.clone()));
-        Ok(Some(built))
+        Ok(Ok(built))
     }
 
     fn counted(
@@ -299,6 +305,11 @@ impl<'a> Bench<'a> {
             seconds: start.elapsed().as_secs_f64(),
         })
     }
+}
+
+/// The entries of these pixels.
+pub(super) fn picked<T: Clone>(all: &[T], kept: &[usize]) -> Vec<T> {
+    kept.iter().map(|&at| all[at].clone()).collect()
 }
 
 struct Estimated {

@@ -84,7 +84,7 @@ pub enum TradeError {
     },
 }
 
-fn first(problems: &[Problem]) -> String {
+pub(super) fn first(problems: &[Problem]) -> String {
     let first = problems.first().map(|problem| problem.words().message);
     first.unwrap_or_default()
 }

@@ -1,6 +1,7 @@
 //! The plots of `qrt trade`.
 
 use super::fronts::fronts;
+use super::rivals;
 use super::setting::Sweep;
 use super::table::Row;
 use super::{Band, Trade};
@@ -39,6 +40,7 @@ pub(super) fn all(trade: &Trade) -> Vec<Figure> {
     let mut figures = vec![
         split(trade),
         counting(trade),
+        rivals::figure(trade),
         repetitions(trade),
         paths(trade),
     ];

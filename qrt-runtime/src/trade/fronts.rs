@@ -6,11 +6,12 @@ use super::table::Row;
 use super::{Trade, pareto};
 use qrt_drawing::{Axis, Drawn, Plot, Series};
 
-/// Rows that a front may hold: of the scene's own length of paths, which is what was asked.
+/// Rows that a front may hold: counted, and of the scene's own length of paths, which is what was
+/// asked.
 pub(super) fn candidates(trade: &Trade) -> Vec<&Row> {
     let rows = trade.rows.iter();
-    rows.filter(|row| row.setting.sweep != Sweep::Depth)
-        .collect()
+    let counted = |sweep: Sweep| sweep != Sweep::Depth && !sweep.leaves_lamps_out();
+    rows.filter(|row| counted(row.setting.sweep)).collect()
 }
 
 /// A price of a row.

@@ -3,11 +3,12 @@
 use super::band::Band;
 use super::bench::Bench;
 use super::error::TradeError;
+use super::rivals::lit;
 use super::setting::depths;
 use crate::machines::Real;
 use crate::sample::{Means, prefix_means};
 use qrt_core::scene::{Sampling, Sequence};
-use qrt_core::valid::MAX_NET_DEPTHS;
+use qrt_core::valid::{MAX_NET_DEPTHS, Parameters, ValidScene};
 
 /// Keys the reference's shifts, beside the seed.
 const REFERENCE: u64 = 0x5265_6665_7265_6e63;
@@ -23,15 +24,16 @@ impl Bench<'_> {
         let at = if let Some(at) = at {
             at
         } else {
-            let means = self.net_means(rays, self.effort.reference_bits, REFERENCE)?;
+            let scene = self.lit_net(rays, self.effort.reference_bits)?;
+            let means = self.means(&scene, REFERENCE)?;
             self.references.push((rays, means));
             self.references.len() - 1
         };
         Ok(&self.references[at].1)
     }
 
-    /// Means over `2^bits` paths of the net, of so many rays.
-    fn net_means(&self, rays: usize, bits: u32, key: u64) -> Result<Means, TradeError> {
+    /// A net of `2^bits` paths of so many rays, without a circuit.
+    fn net(&self, rays: usize, bits: u32) -> Parameters {
         let mut parameters = self.parameters.clone();
         parameters.sampling = Sampling {
             sequence: Sequence::DigitalNet,
@@ -41,12 +43,24 @@ impl Bench<'_> {
         };
         // Nothing is counted here, so one comparator bit will do.
         parameters.comparator.bits = 1;
-        let scene = self
-            .scene
-            .with_parameters(parameters)
-            .map_err(TradeError::Parameters)?;
-        let real = Real::new(&scene, self.seed ^ key)?;
-        let mut means = prefix_means(&real, &self.pixels, &[bits], &self.workers)?;
+        parameters
+    }
+
+    /// The same that samples lamps, also where the scene does not; if it has the dimensions.
+    pub(super) fn lit_net(&self, rays: usize, bits: u32) -> Result<ValidScene, TradeError> {
+        let own = self.net(rays, bits);
+        let mut parameters = own.clone();
+        parameters.sampling = lit(&own.sampling);
+        let lit = self.scene.with_parameters(parameters);
+        lit.or_else(|_| self.scene.with_parameters(own))
+            .map_err(TradeError::Parameters)
+    }
+
+    /// Means over all paths of a scene.
+    fn means(&self, scene: &ValidScene, key: u64) -> Result<Means, TradeError> {
+        let real = Real::new(scene, self.seed ^ key)?;
+        let bits = [scene.scene().sampling.path_bits];
+        let mut means = prefix_means(&real, &self.pixels, &bits, &self.workers)?;
         Ok(means.pop().unwrap_or_default())
     }
 
@@ -72,7 +86,9 @@ impl Bench<'_> {
             if rays > MAX_NET_DEPTHS {
                 break;
             }
-            pictures.push(self.net_means(rays, self.effort.depth_bits, 0)?);
+            let net = self.net(rays, self.effort.depth_bits);
+            let scene = (self.scene.with_parameters(net)).map_err(TradeError::Parameters)?;
+            pictures.push(self.means(&scene, 0)?);
             let [.., before, last] = &pictures[..] else {
                 continue;
             };

@@ -19,9 +19,17 @@
 //! | `E_D` | paths of D rays | paths so long that almost nothing more comes, same path indices |
 //! | total | what the estimator says | the exact mean over far more paths, of D rays |
 //!
-//! The total is measured, too: it is no sum of the others. `E_D` is not in it, for it changes with
+//! Far more paths sample lamps, also where the scene does not: their mean is the same, and they are
+//! less far from it. The total is measured, too: it is no sum of the others. `E_D` is not in it, for it changes with
 //! no other parameter than the length of paths. Intervals are a bootstrap's over pixels.
 
+//!
+//! # Rivals
+//!
+//! `beside-rivals` is the scene's estimator on pixels that see no lamp. On the same pixels, the sweeps `random-paths` and `classical-net` are pictures that no circuit makes: means over
+//! random paths, and over all paths of a smaller net (quasi-Monte Carlo), in real arithmetic, with
+//! lamps sampled. Their `queries` are paths of a pixel, each of which brings all channels; their
+//! error is against the same limit as that of all others.
 //!
 //! # The table
 //!
@@ -34,7 +42,8 @@
 //! * its price: `queries` of a pixel, all channels together, on average; `toffoli` and `qubits` of
 //!   one call of the most expensive channel's oracle, as `qrt inspect` counts them (a phase
 //!   register's own qubits are not among them); `toffoli_x_queries`;
-//! * `mean`: the mean radiance, over pixels and channels, that errors are relative to;
+//! * `mean`: the mean radiance, over the pixels and channels that errors are of, to which they are
+//!   relative;
 //! * `e_r`, `e_c`, `e_w`, `e_t`, `e_d`, `e_total`, each followed by the ends of its 95 % interval
 //!   (`e_r_low`, `e_r_high`, ...);
 //! * `seconds`: wall time of tracing and counting a pixel. It alone differs from run to run;
@@ -51,6 +60,7 @@ mod fronts;
 mod limits;
 mod page;
 mod pareto;
+mod rivals;
 mod setting;
 mod summary;
 mod sweep;
@@ -102,8 +112,8 @@ pub struct Trade {
     pub resumed: usize,
     /// Rows that it had left damaged, and that were measured again.
     pub damaged: usize,
-    /// Settings that have no circuit.
-    pub without_circuit: Vec<Setting>,
+    /// Settings that are no scene, or have no circuit, and why.
+    pub left_out: Vec<(Setting, String)>,
 }
 
 impl Trade {
@@ -161,7 +171,8 @@ fn measure(scene: &ValidScene, folder: &Path, options: &Options<'_>) -> Result<T
         .unwrap_or(if options.quick { 32 } else { 256 });
     let pixels = spread(film, asked.max(1));
     let settings = sweep::settings(&scene.parameters(), options.quick);
-    let longest = settings.iter().map(|setting| setting.path_bits).max();
+    let counted = settings.iter().filter(|s| !s.sweep.is_rival());
+    let longest = counted.map(|setting| setting.path_bits).max();
     let more = if options.quick { 3 } else { 4 };
     let effort = Effort {
         reference_bits: (longest.unwrap_or(0) + more).min(qrt_core::sampling::MAX_PATH_BITS),
@@ -195,7 +206,7 @@ fn measure(scene: &ValidScene, folder: &Path, options: &Options<'_>) -> Result<T
         rows: Vec::new(),
         resumed,
         damaged: table.damaged,
-        without_circuit: Vec::new(),
+        left_out: Vec::new(),
     };
     for (at, (setting, found)) in settings.into_iter().zip(found).enumerate() {
         if let Some(row) = found {
@@ -203,8 +214,8 @@ fn measure(scene: &ValidScene, folder: &Path, options: &Options<'_>) -> Result<T
             continue;
         }
         match bench.row(setting)? {
-            Some(row) => measured.rows.push(table.append(at, &row)?),
-            None => measured.without_circuit.push(setting),
+            Ok(row) => measured.rows.push(table.append(at, &row)?),
+            Err(why) => measured.left_out.push((setting, why)),
         }
         options.workers.report(Progress::Finished(1));
     }

@@ -2,6 +2,7 @@
 
 use super::figures::Figure;
 use super::fronts::{PRICES, candidates, front};
+use super::rivals;
 use super::summary::differs;
 use super::table::{ERRORS, Row};
 use super::{Band, Sweep, Trade};
@@ -58,7 +59,15 @@ pub(super) fn html(trade: &Trade, figures: &[Figure]) -> String {
     if let Some(row) = trade.scene() {
         own(&mut out, row);
     }
-    out.push_str("<h2>Plots</h2>\n<div class=\"figures\">\n");
+    let _ = writeln!(
+        out,
+        "<h2>Against classical rivals</h2>\n<p>{}</p>\n<ul>",
+        escaped(rivals::ABOUT)
+    );
+    for line in rivals::sentences(trade) {
+        let _ = writeln!(out, "<li>{}</li>", escaped(&line));
+    }
+    out.push_str("</ul>\n<h2>Plots</h2>\n<div class=\"figures\">\n");
     for figure in figures {
         let _ = writeln!(
             out,
@@ -89,8 +98,9 @@ pub(super) fn html(trade: &Trade, figures: &[Figure]) -> String {
         table(&mut out, &rows, |row| value(sweep, row));
         out.push_str("</details>\n");
     }
-    for setting in &trade.without_circuit {
-        let _ = writeln!(out, "<p>No circuit: {}.</p>", escaped(&differs(setting)));
+    for (setting, why) in &trade.left_out {
+        let what = escaped(&format!("{}: {why}", differs(setting)));
+        let _ = writeln!(out, "<p>Left out: {what}.</p>");
     }
     out.push_str("</body>\n</html>\n");
     out
@@ -126,7 +136,9 @@ fn value(sweep: Sweep, row: &Row) -> String {
     let setting = &row.setting;
     match sweep {
         Sweep::Scene => "as it is".to_owned(),
-        Sweep::Counting => format!("{} t={}", setting.estimator, setting.phase_bits),
+        Sweep::Counting | Sweep::BesideRivals => {
+            format!("{} t={}", setting.estimator, setting.phase_bits)
+        }
         Sweep::Repetitions => format!(
             "{} t={} B={}",
             setting.estimator, setting.phase_bits, setting.repetitions
@@ -141,6 +153,7 @@ fn value(sweep: Sweep, row: &Row) -> String {
         Sweep::Circuit => format!("{}, {}", setting.uncompute, setting.nearest),
         Sweep::Model => setting.model.name().to_owned(),
         Sweep::Depth => format!("{} rays", setting.depths),
+        Sweep::RandomPaths | Sweep::ClassicalNet => format!("2^{} paths", setting.path_bits),
     }
 }
 

@@ -31,6 +31,24 @@ named! {
         Model = "model",
         /// The length of paths.
         Depth = "depth",
+        /// The scene's estimator on the pixels on which it is held against rivals.
+        BesideRivals = "beside-rivals",
+        /// A rival of counting: so many random paths, averaged.
+        RandomPaths = "random-paths",
+        /// A rival of counting: all paths of a smaller net, averaged.
+        ClassicalNet = "classical-net",
+    }
+}
+
+impl Sweep {
+    /// Whether its rows are of pictures that no circuit makes.
+    pub fn is_rival(self) -> bool {
+        matches!(self, Self::RandomPaths | Self::ClassicalNet)
+    }
+
+    /// Whether its errors are those of pixels that see no lamp, where there are any.
+    pub(super) fn leaves_lamps_out(self) -> bool {
+        self == Self::BesideRivals || self.is_rival()
     }
 }
 
@@ -167,18 +185,22 @@ impl Setting {
             {
                 scene.clone()
             }
-            Sequence::ProductLattice => Sampling {
-                sequence: self.sequence,
-                path_bits: self.path_bits,
-                depths: even(&depths, self.path_bits),
-                lights: scene.lights,
-            },
+            Sequence::ProductLattice => {
+                let mut lattice = Sampling {
+                    sequence: self.sequence,
+                    path_bits: self.path_bits,
+                    depths,
+                    lights: scene.lights,
+                };
+                even(&mut lattice);
+                lattice
+            }
         }
     }
 }
 
-/// Bits of a coordinate where the scene's are those of a lattice.
-const FINE: u32 = 16;
+/// Bits of a coordinate where the scene's are those of a lattice, or where it has none.
+pub(super) const FINE: u32 = 16;
 
 /// Coordinates of a net: the scene's own, or fine ones where the scene has a lattice; paths beyond
 /// the scene's length go on as its last ray does.
@@ -199,20 +221,22 @@ pub(super) fn depths(scene: &Sampling, count: usize) -> Vec<DepthSampling> {
     depths
 }
 
-/// A lattice's bits, the earlier coordinates first.
-fn even(depths: &[DepthSampling], bits: u32) -> Vec<DepthSampling> {
-    let squares = |depth: &DepthSampling| 1 + u32::from(depth.light.is_some());
-    let coordinates = 2 * depths.iter().map(squares).sum::<u32>();
+/// A lattice of so many bits, the earlier coordinates first.
+fn even(lattice: &mut Sampling) {
+    let lit: Vec<bool> = (0..lattice.depths.len())
+        .map(|depth| lattice.light(depth).is_some())
+        .collect();
+    let (bits, coordinates) = (lattice.path_bits, 2 * lattice.squares().count() as u32);
     let of = |k: u32| bits / coordinates + u32::from(k < bits % coordinates);
     let mut next = 0;
     let mut square = || {
         next += 2;
         [of(next - 2), of(next - 1)]
     };
-    let depth = |depth: &DepthSampling| DepthSampling {
-        light: depth.light.map(|_| square()),
-        bits: square(),
-        map: depth.map,
-    };
-    depths.iter().map(depth).collect()
+    for (depth, lit) in lattice.depths.iter_mut().zip(lit) {
+        if lit {
+            depth.light = Some(square());
+        }
+        depth.bits = square();
+    }
 }

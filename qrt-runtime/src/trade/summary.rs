@@ -2,6 +2,7 @@
 
 use super::figures::{COUNTING, TOTAL, estimators};
 use super::fronts::{PRICES, candidates, front};
+use super::rivals;
 use super::setting::Setting;
 use super::table::ERRORS;
 use super::{Sweep, Trade};
@@ -59,8 +60,11 @@ pub(super) fn text(trade: &Trade) -> String {
             differs(&row.setting)
         );
     }
-    for setting in &trade.without_circuit {
-        let _ = writeln!(out, "no circuit: {}", differs(setting));
+    for line in rivals::sentences(trade) {
+        let _ = writeln!(out, "{line}");
+    }
+    for (setting, why) in &trade.left_out {
+        let _ = writeln!(out, "left out: {}: {why}", differs(setting));
     }
     out
 }

@@ -3,7 +3,7 @@
 
 use super::setting::{Setting, Sweep};
 use crate::render::Model;
-use qrt_core::scene::{Estimator, Nearest, Sequence, Uncompute};
+use qrt_core::scene::{Counting, Estimator, Nearest, Sequence, Uncompute};
 use qrt_core::valid::{MAX_NET_DEPTHS, Parameters, most_strata};
 
 /// Registers that are halved before they are repeated: as many as make up for up to 32 repetitions.
@@ -40,7 +40,41 @@ pub(super) fn settings(parameters: &Parameters, quick: bool) -> Vec<Setting> {
             ..of(Sweep::Depth)
         }));
     }
+    rows.extend(beside_rivals(of(Sweep::BesideRivals), quick, step));
+    rows.extend(rivals(scene, step));
     rows
+}
+
+/// The scene's estimator, or the default one, as it is held against rivals.
+fn beside_rivals(scene: Setting, quick: bool, step: usize) -> impl Iterator<Item = Setting> {
+    let own = match scene.estimator {
+        Estimator::Exact => Counting::default().estimator,
+        own => own,
+    };
+    let rows = counting(scene, quick, step);
+    rows.filter(move |row| row.estimator == own)
+}
+
+/// Classical pictures of more and more paths.
+fn rivals(scene: Setting, step: usize) -> impl Iterator<Item = Setting> {
+    // How the error of random paths goes on is known.
+    let sweeps = [(Sweep::RandomPaths, 8), (Sweep::ClassicalNet, 0)];
+    sweeps.into_iter().flat_map(move |(sweep, more)| {
+        let bits = (0..=most_paths(&scene) + more).step_by(step);
+        bits.map(move |path_bits| Setting {
+            sweep,
+            model: Model::Real,
+            estimator: Estimator::Exact,
+            sequence: Sequence::DigitalNet,
+            path_bits,
+            ..scene
+        })
+    })
+}
+
+/// Path bits of the largest net that is tried.
+pub(super) fn most_paths(scene: &Setting) -> u32 {
+    (scene.path_bits + 2).clamp(10, 18)
 }
 
 /// Every estimator with registers of every size.
@@ -94,7 +128,7 @@ fn strata(scene: Setting) -> impl Iterator<Item = Setting> {
 
 /// Paths of either sequence.
 fn paths(scene: Setting, step: usize) -> impl Iterator<Item = Setting> {
-    let most = (scene.path_bits + 2).clamp(10, 18);
+    let most = most_paths(&scene);
     let sequences = [Sequence::DigitalNet, Sequence::ProductLattice];
     sequences.into_iter().flat_map(move |sequence| {
         let bits = (4..=most).step_by(step);

@@ -45,7 +45,7 @@ fn timeless(folder: &Scratch) -> Vec<String> {
 fn parts_of_the_error_fall_with_their_own_knob_alone() {
     let folder = Scratch::new();
     let measured = trade(&scene(LIT), &folder.path(""), &quick()).unwrap();
-    assert!(measured.without_circuit.is_empty());
+    assert!(measured.left_out.is_empty());
     let error = |sweep: Sweep, at: usize| -> Vec<f64> {
         measured.of(sweep).map(|row| row.errors[at].value).collect()
     };
@@ -253,10 +253,23 @@ fn the_page_is_whole_and_asks_nobody() {
             );
         }
     }
-    assert_eq!(page.matches("<figure").count(), 12);
+    assert_eq!(page.matches("<figure").count(), 13);
     let summary = measured.summary();
-    assert!(
-        summary.contains("slope of E_T over queries: monte-carlo -0."),
-        "{summary}"
-    );
+    for words in [
+        "slope of E_T over queries: monte-carlo -0.",
+        "against random paths",
+        "against the net, classically",
+    ] {
+        assert!(summary.contains(words), "{summary}");
+    }
+    for rival in [
+        "quasi-Monte Carlo",
+        "next-event",
+        "multiple importance",
+        "Heisenberg",
+    ] {
+        assert!(page.contains(rival), "{rival}");
+    }
 }
+
+mod rivals;

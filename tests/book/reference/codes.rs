@@ -33,7 +33,7 @@ const GROUPS: [(&str, &str, &str); 14] = [
         "Primitives, after meshes have been placed.",
     ),
     (
-        "QRT032 QRT033 QRT034",
+        "QRT0319 QRT032 QRT033 QRT034",
         "Mesh files",
         "Wavefront OBJ files and their MTL libraries. Reports name the line of the mesh file.",
     ),

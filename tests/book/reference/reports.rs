@@ -170,9 +170,9 @@ geometry: [mesh: { obj: large.obj, material: grey }]
     )
     .unwrap();
     let entry = "mesh: { obj: large.obj, material: grey }";
-    let twice = large.replace(entry, &format!("{{ {entry} }}, {{ {entry} }}"));
-    let files = Files::of_folder(&folder).most_faces(1);
-    let report = parse_with(&twice, "large.yaml", &[], files).unwrap_err();
+    let often = large.replace(entry, &vec![format!("{{ {entry} }}"); 4].join(", "));
+    let files = Files::of_folder(&folder).most_faces(3);
+    let report = parse_with(&often, "large.yaml", &[], files).unwrap_err();
     texts.push(report.render(false));
     fs::remove_dir_all(folder).unwrap();
     texts
