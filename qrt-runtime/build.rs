@@ -34,7 +34,7 @@ fn list(folder: &Path, files: &mut Vec<PathBuf>) -> io::Result<()> {
         let path = entry?.path();
         if path.is_dir() {
             list(&path, files)?;
-        } else {
+        } else if path.extension().is_some_and(|end| end == "rs") && path.is_file() {
             files.push(path);
         }
     }

@@ -44,6 +44,8 @@
 //! [`core`] holds what needs no machine: the scene, its checks, the sequences of paths and the
 //! tracer. [`runtime`] holds what runs: machines, counting, rendering, files. [`drawing`] draws.
 
+#![forbid(unsafe_code)]
+
 /// The README's example is a test.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

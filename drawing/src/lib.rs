@@ -16,6 +16,8 @@
 //! assert!(svg.contains("ray_0 &amp; colour"));
 //! ```
 
+#![forbid(unsafe_code)]
+
 mod canvas;
 mod escape;
 mod palette;

@@ -162,6 +162,8 @@
 //! count of these must agree for every content of its operands. Machines are built on one of the
 //! three alone, so that each checks the others.
 
+#![forbid(unsafe_code)]
+
 mod controlled;
 mod evaluate;
 pub mod export;

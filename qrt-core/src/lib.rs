@@ -1,4 +1,7 @@
 //! From a scene to what the machines run.
+
+#![forbid(unsafe_code)]
+
 pub mod compile;
 pub mod expr;
 pub mod front;

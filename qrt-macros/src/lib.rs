@@ -5,6 +5,8 @@
 //! the circuit; `reversible/` reads functions. All of it are functions on token streams of
 //! `proc_macro2`, which tests call.
 
+#![forbid(unsafe_code)]
+
 mod expand;
 mod generate;
 mod reversible;

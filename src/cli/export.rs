@@ -215,6 +215,7 @@ pub(crate) fn run(args: &ExportArgs) -> Result<(), Failure> {
         },
         ..PlanOptions::default()
     };
+    args.scene.memory().keep_plan(&loaded.valid)?;
     let planned = plan::of(&loaded.valid, &planning, args.json)?;
     let scene = planned.as_ref().map_or(&loaded.valid, |plan| &plan.scene);
     let written = scene.scene();

@@ -49,6 +49,9 @@ impl Output {
     /// What the file system says.
     pub(crate) fn path(&self) -> Result<&Path, Failure> {
         let path = self.place.path();
+        if self.is_device() {
+            return Ok(path);
+        }
         if let Some(folder) = path.parent().filter(|folder| !folder.exists()) {
             fs::create_dir_all(folder).map_err(|error| Failure::file(folder, &error))?;
             terminal::note(&format!(

@@ -4,15 +4,27 @@ use super::failure::Failure;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// A flag that the first Ctrl-C sets. The second ends the process at once; a
-/// picture's finished tiles are safe then, too.
+/// Whether there is something to finish or to keep.
+static BEGUN: AtomicBool = AtomicBool::new(false);
+
+/// From here on there is something to finish or to keep when Ctrl-C comes.
+pub(crate) fn begun() {
+    BEGUN.store(true, Ordering::Relaxed);
+}
+
+/// A flag that the first Ctrl-C sets. The second ends the process at once, as the first does before anything
+/// has [begun](begun); a picture's finished tiles are safe then, too.
 pub(crate) fn cancel_on_interrupt() -> Result<Arc<AtomicBool>, Failure> {
     let cancel = Arc::new(AtomicBool::new(false));
     let flag = Arc::clone(&cancel);
     let handler = move || {
-        if flag.swap(true, Ordering::Relaxed) {
-            std::process::exit(1);
+        let is_second = flag.swap(true, Ordering::Relaxed);
+        if !BEGUN.load(Ordering::Relaxed) {
+            eprintln!("error: interrupted before the first path");
+        } else if !is_second {
+            return;
         }
+        std::process::exit(1);
     };
     match ctrlc::set_handler(handler) {
         Ok(()) => Ok(cancel),

@@ -11,8 +11,8 @@ use qrt_runtime::render::Model;
 
 /// Bytes of a face as it is read and traced: 730 were measured, of a flat grid of 720,000 triangles.
 const OF_FACE: u64 = 1000;
-/// Bytes of a pixel in tiles, picture, counts and their files.
-const OF_PIXEL: u64 = 160;
+/// Bytes of a pixel in tiles, picture and files: 59 were measured.
+const OF_PIXEL: u64 = 80;
 /// Up to so many faces a circuit is compiled without an estimate before it, which takes as long.
 const FEW_FACES: usize = 400;
 /// Faces of the two parts of a scene from which the whole is estimated.
@@ -106,6 +106,14 @@ impl Memory {
         self.keep(&what, pixels * OF_PIXEL as f64, lower)
     }
 
+    /// That the circuits fit that are compiled to plan for an accuracy.
+    pub(crate) fn keep_plan(self, scene: &ValidScene) -> Result<(), Failure> {
+        match scene.scene().accuracy {
+            Some(_) => self.keep_circuit(scene, Work::Program),
+            None => Ok(()),
+        }
+    }
+
     /// That what the model traces with fits.
     pub(crate) fn keep_model(
         self,
@@ -185,11 +193,11 @@ impl Size {
         let compiled = 40.0 * qubits + 700.0 * operations;
         match work {
             Work::Program => compiled,
-            Work::Gates(threads) if self.bits <= OracleCircuits::MOST_QUBITS as f64 => {
+            Work::Gates(threads) if self.bits <= OracleCircuits::MOST_BITS as f64 => {
                 compiled + 40.0 * self.gates + 256.0 * qubits * threads as f64
             }
             // Rows of 32 bytes, once; where registers are; the program with its inverse.
-            Work::Gates(_) => 64.0 * qubits + 500.0 * operations,
+            Work::Gates(_) => compiled.max(64.0 * qubits + 500.0 * operations),
             Work::Export => compiled + 48.0 * self.gates,
         }
     }

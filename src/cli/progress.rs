@@ -1,5 +1,6 @@
 //! The progress bar on standard error.
 
+use super::interrupt;
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use qrt_runtime::workers::Progress;
 use std::fmt::Write;
@@ -41,6 +42,7 @@ impl Bar {
     }
 
     pub(crate) fn show(&self, progress: Progress) {
+        interrupt::begun();
         match progress {
             Progress::Started { total, resumed } => {
                 self.0.set_length(total);

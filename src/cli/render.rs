@@ -246,6 +246,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
         resume: args.resume,
         ..Options::default()
     };
+    args.scene.memory().keep_plan(&loaded.valid)?;
     let planned = plan::of(scene, &options.planning(), args.quiet)?;
     options.plan = planned.as_ref();
     if args.model != Model::Real {
@@ -262,6 +263,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
             path.display()
         ));
     }
+    note_of_time(planned.as_ref().map_or(scene, |plan| &plan.scene), args);
     let rendered = render_keeping(scene, &options);
     bar.clear();
     let (rendered, checkpoint) = rendered.map_err(|error| failure(error, &loaded))?;
@@ -289,6 +291,21 @@ fn kept(error: Failure, checkpoint: Option<Checkpoint>, outputs: &Outputs) -> Fa
             path.display()
         )),
         _ => error,
+    }
+}
+
+/// Tells of so many paths that nobody would wait for them: they may be meant, but hardly are.
+fn note_of_time(scene: &ValidScene, args: &RenderArgs) {
+    let film = scene.scene().film;
+    let [_, _, width, height] = args.crop.unwrap_or([0, 0, film.width, film.height]);
+    let bits = scene.scene().sampling.path_bits;
+    let paths = f64::from(width) * f64::from(height) * libm::exp2(f64::from(bits));
+    let days = paths / 1e6 / 86_400.0;
+    if days >= 1.0 && !args.quiet {
+        terminal::note(&format!(
+            "{width} x {height} pixels of 2^{bits} paths each take {days:.0} days at a million paths a \
+             second; `--set sampling.path_bits=12` asks for fewer"
+        ));
     }
 }
 

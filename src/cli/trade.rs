@@ -3,6 +3,7 @@
 use super::args::{SceneArgs, ThreadsArgs};
 use super::failure::Failure;
 use super::files::{Output, keep_apart};
+use super::memory::Work;
 use super::progress::Bar;
 use super::{interrupt, plan, terminal};
 use clap::Args;
@@ -75,6 +76,8 @@ pub(crate) fn run(args: &TradeArgs) -> Result<(), Failure> {
         return Err(Failure::Usage(message));
     }
     let loaded = args.scene.load()?;
+    let work = Work::Gates(args.threads.or_cores());
+    args.scene.memory().keep_circuit(&loaded.valid, work)?;
     keep_apart_from(&args.output, &args.scene.scene, loaded.valid.files())?;
     let cancel = interrupt::cancel_on_interrupt()?;
     let bar = Bar::settings(!args.quiet);

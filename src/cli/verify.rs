@@ -74,6 +74,7 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
         workers,
         ..PlanOptions::default()
     };
+    args.scene.memory().keep_plan(&loaded.valid)?;
     let planned = plan::of(&loaded.valid, &planning, args.json)?;
     let scene = planned.map_or_else(|| loaded.valid.clone(), |plan| plan.scene);
     let work = Work::Gates(args.threads.or_cores());

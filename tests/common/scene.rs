@@ -1,8 +1,8 @@
 //! Scenes of texts and of files.
 
-use qrt::core::front::{load, parse};
+use qrt::core::front::{load_with, parse};
 use qrt::core::valid::ValidScene;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 fn owned(sets: &[&str]) -> Vec<String> {
     sets.iter().map(|&set| set.to_owned()).collect()
@@ -17,6 +17,8 @@ pub(crate) fn written(text: &str, sets: &[&str]) -> ValidScene {
 /// A scene of this repository's file.
 pub(crate) fn from_file(file: &str, sets: &[&str]) -> ValidScene {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(file);
-    let loaded = load(&path, &owned(sets));
+    // Sets may name a mesh from anywhere in the repository.
+    let allowed = [PathBuf::from(env!("CARGO_MANIFEST_DIR"))];
+    let loaded = load_with(&path, &owned(sets), |files| files.allowing(&allowed));
     loaded.unwrap_or_else(|report| panic!("{report}")).valid
 }

@@ -171,15 +171,17 @@ pub fn parts(program: &Program, cuts: &[usize]) -> Vec<Circuit> {
     parts
 }
 
-/// As [`parts`], where the first and the last part are too large to be kept: of the first there is what
-/// registers hold after it, of the last nothing. Their gates are counted.
+/// The gates of the parts between the first and the last of those that [`parts`] makes, where these two are too
+/// large to be kept. Their gates are counted; of the first there are its `outputs`, and of all parts `qubits` and
+/// `parameters`, and nothing else.
 pub fn parts_between(program: &Program, cuts: &[usize]) -> (Vec<Circuit>, usize) {
     let mut parts: Vec<Circuit> = vec![Circuit::default(); cuts.len() + 1];
     let mut lowering = Lowering::on(program);
     let mut left_out = 0;
+    let mut computed = false;
     for (place, instruction) in program.instructions.iter().enumerate() {
         let number = cuts.partition_point(|cut| *cut <= place);
-        if number == 1 && parts[0].outputs.is_empty() {
+        if number >= 1 && !std::mem::replace(&mut computed, true) {
             parts[0].outputs = lowering.held();
         }
         let op = &program.ops[instruction.op as usize];

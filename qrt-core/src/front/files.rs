@@ -164,7 +164,18 @@ fn real(path: &Path) -> PathBuf {
     if let Ok(real) = path.canonicalize() {
         return real;
     }
+    if path == Path::new(".") {
+        return path.to_path_buf();
+    }
     let above = path.parent().map(real).unwrap_or_default();
+    if let Ok(target) = path.read_link() {
+        // It leads to nothing; and where it leads to is not known before there is something.
+        return if target.is_absolute() {
+            target
+        } else {
+            above.join("..").join("..").join(target)
+        };
+    }
     match path.components().next_back() {
         Some(Component::Normal(name)) => above.join(name),
         Some(Component::ParentDir) => above.parent().map(Path::to_path_buf).unwrap_or_default(),

@@ -23,6 +23,7 @@ use glam::DVec3;
 use mtl::Materials;
 use scan::Scanner;
 use std::borrow::Cow;
+use std::cell::Cell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::BufReader;
 use std::path::Path;
@@ -31,8 +32,9 @@ use std::rc::Rc;
 /// The largest file that is read, in bytes: about five million triangles.
 pub const MAX_BYTES: u64 = 256 << 20;
 
-/// Bytes that all mesh files of a scene may have.
-const MAX_TOTAL: u64 = 1 << 30;
+/// Bytes that a scene's meshes and material libraries may have for each face that it may have: 1 GiB in all,
+/// unless memory allows fewer faces.
+const BYTES_OF_FACE: u64 = 256;
 
 /// The meshes that a scene names. Each file is read once, however many entries name it.
 pub fn load_all(scene: &Scene, files: Files<'_>) -> Meshes {
@@ -43,30 +45,34 @@ pub fn load_all(scene: &Scene, files: Files<'_>) -> Meshes {
             kinds.insert(mesh.material.is_none());
         }
     }
+    let most_bytes = files.faces_allowed() as u64 * BYTES_OF_FACE;
+    let bytes_left = Cell::new(most_bytes);
+    let counted = |path: &Path, bytes: Rc<[u8]>| {
+        let left = bytes_left.get().checked_sub(bytes.len() as u64);
+        bytes_left.set(left.ok_or_else(|| {
+            let most = most_bytes >> 20;
+            let message = format!("with this file the scene's meshes exceed {most} MiB");
+            too_large(message).at(path, None)
+        })?);
+        Ok(bytes)
+    };
     let mut read = BTreeMap::new();
     let mut library = |path: &Path| {
-        let bytes = || bytes_of(files, path, codes::MTL_UNREADABLE);
+        let bytes =
+            || bytes_of(files, path, codes::MTL_UNREADABLE).and_then(|it| counted(path, it));
         read.entry(path.to_owned()).or_insert_with(bytes).clone()
     };
     let mut meshes = Meshes::of_most(files.faces_allowed());
-    let (mut bytes_left, mut faces_left) = (MAX_TOTAL, files.faces_allowed());
+    let mut faces = Faces::of(files.faces_allowed());
     for (name, kinds) in wanted {
         let path = files.path(name);
-        let bytes = bytes_of(files, &path, codes::OBJ_UNREADABLE).and_then(|bytes| {
-            let left = bytes_left.checked_sub(bytes.len() as u64);
-            bytes_left = left.ok_or_else(|| {
-                let most = MAX_TOTAL >> 20;
-                let message = format!("with this file the scene's meshes exceed {most} MiB");
-                too_large(message).at(&path, None)
-            })?;
-            Ok(bytes)
-        });
+        let bytes = bytes_of(files, &path, codes::OBJ_UNREADABLE).and_then(|it| counted(&path, it));
         for wants_materials in kinds {
             let parsed = bytes
                 .as_ref()
                 .map_err(ObjError::clone)
-                .and_then(|bytes| parse(&path, bytes, wants_materials, faces_left, &mut library));
-            let mesh = parsed.inspect(|mesh| faces_left -= mesh.faces.len());
+                .and_then(|bytes| parse(&path, bytes, wants_materials, faces, &mut library));
+            let mesh = parsed.inspect(|mesh| faces.left -= mesh.faces.len());
             meshes.insert(name, wants_materials, mesh);
         }
     }
@@ -91,9 +97,31 @@ pub fn load_all(scene: &Scene, files: Files<'_>) -> Meshes {
 /// The first problem of the file: see [`ObjError`].
 pub fn load(path: &Path, wants_materials: bool) -> Result<ObjMesh, ObjError> {
     let files = Files::of_folder(path.parent().unwrap_or(Path::new("")));
-    let bytes = bytes_of(files, path, codes::OBJ_UNREADABLE)?;
+    let bytes = files.read_named(path, MAX_BYTES);
+    let bytes: Rc<[u8]> = bytes
+        .map_err(|why| unread(files, path, codes::OBJ_UNREADABLE, why))?
+        .into();
     let mut library = |path: &Path| bytes_of(files, path, codes::MTL_UNREADABLE);
-    parse(path, &bytes, wants_materials, MOST_FACES, &mut library)
+    parse(
+        path,
+        &bytes,
+        wants_materials,
+        Faces::of(MOST_FACES),
+        &mut library,
+    )
+}
+
+/// The triangles that a scene's meshes may have, and as many of them that none has taken yet.
+#[derive(Clone, Copy, Debug)]
+struct Faces {
+    most: usize,
+    left: usize,
+}
+
+impl Faces {
+    fn of(most: usize) -> Self {
+        Self { most, left: most }
+    }
 }
 
 fn too_large(message: String) -> ObjError {
@@ -102,34 +130,32 @@ fn too_large(message: String) -> ObjError {
 
 /// The whole of a file.
 fn bytes_of(files: Files<'_>, path: &Path, code: &'static str) -> Result<Rc<[u8]>, ObjError> {
-    let unreadable = |why| {
-        let error = match why {
-            Unread::TooLarge => {
-                too_large(format!("the file is larger than {} MiB", MAX_BYTES >> 20))
-            }
-            Unread::Outside => {
-                let [boundary, help] = files.boundary();
-                let message = format!("`{}` is outside {boundary}", path.display());
-                ObjError::new(codes::OUTSIDE, message).help(help)
-            }
-            Unread::Irregular { .. } => {
-                ObjError::new(code, format!("`{}` is not a regular file", path.display()))
-            }
-            Unread::Failed(error) => {
-                let why = match error.kind() {
-                    std::io::ErrorKind::NotFound => "there is no such file".to_owned(),
-                    _ => error.to_string(),
-                };
-                ObjError::new(code, format!("cannot read `{}`: {why}", path.display()))
-                    .help("relative names are looked up beside the file that names them")
-            }
-        };
-        error.at(path, None)
+    let bytes = files.read(path, MAX_BYTES).map(Rc::from);
+    bytes.map_err(|why| unread(files, path, code, why))
+}
+
+/// Why a file was not read, in words.
+fn unread(files: Files<'_>, path: &Path, code: &'static str, why: Unread) -> ObjError {
+    let error = match why {
+        Unread::TooLarge => too_large(format!("the file is larger than {} MiB", MAX_BYTES >> 20)),
+        Unread::Outside => {
+            let [boundary, help] = files.boundary();
+            let message = format!("`{}` is outside {boundary}", path.display());
+            ObjError::new(codes::OUTSIDE, message).help(help)
+        }
+        Unread::Irregular { .. } => {
+            ObjError::new(code, format!("`{}` is not a regular file", path.display()))
+        }
+        Unread::Failed(error) => {
+            let why = match error.kind() {
+                std::io::ErrorKind::NotFound => "there is no such file".to_owned(),
+                _ => error.to_string(),
+            };
+            ObjError::new(code, format!("cannot read `{}`: {why}", path.display()))
+                .help("relative names are looked up beside the file that names them")
+        }
     };
-    files
-        .read(path, MAX_BYTES)
-        .map(Rc::from)
-        .map_err(unreadable)
+    error.at(path, None)
 }
 
 /// The bytes of a material library.
@@ -140,11 +166,11 @@ fn parse(
     path: &Path,
     bytes: &[u8],
     wants_materials: bool,
-    most_faces: usize,
+    faces: Faces,
     library: Library<'_>,
 ) -> Result<ObjMesh, ObjError> {
     let text = text_of(path, bytes)?;
-    let mut scanner = Scanner::new(path, &text, wants_materials, most_faces);
+    let mut scanner = Scanner::new(path, &text, wants_materials, faces);
     let mut shape = BufReader::new(&mut scanner);
     // The scanner hands on no `mtllib`.
     let no_library = |_: &Path| tobj::load_mtl_buf(&mut std::io::empty());

@@ -19,7 +19,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 /// Values that a scene's text may hold, before aliases are expanded.
-pub const MAX_VALUES: usize = 1 << 20;
+pub const MAX_VALUES: usize = 1 << 21;
 /// Values that aliases may add to a scene.
 pub const ALIAS_BUDGET: usize = 1 << 18;
 /// Bytes of text that aliases may add to a scene.
@@ -122,7 +122,12 @@ impl<'a> Builder<'a> {
     }
 
     fn event(&mut self, event: Event<'a>, span: Span) -> Result<(), Stop> {
-        self.values += 1;
+        let is_value = match &event {
+            Event::Alias(_) | Event::SequenceStart(..) | Event::MappingStart(..) => true,
+            Event::Scalar(..) => !self.at_key(),
+            _ => false,
+        };
+        self.values += usize::from(is_value);
         if self.values > MAX_VALUES {
             return self.stop(span, Yaml::TooMany { most: MAX_VALUES });
         }

@@ -41,6 +41,13 @@ fn begin(_: Operation, _: &Path) -> io::Result<()> {
     Ok(())
 }
 
+/// Whether an error of locking says that the file system has no locks. Some of Linux's network file systems
+/// say so by ENOLCK, 37, which has no kind.
+pub(crate) fn has_no_locks(error: &io::Error) -> bool {
+    let enolck = cfg!(target_os = "linux") && error.raw_os_error() == Some(37);
+    error.kind() == ErrorKind::Unsupported || enolck
+}
+
 /// An open file.
 #[derive(Debug)]
 pub struct DiskFile {
@@ -164,9 +171,7 @@ impl DiskFile {
         match self.file.try_lock() {
             Ok(()) => Ok(Lock::Ours),
             Err(TryLockError::WouldBlock) => Ok(Lock::Others),
-            Err(TryLockError::Error(error)) if error.kind() == ErrorKind::Unsupported => {
-                Ok(Lock::None)
-            }
+            Err(TryLockError::Error(error)) if has_no_locks(&error) => Ok(Lock::None),
             Err(TryLockError::Error(error)) => Err(error),
         }
     }

@@ -33,6 +33,9 @@ use qrt_core::oracle::{Channel, LUMINANCE_CHANNEL, Oracle};
 use std::ops::Range;
 use std::sync::{Arc, PoisonError};
 
+/// With more qubits than these, gates that are not held run on one thread: there are rows for one.
+const QUBITS_OF_ONE_TURN: u32 = 1 << 22;
+
 /// An oracle of all three channels on a machine.
 pub struct OracleMachine {
     oracle: Arc<Oracle>,
@@ -195,6 +198,14 @@ impl OracleMachine {
         }
     }
 
+    /// Paths that run together: a multiple of these leaves nothing idle.
+    pub fn paths_at_once(&self) -> u64 {
+        match &self.machine {
+            Machine::Gates { gates, .. } => gates.lanes() as u64,
+            Machine::Fixed { .. } | Machine::Native { .. } => Gates::LANES as u64,
+        }
+    }
+
     /// R, the paths of a pixel.
     pub fn paths(&self) -> u64 {
         1 << self.oracle.points.path_bits()
@@ -311,7 +322,9 @@ impl OracleMachine {
                 run(*instructions, &runs, &mut block.values);
             }
             Machine::Gates { gates, rows, parts } => {
-                let turn = parts.streamed.as_ref().map(|streamed| &streamed.turn);
+                let large = parts.streamed.as_ref();
+                let large = large.filter(|_| parts.compute.qubits > QUBITS_OF_ONE_TURN);
+                let turn = large.map(|streamed| &streamed.turn);
                 let _turn = turn.map(|turn| turn.lock().unwrap_or_else(PoisonError::into_inner));
                 rows.lend(
                     || gates.rows(),

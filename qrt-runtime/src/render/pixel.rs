@@ -18,9 +18,8 @@ use std::ops::Range;
 /// the same numbers in different orders.
 const ROUNDING: f64 = 1e-12;
 
-/// Paths that are traced without looking up: in floating point, and by a circuit, as many as the
-/// gates machine traces together.
-const RUN: [u64; 2] = [1 << 16, 1 << 11];
+/// Paths that are traced in floating point without looking up.
+const RUN: u64 = 1 << 16;
 /// Above this many, the paths of a pixel are cut into parts for several threads.
 const SPLIT: u64 = 1 << 18;
 /// Parts of a pixel, at most.
@@ -197,9 +196,9 @@ impl Pixels {
 
     /// Paths that are traced without looking up.
     pub(super) fn run(&self) -> u64 {
-        match self.source {
-            Source::Real(_) => RUN[0],
-            Source::Oracle(_) => RUN[1],
+        match &self.source {
+            Source::Real(_) => RUN,
+            Source::Oracle(machine) => machine.paths_at_once(),
         }
     }
 
@@ -272,7 +271,7 @@ impl Pixels {
     /// The totals of the many paths of one pixel, on all threads; `workers` are told of every run of
     /// paths.
     pub(super) fn many(&self, pixel: [u32; 2], workers: &Workers<'_>) -> Result<Totals, Stop> {
-        let part = RUN[0].max(self.paths / PARTS);
+        let part = RUN.max(self.paths / PARTS);
         let parts = (0..self.paths.div_ceil(part)).into_par_iter();
         let totals = parts.map(|n| {
             let ids = n * part..((n + 1) * part).min(self.paths);

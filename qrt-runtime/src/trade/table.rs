@@ -135,13 +135,16 @@ impl Table {
             TradeError::Unreadable { path, line }
         };
         let mut lines = whole.lines();
+        let head = format!("{}\n{}\n", first_line(header), columns());
+        if whole.is_empty() && !head.as_bytes().starts_with(&bytes) {
+            return Err(unreadable(1));
+        }
         if let Some(found) = lines.next() {
             check(path, found, header)?;
             if lines.next().is_some_and(|line| line != columns()) {
                 return Err(unreadable(2));
             }
         }
-        let head = format!("{}\n{}\n", first_line(header), columns());
         let mut table = Self {
             file,
             path: path.to_path_buf(),
@@ -224,7 +227,7 @@ fn opened(path: &Path) -> Result<File, TradeError> {
             path: path.to_path_buf(),
         }),
         // Some network file systems have no locks.
-        Err(TryLockError::Error(error)) if error.kind() != io::ErrorKind::Unsupported => {
+        Err(TryLockError::Error(error)) if !crate::disk::has_no_locks(&error) => {
             Err(failed(path)(error))
         }
         _ => Ok(file),

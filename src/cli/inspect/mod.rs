@@ -86,6 +86,7 @@ pub(crate) fn run(args: &InspectArgs) -> Result<(), Failure> {
     let loaded = args.scene.load()?;
     keep_apart(loaded.valid.files().iter().map(PathBuf::as_path), &outputs)?;
     outputs.iter().try_for_each(|output| output.try_writing())?;
+    args.scene.memory().keep_plan(&loaded.valid)?;
     let planned = plan(&loaded.valid, &PlanOptions::default())?;
     let scene = planned.as_ref().map_or(&loaded.valid, |plan| &plan.scene);
     let refused = |error: qrt_core::oracle::OracleError| loaded.report(vec![error.problem()]);

@@ -1,6 +1,6 @@
 //! The check of an OBJ file, statement by statement, as `tobj` reads it.
 
-use super::{ObjError, name, numbers, split, statements, too_large, words};
+use super::{Faces, ObjError, name, numbers, split, statements, too_large, words};
 use crate::syntax::tree::shorten;
 use crate::syntax::{codes, nearest};
 use glam::DVec3;
@@ -25,8 +25,8 @@ pub(super) struct Scanner<'a> {
     path: &'a Path,
     statements: Box<dyn Iterator<Item = (usize, Cow<'a, str>)> + 'a>,
     wants_materials: bool,
-    /// As many triangles there may be, and as many vertices.
-    most: usize,
+    /// As many triangles there may be, and three times as many vertices.
+    most: Faces,
     /// The triangles of the faces so far.
     pub(super) triangles: usize,
     /// How many there are so far of each of [`KINDS`].
@@ -65,7 +65,7 @@ impl Read for Scanner<'_> {
 }
 
 impl<'a> Scanner<'a> {
-    pub(super) fn new(path: &'a Path, text: &'a str, wants_materials: bool, most: usize) -> Self {
+    pub(super) fn new(path: &'a Path, text: &'a str, wants_materials: bool, most: Faces) -> Self {
         Self {
             path,
             statements: Box::new(statements(text)),
@@ -154,8 +154,9 @@ impl<'a> Scanner<'a> {
             _ => 3,
         };
         self.counts[0] += 1;
-        if self.counts[0] > self.most as i64 {
-            return Err(too_large(format!("more than {} vertices", self.most)));
+        let most = 3 * self.most.left;
+        if self.counts[0] > most as i64 {
+            return Err(too_large(format!("more than {most} vertices")));
         }
         self.hand_on("v", words(rest).take(kept));
         Ok(())
@@ -175,8 +176,12 @@ impl<'a> Scanner<'a> {
                 .help("give the mesh a `material` in the scene, or the face one in the file"));
         }
         self.triangles += corners - 2;
-        if self.triangles > self.most {
-            return Err(too_large(format!("more than {} triangles", self.most)));
+        if self.triangles > self.most.left {
+            let message = format!(
+                "the scene's meshes have more than {} triangles",
+                self.most.most
+            );
+            return Err(too_large(message));
         }
         for corner in words(rest) {
             self.corner(line, corner)?;

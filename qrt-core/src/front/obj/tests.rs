@@ -22,7 +22,7 @@ fn read_with(text: &str, files: &[(&str, &str)]) -> Result<ObjMesh, ObjError> {
         Path::new("dir/mesh.obj"),
         text.as_bytes(),
         !files.is_empty(),
-        MOST_FACES,
+        Faces::of(MOST_FACES),
         &mut library,
     )
 }
@@ -589,7 +589,7 @@ proptest! {
         wants in any::<bool>(),
     ) {
         let mut library = |_: &Path| Ok(mtl.clone().into());
-        match parse(Path::new("mesh.obj"), &obj, wants, MOST_FACES, &mut library) {
+        match parse(Path::new("mesh.obj"), &obj, wants, Faces::of(MOST_FACES), &mut library) {
             Ok(mesh) => {
                 prop_assert!(!mesh.faces.is_empty());
                 for face in &mesh.faces {

@@ -2,7 +2,7 @@
 //!
 //! X, CNOT and Toffoli permute the basis states, so that each state is followed by itself, and a
 //! gate does the same to all of them: `t ^= 1`, `t ^= a`, `t ^= a & b`. A *row* holds one qubit of
-//! [`Gates::LANES`] states, a bit each, and a gate is a few instructions on vectors of bits. States
+//! [`Gates::lanes`] states, a bit each, and a gate is a few instructions on vectors of bits. States
 //! span paths and pixels: what a pixel's circuit has built in, the classical parameters, are rows
 //! that gates read.
 //!

@@ -31,16 +31,16 @@ pub(super) struct Streamed {
 
 impl OracleCircuits {
     /// With more bits in registers than these, gates of compute and uncompute are not held.
-    pub const MOST_QUBITS: u64 = 1 << 19;
+    pub const MOST_BITS: u64 = 1 << 19;
 
     /// Lowers an oracle to gates: compute, all channels' flips one after another, uncompute.
     ///
-    /// If registers come to more than [`OracleCircuits::MOST_QUBITS`], the gates of compute and uncompute are not
+    /// If registers come to more than [`OracleCircuits::MOST_BITS`], the gates of compute and uncompute are not
     /// held: [`Circuit::gates`] is empty, and the gates machine lowers operations as it runs them.
     pub fn new(oracle: &Oracle) -> Self {
         let widths = oracle.program.registers.iter();
-        let qubits: u64 = widths.map(|register| u64::from(register.width)).sum();
-        Self::lowered(oracle, qubits <= Self::MOST_QUBITS)
+        let bits: u64 = widths.map(|register| u64::from(register.width)).sum();
+        Self::lowered(oracle, bits <= Self::MOST_BITS)
     }
 
     /// Lowers an oracle to gates, those of compute and uncompute held or not.
