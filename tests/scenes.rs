@@ -2,12 +2,15 @@
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
 mod common;
+#[path = "../fuzz/targets.rs"]
+mod targets;
 
 mod scenes {
     use proptest::prelude::ProptestConfig;
 
     mod bad_scenes;
     mod example_scenes;
+    mod fuzz_targets;
     mod good_scenes;
     mod mutated_scenes_never_panic;
     mod schema_agrees_with_types;

@@ -125,8 +125,8 @@ const WITHOUT_TWIN: [&str; 40] = [
 const ELSEWHERE: [&str; 8] = [
     codes::ONE_VARIANT,
     codes::DUPLICATE_NAME,
-    codes::OBJ_TOO_LARGE,
     codes::MESH_TOO_MANY,
+    codes::OBJ_TOO_LARGE,
     codes::OBJ_REFUSED,
     codes::EXPR_EMPTY,
     codes::BSDF_CHANNELS,

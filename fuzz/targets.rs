@@ -1,0 +1,263 @@
+//! What holds for any bytes: the fuzzer looks for some for which it does not, and `cargo test --test scenes`
+//! tries those of the corpora, and changes of them.
+
+use qrt_circuit::{
+    Bit, Contents, Declaration, Gate, Machine, Operand, Program, Recorded, Recorder, Style, Type,
+    Word, lower,
+};
+use qrt_core::expr::{Domain, Expr, Variable, Variables};
+use qrt_core::front::{Files, parse_with};
+use qrt_core::scene::Scene;
+
+/// Reads a scene. What is refused has an error that can be shown; what is read can be printed, and what is
+/// printed is the same scene.
+pub(crate) fn scene(data: &[u8]) {
+    let Ok(text) = std::str::from_utf8(data) else {
+        return;
+    };
+    read(text, &[]);
+}
+
+fn read(text: &str, files: &[(&str, &[u8])]) {
+    match parse_with(text, "any.yaml", &[], Files::held(files)) {
+        Ok(loaded) => {
+            let scene = loaded.valid.scene();
+            let printed = Scene::from_yaml(&scene.to_yaml(), "printed.yaml");
+            assert_eq!(printed.as_ref(), Ok(scene));
+        }
+        Err(report) => {
+            let shown = report.render(false);
+            assert!(shown.contains("error["), "{shown}");
+            assert!(
+                !shown.contains(|c: char| c.is_control() && c != '\n'),
+                "{shown:?}"
+            );
+        }
+    }
+}
+
+/// Reads a mesh and, after a byte 0, its material library.
+pub(crate) fn mesh(data: &[u8]) {
+    const SCENE: &str = "
+name: any
+camera: { perspective: { eye: [0, 0, 3], target: [0, 0, 0], vfov: 45 } }
+film: { width: 1, height: 1 }
+materials: { grey: { lambertian: { albedo: [0.5, 0.5, 0.5] } } }
+geometry: [mesh: { obj: any.obj }, mesh: { obj: any.obj, material: grey, scale: 0.5, rotate: [10, 20, 30] }]
+sampling: { path_bits: 2 }
+";
+    let cut = data.iter().position(|byte| *byte == 0);
+    let (obj, mtl) = data.split_at(cut.unwrap_or(data.len()));
+    read(
+        SCENE,
+        &[
+            ("any.obj", obj),
+            ("any.mtl", mtl.get(1..).unwrap_or_default()),
+        ],
+    );
+}
+
+/// Reads an expression. Its text as it is printed is the same expression; values lie in the range that interval
+/// arithmetic gives, before and after it is simplified.
+pub(crate) fn expression(data: &[u8]) {
+    let Some(expression) = std::str::from_utf8(data)
+        .ok()
+        .and_then(|text| Expr::parse(text, &Variable::ALL).ok())
+    else {
+        return;
+    };
+    let printed = Expr::parse(&expression.to_string(), &Variable::ALL);
+    let printed = printed.expect("what is printed can be read");
+    let simple = expression.simplify();
+    for variable in Variable::ALL {
+        let _ = expression.diff(variable);
+    }
+    let range = expression.range(&Domain::default());
+    for [u, v, cos_i, cos_o, cos_a] in [
+        [0.5, 0.5, 0.5, 0.5, 0.5],
+        [0.1, 0.9, 0.25, 1.0, -1.0],
+        [0.999, 0.001, 1.0, 0.001, 0.7],
+    ] {
+        let at = Variables {
+            u,
+            v,
+            cos_i,
+            cos_o,
+            cos_a,
+        };
+        let value = expression.eval(&at);
+        assert_eq!(printed.eval(&at).to_bits(), value.to_bits(), "{expression}");
+        if let Some(range) = range
+            && value.is_finite()
+        {
+            assert!(
+                range.lo <= value && value <= range.hi,
+                "{expression}: {value} outside {range:?}"
+            );
+        }
+        let _ = simple.eval(&at);
+    }
+}
+
+/// Bytes one after another, zeros after the last.
+struct Bytes<'a>(std::slice::Iter<'a, u8>);
+
+impl Bytes<'_> {
+    fn below(&mut self, count: u32) -> u32 {
+        u32::from(self.0.next().copied().unwrap_or(0)) % count
+    }
+
+    fn word<'r>(
+        &mut self,
+        registers: &'r [Recorded],
+        widths: &[u32],
+        most: u32,
+    ) -> Word<&'r Recorded> {
+        let register = self.below(registers.len() as u32) as usize;
+        let offset = self.below(widths[register]);
+        let width = 1 + self.below((widths[register] - offset).min(most));
+        let signed = self.below(2) == 1;
+        Word {
+            register: &registers[register],
+            offset,
+            width,
+            signed,
+            shift: 0,
+        }
+    }
+
+    fn bit<'r>(&mut self, registers: &'r [Recorded], widths: &[u32]) -> Bit<&'r Recorded> {
+        let register = self.below(registers.len() as u32) as usize;
+        let index = self.below(widths[register]);
+        Bit {
+            register: &registers[register],
+            index,
+            inverted: self.below(2) == 1,
+        }
+    }
+}
+
+/// Records a program, runs it by its definition and by its gates on some inputs, and undoes it: both hold the
+/// same, and nothing but the inputs is left.
+pub(crate) fn program(data: &[u8]) {
+    let mut bytes = Bytes(data.iter());
+    let style = [Style::InPlace, Style::OutOfPlace][bytes.below(2) as usize];
+    let mut machine = Recorder::new(style);
+    let mut widths = vec![1 + bytes.below(8), 1 + bytes.below(8)];
+    let inputs = ["x", "y"].iter().zip(&widths);
+    let mut registers: Vec<Recorded> = inputs
+        .map(|(name, width)| machine.input(&Declaration::work(name, Type::UInt, *width)))
+        .collect();
+    for _ in 0..=bytes.below(6) {
+        let (known, sizes) = (&registers[..], &widths[..]);
+        let work = |width| Declaration::work("t", Type::UInt, width);
+        let (a, b) = (bytes.word(known, sizes, 12), bytes.word(known, sizes, 12));
+        let wide = a.width.max(b.width) + 2;
+        let kind = bytes.below(9);
+        let (made, width) = match kind {
+            0 => (machine.copy(&work(a.width), a), a.width),
+            1 => (
+                machine.add(&work(wide), Operand::Word(a), Operand::Word(b)),
+                wide,
+            ),
+            2 => (
+                machine.subtract(&work(wide), Operand::Word(a), Operand::Word(b)),
+                wide,
+            ),
+            3 => (
+                machine.less(&work(1), Operand::Word(a), Operand::Word(b)),
+                1,
+            ),
+            4 => {
+                let width = a.width + b.width;
+                (machine.multiply(&work(width), a, b, 0), width)
+            }
+            5 => (machine.square(&work(2 * a.width), a, 0), 2 * a.width),
+            6 => {
+                let when = bytes.bit(known, sizes);
+                (
+                    machine.select(&work(wide), when, Operand::Word(a), Operand::Word(b)),
+                    wide,
+                )
+            }
+            7 => {
+                let (one, other) = (bytes.bit(known, sizes), bytes.bit(known, sizes));
+                (machine.and(&work(1), one, other), 1)
+            }
+            _ => {
+                let when = bytes.bit(known, sizes);
+                (machine.negate(&work(wide), a, when), wide)
+            }
+        };
+        registers.push(made);
+        widths.push(width);
+    }
+    let held: Vec<_> = registers.iter().map(Recorded::id).collect();
+    let mut program = machine.finish();
+    let undo = program.inverse().instructions;
+    let computed = program.instructions.len();
+    program.instructions.extend(undo);
+    let [compute, uncompute] = lower::parts(&program, &[computed])
+        .try_into()
+        .expect("two parts");
+    for _ in 0..3 {
+        let values: Vec<u64> = widths[..2]
+            .iter()
+            .map(|width| u64::from(bytes.below(1 << width)))
+            .collect();
+        follow(&program, computed, [&compute, &uncompute], &held, &values);
+    }
+}
+
+fn follow(
+    program: &Program,
+    computed: usize,
+    parts: [&qrt_circuit::Circuit; 2],
+    held: &[qrt_circuit::RegisterId],
+    values: &[u64],
+) {
+    let mut contents = Contents::new(program, values, &[]);
+    let mut bits = vec![false; parts[0].qubits as usize];
+    for ((_, qubits), value) in parts[0].inputs.iter().zip(values) {
+        for (place, qubit) in qubits.iter().enumerate() {
+            bits[*qubit as usize] = value >> place & 1 == 1;
+        }
+    }
+    let before = bits.clone();
+    let run = |circuit: &qrt_circuit::Circuit, bits: &mut Vec<bool>| {
+        for gate in &circuit.gates {
+            match *gate {
+                Gate::X(t) => bits[t as usize] ^= true,
+                Gate::Cx(a, t) => bits[t as usize] ^= bits[a as usize],
+                Gate::Ccx(a, b, t) => bits[t as usize] ^= bits[a as usize] & bits[b as usize],
+                Gate::Load { .. } | Gate::Z(_) => unreachable!("no parameter, no phase"),
+            }
+        }
+    };
+    for instruction in &program.instructions[..computed] {
+        contents
+            .follow(program, *instruction)
+            .expect("what computes is clean");
+    }
+    run(parts[0], &mut bits);
+    for id in held {
+        let qubits = parts[0].outputs.iter().find(|(register, _)| register == id);
+        let (_, qubits) = qubits.expect("what was computed is held");
+        let value = qubits
+            .iter()
+            .rev()
+            .fold(0, |sum, q| 2 * sum + u64::from(bits[*q as usize]));
+        assert_eq!(
+            value,
+            contents.registers[id.index()],
+            "{program:?} on {values:?}"
+        );
+    }
+    for instruction in &program.instructions[computed..] {
+        contents
+            .follow(program, *instruction)
+            .expect("what undoes is clean");
+    }
+    run(parts[1], &mut bits);
+    assert!(bits == before, "{program:?} on {values:?}");
+}

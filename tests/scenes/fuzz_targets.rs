@@ -1,0 +1,108 @@
+//! The fuzzer's targets on the corpora of this repository, and on changes of them that are the same each time.
+
+use crate::targets;
+use std::fs;
+use std::path::Path;
+
+/// The files of these folders.
+fn corpus(folders: &[&str], ends: &[&str]) -> Vec<Vec<u8>> {
+    let mut paths = Vec::new();
+    for folder in folders {
+        let entries = fs::read_dir(folder).unwrap();
+        paths.extend(entries.map(|entry| entry.unwrap().path()));
+    }
+    let wanted = |path: &Path| {
+        ends.iter()
+            .any(|end| path.extension().is_some_and(|e| e == *end))
+    };
+    paths.retain(|path| wanted(path));
+    paths.sort();
+    let read = |path: &std::path::PathBuf| fs::read(path).unwrap();
+    paths
+        .iter()
+        .map(read)
+        .filter(|bytes| bytes.len() < 10_000)
+        .collect()
+}
+
+/// Numbers as good as random.
+struct Numbers(u64);
+
+impl Numbers {
+    fn below(&mut self, count: usize) -> usize {
+        self.0 = self
+            .0
+            .wrapping_mul(6364136223846793005)
+            .wrapping_add(1442695040888963407);
+        (self.0 >> 33) as usize % count.max(1)
+    }
+}
+
+/// Calls `target` on every seed, and so many times on one with a few bytes changed, left out, or taken from another.
+fn tried(target: fn(&[u8]), seeds: &[Vec<u8>], times: usize) {
+    for seed in seeds {
+        target(seed);
+    }
+    let mut numbers = Numbers(1);
+    for _ in 0..times {
+        let mut bytes = seeds[numbers.below(seeds.len())].clone();
+        for _ in 0..=numbers.below(4) {
+            let at = numbers.below(bytes.len());
+            let other = &seeds[numbers.below(seeds.len())];
+            let from = numbers.below(other.len());
+            let piece = &other[from..(from + numbers.below(16)).min(other.len())];
+            match numbers.below(4) {
+                0 if at < bytes.len() => bytes[at] = numbers.below(256) as u8,
+                1 => drop(bytes.splice(
+                    at.min(bytes.len())..at.min(bytes.len()),
+                    piece.iter().copied(),
+                )),
+                2 if at < bytes.len() => drop(bytes.drain(at..(at + 8).min(bytes.len()))),
+                _ => bytes.truncate(bytes.len().max(at)),
+            }
+        }
+        target(&bytes);
+    }
+}
+
+#[test]
+fn scenes() {
+    tried(
+        targets::scene,
+        &corpus(&["tests/good_scenes", "tests/bad_scenes"], &["yaml"]),
+        400,
+    );
+}
+
+#[test]
+fn meshes() {
+    let mut seeds = corpus(&["tests/bad_scenes/meshes", "tests/good_scenes"], &["obj"]);
+    seeds.push(
+        b"mtllib any.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n\0newmtl a\nKd 1 1 1\n"
+            .to_vec(),
+    );
+    tried(targets::mesh, &seeds, 2000);
+}
+
+#[test]
+fn expressions() {
+    let seeds = [
+        "sqrt(u)*cos(2*pi*v)",
+        "if_less(u, v, exp(-cos_a^2), atan2(cos_i, 0.1))",
+        "max(1e-3, 1/(cos_o + u^3))",
+    ];
+    tried(
+        targets::expression,
+        &seeds.map(|seed| seed.as_bytes().to_vec()),
+        2000,
+    );
+}
+
+#[test]
+fn programs() {
+    let mut numbers = Numbers(2);
+    let seeds: Vec<Vec<u8>> = (0..200)
+        .map(|_| (0..80).map(|_| numbers.below(256) as u8).collect())
+        .collect();
+    tried(targets::program, &seeds, 800);
+}
