@@ -105,11 +105,14 @@ impl<'a> Files<'a> {
 
     /// Whether `path` leads to a place below the scene's folder, or below one that is allowed.
     fn is_inside(&self, root: &Path, path: &Path) -> bool {
-        let path = real(&root.join(path));
+        let path = real(&root.join(path), MOST_LINKS);
         let folder = root.join(self.folder);
-        std::iter::once(&folder)
-            .chain(self.allowed)
-            .any(|folder| path.starts_with(real(folder)))
+        let mut folders = std::iter::once(&folder).chain(self.allowed);
+        path.is_absolute()
+            && folders.any(|folder| {
+                let folder = real(folder, MOST_LINKS);
+                folder.is_absolute() && path.starts_with(folder)
+            })
     }
 
     /// The bytes at `path`, at most `most`, if it is inside. Whatever a front end reads, it reads here or
@@ -154,27 +157,22 @@ impl<'a> Files<'a> {
     }
 }
 
-/// Where `path` leads, links followed as far as there are files; the rest is taken by its words.
-fn real(path: &Path) -> PathBuf {
-    let path = if path == Path::new("") {
-        Path::new(".")
-    } else {
-        path
-    };
+/// Links to nothing that are followed one after another: more may go in a circle.
+const MOST_LINKS: u32 = 40;
+
+/// Where `path` leads, at most so many links to nothing followed; what is not there is taken by its words. Not
+/// absolute, and so below no folder, where that cannot be told.
+fn real(path: &Path, links: u32) -> PathBuf {
+    let here = Path::new(".");
+    let path = if path == Path::new("") { here } else { path };
     if let Ok(real) = path.canonicalize() {
         return real;
     }
-    if path == Path::new(".") {
-        return path.to_path_buf();
-    }
-    let above = path.parent().map(real).unwrap_or_default();
+    let above = path.parent().filter(|_| path != here);
+    let above = above.map(|above| real(above, links)).unwrap_or_default();
     if let Ok(target) = path.read_link() {
-        // It leads to nothing; and where it leads to is not known before there is something.
-        return if target.is_absolute() {
-            target
-        } else {
-            above.join("..").join("..").join(target)
-        };
+        let left = links.checked_sub(1);
+        return left.map_or_else(PathBuf::new, |left| real(&above.join(target), left));
     }
     match path.components().next_back() {
         Some(Component::Normal(name)) => above.join(name),
@@ -198,5 +196,50 @@ pub(crate) enum Unread {
 impl From<io::Error> for Unread {
     fn from(error: io::Error) -> Self {
         Self::Failed(error)
+    }
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+    use std::fs;
+    use std::os::unix::fs::symlink;
+
+    /// Whether there is something tells nobody where a link leads.
+    #[test]
+    fn links_lead_outside_whether_there_is_something_or_not() {
+        let name = format!("qrt-links-{}", std::process::id());
+        let folder = std::env::temp_dir().join(name);
+        let inside = folder.join("inside");
+        fs::create_dir_all(&inside).unwrap();
+        fs::write(folder.join("secret"), "").unwrap();
+        let links = [
+            ("to_secret", "../secret", false),
+            ("to_nothing", "../nothing", false),
+            ("to_absolute", "/no/such/file", false),
+            ("to_own", "own", true),
+            ("to_link", "to_nothing", false),
+            ("first", "second", false),
+            ("second", "first", false),
+        ];
+        for (link, target, _) in links {
+            symlink(target, inside.join(link)).unwrap();
+        }
+        let files = Files::of_folder(&inside);
+        for (link, _, is_inside) in links {
+            let path = files.path(link);
+            let read = files.read(&path, 1);
+            let outside = matches!(read, Err(Unread::Outside));
+            assert_eq!(outside, !is_inside, "{link}");
+        }
+        for (name, is_inside) in [
+            ("none", true),
+            ("none/../../secret", false),
+            ("../none", false),
+        ] {
+            let outside = matches!(files.read(&files.path(name), 1), Err(Unread::Outside));
+            assert_eq!(outside, !is_inside, "{name}");
+        }
+        fs::remove_dir_all(folder).unwrap();
     }
 }
