@@ -117,6 +117,9 @@ impl Arith for Builder<'_> {
     fn or(&mut self, a: Bool, b: Bool) -> Bool {
         self.either(a, b)
     }
+    fn select_truth(&mut self, c: Bool, a: Bool, b: Bool) -> Bool {
+        self.chosen_truth(c, a, b)
+    }
     fn not(&mut self, a: Bool) -> Bool {
         a.negated()
     }

@@ -117,6 +117,29 @@ impl Builder<'_> {
         self.both(a.negated(), b.negated()).negated()
     }
 
+    /// `if when { a } else { b }`
+    pub(super) fn chosen_truth(&mut self, when: Bool, a: Bool, b: Bool) -> Bool {
+        match (when, a, b) {
+            _ if a == b => a,
+            (Bool::Constant(when), ..) => {
+                if when {
+                    a
+                } else {
+                    b
+                }
+            }
+            (_, Bool::Constant(true), _) => self.either(when, b),
+            (_, Bool::Constant(false), _) => self.both(when.negated(), b),
+            (_, _, Bool::Constant(true)) => self.either(when.negated(), a),
+            (_, _, Bool::Constant(false)) => self.both(when, a),
+            _ => {
+                let differ = self.differ(a, b);
+                let change = self.both(when, differ);
+                self.differ(b, change)
+            }
+        }
+    }
+
     pub(super) fn differ(&mut self, a: Bool, b: Bool) -> Bool {
         match (a, b) {
             (Bool::Constant(known), other) | (other, Bool::Constant(known)) => {

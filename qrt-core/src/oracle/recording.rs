@@ -8,7 +8,9 @@ use super::{
 use crate::compile::{self, Builder, NamedPlace, Real, Recorded, Role, Target};
 use crate::sampling::PathPoints;
 use crate::scene::{Nearest, Uncompute};
-use crate::tracer::{self, Arith, FaceTable, PrimaryHitGiven, Quantity, Records, Stage, trace};
+use crate::tracer::{
+    self, Arith, FaceTable, PrimaryHitGiven, Quantity, Records, Search, Stage, trace,
+};
 use crate::valid::ValidScene;
 use qrt_circuit::{Operand, Program, RegisterId, Style, Type, Word};
 use std::collections::HashSet;
@@ -137,7 +139,10 @@ impl Recording {
         let comparator = builder.outside("comparator", Type::UInt, Role::Comparator, bits);
         let flag = builder.outside("flag", Type::Bool, Role::Flag, 1);
         let (colours, nearest) = match written.circuit.nearest {
-            Nearest::Running => record(&mut builder, &stage, stage.geometry(), first)?,
+            Nearest::Running => {
+                let search = Search::new(&stage, 1.0 / (1_u64 << fraction) as f64);
+                record(&mut builder, &stage, &search, first)?
+            }
             Nearest::Paper => record(&mut builder, &stage, &Records(&stage), first)?,
         };
         let bounds = stage.bound();

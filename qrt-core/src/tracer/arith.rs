@@ -216,6 +216,11 @@ pub trait Arith: Sized {
     fn and(&mut self, a: Self::Bool, b: Self::Bool) -> Self::Bool;
     /// `a || b`, both of which are computed.
     fn or(&mut self, a: Self::Bool, b: Self::Bool) -> Self::Bool;
+    /// `if c { a } else { b }`
+    #[inline(always)]
+    fn select_truth(&mut self, c: Self::Bool, a: Self::Bool, b: Self::Bool) -> Self::Bool {
+        math!(self, c && a || !c && b)
+    }
     /// `!a`
     fn not(&mut self, a: Self::Bool) -> Self::Bool;
     /// Whether `a` may hold for some path. A machine that knows the values may return false and so

@@ -1,7 +1,7 @@
 //! *Generate Ray*, for the primary ray.
 
 use super::geometry::{Geometry, NO_PLANE};
-use super::ray::Ray;
+use super::ray::{Ray, Start};
 use super::{Arith, Coordinate, vector};
 use crate::scene::{Camera, Film};
 use glam::{DVec2, DVec3};
@@ -195,6 +195,7 @@ impl CameraStage {
             direction,
             from: cx.index(NO_PLANE),
             reach: self.reach,
+            start: Start::Camera,
         }
     }
 }

@@ -44,6 +44,16 @@ impl<A: Arith> AxisPermuted<A> {
         }
     }
 
+    /// The axis-permuted `ray` for planes with this main axis.
+    #[inline(always)]
+    pub(super) fn along(axis: usize, ray: &Ray<A>) -> Self {
+        match axis {
+            0 => Self::new::<0>(ray),
+            1 => Self::new::<1>(ray),
+            _ => Self::new::<2>(ray),
+        }
+    }
+
     /// The axis-permuted `ray` for planes whose main axis is the register `axis`.
     #[inline(always)]
     pub(crate) fn looked_up(cx: &mut A, ray: &Ray<A>, axis: A::Index) -> Self {
@@ -78,6 +88,25 @@ pub struct Crossing<A: Arith> {
     pub point: [A::Real; 2],
 }
 
+/// How fast `ray` rises along the main axis of planes of this form, seen along the plane.
+#[inline(always)]
+pub(super) fn slope<A: Arith>(cx: &mut A, form: [A::Real; 2], ray: &AxisPermuted<A>) -> A::Real {
+    let across = weighted(cx, form, ray.direction_across);
+    math!(cx, ray.direction + across)
+}
+
+/// How far the plane of this form and offset is above the start of `ray`, along the main axis.
+#[inline(always)]
+pub(super) fn rise<A: Arith>(
+    cx: &mut A,
+    form: [A::Real; 2],
+    offset: A::Real,
+    ray: &AxisPermuted<A>,
+) -> A::Real {
+    let height = weighted(cx, form, ray.origin_across);
+    math!(cx, offset - (ray.origin + height))
+}
+
 /// Where `ray` crosses the plane of this form (see [`super::Plane`]) and offset.
 #[inline(always)]
 pub fn cross<A: Arith>(
@@ -86,10 +115,8 @@ pub fn cross<A: Arith>(
     offset: A::Real,
     ray: &AxisPermuted<A>,
 ) -> Crossing<A> {
-    let slope = weighted(cx, form, ray.direction_across);
-    let slope = math!(cx, ray.direction + slope);
-    let height = weighted(cx, form, ray.origin_across);
-    let rise = math!(cx, offset - (ray.origin + height));
+    let slope = slope(cx, form, ray);
+    let rise = rise(cx, form, offset, ray);
     let (ahead, distance) = cx.ahead(rise, slope, ray.reach);
     let point = vector!(cx, ray.origin_across + ray.direction_across * distance);
     Crossing {

@@ -2,7 +2,7 @@
 
 use super::bsdf::Vertex;
 use super::lights::{Departure, Leaves, LightStage, Lighting};
-use super::ray::{Nearest, Ray};
+use super::ray::{Nearest, Ray, Start};
 use super::vector::{self, Vector};
 use super::{Arith, Named, Part, Quantity, Stage};
 
@@ -80,7 +80,10 @@ pub fn trace<A: Arith, N: Nearest<A>, const C: usize>(
         vertex.normal = cx.rows(&stage.normals, hit.face);
         cx.enter(Part::Side(depth));
         vertex.cos_theta = math!(cx, dot(ray.direction, vertex.normal));
-        vertex.front = math!(cx, vertex.cos_theta < 0.0);
+        vertex.front = match hit.front {
+            Some(front) => front,
+            None => math!(cx, vertex.cos_theta < 0.0),
+        };
         cx.leave();
         if let Some(emits) = emits {
             cx.enter(Part::Shade(depth));
@@ -148,6 +151,7 @@ pub fn trace<A: Arith, N: Nearest<A>, const C: usize>(
             direction: scattered.direction,
             from,
             reach: stage.reach,
+            start: Start::Surface,
         };
         throughput = Some(match throughput {
             Some(old) => vector::mul(cx, &old, &scattered.weight),

@@ -10,7 +10,7 @@ use super::ray::{Hit, Nearest, Ray};
 use super::{Arith, Part};
 
 #[inline(always)]
-fn constants<A: Arith>(cx: &mut A, [a, b]: [f64; 2]) -> [A::Real; 2] {
+pub(super) fn constants<A: Arith>(cx: &mut A, [a, b]: [f64; 2]) -> [A::Real; 2] {
     [cx.real(a), cx.real(b)]
 }
 
@@ -25,7 +25,11 @@ impl EdgeTest {
 
 /// Whether `point` passes every half-plane edge test.
 #[inline(always)]
-fn within<A: Arith>(cx: &mut A, edge_tests: &[EdgeTest], point: [A::Real; 2]) -> A::Bool {
+pub(super) fn within<A: Arith>(
+    cx: &mut A,
+    edge_tests: &[EdgeTest],
+    point: [A::Real; 2],
+) -> A::Bool {
     // The usual cases without a loop: truth values then stay in mask registers.
     match edge_tests {
         [a, b] => {
@@ -78,7 +82,7 @@ pub(crate) fn meets<A: Arith, E: Edges<A> + ?Sized>(
 impl Geometry {
     /// Where `ray` crosses plane `number`, unless it leaves it.
     #[inline(always)]
-    fn cross<A: Arith>(
+    pub(super) fn cross<A: Arith>(
         &self,
         cx: &mut A,
         number: usize,
@@ -106,11 +110,7 @@ impl Geometry {
     ) -> (A::Bool, A::Real) {
         let face = &self.faces[number];
         let plane = self.plane_of[face.label as usize] as usize;
-        let turned = match self.planes[plane].axis {
-            0 => AxisPermuted::new::<0>(ray),
-            1 => AxisPermuted::new::<1>(ray),
-            _ => AxisPermuted::new::<2>(ray),
-        };
+        let turned = AxisPermuted::along(self.planes[plane].axis, ray);
         let crossing = self.cross(cx, plane, &turned, ray.from);
         (meets(cx, &crossing, &*face.edge_tests), crossing.distance)
     }
@@ -153,8 +153,7 @@ impl Geometry {
         }
     }
 
-    /// Whether a face on planes with main axis `AXIS` stands between the ray's start and its end, one
-    /// length of its direction away, on emitting face number `lamp`.
+    /// Whether a face on planes with main axis `AXIS` stands between the ray's start and its end.
     #[inline(always)]
     fn occluded_along<A: Arith, const AXIS: usize>(
         &self,
@@ -165,36 +164,54 @@ impl Geometry {
     ) -> A::Bool {
         let (ray, from) = (AxisPermuted::new::<AXIS>(ray), ray.from);
         for number in self.by_axis[AXIS].clone() {
-            let here = self.planes[number].emitters.clone();
-            // Where the end is on this plane, the ray crosses it nowhere before: it may only be that
-            // another face covers the lamp there. An outermost plane it crosses nowhere.
-            let all_here = here.len() == self.emitters as usize;
-            let faces = self.faces_of(number);
-            let passed = all_here || self.planes[number].outermost;
-            if passed && faces.iter().all(|face| face.covers.is_none()) {
-                continue;
-            }
-            cx.enter(Part::Plane(number));
-            let crossing = self.cross(cx, number, &ray, from);
-            let ends_here = if here.is_empty() {
-                cx.truth(false)
-            } else if all_here {
-                cx.truth(true)
-            } else {
-                math!(cx, below(lamp, here.end) && !below(lamp, here.start))
-            };
-            let before = math!(cx, !ends_here && crossing.distance < 1.0);
-            for face in faces {
-                let mut hides = before;
-                if let Some(earlier) = face.covers {
-                    let first = here.start + earlier;
-                    hides = math!(cx, hides || ends_here && !below(lamp, first));
-                }
-                let meets = meets(cx, &crossing, &*face.edge_tests);
-                hidden = math!(cx, hidden || meets && hides);
-            }
-            cx.leave();
+            let faces = self.faces_of(number).iter();
+            hidden = self.occluded_by(cx, number, faces, &ray, from, lamp, hidden);
         }
+        hidden
+    }
+
+    /// Whether it is `hidden` already, or one of these faces of plane `number` stands between the start
+    /// of `ray` and its end, one length of its direction away, on emitting face number `lamp`.
+    #[inline(always)]
+    #[allow(clippy::too_many_arguments)] // The ray is turned once for many planes.
+    pub(super) fn occluded_by<'f, A: Arith>(
+        &self,
+        cx: &mut A,
+        number: usize,
+        faces: impl Iterator<Item = &'f Face> + Clone,
+        ray: &AxisPermuted<A>,
+        from: A::Index,
+        lamp: A::Index,
+        mut hidden: A::Bool,
+    ) -> A::Bool {
+        let here = self.planes[number].emitters.clone();
+        // Where the end is on this plane, the ray crosses it nowhere before: it may only be that
+        // another face covers the lamp there. An outermost plane it crosses nowhere.
+        let all_here = here.len() == self.emitters as usize;
+        let passed = all_here || self.planes[number].outermost;
+        if passed && faces.clone().all(|face| face.covers.is_none()) {
+            return hidden;
+        }
+        cx.enter(Part::Plane(number));
+        let crossing = self.cross(cx, number, ray, from);
+        let ends_here = if here.is_empty() {
+            cx.truth(false)
+        } else if all_here {
+            cx.truth(true)
+        } else {
+            math!(cx, below(lamp, here.end) && !below(lamp, here.start))
+        };
+        let before = math!(cx, !ends_here && crossing.distance < 1.0);
+        for face in faces {
+            let mut hides = before;
+            if let Some(earlier) = face.covers {
+                let first = here.start + earlier;
+                hides = math!(cx, hides || ends_here && !below(lamp, first));
+            }
+            let meets = meets(cx, &crossing, &*face.edge_tests);
+            hidden = math!(cx, hidden || meets && hides);
+        }
+        cx.leave();
         hidden
     }
 
@@ -209,19 +226,38 @@ impl Geometry {
     ) -> A::Bool {
         let (ray, from) = (AxisPermuted::new::<AXIS>(ray), ray.from);
         for number in self.by_axis[AXIS].clone() {
-            cx.enter(Part::Plane(number));
-            let crossing = self.cross(cx, number, &ray, from);
-            for face in self.faces_of(number).iter().filter(|face| !face.emits) {
-                let meets = meets(cx, &crossing, &*face.edge_tests);
-                let nearer = if face.hides_emitter {
-                    math!(cx, crossing.distance <= emitter)
-                } else {
-                    math!(cx, crossing.distance < emitter)
-                };
-                hidden = math!(cx, hidden || meets && nearer);
-            }
-            cx.leave();
+            let faces = self.faces_of(number).iter();
+            hidden = self.hidden_by(cx, number, faces, &ray, from, emitter, hidden);
         }
+        hidden
+    }
+
+    /// Whether it is `hidden` already, or one of these faces of plane `number` hides an emitter at this
+    /// distance.
+    #[inline(always)]
+    #[allow(clippy::too_many_arguments)] // The ray is turned once for many planes.
+    pub(super) fn hidden_by<'f, A: Arith>(
+        &self,
+        cx: &mut A,
+        number: usize,
+        faces: impl Iterator<Item = &'f Face>,
+        ray: &AxisPermuted<A>,
+        from: A::Index,
+        emitter: A::Real,
+        mut hidden: A::Bool,
+    ) -> A::Bool {
+        cx.enter(Part::Plane(number));
+        let crossing = self.cross(cx, number, ray, from);
+        for face in faces.filter(|face| !face.emits) {
+            let meets = meets(cx, &crossing, &*face.edge_tests);
+            let nearer = if face.hides_emitter {
+                math!(cx, crossing.distance <= emitter)
+            } else {
+                math!(cx, crossing.distance < emitter)
+            };
+            hidden = math!(cx, hidden || meets && nearer);
+        }
+        cx.leave();
         hidden
     }
 }

@@ -24,7 +24,7 @@
 
 use super::bsdf::{Lit, ScatterStage, Vertex};
 use super::geometry::Geometry;
-use super::ray::{Nearest, Ray};
+use super::ray::{Nearest, Ray, Start};
 use super::vector::{self, Vector};
 use super::{Arith, Coordinate, Part, Sampled, Work};
 use crate::lights::{self, Lamp, Reached};
@@ -522,6 +522,7 @@ impl<A: Arith, N: Nearest<A>, const C: usize> Work<A> for Lighting<'_, A, N, C> 
             direction: point.to,
             from: leaves.from,
             reach: 1.0,
+            start: Start::Surface,
         };
         let hidden = nearest.occluded(cx, &ray, point.lamp, wanted);
         cx.leave();

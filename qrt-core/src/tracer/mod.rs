@@ -26,6 +26,7 @@ mod bound;
 mod bsdf;
 mod camera;
 mod compiled;
+mod convex;
 mod crossing;
 mod face_table;
 mod frame;
@@ -40,6 +41,7 @@ mod ray;
 mod sampled;
 #[cfg(test)]
 mod scalar;
+mod search;
 mod stage;
 pub(crate) mod vector;
 
@@ -51,6 +53,7 @@ pub use frame::trace;
 pub use geometry::{EdgeTest, Face, Frame, Geometry, INWARD, NO_FACE, NO_PLANE, Plane, TOLERANCE};
 pub use paper::Records;
 pub use pixel_class::{PixelClass, PixelClasses};
-pub use ray::{Hit, Nearest, Ray};
+pub use ray::{Hit, Nearest, Ray, Start};
 pub use sampled::Sampled;
+pub(crate) use search::Search;
 pub use stage::Stage;

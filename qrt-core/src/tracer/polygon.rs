@@ -79,49 +79,54 @@ fn largest(v: DVec3) -> usize {
     }
 }
 
-/// The half-plane tests of the edges. Edges are tested in the plane's projection along its main
-/// axis.
+/// The test of one edge, given by its ends: on which side of it, in the plane's projection along its
+/// main axis, the `centre` is.
+pub(super) fn edge_test(ends: [DVec3; 2], axis: usize, centre: DVec3, tolerance: f64) -> EdgeTest {
+    let flat = |p: DVec3| DVec2::new(p[(axis + 1) % 3], p[(axis + 2) % 3]);
+    let [start, end] = ends.map(flat);
+    let across = (end - start).perp();
+    let main = if across.x.abs() >= across.y.abs() {
+        across.x
+    } else {
+        across.y
+    };
+    let form = across / main;
+    let edge = 0.5 * (form.dot(start) + form.dot(end));
+    let spread = 0.5 * (form.dot(start) - form.dot(end)).abs();
+    let reach = 2.0 * tolerance + spread;
+    let (low, high) = if form.dot(flat(centre)) >= edge {
+        (edge - reach, f64::INFINITY)
+    } else {
+        (f64::NEG_INFINITY, edge + reach)
+    };
+    EdgeTest {
+        form: form.to_array(),
+        low,
+        high,
+    }
+}
+
+/// The half-plane tests of the edges; of parallel ones as one.
 pub(super) fn edge_tests(
     corners: &[DVec3],
     axis: usize,
     centre: DVec3,
     tolerance: f64,
 ) -> Vec<EdgeTest> {
-    let flat = |p: DVec3| DVec2::new(p[(axis + 1) % 3], p[(axis + 2) % 3]);
     let mut edge_tests: Vec<EdgeTest> = Vec::with_capacity(3);
     for (i, &start) in corners.iter().enumerate() {
-        let (start, end) = (flat(start), flat(corners[(i + 1) % corners.len()]));
-        let across = (end - start).perp();
-        let main = if across.x.abs() >= across.y.abs() {
-            across.x
-        } else {
-            across.y
-        };
-        let form = across / main;
-        let edge = 0.5 * (form.dot(start) + form.dot(end));
-        let spread = 0.5 * (form.dot(start) - form.dot(end)).abs();
-        let reach = 2.0 * tolerance + spread;
-        let (low, high) = if form.dot(flat(centre)) >= edge {
-            (edge - reach, f64::INFINITY)
-        } else {
-            (f64::NEG_INFINITY, edge + reach)
-        };
+        let end = corners[(i + 1) % corners.len()];
+        let new = edge_test([start, end], axis, centre, tolerance);
         let parallel = |edge_test: &&mut EdgeTest| {
-            (DVec2::from_array(edge_test.form) - form)
-                .abs()
-                .max_element()
-                <= tolerance
+            let pairs = edge_test.form.into_iter().zip(new.form);
+            pairs.into_iter().all(|(a, b)| (a - b).abs() <= tolerance)
         };
         match edge_tests.iter_mut().find(parallel) {
             Some(edge_test) => {
-                edge_test.low = edge_test.low.max(low);
-                edge_test.high = edge_test.high.min(high);
+                edge_test.low = edge_test.low.max(new.low);
+                edge_test.high = edge_test.high.min(new.high);
             }
-            None => edge_tests.push(EdgeTest {
-                form: form.to_array(),
-                low,
-                high,
-            }),
+            None => edge_tests.push(new),
         }
     }
     edge_tests

@@ -14,6 +14,17 @@ pub struct Ray<A: Arith> {
     pub from: A::Index,
     /// A bound on the distance of whatever the ray meets, in lengths of its direction.
     pub reach: f64,
+    /// Where it starts, on all paths.
+    pub start: Start,
+}
+
+/// Where rays start.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Start {
+    /// At the camera.
+    Camera,
+    /// On a surface.
+    Surface,
 }
 
 impl<A: Arith> Clone for Ray<A> {
@@ -31,6 +42,8 @@ pub struct Hit<A: Arith> {
     pub distance: A::Real,
     /// The number of the face that is hit; the first face where none is.
     pub face: A::Index,
+    /// Whether the face's front is hit, if the search knows.
+    pub front: Option<A::Bool>,
 }
 
 impl<A: Arith> Hit<A> {
@@ -43,6 +56,7 @@ impl<A: Arith> Hit<A> {
             face: cx.select_index(none, first, face),
             found: math!(cx, !none && wanted),
             distance,
+            front: None,
         }
     }
 }

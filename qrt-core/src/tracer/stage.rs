@@ -7,6 +7,7 @@ use super::lights::{Lamps, LightStage};
 use super::pixel_class::PixelClass;
 use super::{Arith, bound, geometry};
 use crate::valid::{Surface, ValidScene};
+use glam::DVec3;
 
 /// A scene made ready for the tracer, for `C` colour channels that share their paths.
 #[derive(Clone, Debug)]
@@ -28,6 +29,10 @@ pub struct Stage<const C: usize> {
     pub(crate) scatters: Vec<ScatterStage<C>>,
     /// A bound on the distance between two points of the geometry.
     pub(crate) reach: f64,
+    /// Where primary rays start, or the corners of the area that they start from, in stage units.
+    pub(crate) starts: Vec<DVec3>,
+    /// Whether paths may go on beyond each face.
+    pub(crate) transmits: Vec<bool>,
     /// Whether emission counts where the primary ray meets it.
     pub(crate) direct: bool,
     bound: [f64; C],
@@ -88,8 +93,10 @@ impl<const C: usize> Stage<C> {
             })
             .collect();
         let unit = scatters.iter().any(|scatter| scatter.asks_for_angles);
-        let refraction =
-            bound::refraction(&geometry, &surfaces, &surface_of, &geometry.staged(&starts));
+        let starts = geometry.staged(&starts);
+        let refraction = bound::refraction(&geometry, &surfaces, &surface_of, &starts);
+        let transmits = |surface: &u32| surfaces[*surface as usize].transmits();
+        let transmits = surface_of.iter().map(transmits).collect();
         let direct = class == PixelClass::MayMeetLamp;
         let bound = {
             let of = |refraction| bound::colour(emitters.radiance(), &scatters, direct, refraction);
@@ -110,6 +117,8 @@ impl<const C: usize> Stage<C> {
             emitters,
             black,
             scatters,
+            starts,
+            transmits,
             direct,
             bound,
             reach: 2.0 * geometry.radius(),

@@ -52,6 +52,11 @@ impl Surface {
         self.radiance.iter().any(|&channel| channel > 0.0)
     }
 
+    /// Whether paths may go on beyond the surface. A map of the author's own may lead there.
+    pub fn transmits(&self) -> bool {
+        matches!(self.scatter, Scatter::Dielectric(_) | Scatter::Custom(_))
+    }
+
     /// Whether the surface reflects to more than single directions and tells how densely it samples
     /// them, so that what it reflects of a lamp can be weighed against what its own rays find.
     pub fn samples_lights(&self) -> bool {

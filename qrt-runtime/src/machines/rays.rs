@@ -5,7 +5,7 @@ use super::bvh::{Faces, Indexed};
 use super::lanes::{BLOCK, Inputs, Lanes, lanes, slots};
 use super::real::WIDTH;
 use pulp::WithSimd;
-use qrt_core::tracer::{Arith, NO_FACE, Nearest, Ray};
+use qrt_core::tracer::{Arith, NO_FACE, Nearest, Ray, Start};
 
 /// A ray in stage units.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -86,6 +86,7 @@ impl WithSimd for NearestOf<'_> {
                 direction,
                 from,
                 reach: f64::INFINITY,
+                start: Start::Surface,
             };
             let wanted = cx.is(wanted, 1);
             let hit = faces.nearest(&mut cx, &ray, wanted);
