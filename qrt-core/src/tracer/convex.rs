@@ -17,6 +17,9 @@ use std::collections::HashMap;
 /// More corners compared with planes than this: bodies aren't looked for.
 const MOST_COMPARED: usize = 1 << 24;
 
+/// The cosine of the least angle between two faces of a body.
+const FOLDED: f64 = 1.0 - 1e-6;
+
 /// A convex body.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Body {
@@ -139,6 +142,16 @@ impl Edges {
     pub(super) fn faces_at(&self, edge: [u32; 2]) -> &[usize] {
         self.at.get(&edge).map_or(&[], Vec::as_slice)
     }
+
+    /// Whether two faces (by place) that have this edge fold back upon each other there.
+    pub(super) fn fold(&self, geometry: &Geometry, edge: [u32; 2], faces: [usize; 2]) -> bool {
+        let [start, end] = self.ends(edge);
+        let [a, b] = faces.map(|place| {
+            let centre = geometry.frames[geometry.faces[place].label as usize].centre;
+            (end - start).cross(centre - start).normalize_or_zero()
+        });
+        a.dot(b) > FOLDED
+    }
 }
 
 /// Edges as pairs of corners' numbers, the lesser first.
@@ -187,30 +200,16 @@ impl Groups {
     }
 }
 
-/// The convex bodies whose surface `faces` (by place) are, or a part of it: planes are `tolerance`
-/// thick.
-pub(super) fn bodies(
-    geometry: &Geometry,
-    edges: &Edges,
-    faces: &[usize],
-    tolerance: f64,
-) -> Vec<Body> {
-    let wanted: Vec<bool> = {
-        let mut wanted = vec![false; geometry.faces.len()];
-        for &place in faces {
-            wanted[place] = true;
-        }
-        wanted
-    };
+/// The convex bodies among the faces: planes are `tolerance` thick.
+pub(super) fn bodies(geometry: &Geometry, edges: &Edges, tolerance: f64) -> Vec<Body> {
     let mut groups = Groups::new(geometry.faces.len());
     for faces in edges.at.values() {
-        let mut mine = faces.iter().filter(|place| wanted[**place]);
-        if let Some(&first) = mine.next() {
-            mine.for_each(|&other| groups.join(first, other));
+        for pair in faces.windows(2) {
+            groups.join(pair[0], pair[1]);
         }
     }
     let mut budget = MOST_COMPARED;
-    let components = groups.sets(faces.iter().copied());
+    let components = groups.sets(0..geometry.faces.len());
     let mut found = Vec::new();
     let mut virtual_planes = Vec::new();
     for component in components {
@@ -307,20 +306,16 @@ impl Finder<'_> {
     /// The corners of each hole: of edges that have one face. None where an edge has more than two, or
     /// two that fold back upon each other.
     fn holes(&self, component: &[usize]) -> Option<Vec<Vec<u32>>> {
-        let mut seen: HashMap<[u32; 2], usize> = HashMap::new();
+        let mut open: Vec<[u32; 2]> = Vec::new();
         for &place in component {
             for edge in self.edges.of(place) {
-                let faces = seen.entry(edge).or_default();
-                *faces += 1;
-                if *faces > 2 {
-                    return None;
+                match *self.edges.faces_at(edge) {
+                    [_] => open.push(edge),
+                    [a, b] if !self.edges.fold(self.geometry, edge, [a, b]) => {}
+                    _ => return None,
                 }
             }
         }
-        let open: Vec<[u32; 2]> = seen
-            .into_iter()
-            .filter_map(|(edge, faces)| (faces == 1).then_some(edge))
-            .collect();
         let mut places = HashMap::new();
         let mut corners: Vec<u32> = open.iter().flatten().copied().collect();
         corners.sort_unstable();
@@ -414,3 +409,6 @@ pub(super) fn covered(geometry: &Geometry, plane: usize, faces: &[usize]) -> boo
         .iter()
         .any(|&face| others.first_overlapped(0, outline(face)).is_some())
 }
+
+#[cfg(test)]
+mod tests;

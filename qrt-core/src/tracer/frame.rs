@@ -164,7 +164,7 @@ pub fn trace<A: Arith, N: Nearest<A>, const C: usize>(
 
 /// Where the next ray starts, on a face with this row of [`Stage::frames`].
 #[inline(always)]
-fn start<A: Arith>(
+pub(super) fn start<A: Arith>(
     cx: &mut A,
     ray: &Ray<A>,
     distance: A::Real,

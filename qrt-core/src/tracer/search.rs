@@ -6,7 +6,8 @@
 //! - **Outer planes** have the whole scene and the ray's start on one side. The ray can meet them only
 //!   where it leaves the scene, so the first of them that it crosses is the only one that it can meet.
 //!   An edge where two outer planes meet needs no test. The others are tested once, where the nearest
-//!   hit is. Nothing on an outer plane stands between two points of the scene.
+//!   hit is. Nothing on an outer plane stands between two points of the scene, and a ray that leaves one
+//!   outwards meets nothing.
 //! - **Convex bodies** are met where the ray enters the last of the planes that it enters, if that is
 //!   before it leaves the first that it leaves: no points, no edges. See [`super::convex`].
 //! - **Sides**: the sign of the slope towards a plane tells on which side a ray meets it.
@@ -67,6 +68,8 @@ struct Outer {
 struct OuterSide {
     plane: usize,
     facet: Facet,
+    /// Whether rays may leave its faces outwards.
+    outwards: bool,
 }
 
 /// The faces of one plane, of which the first that passes its tests is met. Where the last has no
@@ -97,8 +100,20 @@ struct MetBound {
     entered: bool,
     /// Whether the outer planes do not tell already where rays leave.
     left: bool,
-    /// Whether there are faces of the scene on the plane, from which rays may start.
-    starts: bool,
+    /// Which rays start on the plane.
+    starts: Starts,
+    /// Whether a ray may start on the plane, leave it outwards and yet come before other planes of the
+    /// body, where none starts outside.
+    outwards: bool,
+}
+
+/// Which rays start on a plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Starts {
+    None,
+    All,
+    /// Those that leave the faces on it.
+    Leaving,
 }
 
 impl Facet {
@@ -140,10 +155,10 @@ impl<'a> Search<'a> {
             edges: &edges,
             eyes: &stage.starts,
             transmits: &stage.transmits,
+            surface_of: &stage.surface_of,
+            ulp,
         };
-        let all: Vec<usize> = (0..geometry.faces.len()).collect();
-        let tolerance = THICKNESS.min(0.25 * ulp);
-        let bodies = convex::bodies(geometry, &edges, &all, tolerance);
+        let bodies = convex::bodies(geometry, &edges, THICKNESS.min(0.25 * ulp));
         let camera = planner.plan(Start::Camera, &bodies);
         let surfaces = planner.plan(Start::Surface, &bodies);
         let frames = geometry.frames.iter().zip(&geometry.plane_of);
@@ -166,6 +181,10 @@ struct Planner<'a> {
     eyes: &'a [DVec3],
     /// By face label: whether rays may go on beyond the face.
     transmits: &'a [bool],
+    /// By face label.
+    surface_of: &'a [u32],
+    /// An eye that is as near to a plane as this may be on either side, or on the plane.
+    ulp: f64,
 }
 
 impl Planner<'_> {
@@ -185,16 +204,34 @@ impl Planner<'_> {
         }
     }
 
+    /// Whether some rays start on the side of a plane where `outside` is above zero.
+    fn start_beyond(&self, start: Start, outside: impl Fn(DVec3) -> f64) -> bool {
+        let margin = match start {
+            Start::Camera => self.ulp,
+            Start::Surface => SAME_PLANE,
+        };
+        self.starts(start).any(|point| outside(point) > margin)
+    }
+
+    /// Whether rays may leave the faces on plane `number` to the side where `outside` is above zero, on
+    /// which the scene has nothing: to a viewer there, or through the faces.
+    fn leave_outwards(&self, number: usize, outside: impl Fn(DVec3) -> f64) -> bool {
+        let plane = self.geometry.planes.get(number);
+        let mut faces = plane.into_iter().flat_map(|plane| plane.faces.clone());
+        faces.any(|place| self.transmits[self.label(place) as usize])
+            || self.eyes.iter().any(|&eye| outside(eye) > 0.0)
+    }
+
     fn plan(&self, start: Start, bodies: &[Body]) -> Plan {
         let mut outer_sides = self.outer_sides(start);
         let mut rest: Vec<bool> = vec![true; self.geometry.faces.len()];
         let mut met = Vec::new();
         for body in bodies {
             let from_inside = self.may_be_inside(start, body);
-            let entered = |bound: &Bound| {
-                self.starts(start)
-                    .any(|point| bound.outside(point) > SAME_PLANE)
-            };
+            if self.is_blunt(body, from_inside) {
+                continue;
+            }
+            let entered = |bound: &Bound| self.start_beyond(start, |p| bound.outside(p));
             let entered: Vec<bool> = body.bounds.iter().map(entered).collect();
             // The walls of a room are outer planes, and better off as these.
             let is_outer =
@@ -222,13 +259,8 @@ impl Planner<'_> {
             }
         }
         let outer = self.outer(&outer_sides, &rest);
-        let planes =
-            (0..self.geometry.planes.len()).filter(|&number| outer_sides[number].is_none());
-        let planes = planes.filter_map(|number| {
-            let faces = self.geometry.planes[number].faces.clone();
-            let faces: Vec<usize> = faces.filter(|&place| rest[place]).collect();
-            (!faces.is_empty()).then_some((number, faces))
-        });
+        let planes = self.planes_with(|place| rest[place]).into_iter();
+        let planes = planes.filter(|(number, _)| outer_sides[*number].is_none());
         let at_lamps = |place: usize| {
             let face = &self.geometry.faces[place];
             face.emits || face.hides_emitter || face.covers.is_some()
@@ -237,39 +269,39 @@ impl Planner<'_> {
         for (_, body, _) in met.iter().filter(|(_, body, _)| body.faces().any(at_lamps)) {
             body.faces().for_each(|place| before[place] = true);
         }
-        let numbers = 0..self.geometry.planes.len();
-        let before_lamps = numbers.filter_map(|number| {
-            let faces = self.geometry.planes[number].faces.clone();
-            let faces: Vec<usize> = faces.filter(|&place| before[place]).collect();
-            let stands = outer_sides[number].is_none() || faces.iter().copied().any(at_lamps);
-            (stands && !faces.is_empty()).then_some((number, faces))
+        let before_lamps = self.planes_with(|place| before[place]).into_iter();
+        let before_lamps = before_lamps.filter(|(number, faces)| {
+            outer_sides[*number].is_none() || faces.iter().copied().any(at_lamps)
         });
-        let before_lamps = before_lamps.collect();
-        let emits = |place: &usize| self.geometry.faces[*place].emits;
-        let emitting = (0..self.geometry.planes.len()).filter_map(|number| {
-            let faces = self.geometry.planes[number].faces.clone();
-            let faces: Vec<usize> = faces.filter(emits).collect();
-            (!faces.is_empty()).then_some((number, faces))
-        });
-        let emitting = emitting.collect();
-        let bodies = met.into_iter();
-        let bodies = bodies.map(|(from_inside, body, entered)| Met {
-            from_inside,
+        let bodies = met.iter().map(|(from_inside, body, entered)| Met {
+            from_inside: *from_inside,
             at_lamps: body.faces().any(at_lamps),
             bounds: body
                 .bounds
                 .iter()
                 .zip(entered)
-                .map(|(bound, entered)| self.bound(bound, entered, from_inside, &outer_sides))
+                .map(|(bound, &entered)| {
+                    self.bound(start, bound, entered, *from_inside, &outer_sides)
+                })
                 .collect(),
         });
         Plan {
             outer,
             planes: planes.collect(),
             bodies: bodies.collect(),
-            emitting,
-            before_lamps,
+            emitting: self.planes_with(|place| self.geometry.faces[place].emits),
+            before_lamps: before_lamps.collect(),
         }
+    }
+
+    /// The planes that have faces which are `wanted` (by place), with these.
+    fn planes_with(&self, wanted: impl Fn(usize) -> bool) -> Vec<(usize, Vec<usize>)> {
+        let planes = self.geometry.planes.iter().enumerate();
+        let planes = planes.map(|(number, plane)| {
+            let faces = plane.faces.clone().filter(|&place| wanted(place));
+            (number, faces.collect::<Vec<usize>>())
+        });
+        planes.filter(|(_, faces)| !faces.is_empty()).collect()
     }
 
     /// By plane: whether the scene and all starts are below it (`Some(true)`) or above it
@@ -284,18 +316,43 @@ impl Planner<'_> {
                 .map(|&corner| height(plane, corner))
                 .max_by(|a, b| a.abs().total_cmp(&b.abs()))?;
             let below = far < 0.0;
-            let inside = |point: DVec3| {
-                let height = height(plane, point);
-                (if below { height } else { -height }) <= SAME_PLANE
+            let inside = |eye: &DVec3| {
+                let height = height(plane, *eye);
+                (if below { height } else { -height }) < -self.ulp
             };
-            let within = match start {
-                Start::Camera => self.starts(start).all(inside),
-                // The corners of the scene, which are.
-                Start::Surface => true,
-            };
-            within.then_some(below)
+            // Rays of surfaces start within the scene.
+            (start == Start::Surface || self.eyes.iter().all(inside)).then_some(below)
         };
-        self.geometry.planes.iter().map(side).collect()
+        let mut sides: Vec<Option<bool>> = self.geometry.planes.iter().map(side).collect();
+        // The first that is crossed must be told from the others, or be like them.
+        let numbers: Vec<usize> = (0..sides.len()).filter(|&n| sides[n].is_some()).collect();
+        if numbers.len().saturating_mul(numbers.len()) <= MOST_COMPARED {
+            for &number in &numbers {
+                let plane = &self.geometry.planes[number];
+                let blurred = |&&other: &&usize| {
+                    let faces = self.geometry.planes[other].faces.clone();
+                    other != number
+                        && self.surface(plane.faces.clone()) != self.surface(faces.clone())
+                        && self.lie_on(plane, faces)
+                };
+                if let Some(&other) = numbers.iter().find(blurred) {
+                    (sides[number], sides[other]) = (None, None);
+                }
+            }
+        }
+        sides
+    }
+
+    /// The surface of the first of these faces (by place).
+    fn surface(&self, mut faces: impl Iterator<Item = usize>) -> Option<u32> {
+        let label = faces.next().map(|place| self.label(place));
+        label.map(|label| self.surface_of[label as usize])
+    }
+
+    /// Whether these faces (by place) are so near to a plane that circuits cannot tell them from it.
+    fn lie_on(&self, plane: &Plane, faces: impl Iterator<Item = usize>) -> bool {
+        let mut corners = faces.flat_map(|place| self.outline(place));
+        corners.all(|&corner| height(plane, corner).abs() <= 4.0 * self.ulp)
     }
 
     fn outer(&self, sides: &[Option<bool>], rest: &[bool]) -> Vec<Outer> {
@@ -308,15 +365,22 @@ impl Planner<'_> {
             let others: Vec<&Plane> = others.map(|&other| &self.geometry.planes[other]).collect();
             let faces = plane.faces.clone().filter(|&place| rest[place]);
             let faces: Vec<usize> = faces.collect();
-            let implied = |[a, b]: [DVec3; 2]| {
+            let implied = |edge: [u32; 2]| {
+                let [a, b] = self.edges.ends(edge);
                 let on = |plane: &&Plane, point| height(plane, point).abs() <= SAME_PLANE;
                 others.iter().any(|plane| on(plane, a) && on(plane, b))
+            };
+            let above = sides[number] == Some(false);
+            let outside = |point| {
+                let height = height(plane, point);
+                if above { -height } else { height }
             };
             let side = Some(OuterSide {
                 plane: number,
                 facet: self.facet(plane.axis, &faces, implied),
+                outwards: self.leave_outwards(number, outside),
             });
-            let place = usize::from(sides[number] == Some(false));
+            let place = usize::from(above);
             let opposite = outer.iter_mut().find(|other| {
                 let facing = other.sides[1 - place].as_ref();
                 other.sides[place].is_none()
@@ -337,22 +401,30 @@ impl Planner<'_> {
         outer
     }
 
-    /// The faces of a plane (by place), with tests of those of their edges that are not `implied`.
-    fn facet(&self, axis: usize, faces: &[usize], implied: impl Fn([DVec3; 2]) -> bool) -> Facet {
-        let tested = |place: usize| -> Vec<[u32; 2]> {
+    /// Whether two faces of the edge's plane meet there, one on each side.
+    fn meet(&self, edge: [u32; 2], plane: u32) -> bool {
+        let on_plane =
+            |place: &&usize| self.geometry.plane_of[self.label(**place) as usize] == plane;
+        let mut here = self.edges.faces_at(edge).iter().filter(on_plane);
+        match [here.next(), here.next(), here.next()] {
+            [Some(&a), Some(&b), None] => !self.edges.fold(self.geometry, edge, [a, b]),
+            _ => false,
+        }
+    }
+
+    /// Faces of one plane (by place), with tests of those of their edges that are not `implied`.
+    fn facet(&self, axis: usize, faces: &[usize], implied: impl Fn([u32; 2]) -> bool) -> Facet {
+        let tested = |&place: &usize| -> Vec<[u32; 2]> {
             let edges = self.edges.of(place);
-            edges
-                .filter(|&edge| !implied(self.edges.ends(edge)))
-                .collect()
+            edges.filter(|&edge| !implied(edge)).collect()
         };
-        let all: Vec<Vec<[u32; 2]>> = faces.iter().map(|&place| tested(place)).collect();
-        // Whether all edges but those at which two of these faces meet are implied: then one of them is
-        // met wherever the plane is.
-        let meet = |edge: &[u32; 2]| {
-            let here = self.edges.faces_at(*edge).iter();
-            here.filter(|place| faces.contains(place)).count() == 2
-        };
-        let whole = faces.len() <= 64 && all.iter().flatten().all(meet);
+        let all: Vec<Vec<[u32; 2]>> = faces.iter().map(tested).collect();
+        // Where all edges but those at which two of these faces meet are implied, one of the faces is met
+        // wherever the plane is.
+        let plane = faces.first().map_or(0, |&place| {
+            self.geometry.plane_of[self.label(place) as usize]
+        });
+        let whole = all.iter().flatten().all(|&edge| self.meet(edge, plane));
         let last = faces.len().wrapping_sub(1);
         let tests = faces.iter().zip(&all).enumerate();
         let tests = tests.map(|(k, (&place, edges))| {
@@ -369,6 +441,7 @@ impl Planner<'_> {
 
     fn bound(
         &self,
+        start: Start,
         bound: &Bound,
         entered: bool,
         from_inside: bool,
@@ -378,16 +451,26 @@ impl Planner<'_> {
         let faces = if reached { &*bound.faces } else { &[] };
         let plane = &bound.plane;
         let facet = (!faces.is_empty()).then(|| {
-            let meets = |ends: [DVec3; 2]| {
-                // An edge at which two of the faces meet; all others are those of the body.
-                let shared = |place: usize| {
-                    let mut edges = self.edges.of(place);
-                    edges.any(|edge| self.edges.ends(edge) == ends)
-                };
-                faces.iter().filter(|&&place| shared(place)).count() < 2
-            };
-            self.facet(plane.axis, faces, meets)
+            // All edges but those at which two of the faces meet are the body's.
+            let number = bound.number as u32;
+            self.facet(plane.axis, faces, |edge| !self.meet(edge, number))
         });
+        let near = |eye: &DVec3| bound.outside(*eye).abs() <= self.ulp;
+        let starts = match start {
+            Start::Camera if self.eyes.iter().all(near) => Starts::All,
+            Start::Surface if bound.number < self.geometry.planes.len() => Starts::Leaving,
+            _ => Starts::None,
+        };
+        let outwards = match starts {
+            Starts::None => false,
+            Starts::All => true,
+            Starts::Leaving => {
+                let all = self.geometry.planes[bound.number].faces.len();
+                !entered
+                    && (from_inside || all > bound.faces.len())
+                    && self.leave_outwards(bound.number, |point| bound.outside(point))
+            }
+        };
         MetBound {
             number: bound.number,
             plane: plane.clone(),
@@ -395,15 +478,30 @@ impl Planner<'_> {
             facet,
             entered,
             left: from_inside || !outer.get(bound.number).is_some_and(Option::is_some),
-            starts: bound.number < self.geometry.planes.len(),
+            starts,
+            outwards,
         }
+    }
+
+    /// Whether planes of the body cannot be told apart at a face, and should be: where their surfaces
+    /// differ, or rays come from inside.
+    fn is_blunt(&self, body: &Body, from_inside: bool) -> bool {
+        let faces = |bound: &'_ Bound| bound.faces.clone().into_iter();
+        let with_faces = || body.bounds.iter().filter(|bound| !bound.faces.is_empty());
+        with_faces().any(|a| {
+            let mut others = with_faces().filter(|b| b.number != a.number);
+            others.any(|b| {
+                (from_inside || self.surface(faces(a)) != self.surface(faces(b)))
+                    && self.lie_on(&a.plane, faces(b))
+            })
+        })
     }
 
     /// Whether a ray may start within the body, or come to be there.
     fn may_be_inside(&self, start: Start, body: &Body) -> bool {
         let eye_outside = body.bounds.iter().any(|bound| {
             let mut eyes = self.eyes.iter();
-            eyes.all(|&eye| bound.outside(eye) >= -SAME_PLANE)
+            eyes.all(|&eye| bound.outside(eye) > self.ulp)
         });
         if !eye_outside
             || body
@@ -414,10 +512,7 @@ impl Planner<'_> {
         }
         // Through a hole of its surface.
         let open = |bound: &Bound| {
-            let enters = |start| {
-                let mut starts = self.starts(start);
-                starts.any(|point| bound.outside(point) > SAME_PLANE)
-            };
+            let enters = |start| self.start_beyond(start, |point| bound.outside(point));
             bound.faces.is_empty() && (enters(Start::Camera) || enters(Start::Surface))
         };
         if body.bounds.iter().any(open) {
@@ -508,10 +603,17 @@ impl Search<'_> {
     }
 
     /// An outer plane is met from within the scene: where the ray falls towards it, the scene is above.
-    fn outer<A: Arith>(&self, cx: &mut A, ray: &Ray<A>, outer: &Outer, nearest: &mut Running<A>) {
+    /// Whether the ray leaves the plane outwards.
+    fn outer<A: Arith>(
+        &self,
+        cx: &mut A,
+        ray: &Ray<A>,
+        outer: &Outer,
+        nearest: &mut Running<A>,
+    ) -> A::Bool {
         let side = |k: usize| outer.sides[k].as_ref().map(|side| (side, k == 1));
         let (Some(up), Some(down)) = (side(0).or(side(1)), side(1).or(side(0))) else {
-            return;
+            return cx.truth(false);
         };
         let plane = &self.geometry.planes[up.0.plane];
         cx.enter(Part::Plane(up.0.plane));
@@ -539,7 +641,13 @@ impl Search<'_> {
             front: cx.select_truth(falls, a.3, b.3),
         };
         nearest.take(cx, hit, &here);
+        let [down, up] = [1, 0].map(|k| {
+            let outwards = outer.sides[k].as_ref().is_some_and(|side| side.outwards);
+            cx.truth(outwards)
+        });
+        let outwards = cx.select_truth(falls, down, up);
         cx.leave();
+        math!(cx, outwards && left)
     }
 
     /// Where `ray` meets a body nearer than `limit`, and whether.
@@ -557,7 +665,7 @@ impl Search<'_> {
         let mut entered = cx.truth(false);
         let mut missed = cx.truth(false);
         for bound in &body.bounds {
-            if !(bound.entered || bound.left) {
+            if !(bound.entered || bound.left || bound.outwards) {
                 continue;
             }
             cx.enter(Part::Plane(bound.number));
@@ -567,10 +675,10 @@ impl Search<'_> {
             } else {
                 (cx.not(towards.falls), cx.not(towards.above))
             };
-            let starts = if bound.starts {
-                cx.is(ray.from, bound.number as u32)
-            } else {
-                cx.truth(false)
+            let starts = match bound.starts {
+                Starts::None => cx.truth(false),
+                Starts::All => cx.truth(true),
+                Starts::Leaving => cx.is(ray.from, bound.number as u32),
             };
             let ahead = math!(cx, towards.ahead && !starts);
             let label = bound.facet.as_ref().map_or(NO_FACE, Facet::first);
@@ -579,6 +687,9 @@ impl Search<'_> {
                 face: cx.index(label),
                 front: cx.truth(true),
             };
+            if bound.outwards {
+                missed = math!(cx, missed || starts && !inwards);
+            }
             if bound.entered {
                 let enters = math!(cx, ahead && inwards);
                 // From outside to farther outside, or along the plane.
@@ -701,14 +812,18 @@ impl<A: Arith> Nearest<A> for Search<'_> {
     fn nearest(&self, cx: &mut A, ray: &Ray<A>, wanted: A::Bool) -> Hit<A> {
         let plan = self.plan(ray);
         let mut nearest = Running::new(cx, ray.reach);
+        let mut gone = cx.truth(false);
         for outer in &plan.outer {
-            self.outer(cx, ray, outer, &mut nearest);
+            let outwards = self.outer(cx, ray, outer, &mut nearest);
+            gone = math!(cx, gone || outwards);
         }
         self.planes(cx, ray, &plan.planes, &mut nearest);
         for body in &plan.bodies {
             let (meets, here) = self.body(cx, ray, body, nearest.distance);
             nearest.take(cx, meets, &here);
         }
+        let none = cx.index(NO_FACE);
+        nearest.face = cx.select_index(gone, none, nearest.face);
         self.resolve(cx, ray, plan, &mut nearest);
         nearest.hit(cx, wanted)
     }
@@ -753,3 +868,6 @@ impl<A: Arith> Nearest<A> for Search<'_> {
         hidden
     }
 }
+
+#[cfg(test)]
+mod tests;
