@@ -9,13 +9,17 @@
 //! * what each of the compiler's passes is worth;
 //! * Toffolis and qubits over the number of quads P, rays D, path bits log2 R, comparator bits
 //!   log2 C and fraction bits w, each with the exponent of a power of it that fits best, and the
-//!   fraction of the cost by which that misses (root mean square).
+//!   fraction of the cost by which that misses (root mean square);
+//! * Toffolis a face of convex bodies: a cube, an icosahedron and a hull of 80 faces.
 //!
-//! It fails where a promise is broken: what the box may cost, and how the cost may grow.
+//! It fails where a promise is broken: what the box may cost, how the cost may grow, and what a face of
+//! a convex body may cost.
 
 // A bench that cannot run has nothing to report.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
+#[path = "common/bodies.rs"]
+mod bodies;
 #[path = "common/growth.rs"]
 mod growth;
 #[path = "common/knot.rs"]
@@ -28,6 +32,7 @@ mod promises;
 #[path = "common/scenes.rs"]
 mod scenes;
 
+use bodies::Solid;
 use growth::{fit, quads};
 use promises::Promises;
 use qrt::circuit::lower::{self, Cost};
@@ -47,6 +52,14 @@ const TOFFOLIS: [u64; 2] = [500_000, 150_000];
 /// Qubits that it may take under `uncompute: scoped`, and those aimed at.
 const QUBITS: [u64; 2] = [1_500, 500];
 
+/// Convex bodies, and the Toffolis that each of their faces took when every face was tested by its
+/// plane and its edges: at most half may be left.
+const BODIES: [(&str, Solid, u64); 3] = [
+    ("cube", Solid::Cube, 12_253),
+    ("icosahedron", Solid::Icosahedron, 10_833),
+    ("hull of 80 faces", Solid::Hull, 10_554),
+];
+
 /// Where an exponent that should be 1 may lie.
 const LINEAR: RangeInclusive<f64> = 0.9..=1.1;
 
@@ -56,6 +69,7 @@ fn main() -> ExitCode {
     let [keep, scoped] = strategies(root);
     passes(root);
     let rules = growth(root);
+    let faces = faces(root);
 
     let mut promises = Promises::new();
     println!();
@@ -70,6 +84,12 @@ fn main() -> ExitCode {
     }
     for (what, rule) in rules {
         promises.judge(what, rule);
+    }
+    for ((what, _, before), toffoli) in BODIES.into_iter().zip(faces) {
+        promises.judge(
+            &format!("Toffolis a face of a {what}: {toffoli}, at most half of {before}"),
+            2 * toffoli <= before,
+        );
     }
     promises.exit()
 }
@@ -249,6 +269,24 @@ fn growth(root: &Path) -> [(&'static str, bool); 4] {
             thresholds <= 1.0,
         ),
     ]
+}
+
+/// Prints what convex bodies cost; Toffolis a face of each.
+fn faces(root: &Path) -> [u64; 3] {
+    let toffoli = |solid: Option<Solid>| {
+        let parsed = front::parse(&bodies::scene(solid), "body.yaml", &[], root);
+        let scene = parsed.unwrap_or_else(|report| panic!("{report}")).valid;
+        cost(&oracle(&scene, 0, Passes::ALL)).toffoli
+    };
+    println!("\nconvex bodies above a floor (first channel, keep): Toffolis, and a face");
+    let alone = toffoli(None);
+    println!("  none             {alone:9}");
+    BODIES.map(|(what, solid, before)| {
+        let all = toffoli(Some(solid));
+        let face = (all - alone) / solid.count() as u64;
+        println!("  {what:16} {all:9}  {face:6}  ({before} by planes and edges)");
+        face
+    })
 }
 
 /// The costs of a family of scenes: size, Toffolis and qubits.
