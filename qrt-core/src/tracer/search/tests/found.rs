@@ -72,13 +72,14 @@ fn a_plane_is_outer_only_for_a_camera_on_its_inner_side() {
     // Without the front: 5 walls and the lamp.
     assert_eq!(both(&in_front(), shapes), [[5, 1, 0]; 2]);
     let above = perspective([0.3, 6.0, -4.0], [0.0, 3.0, 0.0], 50.0);
-    assert_eq!(both(&above, shapes), [[4, 2, 0], [5, 1, 0]]);
+    // The walls are then a body that is open at the front.
+    assert_eq!(both(&above, shapes), [[0, 1, 1], [5, 1, 0]]);
     // On the ceiling's plane, too, it may look out.
     let on_ceiling = perspective([0.3, 3.0, -1.0], [0.0, 3.1, 0.0], 50.0);
-    assert_eq!(both(&on_ceiling, shapes)[0], [4, 2, 0]);
+    assert_eq!(both(&on_ceiling, shapes)[0], [0, 1, 1]);
     // The corners of a parallel camera's film count: some are beyond the side walls.
     let parallel = "orthographic: { eye: [0, 1.5, -4], target: [0, 1.5, 0], height: 4 }";
-    assert_eq!(both(parallel, shapes)[0], [1, 5, 0]);
+    assert_eq!(both(parallel, shapes)[0], [0, 1, 1]);
 }
 
 #[test]
@@ -146,21 +147,26 @@ fn bodies_that_rays_may_be_in_are_met_where_they_leave() {
     let room = &room()[..];
     let in_front = in_front();
     assert_eq!(inside(&in_front, &[room, &[small()]]), [[false], [false]]);
+    // A floor would cover the underside, which rays from inside meet.
+    let hovering = small().at(0.0, 0.3, 0.0);
     // Nothing is below the floor, from where rays might come through the hole.
     assert_eq!(
         inside(&in_front, &[room, &[small().without(&[BOTTOM])]]),
         [[false], [false]]
     );
     assert_eq!(
-        inside(&in_front, &[room, &[small().without(&[TOP])]]),
+        inside(&in_front, &[room, &[hovering.clone().without(&[TOP])]]),
         [[true], [true]]
     );
     let glass = small().at(0.0, 0.5, 0.0).made_of("glass");
     assert_eq!(inside(&in_front, &[room, &[glass]]), [[true], [true]]);
-    let within = perspective([0.05, 0.4, 0.0], [1.0, 0.5, 0.3], 90.0);
-    assert_eq!(inside(&within, &[room, &[small()]]), [[true], [true]]);
+    let within = perspective([0.05, 0.7, 0.0], [1.0, 0.8, 0.3], 90.0);
+    assert_eq!(
+        inside(&within, &[room, &[hovering.clone()]]),
+        [[true], [true]]
+    );
     // Rays start on the polygon within, if any come there.
-    let through = [small(), level(0.5, 0.4)];
+    let through = [hovering, level(0.5, 0.7)];
     assert_eq!(inside(&in_front, &[room, &through]), [[false], [true]]);
 }
 
