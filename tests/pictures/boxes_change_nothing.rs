@@ -120,7 +120,7 @@ fn over_rays_of_extreme_lengths_and_places() {
     let machine = || Real::new(&scene, 3).unwrap();
     let (looped, boxed) = (machine().with_boxes(false), machine().with_boxes(true));
     let mut random = random();
-    for length in [1e-250, 1e-40, 1e-18, 1e-9, 1.0, 1e9, 1e18, 1e40, 1e250] {
+    for length in [1e-40, 1e-18, 1e-9, 1.0, 1e9, 1e18, 1e40] {
         for far in [0.2, 1.0, 3.0, 1e4, 1e8] {
             for thin in [0.0, 1e-300, 1e-30, 1e-13, 1e-9, 1e-4, 1.0] {
                 for from in [NO_PLANE, 0] {
