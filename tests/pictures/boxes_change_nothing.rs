@@ -101,6 +101,52 @@ fn over_a_mesh_seen_from_afar() {
     assert_same(&from_file(KNOT, &sets));
 }
 
+/// Numbers from -1 to 1, always the same.
+fn random() -> impl FnMut() -> f64 {
+    let mut state = 7_u64;
+    move || {
+        state = state
+            .wrapping_mul(6364136223846793005)
+            .wrapping_add(1442695040888963407);
+        (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+}
+
+/// Directions of any length, almost or quite along an axis, from near and from afar, alone or many: the
+/// boxes are of single precision, which holds few of these.
+#[test]
+fn over_rays_of_extreme_lengths_and_places() {
+    let scene = from_file(KNOT, &[]);
+    let machine = || Real::new(&scene, 3).unwrap();
+    let (looped, boxed) = (machine().with_boxes(false), machine().with_boxes(true));
+    let mut random = random();
+    for length in [1e-40, 1e-18, 1e-9, 1.0, 1e9, 1e18, 1e40] {
+        for far in [0.2, 1.0, 3.0, 1e4, 1e8] {
+            for thin in [0.0, 1e-300, 1e-30, 1e-13, 1e-9, 1e-4, 1.0] {
+                for from in [NO_PLANE, 0] {
+                    let rays: Vec<SingleRay> = (0..24)
+                        .map(|ray| {
+                            let place = [0; 3].map(|_| random());
+                            let mut direction = [0; 3].map(|_| thin * random());
+                            let axis = ray % 3;
+                            direction[axis] = random();
+                            let mut origin = place.map(|p| 0.3 * p);
+                            origin[axis] -= far * direction[axis].signum();
+                            SingleRay {
+                                origin,
+                                direction: direction.map(|d| length * d),
+                                from,
+                            }
+                        })
+                        .collect();
+                    let what = format!("length {length}, from {far}, thin {thin}, {from}");
+                    assert_eq!(looped.nearest(&rays), boxed.nearest(&rays), "{what}");
+                }
+            }
+        }
+    }
+}
+
 /// Camera rays walk together where they go the same way: bundles of all widths, from one point or
 /// from many, along an axis or across, a few of them short of a value's lanes.
 #[test]
@@ -109,13 +155,7 @@ fn over_bundles_of_rays() {
     let machine = || Real::new(&scene, 3).unwrap();
     let scalar = machine().with_simd(Simd::Scalar);
     let (looped, boxed) = (machine().with_boxes(false), machine().with_boxes(true));
-    let mut state = 7_u64;
-    let mut random = move || {
-        state = state
-            .wrapping_mul(6364136223846793005)
-            .wrapping_add(1442695040888963407);
-        (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    };
+    let mut random = random();
     let mut met = 0;
     for bundle in 0..240 {
         let spread = [0.0, 1e-3, 0.1][bundle % 3];

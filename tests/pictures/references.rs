@@ -294,3 +294,63 @@ fn a_flipped_picture_or_swapped_channels_would_be_noticed() {
     assert!(compare(&right, &independent::reference("cornell", 2)).is_err());
     assert!(compare(&right, &independent::reference("cornell", 4)).is_err());
 }
+
+/// Scenes whose light reaches much of the picture by a mirror or by glass alone.
+const SPECULAR: [&str; 2] = ["cornell_mirrorwall", "cornell_glass"];
+
+#[test]
+#[ignore = "forty pictures of 2^16 paths a pixel take minutes"]
+fn every_reference_agrees_closely_by_lamps() {
+    const PATH_BITS: u32 = 16;
+    // Of the reference's mean; the mirror wall's own error at four rays is more.
+    const MOST: f64 = 0.012;
+    const MOST_OF_THE_MIRROR_WALL: f64 = 0.015;
+    let scenes = [
+        "furnace",
+        "floorlight",
+        "cornell",
+        "cornell_mg",
+        "cornell_mirrorwall",
+        "cornell_glass",
+        "cornell_ggx",
+        "torusknot8k",
+    ];
+    let mut broken = Vec::new();
+    for name in scenes {
+        for depth in 1..=4 {
+            let reference = independent::reference(name, depth);
+            let level = mean(&reference.picture);
+            // A black picture has no mean to measure by, and no error to make.
+            let unit = if level > 0.0 { level } else { 1.0 };
+            let error = |sets: &[String]| {
+                let ours = traced(&independent::scene(name, sets), 1);
+                rms_difference(&ours, &reference.picture) / unit
+            };
+            let lit = error(&asking_lamps(depth, PATH_BITS, "auto"));
+            let zero = vec![[0.0; 3]; reference.standard_error.len()];
+            let noise = rms_difference(&reference.standard_error, &zero) / unit;
+            let mut most = MOST;
+            if name == "cornell_mirrorwall" {
+                most = MOST_OF_THE_MIRROR_WALL;
+            }
+            let mut figures = format!(
+                "{name} D={depth}: {:.3} % of at most {:.1} %, the reference's own {:.3} %",
+                100.0 * lit,
+                100.0 * most,
+                100.0 * noise
+            );
+            let mut kept = lit <= most;
+            if SPECULAR.contains(&name) {
+                let unlit = error(&independent::asking(depth, PATH_BITS));
+                figures += &format!(", without lamps {:.3} %", 100.0 * unlit);
+                // Of pictures that both are the reference's but for its own error.
+                kept &= lit <= 1.05 * unlit;
+            }
+            println!("{figures}");
+            if !kept {
+                broken.push(figures);
+            }
+        }
+    }
+    assert!(broken.is_empty(), "{broken:#?}");
+}

@@ -2,25 +2,32 @@
 //!
 //! Trying every face is what the circuit does, and what the real machine does while faces are few.
 //! For a mesh it narrows the faces down: a ray walks a tree of boxes, eight to a node, and only the
-//! faces of the leaves it reaches are tried, eight at once. What is tried runs through
+//! faces of the leaves it reaches are tried, four at once. A few large faces, a room's walls, all rays
+//! try first, and those that come near nothing else walk no tree. What is tried runs through
 //! [`qrt_core::tracer::cross`] with the same constants, and ties go to the face that a loop over
 //! all faces would have kept: the result is the loop's, bit for bit.
 
+mod approach;
 mod beam;
 mod build;
+mod large;
 mod packet;
+mod rays;
 mod walk;
 
-use super::lanes::{Lanes, lanes, slots};
-use beam::{Rays, Scratch};
+use super::lanes::Lanes;
+use large::LargeFace;
 use packet::Packet;
 use qrt_core::tracer::{Arith, Geometry, Hit, NO_FACE, Nearest, Ray};
-use std::cell::Cell;
+use rays::{Ends, FindNearest, FindOccluded, Scratch};
+use std::cell::RefCell;
 use std::ops::Range;
-use walk::Line;
 
-/// Boxes of a node, and faces of a packet.
-pub(crate) const WIDE: usize = 8;
+/// Boxes of a node.
+const WIDE: usize = 8;
+
+/// Faces of a packet.
+const FACES: usize = 4;
 
 /// Up to this many faces a loop over all of them is faster (`cargo bench --bench tracing`).
 pub(crate) const FEW_FACES: usize = 72;
@@ -31,8 +38,8 @@ const FEW_EMITTERS: usize = 16;
 /// The children of a node: their boxes by corner and axis, and where they are.
 #[derive(Clone, Debug)]
 struct Node {
-    /// `[low, high][axis][child]`; an absent child's box is empty.
-    boxes: [[[f64; WIDE]; 3]; 2],
+    /// `[low, high][axis][child]`, rounded outwards; an absent child's box is empty.
+    boxes: [[[f32; WIDE]; 3]; 2],
     children: [Child; WIDE],
 }
 
@@ -48,7 +55,15 @@ enum Child {
 /// The hierarchy over the faces of a [`Geometry`].
 #[derive(Clone, Debug)]
 pub(crate) struct Bvh {
+    /// In the order of their ranks.
+    large: Vec<LargeFace>,
+    /// The tree over the others: the least and the greatest corner.
+    bounds: [[f64; 3]; 2],
+    /// The greatest of the corners' coordinates.
+    greatest: f64,
     nodes: Vec<Node>,
+    /// Levels of nodes.
+    levels: usize,
     packets: Vec<Packet>,
     /// By face, in the order of [`Geometry::faces`]: whether it hides an emitter at the same
     /// distance.
@@ -57,6 +72,7 @@ pub(crate) struct Bvh {
     /// By face: the numbers of the emitting faces on its plane, and the first of them that it may
     /// cover.
     emitters: Vec<(Range<u32>, u32)>,
+    /// By face; beyond the last there is none.
     labels: Vec<u32>,
     few_emitters: bool,
 }
@@ -65,15 +81,26 @@ impl Bvh {
     /// Over all faces of `geometry`.
     pub(crate) fn new(geometry: &Geometry) -> Self {
         let faces = &geometry.faces;
-        let tree = build::tree(&build::boxes(geometry), &build::axes(geometry));
+        let boxes = build::boxes(geometry);
+        let large = large::choose(&boxes);
+        let tree = build::tree(&boxes, &build::axes(geometry), &large);
         let place = packet::planes_of_faces(geometry);
+        let corners = tree.bounds.as_flattened().iter();
+        let greatest = corners.fold(0.0, |most: f64, c| most.max(c.abs()));
         Self {
+            large: large
+                .iter()
+                .map(|&rank| LargeFace::new(geometry, rank, place[rank as usize]))
+                .collect(),
+            bounds: tree.bounds,
+            greatest,
             packets: tree
                 .leaves
                 .iter()
                 .map(|leaf| Packet::new(geometry, &place, leaf))
                 .collect(),
             nodes: tree.nodes,
+            levels: tree.levels,
             hides_emitter: faces.iter().map(|face| face.hides_emitter).collect(),
             emits: faces.iter().map(|face| face.emits).collect(),
             emitters: faces
@@ -85,7 +112,11 @@ impl Bvh {
                     (emitters.clone(), emitters.start + earlier)
                 })
                 .collect(),
-            labels: faces.iter().map(|face| face.label).collect(),
+            labels: faces
+                .iter()
+                .map(|face| face.label)
+                .chain([NO_FACE])
+                .collect(),
             few_emitters: faces.iter().filter(|face| face.emits).count() <= FEW_EMITTERS,
         }
     }
@@ -96,7 +127,7 @@ pub(crate) struct Indexed<'a> {
     geometry: &'a Geometry,
     bvh: &'a Bvh,
     /// Lent to one walk after the other.
-    scratch: Cell<Scratch>,
+    scratch: RefCell<Scratch>,
 }
 
 impl<'a> Indexed<'a> {
@@ -104,33 +135,9 @@ impl<'a> Indexed<'a> {
         Self {
             geometry,
             bvh,
-            scratch: Cell::default(),
+            scratch: RefCell::new(Scratch::new(bvh)),
         }
     }
-}
-
-/// The lanes in which `mask` holds, as bits.
-#[inline(always)]
-fn bits<S: pulp::Simd, const W: usize>(cx: &mut Lanes<'_, S, W>, mask: [S::m64s; W]) -> u64 {
-    let (one, zero) = (cx.index(1), cx.index(0));
-    let flags = cx.select_index(mask, one, zero);
-    let mut bits = 0;
-    for (lane, &flag) in lanes::<_, u64>(&flags).iter().enumerate() {
-        bits |= flag << lane;
-    }
-    bits
-}
-
-/// The ray of one lane.
-#[inline(always)]
-fn line<S: pulp::Simd, const W: usize>(ray: &Ray<Lanes<'_, S, W>>, lane: usize) -> Line {
-    let mut parts = [[0.0; 3]; 2];
-    for (part, vector) in parts.iter_mut().zip([&ray.origin, &ray.direction]) {
-        for (part, component) in part.iter_mut().zip(vector) {
-            *part = lanes::<_, f64>(component)[lane];
-        }
-    }
-    Line::new(parts[0], parts[1], lanes::<_, u64>(&ray.from)[lane])
 }
 
 impl<'i, S: pulp::Simd, const W: usize> Nearest<Lanes<'i, S, W>> for Indexed<'_> {
@@ -141,24 +148,14 @@ impl<'i, S: pulp::Simd, const W: usize> Nearest<Lanes<'i, S, W>> for Indexed<'_>
         ray: &Ray<Lanes<'i, S, W>>,
         wanted: [S::m64s; W],
     ) -> Hit<Lanes<'i, S, W>> {
-        let mut distance = cx.real(f64::MAX);
-        let mut label = cx.index(NO_FACE);
-        let mut scratch = self.scratch.take();
-        Rays {
+        let (distance, rank) = cx.apart(FindNearest {
             bvh: self.bvh,
-            cx: *cx,
             // A copy, so that the tracer's own can stay in registers.
             ray: *ray,
-            wanted: bits(cx, wanted),
-            scratch: &mut scratch,
-        }
-        .find();
-        for &(lane, found) in scratch.found.iter().filter(|(_, f)| f.rank != u32::MAX) {
-            slots::<_, f64>(&mut distance)[lane] = found.distance;
-            let face = self.bvh.labels[found.rank as usize];
-            slots::<_, u64>(&mut label)[lane] = u64::from(face);
-        }
-        self.scratch.set(scratch);
+            wanted,
+            scratch: &mut self.scratch.borrow_mut(),
+        });
+        let label = cx.entry(&self.bvh.labels, rank);
         Hit::new(cx, distance, label, wanted)
     }
 
@@ -173,26 +170,11 @@ impl<'i, S: pulp::Simd, const W: usize> Nearest<Lanes<'i, S, W>> for Indexed<'_>
             return self.nearest(cx, ray, wanted);
         }
         let mut hit = self.geometry.nearest_emitter(cx, ray, wanted);
-        if !cx.any(hit.found) {
-            return hit;
+        if cx.any(hit.found) {
+            let hidden = self.hidden(cx, ray, Ends::Emitter(hit.distance), hit.found);
+            let shown = cx.not(hidden);
+            hit.found = cx.and(hit.found, shown);
         }
-        let mut hidden = cx.index(0);
-        let mut scratch = self.scratch.take();
-        let mut left = bits(cx, hit.found);
-        while left != 0 {
-            let lane = left.trailing_zeros() as usize;
-            left &= left - 1;
-            let distance = lanes::<_, f64>(&hit.distance)[lane];
-            if self
-                .bvh
-                .hides(cx.narrow(), &line(ray, lane), &mut scratch.stack, distance)
-            {
-                slots::<_, u64>(&mut hidden)[lane] = 1;
-            }
-        }
-        self.scratch.set(scratch);
-        let shown = cx.is(hidden, 0);
-        hit.found = cx.and(hit.found, shown);
         hit
     }
 
@@ -204,23 +186,27 @@ impl<'i, S: pulp::Simd, const W: usize> Nearest<Lanes<'i, S, W>> for Indexed<'_>
         lamp: [S::u64s; W],
         wanted: [S::m64s; W],
     ) -> [S::m64s; W] {
-        let mut hidden = cx.index(0);
-        let mut scratch = self.scratch.take();
-        let mut left = bits(cx, wanted);
-        while left != 0 {
-            let lane = left.trailing_zeros() as usize;
-            left &= left - 1;
-            let lamp = lanes::<_, u64>(&lamp)[lane] as u32;
-            let line = line(ray, lane);
-            if self
-                .bvh
-                .blocks(cx.narrow(), &line, &mut scratch.stack, lamp)
-            {
-                slots::<_, u64>(&mut hidden)[lane] = 1;
-            }
-        }
-        self.scratch.set(scratch);
-        cx.is(hidden, 1)
+        self.hidden(cx, ray, Ends::Lamp(lamp), wanted)
+    }
+}
+
+impl Indexed<'_> {
+    /// Whether a face stands before the end of each `wanted` ray.
+    #[inline(always)]
+    fn hidden<'i, S: pulp::Simd, const W: usize>(
+        &self,
+        cx: &mut Lanes<'i, S, W>,
+        ray: &Ray<Lanes<'i, S, W>>,
+        ends: Ends<S, W>,
+        wanted: [S::m64s; W],
+    ) -> [S::m64s; W] {
+        cx.apart(FindOccluded {
+            bvh: self.bvh,
+            ray: *ray,
+            ends,
+            wanted,
+            scratch: &mut self.scratch.borrow_mut(),
+        })
     }
 }
 

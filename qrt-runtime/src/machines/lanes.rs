@@ -4,6 +4,7 @@
 //! multiply-add) or a function of the `libm` crate, so that AVX-512, AVX2, NEON and plain code
 //! give the same bits.
 
+use super::masks::bits;
 use pulp::bytemuck;
 use qrt_core::expr::Function;
 use qrt_core::sampling::cell_centre;
@@ -147,10 +148,10 @@ macro_rules! each {
     }};
 }
 
-impl<S: pulp::Simd, const W: usize> Lanes<'_, S, W> {
+impl<'a, S: pulp::Simd, const W: usize> Lanes<'a, S, W> {
     /// The same instruction set with one register a value.
     #[inline(always)]
-    pub(crate) fn narrow(&self) -> Lanes<'_, S, 1> {
+    pub(crate) fn narrow(&self) -> Lanes<'a, S, 1> {
         Lanes {
             simd: self.simd,
             inputs: self.inputs,
@@ -256,8 +257,7 @@ impl<S: pulp::Simd, const W: usize> Arith for Lanes<'_, S, W> {
     }
     #[inline(always)]
     fn any(&mut self, a: Self::Bool) -> bool {
-        let any = self.simd.or_m64s(a[0], a[W - 1]);
-        self.simd.first_true_m64s(any) < S::F64_LANES
+        bits(self.simd, self.simd.or_m64s(a[0], a[W - 1])) != 0
     }
     #[inline(always)]
     fn select(&mut self, c: Self::Bool, a: Self::Real, b: Self::Real) -> Self::Real {

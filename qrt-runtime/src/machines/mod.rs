@@ -11,6 +11,7 @@ mod fixed;
 mod gates;
 mod instructions;
 mod lanes;
+mod masks;
 pub mod native;
 mod nearest;
 mod oracle;

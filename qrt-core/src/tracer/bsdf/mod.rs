@@ -319,70 +319,36 @@ impl<const C: usize> ScatterStage<C> {
         let projected = self.square.map.is_projected();
         if projected && let Some(mask) = members(cx, at, &self.lambertian) {
             let factor = lights.projected(cx, at.surface, towards);
-            let new = Lit {
-                weight: tint,
-                factor,
-            };
-            choose_lit(cx, &mut lit, mask, new);
+            choose(cx, &mut lit, mask, Lit::new(tint, factor));
         }
         let matte = !projected && !self.lambertian.is_empty();
         let (ggx, phong, custom) = (&self.ggx.0, &self.phong, &self.custom);
         if !matte && ggx.is_empty() && phong.is_empty() && custom.is_empty() {
-            return lit.unwrap_or(Lit {
-                weight: tint,
-                factor: zero,
-            });
+            return lit.unwrap_or(Lit::new(tint, zero));
         }
         let way = Way::new(cx, at, towards, &self.square);
         if matte && let Some(mask) = members(cx, at, &self.lambertian) {
             let factor = math!(cx, way.mapped * way.balance);
-            let new = Lit {
-                weight: tint,
-                factor,
-            };
-            choose_lit(cx, &mut lit, mask, new);
+            choose(cx, &mut lit, mask, Lit::new(tint, factor));
         }
         if let Some(mask) = members(cx, at, ggx) {
             let factor = self.ggx.1.light(cx, at.surface, &way);
-            let new = Lit {
-                weight: tint,
-                factor,
-            };
-            choose_lit(cx, &mut lit, mask, new);
+            choose(cx, &mut lit, mask, Lit::new(tint, factor));
         }
         let one = cx.real(1.0);
         for (surface, lobe) in phong {
             if let Some(mask) = members(cx, at, &(*surface..surface + 1)) {
                 let weight = lobe.light(cx, &way);
-                choose_lit(
-                    cx,
-                    &mut lit,
-                    mask,
-                    Lit {
-                        weight,
-                        factor: one,
-                    },
-                );
+                choose(cx, &mut lit, mask, Lit::new(weight, one));
             }
         }
         for (surface, lobe) in custom.iter().filter(|(_, lobe)| lobe.has_density()) {
             if let Some(mask) = members(cx, at, &(*surface..surface + 1)) {
                 let weight = lobe.light(cx, self.square.depth, &way);
-                choose_lit(
-                    cx,
-                    &mut lit,
-                    mask,
-                    Lit {
-                        weight,
-                        factor: one,
-                    },
-                );
+                choose(cx, &mut lit, mask, Lit::new(weight, one));
             }
         }
-        lit.unwrap_or(Lit {
-            weight: tint,
-            factor: zero,
-        })
+        lit.unwrap_or(Lit::new(tint, zero))
     }
 
     /// The lobe of surface `number`; none if it is black.
@@ -468,40 +434,30 @@ impl<const C: usize> ScatterStage<C> {
     }
 }
 
-/// Replaces the direction and weight by `new` where `mask` holds. The first candidate needs no
-/// choice.
+/// What a lobe finds for the paths on its surfaces.
+trait OfLobe<A: Arith>: Sized {
+    /// This where `mask` holds, `other` where not.
+    fn select(self, cx: &mut A, mask: A::Bool, other: Self) -> Self;
+}
+
+/// Replaces what was chosen by `new` where `mask` holds. The first candidate needs no choice.
 #[inline(always)]
-fn choose<A: Arith, const C: usize>(
-    cx: &mut A,
-    chosen: &mut Option<Scattered<A, C>>,
-    mask: A::Bool,
-    new: Scattered<A, C>,
-) {
+fn choose<A: Arith, T: OfLobe<A>>(cx: &mut A, chosen: &mut Option<T>, mask: A::Bool, new: T) {
     *chosen = Some(match chosen.take() {
         None => new,
-        Some(old) => Scattered {
-            direction: vector::select(cx, mask, &new.direction, &old.direction),
-            weight: vector::select(cx, mask, &new.weight, &old.weight),
-            density: cx.select(mask, new.density, old.density),
-        },
+        Some(old) => new.select(cx, mask, old),
     });
 }
 
-/// Replaces what is lit by `new` where `mask` holds. The first candidate needs no choice.
-#[inline(always)]
-fn choose_lit<A: Arith, const C: usize>(
-    cx: &mut A,
-    chosen: &mut Option<Lit<A, C>>,
-    mask: A::Bool,
-    new: Lit<A, C>,
-) {
-    *chosen = Some(match chosen.take() {
-        None => new,
-        Some(old) => Lit {
-            weight: vector::select(cx, mask, &new.weight, &old.weight),
-            factor: cx.select(mask, new.factor, old.factor),
-        },
-    });
+impl<A: Arith, const C: usize> OfLobe<A> for Scattered<A, C> {
+    #[inline(always)]
+    fn select(self, cx: &mut A, mask: A::Bool, other: Self) -> Self {
+        Self {
+            direction: vector::select(cx, mask, &self.direction, &other.direction),
+            weight: vector::select(cx, mask, &self.weight, &other.weight),
+            density: cx.select(mask, self.density, other.density),
+        }
+    }
 }
 
 /// What of a lamp's light goes to the viewer: weight times factor.
@@ -510,6 +466,23 @@ pub(crate) struct Lit<A: Arith, const C: usize> {
     pub(crate) weight: [A::Real; C],
     /// Common to all channels.
     pub(crate) factor: A::Real,
+}
+
+impl<A: Arith, const C: usize> Lit<A, C> {
+    #[inline(always)]
+    fn new(weight: [A::Real; C], factor: A::Real) -> Self {
+        Self { weight, factor }
+    }
+}
+
+impl<A: Arith, const C: usize> OfLobe<A> for Lit<A, C> {
+    #[inline(always)]
+    fn select(self, cx: &mut A, mask: A::Bool, other: Self) -> Self {
+        Self {
+            weight: vector::select(cx, mask, &self.weight, &other.weight),
+            factor: cx.select(mask, self.factor, other.factor),
+        }
+    }
 }
 
 /// The way to a point on a lamp, for lobes that ask for angles.

@@ -1,124 +1,59 @@
-//! The rays of all lanes at once.
+//! Rays that walk the tree together.
 //!
 //! Rays from the camera are neighbours: those of a value mostly cross the same pixel. They walk
 //! the tree together, as a beam: a node is tried once for all of them, and each ray by itself only
 //! at the packets. Rays that were scattered walk alone.
 
-use super::packet::bits;
-use super::walk::{Found, Line, NearestFace, Stack};
-use super::{Bvh, Child, Node, WIDE, line};
+use super::approach::{Lines, MOST_RAYS};
+use super::walk::{Found, MOST_LANES, NearestFace, Waiting, columns};
+use super::{Bvh, Child, Node, WIDE};
 use crate::machines::lanes::Lanes;
-use qrt_core::tracer::{NO_PLANE, Ray};
+use crate::machines::masks::bits_of_singles;
 
 /// Fewer rays than this are no beam.
-const FEW_RAYS: usize = 4;
+pub(super) const FEW_RAYS: usize = 4;
 
-/// Lanes of a value, at most.
-const MOST_RAYS: usize = 16;
-
-/// What walks keep from one to the next: memory.
-#[derive(Default)]
-pub(super) struct Scratch {
-    /// The stack of a lone ray.
-    pub(super) stack: Stack,
-    /// The stack of a beam: numbers of nodes and their children, as `WIDE node + child`.
-    beam_stack: Vec<(f64, u32)>,
-    lines: Vec<Line>,
-    /// The lanes whose rays were asked for, and what they meet.
-    pub(super) found: Vec<(usize, Found)>,
-}
-
-/// The walks of several rays, to be run as a function of its own.
-pub(super) struct Rays<'a, 'i, S: pulp::Simd, const W: usize> {
-    pub(super) bvh: &'a Bvh,
-    pub(super) cx: Lanes<'i, S, W>,
-    pub(super) ray: Ray<Lanes<'i, S, W>>,
-    /// The lanes whose rays are wanted, as bits.
-    pub(super) wanted: u64,
-    pub(super) scratch: &'a mut Scratch,
-}
-
-impl<S: pulp::Simd, const W: usize> Rays<'_, '_, S, W> {
-    /// Puts the nearest face of each wanted lane into the scratch's `found`.
-    #[inline(never)]
-    pub(super) fn find(self) {
-        self.cx.simd.vectorize(self);
-    }
-}
-
-impl<S: pulp::Simd, const W: usize> pulp::WithSimd for Rays<'_, '_, S, W> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<U: pulp::Simd>(self, _: U) {
-        let scratch = self.scratch;
-        scratch.lines.clear();
-        scratch.found.clear();
-        let mut from_camera = true;
-        let mut left = self.wanted;
-        while left != 0 {
-            let lane = left.trailing_zeros() as usize;
-            left &= left - 1;
-            let line = line(&self.ray, lane);
-            from_camera &= line.from == u64::from(NO_PLANE);
-            scratch.lines.push(line);
-            scratch.found.push((lane, Found::NONE));
-        }
-        let mut cx = self.cx.narrow();
-        if from_camera
-            && (FEW_RAYS..=MOST_RAYS).contains(&scratch.lines.len())
-            && let Some(beam) = Beam::around(&scratch.lines)
-        {
-            self.bvh.walk_together(&mut cx, &beam, scratch);
-            return;
-        }
-        for (line, (_, found)) in scratch.lines.iter().zip(&mut scratch.found) {
-            let mut search = NearestFace::default();
-            self.bvh
-                .walk(&mut cx, line, &mut scratch.stack, &mut search);
-            *found = search.best;
-        }
-    }
-}
-
-/// Rays that go the same way along each axis.
-struct Beam {
-    /// The least and the greatest origin.
-    origin: [[f64; 3]; 2],
+/// Rays that go the same way along each axis, and start equally far from their origins.
+pub(super) struct Beam<'a> {
+    lines: &'a Lines,
+    /// The lanes of the rays, as bits.
+    rays: u64,
+    /// The least and the greatest coordinates of the points where they start.
+    origin: [[f32; 3]; 2],
     /// The least and the greatest inverse direction.
-    inverse: [[f64; 3]; 2],
+    inverse: [[f32; 3]; 2],
     backwards: [bool; 3],
-    /// By axis and ray: see [`Line`].
-    inverses: [[f64; MOST_RAYS]; 3],
-    starts: [[f64; MOST_RAYS]; 3],
 }
 
-impl Beam {
-    /// Of `lines`, if they go the same way.
+impl<'a> Beam<'a> {
+    /// Of the `rays` among `lines`, if they go the same way.
     #[inline(always)]
-    fn around(lines: &[Line]) -> Option<Self> {
-        let first = lines.first()?;
+    pub(super) fn around(lines: &'a Lines, rays: u64) -> Option<Self> {
         let mut beam = Self {
-            origin: [[first.origin[0], first.origin[1], first.origin[2]]; 2],
-            inverse: [first.inverse; 2],
-            backwards: first.backwards,
-            inverses: [[1.0; MOST_RAYS]; 3],
-            starts: [[0.0; MOST_RAYS]; 3],
+            lines,
+            rays,
+            origin: [[f32::INFINITY; 3], [f32::NEG_INFINITY; 3]],
+            inverse: [[f32::INFINITY; 3], [f32::NEG_INFINITY; 3]],
+            backwards: lines.backwards(rays.trailing_zeros() as usize),
         };
-        for (ray, line) in lines.iter().enumerate() {
-            if line.backwards != beam.backwards {
-                return None;
-            }
+        let less = |a: f32, b: f32| if a < b { a } else { b };
+        let more = |a: f32, b: f32| if a > b { a } else { b };
+        let mut left = rays;
+        while left != 0 {
+            let lane = left.trailing_zeros() as usize % MOST_RAYS;
+            left &= left - 1;
             for axis in 0..3 {
-                beam.origin[0][axis] = beam.origin[0][axis].min(line.origin[axis]);
-                beam.origin[1][axis] = beam.origin[1][axis].max(line.origin[axis]);
-                beam.inverse[0][axis] = beam.inverse[0][axis].min(line.inverse[axis]);
-                beam.inverse[1][axis] = beam.inverse[1][axis].max(line.inverse[axis]);
-                beam.inverses[axis][ray] = line.inverse[axis];
-                beam.starts[axis][ray] = line.start[axis];
+                let inverse = lines.inverse[axis][lane];
+                let ([low, high], [slow, fast]) = (&mut beam.origin, &mut beam.inverse);
+                low[axis] = less(lines.points[0][axis][lane], low[axis]);
+                high[axis] = more(lines.points[1][axis][lane], high[axis]);
+                slow[axis] = less(inverse, slow[axis]);
+                fast[axis] = more(inverse, fast[axis]);
             }
         }
-        Some(beam)
+        let [slow, fast] = &beam.inverse;
+        let same = |(slow, fast): (&f32, &f32)| *slow > 0.0 || *fast < 0.0;
+        slow.iter().zip(fast).all(same).then_some(beam)
     }
 
     /// The rays that meet box `child` of `node` within their limits, as bits.
@@ -128,55 +63,58 @@ impl Beam {
         simd: S,
         node: &Node,
         child: usize,
-        limits: &[f64; MOST_RAYS],
+        limits: &[f32; MOST_RAYS],
     ) -> u32 {
         let mut met = 0;
-        for first in (0..MOST_RAYS).step_by(S::F64_LANES) {
-            let at = first / S::F64_LANES;
-            let mut near = simd.splat_f64s(0.0);
-            let mut far = S::as_simd_f64s(limits).0[at];
+        for first in (0..MOST_RAYS).step_by(S::F32_LANES) {
+            let at = first / S::F32_LANES;
+            let mut near = simd.splat_f32s(0.0);
+            let mut far = S::as_simd_f32s(limits).0[at];
             for axis in 0..3 {
-                let inverse = S::as_simd_f64s(&self.inverses[axis]).0[at];
-                let start = S::as_simd_f64s(&self.starts[axis]).0[at];
+                let lines = self.lines;
+                let inverse = S::as_simd_f32s(&lines.inverse[axis]).0[at];
+                let enter = S::as_simd_f32s(&lines.enter[axis]).0[at];
+                let leave = S::as_simd_f32s(&lines.leave[axis]).0[at];
                 let backwards = usize::from(self.backwards[axis]);
-                let enter = simd.splat_f64s(node.boxes[backwards][axis][child]);
-                let leave = simd.splat_f64s(node.boxes[1 - backwards][axis][child]);
-                let enter = simd.mul_add_e_f64s(enter, inverse, start);
-                let leave = simd.mul_add_e_f64s(leave, inverse, start);
-                near = simd.max_f64s(near, enter);
-                far = simd.min_f64s(far, leave);
+                let first_plane = simd.splat_f32s(node.boxes[backwards][axis][child]);
+                let last_plane = simd.splat_f32s(node.boxes[1 - backwards][axis][child]);
+                near = simd.max_f32s(near, simd.mul_add_e_f32s(first_plane, inverse, enter));
+                far = simd.min_f32s(far, simd.mul_add_e_f32s(last_plane, inverse, leave));
             }
-            met |= bits(simd, simd.less_than_or_equal_f64s(near, far)) << first;
+            met |= bits_of_singles(simd, simd.less_than_or_equal_f32s(near, far)) << first;
         }
         met
     }
 }
 
 impl Bvh {
-    /// The nearest face of each of `scratch`'s lines, which make up `beam`.
+    /// The nearest faces of the rays of `beam`, by lane, where they are nearer than what was `found`.
+    /// `stack` has room for all that may wait: numbers of nodes and their children, as
+    /// `WIDE node + child`.
     #[inline(always)]
-    fn walk_together<S: pulp::Simd>(
+    pub(super) fn walk_together<S: pulp::Simd>(
         &self,
         cx: &mut Lanes<'_, S, 1>,
-        beam: &Beam,
-        scratch: &mut Scratch,
+        beam: &Beam<'_>,
+        stack: &mut [Waiting<u32>],
+        found: &mut [Found; MOST_RAYS],
     ) {
-        let Scratch {
-            beam_stack: stack,
-            lines,
-            found,
-            ..
-        } = scratch;
-        stack.clear();
+        let lines = beam.lines;
         // No ray meets anything before its origin.
         let mut limits = [-1.0; MOST_RAYS];
-        limits[..lines.len()].fill(f64::MAX);
-        let mut farthest = f64::MAX;
-        if let Some(root) = self.nodes.first() {
-            root.open_to_beam(cx.simd, beam, farthest, 0, stack);
+        let mut left = beam.rays;
+        while left != 0 {
+            let lane = left.trailing_zeros() as usize % MOST_RAYS;
+            left &= left - 1;
+            limits[lane] = lines.boxed(lane, found[lane].distance);
         }
-        while let Some((near, place)) = stack.pop() {
-            if near > farthest {
+        let farthest = |limits: &[f32; MOST_RAYS]| limits.iter().copied().fold(0.0, f32::max);
+        let mut limit = farthest(&limits);
+        let mut waiting = self.nodes[0].open_to_beam(cx.simd, beam, limit, 0, stack, 0);
+        while waiting > 0 {
+            waiting -= 1;
+            let (near, place) = stack[waiting];
+            if near > limit {
                 continue;
             }
             let node = &self.nodes[place as usize / WIDE];
@@ -184,7 +122,7 @@ impl Bvh {
             match node.children[child] {
                 Child::Node(number) => {
                     let node = &self.nodes[number as usize];
-                    node.open_to_beam(cx.simd, beam, farthest, number, stack);
+                    waiting = node.open_to_beam(cx.simd, beam, limit, number, stack, waiting);
                 }
                 Child::Packet(number, axis) => {
                     let packet = &self.packets[number as usize];
@@ -193,15 +131,14 @@ impl Bvh {
                         continue;
                     }
                     while left != 0 {
-                        let ray = left.trailing_zeros() as usize;
+                        let lane = left.trailing_zeros() as usize % MOST_RAYS;
                         left &= left - 1;
-                        let best = &mut found[ray].1;
-                        let mut search = NearestFace { best: *best };
-                        packet.show(cx, axis, &lines[ray], &mut search);
-                        *best = search.best;
-                        limits[ray] = best.distance;
+                        let mut search = NearestFace { best: found[lane] };
+                        packet.show(cx, axis, lines, lane, &mut search);
+                        found[lane] = search.best;
+                        limits[lane] = lines.boxed(lane, search.best.distance);
                     }
-                    farthest = limits.iter().copied().fold(0.0, f64::max);
+                    limit = farthest(&limits);
                 }
                 Child::Absent => {}
             }
@@ -210,52 +147,55 @@ impl Bvh {
 }
 
 impl Node {
-    /// Pushes the children that a ray of the beam may meet within `limit`, the nearest last.
-    /// `number` is the node's.
+    /// Puts the children that a ray of the beam may meet within `limit` after the first `waiting` on the
+    /// stack, the nearest last; returns how many then wait. `number` is the node's.
     #[inline(always)]
     fn open_to_beam<S: pulp::Simd>(
         &self,
         simd: S,
         beam: &Beam,
-        limit: f64,
+        limit: f32,
         number: u32,
-        stack: &mut Vec<(f64, u32)>,
-    ) {
-        let base = stack.len();
-        let mut nears = [0.0; WIDE];
+        stack: &mut [Waiting<u32>],
+        mut waiting: usize,
+    ) -> usize {
+        let base = waiting;
+        let mut nears = [0.0; MOST_LANES];
         let mut left = 0;
-        for first in (0..WIDE).step_by(S::F64_LANES) {
-            let at = first / S::F64_LANES;
-            let mut near = simd.splat_f64s(0.0);
-            let mut far = simd.splat_f64s(limit);
+        for first in (0..WIDE).step_by(S::F32_LANES) {
+            let mut near = simd.splat_f32s(0.0);
+            let mut far = simd.splat_f32s(limit);
             for axis in 0..3 {
                 let backwards = usize::from(beam.backwards[axis]);
-                let slow = simd.splat_f64s(beam.inverse[0][axis]);
-                let fast = simd.splat_f64s(beam.inverse[1][axis]);
-                let ahead = simd.splat_f64s(beam.origin[1 - backwards][axis]);
-                let behind = simd.splat_f64s(beam.origin[backwards][axis]);
-                let enter = S::as_simd_f64s(&self.boxes[backwards][axis]).0[at];
-                let leave = S::as_simd_f64s(&self.boxes[1 - backwards][axis]).0[at];
-                let enter = simd.sub_f64s(enter, ahead);
-                let leave = simd.sub_f64s(leave, behind);
-                let (a, b) = (simd.mul_f64s(enter, slow), simd.mul_f64s(enter, fast));
-                near = simd.max_f64s(near, simd.min_f64s(a, b));
-                let (a, b) = (simd.mul_f64s(leave, slow), simd.mul_f64s(leave, fast));
-                far = simd.min_f64s(far, simd.max_f64s(a, b));
+                let slow = simd.splat_f32s(beam.inverse[0][axis]);
+                let fast = simd.splat_f32s(beam.inverse[1][axis]);
+                let ahead = simd.splat_f32s(beam.origin[1 - backwards][axis]);
+                let behind = simd.splat_f32s(beam.origin[backwards][axis]);
+                let enter = columns(simd, &self.boxes[backwards][axis], first);
+                let leave = columns(simd, &self.boxes[1 - backwards][axis], first);
+                let enter = simd.sub_f32s(enter, ahead);
+                let leave = simd.sub_f32s(leave, behind);
+                let (a, b) = (simd.mul_f32s(enter, slow), simd.mul_f32s(enter, fast));
+                near = simd.max_f32s(near, simd.min_f32s(a, b));
+                let (a, b) = (simd.mul_f32s(leave, slow), simd.mul_f32s(leave, fast));
+                far = simd.min_f32s(far, simd.max_f32s(a, b));
             }
-            S::as_mut_simd_f64s(&mut nears).0[at] = near;
-            left |= bits(simd, simd.less_than_or_equal_f64s(near, far)) << first;
+            S::as_mut_simd_f32s(&mut nears).0[first / S::F32_LANES] = near;
+            left |= bits_of_singles(simd, simd.less_than_or_equal_f32s(near, far)) << first;
         }
+        left &= (1 << WIDE) - 1;
         while left != 0 {
             let lane = left.trailing_zeros() as usize % WIDE;
             left &= left - 1;
             let near = nears[lane];
-            let mut place = stack.len();
-            stack.push((near, number * WIDE as u32 + lane as u32));
+            let mut place = waiting;
             while place > base && stack[place - 1].0 < near {
-                stack.swap(place - 1, place);
+                stack[place] = stack[place - 1];
                 place -= 1;
             }
+            stack[place] = (near, number * WIDE as u32 + lane as u32);
+            waiting += 1;
         }
+        waiting
     }
 }

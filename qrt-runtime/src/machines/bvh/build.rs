@@ -3,7 +3,7 @@
 //! The faces of a leaf share a main axis, so that a packet sees a ray with its axes permuted in one
 //! way only. Of a smooth mesh's leaves most do by themselves.
 
-use super::{Child, Node, WIDE};
+use super::{Child, FACES, Node, WIDE};
 use glam::DVec3;
 use qrt_core::tracer::Geometry;
 
@@ -29,7 +29,7 @@ impl Bounds {
         high: DVec3::NEG_INFINITY,
     };
 
-    fn with(self, other: Self) -> Self {
+    pub(super) fn with(self, other: Self) -> Self {
         Self {
             low: self.low.min(other.low),
             high: self.high.max(other.high),
@@ -41,7 +41,7 @@ impl Bounds {
     }
 
     /// Half the surface area.
-    fn area(self) -> f64 {
+    pub(super) fn area(self) -> f64 {
         let e = (self.high - self.low).max(DVec3::ZERO);
         e.x * e.y + e.y * e.z + e.z * e.x
     }
@@ -49,7 +49,10 @@ impl Bounds {
 
 /// The tree, and the faces (by place in [`Geometry::faces`]) of each leaf.
 pub(super) struct Tree {
+    /// The least and the greatest corner.
+    pub(super) bounds: [[f64; 3]; 2],
     pub(super) nodes: Vec<Node>,
+    pub(super) levels: usize,
     pub(super) leaves: Vec<Vec<u32>>,
 }
 
@@ -87,15 +90,22 @@ pub(super) fn axes(geometry: &Geometry) -> Vec<u8> {
     axes
 }
 
-/// The tree over faces with these `boxes` and main `axes`.
-pub(super) fn tree(boxes: &[Bounds], axes: &[u8]) -> Tree {
+/// The tree over those of the faces with these `boxes` and main `axes` that are not `large`, whose numbers
+/// are in order.
+pub(super) fn tree(boxes: &[Bounds], axes: &[u8], large: &[u32]) -> Tree {
+    let all = 0..boxes.len() as u32;
+    let mut faces: Vec<u32> = all
+        .filter(|face| large.binary_search(face).is_err())
+        .collect();
+    let bounds = around(boxes, &faces);
     let mut tree = Tree {
         nodes: Vec::new(),
+        levels: 0,
         leaves: Vec::new(),
+        bounds: [bounds.low.to_array(), bounds.high.to_array()],
     };
-    if !boxes.is_empty() {
-        let mut faces: Vec<u32> = (0..boxes.len() as u32).collect();
-        tree.node(boxes, axes, &mut faces, 0);
+    if !faces.is_empty() {
+        tree.node(boxes, axes, &mut faces, [0, 1]);
     }
     tree
 }
@@ -103,26 +113,24 @@ pub(super) fn tree(boxes: &[Bounds], axes: &[u8]) -> Tree {
 /// Whether `faces` make one packet.
 fn fit(axes: &[u8], faces: &[u32]) -> bool {
     let axis = |face: u32| axes[face as usize];
-    faces.len() <= WIDE && faces.iter().all(|&face| axis(face) == axis(faces[0]))
+    faces.len() <= FACES && faces.iter().all(|&face| axis(face) == axis(faces[0]))
 }
 
 impl Tree {
     /// A node over `faces`, whose number it returns. `depth` is the number of binary splits
-    /// above it.
-    fn node(&mut self, boxes: &[Bounds], axes: &[u8], faces: &mut [u32], depth: usize) -> u32 {
+    /// above it, and `level` that of nodes down to it.
+    fn node(
+        &mut self,
+        boxes: &[Bounds],
+        axes: &[u8],
+        faces: &mut [u32],
+        [depth, level]: [usize; 2],
+    ) -> u32 {
         let number = self.nodes.len() as u32;
-        let empty = [
-            [f64::INFINITY; WIDE],
-            [f64::INFINITY; WIDE],
-            [f64::INFINITY; WIDE],
-        ];
-        let full = [
-            [f64::NEG_INFINITY; WIDE],
-            [f64::NEG_INFINITY; WIDE],
-            [f64::NEG_INFINITY; WIDE],
-        ];
+        self.levels = self.levels.max(level);
+        // Finite, so that no box's test has 0 times infinity.
         self.nodes.push(Node {
-            boxes: [empty, full],
+            boxes: [[[f32::MAX; WIDE]; 3], [[f32::MIN; WIDE]; 3]],
             children: [Child::Absent; WIDE],
         });
         // Split the largest part again and again until there are eight.
@@ -133,7 +141,7 @@ impl Tree {
                 .max_by(|&a, &b| cost(boxes, parts[a].0).total_cmp(&cost(boxes, parts[b].0)));
             let Some(largest) = largest else { break };
             let (part, depth) = parts.swap_remove(largest);
-            let middle = if part.len() <= WIDE {
+            let middle = if part.len() <= FACES {
                 split_by_axis(axes, part)
             } else {
                 split(boxes, part, depth)
@@ -148,20 +156,30 @@ impl Tree {
                 self.leaves.push(part.to_vec());
                 Child::Packet(self.leaves.len() as u32 - 1, axes[part[0] as usize])
             } else {
-                Child::Node(self.node(boxes, axes, part, depth))
+                Child::Node(self.node(boxes, axes, part, [depth, level + 1]))
             };
             let node = &mut self.nodes[number as usize];
             node.children[place] = child;
             for axis in 0..3 {
-                node.boxes[0][axis][place] = bounds.low[axis];
-                node.boxes[1][axis][place] = bounds.high[axis];
+                node.boxes[0][axis][place] = below(bounds.low[axis]);
+                node.boxes[1][axis][place] = -below(-bounds.high[axis]);
             }
         }
         number
     }
 }
 
-fn around(boxes: &[Bounds], faces: &[u32]) -> Bounds {
+/// A number of single precision that is not above this one.
+fn below(number: f64) -> f32 {
+    let single = number as f32;
+    if f64::from(single) > number {
+        single.next_down()
+    } else {
+        single
+    }
+}
+
+pub(super) fn around(boxes: &[Bounds], faces: &[u32]) -> Bounds {
     faces.iter().fold(Bounds::EMPTY, |bounds, &face| {
         bounds.with(boxes[face as usize])
     })
@@ -220,7 +238,7 @@ fn bin_of(centre: f64, centres: Bounds, axis: usize) -> usize {
 
 /// The axis and last bin of the left side whose cut costs least.
 fn best_plane(boxes: &[Bounds], faces: &[u32], centres: Bounds) -> Option<(usize, usize)> {
-    let packets = |count: usize| count.div_ceil(WIDE) as f64;
+    let packets = |count: usize| count.div_ceil(FACES) as f64;
     let mut best: Option<(f64, usize, usize)> = None;
     for axis in 0..3 {
         if centres.high[axis] <= centres.low[axis] {

@@ -1,27 +1,28 @@
-//! Eight faces, tried at once.
+//! A few faces, tried at once.
 
-use super::WIDE;
-use super::walk::{Line, Search};
-use crate::machines::lanes::Lanes;
-use pulp::bytemuck;
+use super::FACES;
+use super::approach::{Lines, MOST_RAYS};
+use super::walk::Search;
+use crate::machines::lanes::{Lanes, lanes};
+use crate::machines::masks::bits;
 use qrt_core::tracer::{Arith, AxisPermuted, Geometry, cross, weighted};
 
 /// Edges of a face, at most.
 const EDGES: usize = 4;
 
-/// Eight faces with one main axis: constants side by side, in the order in which they are read. An
+/// Faces with one main axis: constants side by side, in the order in which they are read. An
 /// absent face has a plane that no ray crosses.
 #[derive(Clone, Debug)]
 #[repr(C, align(64))]
 pub(super) struct Packet {
     /// The plane's form and offset.
-    form: [[f64; WIDE]; 2],
-    offset: [f64; WIDE],
-    plane: [u64; WIDE],
+    form: [[f64; FACES]; 2],
+    offset: [f64; FACES],
+    plane: [u64; FACES],
     /// Per edge, `a x + b y >= low`.
-    edges: [[[f64; WIDE]; 3]; EDGES],
+    edges: [[[f64; FACES]; 3]; EDGES],
     /// The faces' places in [`Geometry::faces`].
-    rank: [u32; WIDE],
+    rank: [u32; FACES],
     /// Edges of the face that has most.
     most_edges: u32,
 }
@@ -36,17 +37,17 @@ pub(super) fn planes_of_faces(geometry: &Geometry) -> Vec<u32> {
 }
 
 impl Packet {
-    /// The faces `ranks`, at most eight, which share a main axis.
+    /// The faces `ranks`, at most [`FACES`], which share a main axis.
     pub(super) fn new(geometry: &Geometry, planes: &[u32], ranks: &[u32]) -> Self {
-        let everywhere = [[0.0; WIDE], [0.0; WIDE], [f64::NEG_INFINITY; WIDE]];
+        let everywhere = [[0.0; FACES], [0.0; FACES], [f64::NEG_INFINITY; FACES]];
         let mut packet = Self {
             // A face whose cos_theta is NaN is never ahead.
-            form: [[f64::NAN; WIDE]; 2],
-            offset: [0.0; WIDE],
+            form: [[f64::NAN; FACES]; 2],
+            offset: [0.0; FACES],
             edges: [everywhere; EDGES],
             most_edges: 0,
-            plane: [u64::MAX; WIDE],
-            rank: [u32::MAX; WIDE],
+            plane: [u64::MAX; FACES],
+            rank: [u32::MAX; FACES],
         };
         for (lane, &rank) in ranks.iter().enumerate() {
             let number = planes[rank as usize];
@@ -73,23 +74,24 @@ impl Packet {
         packet
     }
 
-    /// Shows `search` the faces that the ray meets within its limit, until it has seen enough;
-    /// tells whether it has. `axis` is the faces' main axis.
+    /// Shows `search` the faces that the ray in `lane` meets within its limit, until it has seen
+    /// enough; tells whether it has. `axis` is the faces' main axis.
     #[inline(always)]
     pub(super) fn show<S: pulp::Simd>(
         &self,
         cx: &mut Lanes<'_, S, 1>,
         axis: u8,
-        line: &Line,
+        lines: &Lines,
+        lane: usize,
         search: &mut impl Search,
     ) -> bool {
-        for first in (0..WIDE).step_by(S::F64_LANES) {
-            let (hit, distances) = self.distances(cx, axis, line, search.limit(), first);
-            let mut left = bits(cx.simd, hit);
+        for first in (0..FACES).step_by(S::F64_LANES) {
+            let (hit, distances) = self.distances(cx, axis, (lines, lane), search.limit(), first);
+            let mut left = bits(cx.simd, hit) & ((1 << FACES) - 1);
             while left != 0 {
                 let lane = left.trailing_zeros() as usize;
                 left &= left - 1;
-                if search.meet(self.rank[first + lane], unpack(&distances)[lane]) {
+                if search.meet(self.rank[first + lane], lanes::<_, f64>(&distances)[lane]) {
                     return true;
                 }
             }
@@ -97,26 +99,41 @@ impl Packet {
         false
     }
 
-    /// Which faces the ray meets within `limit`, beginning at face `first`, and their distances.
+    /// Which faces the ray of this lane meets within `limit`, beginning at face `first`, and their
+    /// distances.
     #[inline(always)]
     fn distances<S: pulp::Simd>(
         &self,
         cx: &mut Lanes<'_, S, 1>,
         axis: u8,
-        line: &Line,
+        (lines, lane): (&Lines, usize),
         limit: f64,
         first: usize,
-    ) -> (S::m64s, S::f64s) {
-        let at = first / S::F64_LANES;
-        let real = |column: &[f64; WIDE]| [S::as_simd_f64s(column).0[at]];
-        let index = |column: &[u64; WIDE]| [S::as_simd_u64s(column).0[at]];
+    ) -> (S::m64s, [S::f64s; 1]) {
+        let simd = cx.simd;
+        // Where a register has more lanes than there are faces, those beyond are of no meaning.
+        let real = |column: &[f64; FACES]| {
+            if S::F64_LANES > FACES {
+                [simd.partial_load_f64s(column)]
+            } else {
+                [S::as_simd_f64s(column).0[first / S::F64_LANES]]
+            }
+        };
+        let index = |column: &[u64; FACES]| {
+            if S::F64_LANES > FACES {
+                [simd.partial_load_u64s(column)]
+            } else {
+                [S::as_simd_u64s(column).0[first / S::F64_LANES]]
+            }
+        };
         let axis = usize::from(axis) % 3;
-        let (o, d) = (&line.origin, &line.direction);
+        let lane = lane % MOST_RAYS;
+        let (o, d) = (&lines.origin, &lines.direction);
         let ray = AxisPermuted::<Lanes<'_, S, 1>> {
-            origin: cx.real(o[axis]),
-            direction: cx.real(d[axis]),
-            origin_across: [cx.real(o[axis + 1]), cx.real(o[axis + 2])],
-            direction_across: [cx.real(d[axis + 1]), cx.real(d[axis + 2])],
+            origin: cx.real(o[axis][lane]),
+            direction: cx.real(d[axis][lane]),
+            origin_across: [cx.real(o[axis + 1][lane]), cx.real(o[axis + 2][lane])],
+            direction_across: [cx.real(d[axis + 1][lane]), cx.real(d[axis + 2][lane])],
             reach: f64::INFINITY,
         };
         let form = [real(&self.form[0]), real(&self.form[1])];
@@ -124,42 +141,19 @@ impl Packet {
         let limit = cx.real(limit);
         let near = cx.less_equal(crossing.distance, limit);
         let mut hit = cx.and(crossing.ahead, near);
-        if !cx.any(hit) {
-            return (hit[0], crossing.distance[0]);
-        }
         let left = [cx
             .simd
-            .equal_u64s(index(&self.plane)[0], cx.simd.splat_u64s(line.from))];
+            .equal_u64s(index(&self.plane)[0], cx.simd.splat_u64s(lines.from[lane]))];
         let other = cx.not(left);
         hit = cx.and(hit, other);
-        for edge in &self.edges[..self.most_edges as usize] {
+        // Triangles are by far the most frequent, and a branch costs more than an edge.
+        let count = if self.most_edges > 3 { EDGES } else { 3 };
+        for edge in &self.edges[..count] {
             let form = [real(&edge[0]), real(&edge[1])];
             let value = weighted(cx, form, crossing.point);
             let inside = cx.less_equal(real(&edge[2]), value);
             hit = cx.and(hit, inside);
         }
-        (hit[0], crossing.distance[0])
+        (hit[0], crossing.distance)
     }
-}
-
-/// The lanes of a register as a slice.
-#[inline(always)]
-fn unpack<T: bytemuck::Pod>(register: &T) -> &[f64] {
-    bytemuck::cast_slice(std::slice::from_ref(register))
-}
-
-/// The lanes in which `mask` holds, as bits.
-#[inline(always)]
-pub(super) fn bits<S: pulp::Simd>(simd: S, mask: S::m64s) -> u32 {
-    if size_of::<S::m64s>() == 1 {
-        // A mask register, or the truth value of a single lane.
-        return u32::from(bytemuck::bytes_of(&mask)[0]);
-    }
-    let flags = simd.select_u64s(mask, simd.splat_u64s(1), simd.splat_u64s(0));
-    let flags: &[u64] = bytemuck::cast_slice(std::slice::from_ref(&flags));
-    let mut bits = 0;
-    for (lane, &flag) in flags.iter().enumerate() {
-        bits |= (flag as u32) << lane;
-    }
-    bits
 }

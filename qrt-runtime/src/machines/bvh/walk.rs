@@ -1,67 +1,24 @@
 //! One ray through the tree.
 
-use super::packet::bits;
+use super::approach::Lines;
 use super::{Bvh, Child, Node, WIDE};
 use crate::machines::lanes::Lanes;
-
-/// A ray with what the boxes' tests need of it, computed once.
-#[derive(Clone, Copy)]
-pub(super) struct Line {
-    /// Along x, y, z, x, y, so that those from any axis on are neighbours.
-    pub(super) origin: [f64; 5],
-    pub(super) direction: [f64; 5],
-    /// Of each component of the direction.
-    pub(super) inverse: [f64; 3],
-    /// A box's plane is at the distance `plane inverse + start`.
-    pub(super) start: [f64; 3],
-    /// By axis: whether the direction is negative.
-    pub(super) backwards: [bool; 3],
-    pub(super) from: u64,
-}
+use crate::machines::masks::bits_of_singles;
 
 /// A face that the ray meets: its place in the geometry's faces.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Found {
     pub(super) distance: f64,
     pub(super) rank: u32,
 }
 
-impl Found {
-    pub(super) const NONE: Self = Self {
-        distance: f64::MAX,
-        rank: u32::MAX,
-    };
-}
-
-impl Line {
-    #[inline(always)]
-    pub(super) fn new([x, y, z]: [f64; 3], direction: [f64; 3], from: u64) -> Self {
-        let [dx, dy, dz] = direction;
-        // A finite inverse keeps 0 * inf out of the boxes' tests.
-        let inverse = |d: f64| {
-            1.0 / if d.abs() < 1e-100 {
-                1e-100_f64.copysign(d)
-            } else {
-                d
-            }
-        };
-        let inverse = [inverse(dx), inverse(dy), inverse(dz)];
-        Self {
-            origin: [x, y, z, x, y],
-            direction: [dx, dy, dz, dx, dy],
-            inverse,
-            start: [-x * inverse[0], -y * inverse[1], -z * inverse[2]],
-            backwards: direction.map(f64::is_sign_negative),
-            from,
-        }
-    }
-}
-
-/// Children still to visit with the distances of their boxes, nearest last.
-pub(super) type Stack = Vec<(f64, Child)>;
+/// Something still to visit, and the distance at which boxes say it begins.
+pub(super) type Waiting<T> = (f32, T);
 
 /// What a walk looks for. (A trait and not a closure: see [`crate::machines::lanes`].)
 pub(super) trait Search {
+    /// Whether nearer faces matter more.
+    const IN_ORDER: bool;
     /// Nothing beyond this distance matters.
     fn limit(&self) -> f64;
     /// The ray meets face `rank` at `distance`: whether the search has seen enough.
@@ -73,13 +30,8 @@ pub(super) struct NearestFace {
     pub(super) best: Found,
 }
 
-impl Default for NearestFace {
-    fn default() -> Self {
-        Self { best: Found::NONE }
-    }
-}
-
 impl Search for NearestFace {
+    const IN_ORDER: bool = true;
     #[inline(always)]
     fn limit(&self) -> f64 {
         self.best.distance
@@ -94,13 +46,14 @@ impl Search for NearestFace {
     }
 }
 
-/// Any face that hides an emitter.
-struct Hides<'a> {
-    bvh: &'a Bvh,
-    distance: f64,
+/// Any face that hides an emitter at this distance from whoever looks along the ray.
+pub(super) struct Hides<'a> {
+    pub(super) bvh: &'a Bvh,
+    pub(super) distance: f64,
 }
 
 impl Search for Hides<'_> {
+    const IN_ORDER: bool = false;
     #[inline(always)]
     fn limit(&self) -> f64 {
         self.distance
@@ -114,16 +67,21 @@ impl Search for Hides<'_> {
 }
 
 /// Any face before the end of a ray on an emitting face, one length of its direction away.
-struct Blocks<'a> {
-    bvh: &'a Bvh,
-    lamp: u32,
+pub(super) struct Blocks<'a> {
+    pub(super) bvh: &'a Bvh,
+    pub(super) lamp: u32,
+}
+
+impl Blocks<'_> {
+    /// Faces in the emitter's plane are met at its end, up to rounding.
+    pub(super) const LIMIT: f64 = 1.0 + 1e-6;
 }
 
 impl Search for Blocks<'_> {
+    const IN_ORDER: bool = false;
     #[inline(always)]
     fn limit(&self) -> f64 {
-        // Faces in the emitter's plane are met at its end, up to rounding.
-        1.0 + 1e-6
+        Self::LIMIT
     }
     #[inline(always)]
     fn meet(&mut self, rank: u32, distance: f64) -> bool {
@@ -136,120 +94,81 @@ impl Search for Blocks<'_> {
     }
 }
 
-/// A walk of one ray, to be run as a function of its own: it has the registers to itself, and is
-/// compiled apart from the tracer.
-struct Walk<'a, S, T> {
-    bvh: &'a Bvh,
-    cx: Lanes<'a, S, 1>,
-    line: &'a Line,
-    stack: &'a mut Stack,
-    search: &'a mut T,
-    enough: &'a mut bool,
-}
-
-#[inline(never)]
-fn apart<S: pulp::Simd, T: Search>(walk: Walk<'_, S, T>) {
-    walk.cx.simd.vectorize(walk);
-}
-
-impl<S: pulp::Simd, T: Search> pulp::WithSimd for Walk<'_, S, T> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<U: pulp::Simd>(mut self, _: U) {
-        *self.enough = self
-            .bvh
-            .walk(&mut self.cx, self.line, self.stack, self.search);
-    }
-}
-
 impl Bvh {
-    /// Whether a face that emits nothing hides an emitter at `distance`.
-    #[inline(always)]
-    pub(super) fn hides<S: pulp::Simd>(
-        &self,
-        cx: Lanes<'_, S, 1>,
-        line: &Line,
-        stack: &mut Stack,
-        distance: f64,
-    ) -> bool {
-        let bvh = self;
-        self.finds(cx, line, stack, &mut Hides { bvh, distance })
+    /// What waits on a walk's stack, at most.
+    pub(super) fn most_waiting(&self) -> usize {
+        // All children of a node on each level.
+        WIDE * self.levels
     }
 
-    /// Whether a face stands between the start of the ray and its end on emitting face `lamp`.
-    #[inline(always)]
-    pub(super) fn blocks<S: pulp::Simd>(
-        &self,
-        cx: Lanes<'_, S, 1>,
-        line: &Line,
-        stack: &mut Stack,
-        lamp: u32,
-    ) -> bool {
-        let bvh = self;
-        self.finds(cx, line, stack, &mut Blocks { bvh, lamp })
-    }
-
-    /// Whether `search` sees enough.
-    #[inline(always)]
-    fn finds<S: pulp::Simd>(
-        &self,
-        cx: Lanes<'_, S, 1>,
-        line: &Line,
-        stack: &mut Stack,
-        search: &mut impl Search,
-    ) -> bool {
-        let mut enough = false;
-        apart(Walk {
-            bvh: self,
-            cx,
-            line,
-            stack,
-            search,
-            enough: &mut enough,
-        });
-        enough
-    }
-
-    /// Shows `search` the faces that the ray meets within its limit, until it has seen enough;
-    /// tells whether it has.
+    /// Shows `search` the faces of the tree that the ray in `lane` meets within its limit, until it has
+    /// seen enough; tells whether it has. `stack` has room for all that may wait.
     #[inline(always)]
     pub(super) fn walk<S: pulp::Simd, T: Search>(
         &self,
         cx: &mut Lanes<'_, S, 1>,
-        line: &Line,
-        stack: &mut Stack,
+        lines: &Lines,
+        lane: usize,
+        stack: &mut [Waiting<Child>],
         search: &mut T,
     ) -> bool {
-        stack.clear();
-        let mut next = if self.nodes.is_empty() {
-            Child::Absent
-        } else {
-            Child::Node(0)
-        };
+        let backwards = lines.backwards(lane);
+        let mut limit = lines.boxed(lane, search.limit());
+        let mut waiting = 0;
+        let mut next = Child::Node(0);
         loop {
             match next {
                 Child::Node(number) => {
                     let node = &self.nodes[number as usize];
-                    next = node.open(cx, line, search.limit(), stack);
-                    if next != Child::Absent {
+                    let (nears, mut left) = node.open(cx.simd, lines, lane, backwards, limit);
+                    if left != 0 {
+                        let place = left.trailing_zeros() as usize % WIDE;
+                        left &= left - 1;
+                        next = node.children[place];
+                        // One child, by far the most frequent, takes no detour over the stack.
+                        if left != 0 {
+                            let base = waiting;
+                            let mut nearest = nears[place];
+                            while left != 0 {
+                                let place = left.trailing_zeros() as usize % WIDE;
+                                left &= left - 1;
+                                let mut other = (nears[place], node.children[place]);
+                                if T::IN_ORDER && other.0 < nearest {
+                                    std::mem::swap(&mut other.0, &mut nearest);
+                                    std::mem::swap(&mut other.1, &mut next);
+                                }
+                                // Insertion keeps the farthest first; there are few.
+                                let mut place = waiting;
+                                while T::IN_ORDER && place > base && stack[place - 1].0 < other.0 {
+                                    stack[place] = stack[place - 1];
+                                    place -= 1;
+                                }
+                                stack[place] = other;
+                                waiting += 1;
+                            }
+                        }
                         continue;
                     }
                 }
                 Child::Packet(number, axis) => {
                     let packet = &self.packets[number as usize];
-                    if packet.show(cx, axis, line, search) {
+                    if packet.show(cx, axis, lines, lane, search) {
                         return true;
+                    }
+                    if T::IN_ORDER {
+                        limit = lines.boxed(lane, search.limit());
                     }
                 }
                 Child::Absent => {}
             }
             // The nearest child on the stack that is not beyond what was found since.
             loop {
-                let Some((near, child)) = stack.pop() else {
+                if waiting == 0 {
                     return false;
-                };
-                if near <= search.limit() {
+                }
+                waiting -= 1;
+                let (near, child) = stack[waiting];
+                if near <= limit {
                     next = child;
                     break;
                 }
@@ -258,62 +177,51 @@ impl Bvh {
     }
 }
 
+/// Lanes of single precision, at most.
+pub(super) const MOST_LANES: usize = 16;
+
+/// A register of the columns from `first` on; where it has more lanes than there are columns, those
+/// beyond are of no meaning.
+#[inline(always)]
+pub(super) fn columns<S: pulp::Simd>(simd: S, columns: &[f32; WIDE], first: usize) -> S::f32s {
+    if S::F32_LANES > WIDE {
+        simd.partial_load_f32s(columns)
+    } else {
+        S::as_simd_f32s(columns).0[first / S::F32_LANES]
+    }
+}
+
 impl Node {
-    /// Pushes the children that the ray meets within `limit`, but for the nearest, which it
-    /// returns.
+    /// The children that the ray in `lane` meets within `limit`, as bits, and the distances of all.
     #[inline(always)]
     fn open<S: pulp::Simd>(
         &self,
-        cx: &mut Lanes<'_, S, 1>,
-        line: &Line,
-        limit: f64,
-        stack: &mut Stack,
-    ) -> Child {
-        let simd = cx.simd;
-        let mut nears = [0.0; WIDE];
-        let mut left = 0;
-        for first in (0..WIDE).step_by(S::F64_LANES) {
-            let at = first / S::F64_LANES;
-            let mut near = simd.splat_f64s(0.0);
-            let mut far = simd.splat_f64s(limit);
+        simd: S,
+        lines: &Lines,
+        lane: usize,
+        backwards: [bool; 3],
+        limit: f32,
+    ) -> ([f32; MOST_LANES], u32) {
+        let lane = lane % super::approach::MOST_RAYS;
+        let mut nears = [0.0; MOST_LANES];
+        let mut met = 0;
+        for first in (0..WIDE).step_by(S::F32_LANES) {
+            let mut near = simd.splat_f32s(0.0);
+            let mut far = simd.splat_f32s(limit);
             for axis in 0..3 {
-                let inverse = simd.splat_f64s(line.inverse[axis]);
-                let start = simd.splat_f64s(line.start[axis]);
-                let backwards = usize::from(line.backwards[axis]);
-                let enter = S::as_simd_f64s(&self.boxes[backwards][axis]).0[at];
-                let leave = S::as_simd_f64s(&self.boxes[1 - backwards][axis]).0[at];
-                // Fused or not: the boxes' margins are far above either's rounding.
-                let enter = simd.mul_add_e_f64s(enter, inverse, start);
-                let leave = simd.mul_add_e_f64s(leave, inverse, start);
-                near = simd.max_f64s(near, enter);
-                far = simd.min_f64s(far, leave);
+                let inverse = simd.splat_f32s(lines.inverse[axis][lane]);
+                let enter = simd.splat_f32s(lines.enter[axis][lane]);
+                let leave = simd.splat_f32s(lines.leave[axis][lane]);
+                let backwards = usize::from(backwards[axis]);
+                let first_plane = columns(simd, &self.boxes[backwards][axis], first);
+                let last_plane = columns(simd, &self.boxes[1 - backwards][axis], first);
+                // Fused or not: what may be added up is far above either's rounding.
+                near = simd.max_f32s(near, simd.mul_add_e_f32s(first_plane, inverse, enter));
+                far = simd.min_f32s(far, simd.mul_add_e_f32s(last_plane, inverse, leave));
             }
-            S::as_mut_simd_f64s(&mut nears).0[at] = near;
-            left |= bits(simd, simd.less_than_or_equal_f64s(near, far)) << first;
+            S::as_mut_simd_f32s(&mut nears).0[first / S::F32_LANES] = near;
+            met |= bits_of_singles(simd, simd.less_than_or_equal_f32s(near, far)) << first;
         }
-        if left == 0 {
-            return Child::Absent;
-        }
-        // One child, by far the most frequent, takes no detour over the stack.
-        let lane = left.trailing_zeros() as usize % WIDE;
-        left &= left - 1;
-        let mut nearest = (nears[lane], self.children[lane]);
-        let base = stack.len();
-        while left != 0 {
-            let lane = left.trailing_zeros() as usize % WIDE;
-            left &= left - 1;
-            let mut other = (nears[lane], self.children[lane]);
-            if other.0 < nearest.0 {
-                std::mem::swap(&mut other, &mut nearest);
-            }
-            // Insertion keeps the farthest first; there are few.
-            let mut place = stack.len();
-            stack.push(other);
-            while place > base && stack[place - 1].0 < other.0 {
-                stack.swap(place - 1, place);
-                place -= 1;
-            }
-        }
-        nearest.1
+        (nears, met & ((1 << WIDE) - 1))
     }
 }

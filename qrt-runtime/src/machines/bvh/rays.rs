@@ -1,0 +1,242 @@
+//! The rays of all lanes at once: those that come near the tree walk it, one after the other or
+//! together.
+
+use super::approach::{Approach, Lines, MOST_RAYS};
+use super::beam::{Beam, FEW_RAYS};
+use super::large::LargeFace;
+use super::walk::{Blocks, Found, Hides, NearestFace, Waiting};
+use super::{Bvh, Child};
+use crate::machines::lanes::{Lanes, lanes, slots};
+use crate::machines::masks;
+use qrt_core::tracer::{Arith, NO_PLANE, Ray, Work};
+
+/// What walks keep from one to the next: memory.
+#[derive(Debug)]
+pub(super) struct Scratch {
+    lines: Lines,
+    stack: Vec<Waiting<Child>>,
+    beam_stack: Vec<Waiting<u32>>,
+}
+
+impl Scratch {
+    /// With stacks that are deep enough for the walks through a tree.
+    pub(super) fn new(bvh: &Bvh) -> Self {
+        let most = bvh.most_waiting();
+        Self {
+            lines: Lines::default(),
+            stack: vec![(0.0, Child::Absent); most],
+            beam_stack: vec![(0.0, 0); most],
+        }
+    }
+}
+
+/// The lanes in which `mask` holds, as bits.
+#[inline(always)]
+fn bits<S: pulp::Simd, const W: usize>(simd: S, mask: [S::m64s; W]) -> u64 {
+    let mut all = 0;
+    for (register, &mask) in mask.iter().enumerate() {
+        all |= u64::from(masks::bits(simd, mask)) << (register * S::F64_LANES);
+    }
+    all
+}
+
+/// Finds the nearest face of each ray: its distance and its place in the geometry's faces, or their number.
+pub(super) struct FindNearest<'a, 'i, S: pulp::Simd, const W: usize> {
+    pub(super) bvh: &'a Bvh,
+    pub(super) ray: Ray<Lanes<'i, S, W>>,
+    pub(super) wanted: [S::m64s; W],
+    pub(super) scratch: &'a mut Scratch,
+}
+
+impl<'i, S: pulp::Simd, const W: usize> Work<Lanes<'i, S, W>> for FindNearest<'_, 'i, S, W> {
+    type Output = ([S::f64s; W], [S::u64s; W]);
+
+    #[inline(always)]
+    fn run(self, cx: &mut Lanes<'i, S, W>) -> Self::Output {
+        let Self {
+            bvh, ray, scratch, ..
+        } = self;
+        let mut distance = cx.real(f64::MAX);
+        let mut rank = cx.index(bvh.labels.len() as u32 - 1);
+        for large in &bvh.large {
+            let (meets, at) = large.meet(cx, &ray);
+            let nearer = cx.less(at, distance);
+            let nearer = cx.and(meets, nearer);
+            let this = cx.index(large.rank);
+            distance = cx.select(nearer, at, distance);
+            rank = cx.select_index(nearer, this, rank);
+        }
+        if bvh.nodes.is_empty() {
+            return (distance, rank);
+        }
+        let approach = Approach::new(cx, &bvh.bounds, &ray, distance, self.wanted);
+        let near = bits(cx.simd, approach.meets);
+        if near == 0 {
+            return (distance, rank);
+        }
+        let lines = &mut scratch.lines;
+        let mut single = cx.narrow();
+        let from_camera = lanes::<_, u64>(&ray.from)[near.trailing_zeros() as usize];
+        if from_camera == u64::from(NO_PLANE) && near.count_ones() as usize >= FEW_RAYS {
+            let mut start = f64::INFINITY;
+            for (lane, &near_to) in lanes::<_, f64>(&approach.near).iter().enumerate() {
+                if near >> lane & 1 != 0 {
+                    start = start.min(near_to);
+                }
+            }
+            let start = cx.real(start);
+            approach.make_ready(cx, &ray, start, bvh.greatest, lines);
+            if let Some(beam) = Beam::around(lines, near) {
+                let mut found = [Found {
+                    distance: 0.0,
+                    rank: 0,
+                }; MOST_RAYS];
+                let known = lanes::<_, f64>(&distance)
+                    .iter()
+                    .zip(lanes::<_, u64>(&rank));
+                for (found, (&distance, &rank)) in found.iter_mut().zip(known) {
+                    let rank = rank as u32;
+                    *found = Found { distance, rank };
+                }
+                bvh.walk_together(&mut single, &beam, &mut scratch.beam_stack, &mut found);
+                for (slot, found) in slots::<_, f64>(&mut distance).iter_mut().zip(&found) {
+                    *slot = found.distance;
+                }
+                for (slot, found) in slots::<_, u64>(&mut rank).iter_mut().zip(&found) {
+                    *slot = u64::from(found.rank);
+                }
+                return (distance, rank);
+            }
+        }
+        approach.make_ready(cx, &ray, approach.near, bvh.greatest, lines);
+        let mut left = near;
+        while left != 0 {
+            let lane = left.trailing_zeros() as usize;
+            left &= left - 1;
+            let mut search = NearestFace {
+                best: Found {
+                    distance: lanes::<_, f64>(&distance)[lane],
+                    rank: lanes::<_, u64>(&rank)[lane] as u32,
+                },
+            };
+            bvh.walk(&mut single, lines, lane, &mut scratch.stack, &mut search);
+            slots::<_, f64>(&mut distance)[lane] = search.best.distance;
+            slots::<_, u64>(&mut rank)[lane] = u64::from(search.best.rank);
+        }
+        (distance, rank)
+    }
+}
+
+/// Where rays end, and what hides that.
+pub(super) enum Ends<S: pulp::Simd, const W: usize> {
+    /// On an emitter at this distance: hidden by what does not emit.
+    Emitter([S::f64s; W]),
+    /// On this emitting face, one length of the direction away: hidden by whatever stands before.
+    Lamp([S::u64s; W]),
+}
+
+impl<S: pulp::Simd, const W: usize> Ends<S, W> {
+    /// Whether `large` stands before the ends; none if it never does.
+    #[inline(always)]
+    fn hidden_by<'i>(
+        &self,
+        cx: &mut Lanes<'i, S, W>,
+        bvh: &Bvh,
+        large: &LargeFace,
+        ray: &Ray<Lanes<'i, S, W>>,
+    ) -> Option<[S::m64s; W]> {
+        let rank = large.rank as usize;
+        match *self {
+            Self::Emitter(_) if bvh.emits[rank] => None,
+            Self::Emitter(distance) => {
+                let (meets, at) = large.meet(cx, ray);
+                let before = if bvh.hides_emitter[rank] {
+                    cx.less_equal(at, distance)
+                } else {
+                    cx.less(at, distance)
+                };
+                Some(cx.and(meets, before))
+            }
+            Self::Lamp(_) if !large.blocks => None,
+            Self::Lamp(lamp) => {
+                let (meets, at) = large.meet(cx, ray);
+                let (here, covered) = &bvh.emitters[rank];
+                let end = cx.real(1.0);
+                let mut hides = cx.less(at, end);
+                if !here.is_empty() {
+                    let (earlier, later) = (cx.below(lamp, here.start), cx.below(lamp, here.end));
+                    let uncovered = cx.below(lamp, *covered);
+                    let (from, covers) = (cx.not(earlier), cx.not(uncovered));
+                    let ends_here = cx.and(from, later);
+                    let elsewhere = cx.not(ends_here);
+                    let (before, over) = (cx.and(elsewhere, hides), cx.and(ends_here, covers));
+                    hides = cx.or(before, over);
+                }
+                Some(cx.and(meets, hides))
+            }
+        }
+    }
+}
+
+/// Finds whether a face stands before the end of each ray.
+pub(super) struct FindOccluded<'a, 'i, S: pulp::Simd, const W: usize> {
+    pub(super) bvh: &'a Bvh,
+    pub(super) ray: Ray<Lanes<'i, S, W>>,
+    pub(super) ends: Ends<S, W>,
+    pub(super) wanted: [S::m64s; W],
+    pub(super) scratch: &'a mut Scratch,
+}
+
+impl<'i, S: pulp::Simd, const W: usize> Work<Lanes<'i, S, W>> for FindOccluded<'_, 'i, S, W> {
+    type Output = [S::m64s; W];
+
+    #[inline(always)]
+    fn run(self, cx: &mut Lanes<'i, S, W>) -> Self::Output {
+        let Self {
+            bvh, ray, scratch, ..
+        } = self;
+        let mut hidden = cx.truth(false);
+        for large in &bvh.large {
+            if let Some(hides) = self.ends.hidden_by(cx, bvh, large, &ray) {
+                hidden = cx.or(hidden, hides);
+            }
+        }
+        if bvh.nodes.is_empty() {
+            return hidden;
+        }
+        let shown = cx.not(hidden);
+        let open = cx.and(self.wanted, shown);
+        let limit = match self.ends {
+            Ends::Emitter(distance) => distance,
+            Ends::Lamp(_) => cx.real(Blocks::LIMIT),
+        };
+        let approach = Approach::new(cx, &bvh.bounds, &ray, limit, open);
+        let mut left = bits(cx.simd, approach.meets);
+        if left == 0 {
+            return hidden;
+        }
+        let (lines, stack) = (&mut scratch.lines, &mut scratch.stack);
+        approach.make_ready(cx, &ray, approach.near, bvh.greatest, lines);
+        let mut single = cx.narrow();
+        let mut found = cx.index(0);
+        while left != 0 {
+            let lane = left.trailing_zeros() as usize;
+            left &= left - 1;
+            let met = match &self.ends {
+                Ends::Emitter(distance) => {
+                    let distance = lanes::<_, f64>(distance)[lane];
+                    let mut search = Hides { bvh, distance };
+                    bvh.walk(&mut single, lines, lane, stack, &mut search)
+                }
+                Ends::Lamp(lamp) => {
+                    let lamp = lanes::<_, u64>(lamp)[lane] as u32;
+                    let mut search = Blocks { bvh, lamp };
+                    bvh.walk(&mut single, lines, lane, stack, &mut search)
+                }
+            };
+            slots::<_, u64>(&mut found)[lane] = u64::from(met);
+        }
+        let found = cx.is(found, 1);
+        cx.or(hidden, found)
+    }
+}
