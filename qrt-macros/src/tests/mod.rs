@@ -4,6 +4,7 @@
 
 pub(crate) mod checks;
 mod grammar;
+mod tokens;
 mod twins;
 mod writer;
 
