@@ -52,7 +52,8 @@ pub(crate) fn tell_of_paths(
     };
     let seconds = models.iter().map(|model| cost.seconds(*model));
     let seconds = paths * seconds.sum::<f64>() / threads as f64;
-    let what = format!("{pixels} pixels of 2^{bits} paths each");
+    let plural = if pixels == 1.0 { "" } else { "s" };
+    let what = format!("{pixels} pixel{plural} of 2^{bits} paths each");
     let less = "lower `sampling.path_bits` takes less, such as `--set sampling.path_bits=12`";
     tell(&what, seconds, less);
 }

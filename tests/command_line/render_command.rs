@@ -605,25 +605,20 @@ fn what_takes_long_is_told_beforehand() {
 
     let folder = folder();
     let many = ["--set", "sampling.path_bits=40"];
-    for (command, times) in [
-        (&["render", "box.yaml"][..], "days"),
-        (&["render", "box.yaml", "--model", "gates"], "years"),
-        (&["verify", "box.yaml", "--pixels", "1"], ""),
-        (&["trade", "box.yaml", "--quick", "-o", "out"], ""),
+    for command in [
+        &["render", "box.yaml"][..],
+        &["render", "box.yaml", "--model", "gates"],
+        &["verify", "box.yaml", "--pixels", "1"],
+        &["trade", "box.yaml", "--quick", "-o", "out"],
     ] {
         let mut child = folder.started(&[command, &many].concat());
         let mut lines = BufReader::new(child.stderr.take().unwrap()).lines();
         let told = lines.next().unwrap().unwrap();
         child.kill().unwrap();
         child.wait().unwrap();
-        assert!(
-            told.starts_with("note: ") && told.contains("pixels of 2^40 paths each take about "),
-            "{told}"
-        );
-        assert!(
-            told.contains(times) && told.contains("`sampling.path_bits`"),
-            "{told}"
-        );
+        let words = [" of 2^40 paths each take about ", "`sampling.path_bits`"];
+        assert!(words.iter().all(|words| told.contains(words)), "{told}");
+        let _ = fs::remove_file(folder.path("box.png.qrt-partial"));
     }
     let output = folder.qrt(&["render", "box.yaml"]);
     assert!(output.stderr.is_empty(), "{output:?}");

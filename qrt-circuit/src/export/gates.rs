@@ -134,8 +134,10 @@ impl<'a, W: Write> Writer<'a, W> {
         for (place, qubit) in on.iter().enumerate() {
             line.push_str(if place == 0 { " " } else { ", " });
             let [register, bit] = self.places[*qubit as usize];
-            let name = &self.registers[register as usize].name;
-            let _ = write!(line, "{name}[{bit}]");
+            line.push_str(&self.registers[register as usize].name);
+            line.push('[');
+            push_number(&mut line, bit);
+            line.push(']');
         }
         line.push_str(";\n");
         self.put(&line)?;
@@ -194,4 +196,19 @@ impl<'a, W: Write> Writer<'a, W> {
         self.out.flush()?;
         Ok(self.tally)
     }
+}
+
+/// Appends a number's digits: most of a text are such numbers, and formatting them takes twice as long.
+fn push_number(line: &mut String, mut number: u32) {
+    let mut digits = [0; 10];
+    let mut first = digits.len();
+    loop {
+        first -= 1;
+        digits[first] = b'0' + (number % 10) as u8;
+        number /= 10;
+        if number == 0 {
+            break;
+        }
+    }
+    line.extend(digits[first..].iter().map(|digit| char::from(*digit)));
 }
