@@ -1,7 +1,7 @@
 //! The real machine: every path of a pixel, in `f64`.
 
 use super::bvh::{Bvh, FEW_FACES, Faces, Indexed};
-#[cfg_attr(any(test, target_arch = "wasm32"), allow(unused_imports))]
+#[cfg(not(any(test, target_arch = "wasm32")))]
 use super::instructions::InstructionSet;
 use super::lanes::{BLOCK, Inputs, Lanes, lanes};
 
