@@ -75,7 +75,8 @@ fn hostile(numbers: &mut Numbers) -> (Vec<u8>, Vec<u8>) {
             }
             1 => text += &format!("more: {}{}", "[".repeat(large), "]".repeat(large)),
             2 => text += &format!("more: [{}]", "&a [*a, *a, 1], ".repeat(large / 4)),
-            3 => text = text.replace("strange", &"strange".repeat(large)),
+            // Once: twice would be its square.
+            3 => text = text.replacen("strange", &"strange".repeat(large), 1),
             4 => mesh += &"f 1 2 3\nf 2 3 4\n".repeat(large),
             5 => mesh += &format!("f{}\n", " 1 2 3".repeat(large)),
             6 => mesh += &"v 1 2 3\n".repeat(large),
