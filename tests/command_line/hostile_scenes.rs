@@ -73,19 +73,16 @@ fn hostile(numbers: &mut Numbers) -> (Vec<u8>, Vec<u8>) {
                     ),
                 )
             }
-            1 => text += &format!("more: {}{}", "[".repeat(large), "]".repeat(large)),
-            2 => text += &format!("more: [{}]", "&a [*a, *a, 1], ".repeat(large / 4)),
+            1 => text.extend(["more: ", &"[".repeat(large), &"]".repeat(large)]),
+            2 => text.extend(["more: [", &"&a [*a, *a, 1], ".repeat(large / 4), "]"]),
             // Once: twice would be its square.
             3 => text = text.replacen("strange", &"strange".repeat(large), 1),
             4 => mesh += &"f 1 2 3\nf 2 3 4\n".repeat(large),
-            5 => mesh += &format!("f{}\n", " 1 2 3".repeat(large)),
+            5 => mesh.extend(["f", &" 1 2 3".repeat(large), "\n"]),
             6 => mesh += &"v 1 2 3\n".repeat(large),
             7 => {
-                mesh += &format!(
-                    "usemtl {}\nmtllib {}\n",
-                    "x".repeat(large),
-                    "any.obj ".repeat(large / 8)
-                )
+                let (material, libraries) = ("x".repeat(large), "any.obj ".repeat(large / 8));
+                mesh.extend(["usemtl ", &material, "\nmtllib ", &libraries, "\n"]);
             }
             // A film that no gigabyte holds, and others.
             8 => {

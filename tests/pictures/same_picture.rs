@@ -261,7 +261,6 @@ fn an_interruption_waits_for_no_pixel() {
 #[test]
 fn an_interrupted_pixel_goes_on_within_itself() {
     let scene = scene(&["sampling.path_bits=21", "film={ width: 1, height: 1 }"]);
-    let three = |estimator| with(estimator);
     let one = Options {
         colour: qrt::runtime::render::Colour::OneRun,
         ..with(Estimator::Sine)
@@ -270,7 +269,7 @@ fn an_interrupted_pixel_goes_on_within_itself() {
         model: Model::Fixed,
         ..with(Estimator::Exact)
     };
-    let all = [three(Estimator::Exact), three(Estimator::Sine), one, fixed];
+    let all = [with(Estimator::Exact), with(Estimator::Sine), one, fixed];
     for (number, options) in all.into_iter().enumerate() {
         let expected = bits(&render(&scene, &options).unwrap());
         let partial = Partial::new(&format!("within-{number}"));
