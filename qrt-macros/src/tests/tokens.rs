@@ -63,10 +63,10 @@ fn of_any_tokens_items_are_made_or_errors() {
                 0 => changed[at] = other[from],
                 1 => {
                     let piece = &other[from..(from + numbers.below(8)).min(other.len())];
-                    changed.splice(at..at, piece.iter().copied());
+                    drop(changed.splice(at..at, piece.iter().copied()));
                 }
                 _ => {
-                    changed.drain(at..(at + numbers.below(4)).min(changed.len()));
+                    drop(changed.drain(at..(at + numbers.below(4)).min(changed.len())));
                 }
             }
         }
