@@ -4,7 +4,6 @@
 
 pub(crate) mod checks;
 mod grammar;
-mod tokens;
 mod twins;
 mod writer;
 
