@@ -8,6 +8,7 @@ use qrt_circuit::{
 use qrt_core::expr::{Domain, Expr, Variable, Variables};
 use qrt_core::front::{Files, parse_with};
 use qrt_core::scene::Scene;
+use qrt_runtime::checkpoint::{Checkpoint, Header, Part, Tile};
 
 /// Reads a scene. What is refused has an error that can be shown; what is read can be printed, and what is
 /// printed is the same scene.
@@ -260,4 +261,70 @@ fn follow(
     }
     run(parts[1], &mut bits);
     assert!(bits == before, "{program:?} on {values:?}");
+}
+
+/// The sum of a record (CRC-32 of ISO-HDLC).
+fn crc(bytes: &[u8]) -> u32 {
+    !bytes.iter().fold(!0, |sum, byte| {
+        (0..8).fold(sum ^ u32::from(*byte), |sum, _| {
+            (sum >> 1) ^ (0xEDB8_8320 & (sum & 1).wrapping_neg())
+        })
+    })
+}
+
+/// Opens a checkpoint with these records, each up to a byte 255 and sealed as it must be. What is read lies on the
+/// film, and is there again after something was added.
+pub(crate) fn checkpoint(data: &[u8]) {
+    let name = format!("qrt-fuzz-{}.qrt-partial", std::process::id());
+    let path = std::env::temp_dir().join(name);
+    let _ = std::fs::remove_file(&path);
+    let header = Header {
+        scene_hash: "any".into(),
+        seed: 0,
+        options: [].into(),
+        width: 3,
+        height: 2,
+        crop: [1, 0, 2, 2],
+    };
+    drop(Checkpoint::create(&path, &header).expect("a file can be made"));
+    let mut bytes = std::fs::read(&path).expect("it is there");
+    for record in data.split(|byte| *byte == 255) {
+        bytes.extend(record);
+        bytes.extend(crc(record).to_le_bytes());
+    }
+    std::fs::write(&path, bytes).expect("a file can be written");
+    let (mut checkpoint, mut tiles) = Checkpoint::open(&path, &header).expect("it is one");
+    let parts = checkpoint.take_parts();
+    let inside = |x: u32, y: u32, width: u32, height: u32| {
+        x >= 1 && width >= 1 && height >= 1 && x + width <= 3 && y + height <= 2
+    };
+    for tile in &tiles {
+        assert!(inside(tile.x, tile.y, tile.width, tile.height), "{tile:?}");
+        assert_eq!(tile.pixels.len() as u32, tile.width * tile.height);
+    }
+    for part in &parts {
+        assert!(inside(part.pixel[0], part.pixel[1], 1, 1), "{part:?}");
+        let same = |other: &&Part| (other.pixel, other.number) == (part.pixel, part.number);
+        assert_eq!(parts.iter().filter(same).count(), 1);
+    }
+    let new = Tile {
+        x: 2,
+        y: 1,
+        width: 1,
+        height: 1,
+        pixels: vec![[0.5; 3]],
+        queries: vec![1],
+        good: vec![[2; 3]],
+        strata: vec![[3; 3]],
+    };
+    checkpoint.append(&new).expect("it can be written");
+    drop(checkpoint);
+    tiles.push(new);
+    let (mut checkpoint, again) = Checkpoint::open(&path, &header).expect("it is one");
+    // Colours may be no numbers, which equal nothing.
+    assert_eq!(format!("{again:?}"), format!("{tiles:?}"));
+    let mut left = parts;
+    left.retain(|part| part.pixel != [2, 1]);
+    assert_eq!(checkpoint.take_parts(), left);
+    checkpoint.remove().expect("it can be removed");
 }

@@ -13,6 +13,7 @@ mod circuits {
     mod models_agree;
     mod nearest_hits;
     mod only_what_the_scene_requires;
+    mod random_scenes;
     mod the_checker_is_checked;
     mod the_counting_circuit;
     mod the_shortcut_is_exact;

@@ -6,6 +6,7 @@ mod common;
 mod command_line {
     mod count_command;
     mod files_are_safe;
+    mod hostile_scenes;
     mod inspect_command;
     mod pictures_by_circuits;
     mod render_command;

@@ -26,6 +26,7 @@ mod recording;
 
 pub use budget::{CallCost, call_cost, check_budget};
 pub use nearest::{MOST_FACES, NearestOracle};
+pub use phase::MOST_BITS;
 
 use crate::compile::{BuildError, Builder, Label, NamedPlace, Passes, PixelWord, Real, StageName};
 use crate::sampling::{PathPoints, SamplingError};

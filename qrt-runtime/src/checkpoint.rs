@@ -1,9 +1,14 @@
 //! What an interrupted render has finished, so that it can go on.
 //!
 //! A checkpoint is a file that only grows: a header that says which render it belongs to, then one
-//! record for each finished tile, in the order they were finished. Every part ends in a CRC-32. A
-//! write that was torn (the process killed, the disk full) leaves a last record that is short or
-//! fails its sum: it is dropped, and the file is cut back to the tiles that are whole.
+//! record for each finished tile, in the order they were finished. Header and records end in a CRC-32
+//! each. A write that was torn (the process killed, the disk full) leaves a last record that is short
+//! or fails its sum: it is dropped, and the file is cut back to the records that are whole.
+//!
+//! A pixel of very many paths takes long itself. So there are records of its parts, too: what the
+//! first paths of a part add up to. The last of a part's records counts, and none of a pixel that is
+//! finished. When those that no longer count are most of the file, it is written anew without them,
+//! beside it, and takes its name.
 //!
 //! The file is locked from its first byte until the picture is safe and the file is removed, so that
 //! two renders never write one checkpoint, and none removes another's. What is appended reaches the
@@ -16,17 +21,19 @@ mod tests;
 
 pub use error::{CheckpointError, Difference};
 
-use crate::disk::{self, DiskFile, Lock};
-use format::MAGIC;
+use crate::disk::{self, DiskFile};
+use crate::replace_file::{remove_abandoned, replaced};
+use format::{MAGIC, Record};
 use std::collections::BTreeMap;
 use std::io::{self, ErrorKind, Read, Seek, SeekFrom, Write};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 /// Tiles that were finished in less may wait together to be made durable.
 pub(crate) const AT_STAKE: Duration = Duration::from_secs(1);
-/// How often the file of a name is opened that changes meanwhile.
-const ATTEMPTS: u32 = 64;
+/// Bytes of records that no longer count, before the file is written anew.
+const MOST_DEAD: u64 = if cfg!(test) { 1 << 12 } else { 1 << 24 };
 
 /// Which render a checkpoint belongs to: whatever decides a pixel's value.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -66,7 +73,29 @@ pub struct Tile {
     pub strata: Vec<[u8; 3]>,
 }
 
+/// What the first paths of a part of an unfinished pixel add up to.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Part {
+    /// Column and row on the film.
+    pub pixel: [u32; 2],
+    /// Which part of the pixel's paths.
+    pub number: u64,
+    /// How many of the part's paths.
+    pub paths: u64,
+    /// What they add up to; the render knows what each word means.
+    pub totals: Vec<u64>,
+}
+
+/// A part's pixel and number.
+type Place = ([u32; 2], u64);
+
 impl Tile {
+    /// Whether it has a pixel.
+    fn has(&self, [x, y]: [u32; 2]) -> bool {
+        let within = |at: u32, first: u32, length: u32| at >= first && at - first < length;
+        within(x, self.x, self.width) && within(y, self.y, self.height)
+    }
+
     /// A tile without pixels yet: its x, y, width and height on the film.
     pub(crate) fn of([x, y, width, height]: [u32; 4]) -> Self {
         Self {
@@ -114,6 +143,11 @@ pub struct Checkpoint {
     /// Where the header ends, and the last whole record.
     start: u64,
     end: u64,
+    /// Where the records are that count.
+    tiles: Vec<Range<u64>>,
+    parts: BTreeMap<Place, Range<u64>>,
+    /// Of parts, what they were when it was opened.
+    found: Vec<Part>,
     /// Whether a record that failed may stand behind it.
     torn: bool,
     /// When all of it was last made durable.
@@ -153,7 +187,7 @@ impl Checkpoint {
     }
 
     /// Opens a checkpoint to go on from, and reads its finished tiles in the order they were
-    /// appended. Whatever follows the last whole tile is cut off.
+    /// appended. Whatever follows the last whole record is cut off.
     ///
     /// # Errors
     /// If there is none, it belongs to another render (the error says in what they differ), another
@@ -178,14 +212,26 @@ impl Checkpoint {
                 differences,
             });
         }
-        let mut tiles = Vec::new();
-        let mut whole = bytes.len() - rest.len();
-        checkpoint.start = whole as u64;
-        while let Some(tile) = Tile::decode(&mut rest, header.crop) {
-            tiles.push(tile);
-            whole = bytes.len() - rest.len();
+        let (mut tiles, mut parts) = (Vec::new(), BTreeMap::new());
+        checkpoint.start = (bytes.len() - rest.len()) as u64;
+        checkpoint.end = checkpoint.start;
+        while let Some(record) = Record::decode(&mut rest, header.crop) {
+            let end = (bytes.len() - rest.len()) as u64;
+            let range = checkpoint.end..end;
+            match record {
+                Record::Tile(tile) => {
+                    checkpoint.count_tile(&tile, range);
+                    tiles.push(tile);
+                }
+                Record::Part(part) => {
+                    checkpoint.parts.insert((part.pixel, part.number), range);
+                    parts.insert((part.pixel, part.number), part);
+                }
+            }
+            checkpoint.end = end;
         }
-        checkpoint.end = whole as u64;
+        parts.retain(|place, _| checkpoint.parts.contains_key(place));
+        checkpoint.found = parts.into_values().collect();
         let cut = checkpoint.cut_back();
         checkpoint.io(cut)?;
         Ok((checkpoint, tiles))
@@ -220,17 +266,49 @@ impl Checkpoint {
                 height,
             });
         }
-        if let Some(header) = self.waiting.clone() {
-            self.restart(&header)?;
-            self.waiting = None;
+        let from = self.write(&tile.encode())?;
+        self.count_tile(tile, from..self.end);
+        self.written()
+    }
+
+    /// Adds what parts of unfinished pixels add up to, in place of what they did before. It is durable
+    /// as tiles are.
+    ///
+    /// # Errors
+    /// If a pixel does not lie in the crop, or if they can't be written.
+    pub fn append_parts(&mut self, parts: &[Part]) -> Result<(), CheckpointError> {
+        let mut records = Vec::new();
+        let mut ends = Vec::new();
+        for part in parts {
+            let [x, y] = part.pixel;
+            if Tile::of([x, y, 1, 1]).area_within(self.crop).is_none() {
+                let [width, height] = [1, 1];
+                return Err(CheckpointError::Tile {
+                    x,
+                    y,
+                    width,
+                    height,
+                });
+            }
+            records.extend(part.encode());
+            ends.push(records.len() as u64);
         }
-        let record = tile.encode();
-        let written = self.write_record(&record);
-        self.io(written)?;
-        if self.synced.elapsed() >= AT_STAKE {
-            self.sync()?;
+        if parts.is_empty() {
+            return Ok(());
         }
-        Ok(())
+        let from = self.write(&records)?;
+        let mut start = 0;
+        for (part, end) in parts.iter().zip(ends) {
+            let range = from + start..from + end;
+            self.parts.insert((part.pixel, part.number), range);
+            start = end;
+        }
+        self.written()
+    }
+
+    /// What parts of unfinished pixels added up to when it was opened; nothing, once it was asked for.
+    pub fn take_parts(&mut self) -> Vec<Part> {
+        std::mem::take(&mut self.found)
     }
 
     /// Makes durable what was appended.
@@ -288,51 +366,31 @@ impl Checkpoint {
     }
 
     fn lock(path: &Path, header: &Header, create: bool) -> Result<Self, CheckpointError> {
-        let io = |source: io::Error| CheckpointError::Io {
-            path: path.to_path_buf(),
-            source,
-        };
-        for _ in 0..ATTEMPTS {
-            let file = match disk::open(path, true) {
-                Err(error) if create && error.kind() == ErrorKind::NotFound => {
-                    disk::create_new(path)
-                }
-                opened => opened,
-            };
-            let file = match file {
-                Ok(file) => file,
-                // It was made or removed meanwhile.
-                Err(error) if create && error.kind() == ErrorKind::NotFound && in_folder(path) => {
-                    continue;
-                }
-                Err(error) if error.kind() == ErrorKind::AlreadyExists => continue,
-                Err(error) if error.kind() == ErrorKind::InvalidInput => {
-                    return Err(CheckpointError::Irregular {
-                        path: path.to_path_buf(),
-                    });
-                }
-                Err(error) => return Err(io(error)),
-            };
-            if file.try_lock().map_err(io)? == Lock::Others {
-                break;
-            }
-            // It may have been finished with, and removed, before it was locked.
-            if file.has_its_name().map_err(io)? {
-                return Ok(Self {
+        let path = path.to_path_buf();
+        match disk::open_locked(&path, create) {
+            Ok(Some(file)) => {
+                // Of one that was killed while it wrote the checkpoint anew.
+                remove_abandoned(&path);
+                Ok(Self {
                     file,
-                    path: path.to_path_buf(),
+                    path,
                     crop: header.crop,
                     waiting: None,
                     start: 0,
                     end: 0,
+                    tiles: Vec::new(),
+                    parts: BTreeMap::new(),
+                    found: Vec::new(),
                     torn: false,
                     synced: Instant::now(),
-                });
+                })
             }
+            Ok(None) => Err(CheckpointError::InUse { path }),
+            Err(error) if error.kind() == ErrorKind::InvalidInput => {
+                Err(CheckpointError::Irregular { path })
+            }
+            Err(source) => Err(CheckpointError::Io { path, source }),
         }
-        Err(CheckpointError::InUse {
-            path: path.to_path_buf(),
-        })
     }
 
     /// Makes it a checkpoint of nothing but a header.
@@ -344,8 +402,81 @@ impl Checkpoint {
             .and_then(|()| disk::sync_folder(&self.path));
         self.start = header.len() as u64;
         self.end = self.start;
+        self.tiles.clear();
+        self.parts.clear();
         self.synced = Instant::now();
         self.io(done)
+    }
+
+    /// A tile takes the place of its pixels' parts.
+    fn count_tile(&mut self, tile: &Tile, range: Range<u64>) {
+        self.tiles.push(range);
+        self.parts.retain(|(pixel, _), _| !tile.has(*pixel));
+    }
+
+    /// Writes records behind the last whole one, and says where.
+    fn write(&mut self, records: &[u8]) -> Result<u64, CheckpointError> {
+        if let Some(header) = self.waiting.clone() {
+            self.restart(&header)?;
+            self.waiting = None;
+        }
+        let from = self.end;
+        let written = self.write_record(records);
+        self.io(written)?;
+        Ok(from)
+    }
+
+    /// After records were written.
+    fn written(&mut self) -> Result<(), CheckpointError> {
+        let rewritten = self.rewrite_if_dead();
+        self.io(rewritten)?;
+        if self.synced.elapsed() >= AT_STAKE {
+            self.sync()?;
+        }
+        Ok(())
+    }
+
+    /// Writes the file anew without records that no longer count, if these are most of it.
+    fn rewrite_if_dead(&mut self) -> io::Result<()> {
+        let mut counting: Vec<&mut Range<u64>> = self
+            .tiles
+            .iter_mut()
+            .chain(self.parts.values_mut())
+            .collect();
+        let lengths = counting.iter().map(|range| range.end - range.start);
+        let live: u64 = self.start + lengths.sum::<u64>();
+        // A file that lost its name takes no other's.
+        if self.end - live < live.max(MOST_DEAD) || !self.file.has_its_name()? {
+            return Ok(());
+        }
+        counting.sort_unstable_by_key(|range| range.start);
+        let (file, header) = (&mut self.file, 0..self.start);
+        let rewritten = replaced(&self.path, |out| {
+            let ranges = std::iter::once(&header).chain(counting.iter().map(|range| &**range));
+            for range in ranges {
+                file.seek(SeekFrom::Start(range.start))?;
+                let length = range.end - range.start;
+                if io::copy(&mut Read::by_ref(file).take(length), out)? != length {
+                    return Err(io::Error::from(ErrorKind::UnexpectedEof));
+                }
+            }
+            Ok(())
+        });
+        match rewritten {
+            Ok(rewritten) => self.file = rewritten,
+            Err(error) => {
+                self.file.seek(SeekFrom::Start(self.end))?;
+                return Err(error);
+            }
+        }
+        self.end = self.start;
+        for range in counting {
+            let start = self.end;
+            self.end += range.end - range.start;
+            *range = start..self.end;
+        }
+        self.synced = Instant::now();
+        Ok(())
     }
 
     /// One write, so that a kill between two of them tears nothing.
@@ -378,9 +509,4 @@ impl Checkpoint {
             source,
         })
     }
-}
-
-/// Whether the folder of `path` is there.
-fn in_folder(path: &Path) -> bool {
-    disk::folder(path).is_dir()
 }

@@ -40,19 +40,26 @@ pub fn replace_file<E: From<io::Error>>(
     path: &Path,
     write: impl FnOnce(&mut BufWriter<DiskFile>) -> Result<(), E>,
 ) -> Result<(), E> {
+    // Its lock is held until it has its name.
+    replaced(path, write).map(drop)
+}
+
+/// As [`replace_file`], and hands over the file, open and locked.
+pub(crate) fn replaced<E: From<io::Error>>(
+    path: &Path,
+    write: impl FnOnce(&mut BufWriter<DiskFile>) -> Result<(), E>,
+) -> Result<DiskFile, E> {
     let place = Place::of(path)?;
     if place.is_device() {
-        return write_through(DiskFile::device(path)?, write).map(drop);
+        return write_through(DiskFile::device(path)?, write);
     }
     let (mut partial, file) = Partial::beside(&place)?;
-    let file = write_through(file, write)?;
+    let mut file = write_through(file, write)?;
     file.sync()?;
-    // Its lock is held until it has its name.
-    disk::rename(&partial.path, place.path())?;
+    file.rename(place.path())?;
     partial.renamed = true;
-    drop(file);
     disk::sync_folder(place.path())?;
-    Ok(())
+    Ok(file)
 }
 
 /// Finds out whether a file can be written at `place`, by making a partial file beside it and
@@ -93,7 +100,7 @@ impl Partial {
         let Some(name) = target.file_name() else {
             return Err(io::Error::new(ErrorKind::InvalidInput, "names no file"));
         };
-        remove_abandoned(target, name);
+        remove_abandoned(target);
         for _ in 0..ATTEMPTS {
             let path = target.with_file_name(partial_name(name));
             let file = match disk::create_new(&path) {
@@ -148,7 +155,10 @@ fn is_partial_name(partial: &OsStr, name: &OsStr) -> bool {
 
 /// Removes the partial files of `target` that processes left which were killed: those that nobody
 /// has locked. What can't be looked at or removed stays.
-fn remove_abandoned(target: &Path, name: &OsStr) {
+pub(crate) fn remove_abandoned(target: &Path) {
+    let Some(name) = target.file_name() else {
+        return;
+    };
     let entries = fs::read_dir(disk::folder(target)).into_iter().flatten();
     for entry in entries.flatten() {
         if !is_partial_name(&entry.file_name(), name) {

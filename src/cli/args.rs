@@ -2,6 +2,7 @@
 
 use super::failure::Failure;
 use super::memory::{self, Memory};
+use super::progress::Bar;
 use super::terminal;
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
@@ -36,10 +37,13 @@ impl SceneArgs {
 
     /// Reads the scene and checks it.
     pub(crate) fn load(&self) -> Result<Loaded, Failure> {
+        let bar = Bar::setting_up();
         let loaded = front::load_with(&self.scene, &self.sets, |files| {
             let most = self.memory().faces().min(MOST_FACES);
             files.allowing(&self.allow_files).most_faces(most)
-        })?;
+        });
+        bar.clear();
+        let loaded = loaded?;
         if let Some(warnings) = loaded.warnings() {
             terminal::warn(&warnings);
         }

@@ -241,6 +241,9 @@ pub(crate) fn run(args: &ExportArgs) -> Result<(), Failure> {
     );
     let counting = Counting::with(&oracle, phase_bits, window, Conjunction::Toffolis);
     let counting = counting.map_err(|error| failed(&error))?;
+    // The gates come from its program, of which the oracle has its own.
+    let channel = inspection.channel;
+    drop(inspection);
     let export = Export::new(&counting, args.part, Some(path_bits));
     let export = export.map_err(|error| failed(&error))?;
     allow(args, &counting, window, export.gates())?;
@@ -254,7 +257,7 @@ pub(crate) fn run(args: &ExportArgs) -> Result<(), Failure> {
     let exported = Exported {
         args,
         scene,
-        channel: inspection.channel,
+        channel,
         pixel,
         export: &export,
         counting: &counting,

@@ -1,13 +1,14 @@
 //! What work takes is estimated before it begins: what would take more memory than may be had is refused,
-//! with the number, and with what to lower.
+//! with the number, and with what to lower. Compiling a circuit that takes long is told of.
 
 use super::failure::Failure;
+use super::time::{self, PathCost};
 use qrt_circuit::lower;
-use qrt_core::oracle::{Options, Oracle};
+use qrt_core::oracle::{MOST_BITS, Options, Oracle};
 use qrt_core::valid::ValidScene;
-use qrt_runtime::machines::OracleCircuits;
 use qrt_runtime::memory::allowed_bytes;
 use qrt_runtime::render::Model;
+use std::time::Instant;
 
 /// Bytes of a face as it is read and traced: 730 were measured, of a flat grid of 720,000 triangles.
 const OF_FACE: u64 = 1000;
@@ -134,14 +135,16 @@ impl Memory {
         if faces <= FEW_FACES {
             return Ok(());
         }
-        let [Some(few), Some(more)] = PARTS.map(|faces| Size::of(&scene.thinned(faces))) else {
+        let Some(whole) = Size::estimated(scene) else {
             // What is wrong is told, with its place, where the whole is compiled.
             return Ok(());
         };
-        let share = (faces - PARTS[0]) as f64 / (PARTS[1] - PARTS[0]) as f64;
         let what = format!("the circuit of a scene of {faces} faces");
         let lower = "use a coarser mesh, or fewer rays";
-        self.keep(&what, few.towards(&more, share).bytes(work), lower)
+        self.keep(&what, whole.bytes(work), lower)?;
+        let what = format!("compiling {what} and counting its gates");
+        time::tell(&what, whole.seconds, "a coarser mesh takes less");
+        Ok(())
     }
 }
 
@@ -155,11 +158,33 @@ struct Size {
     bits: f64,
     /// Of compute and uncompute.
     gates: f64,
+    /// To compile it and make its gates.
+    seconds: f64,
+}
+
+/// What a path of the scene's circuit goes through; nothing where the scene has none.
+pub(crate) fn path_cost(scene: &ValidScene) -> PathCost {
+    Size::estimated(scene).map_or_else(PathCost::default, |size| PathCost {
+        operations: size.operations,
+        gates: size.gates,
+    })
 }
 
 impl Size {
+    /// Of a scene's oracle, if it has one; of one of many faces, from two parts of it.
+    fn estimated(scene: &ValidScene) -> Option<Self> {
+        let faces = scene.polygons().len();
+        if faces <= FEW_FACES {
+            return Self::of(scene);
+        }
+        let [few, more] = PARTS.map(|faces| Self::of(&scene.thinned(faces)));
+        let share = (faces - PARTS[0]) as f64 / (PARTS[1] - PARTS[0]) as f64;
+        Some(few?.towards(&more?, share))
+    }
+
     /// Of a scene's oracle, if it has one.
     fn of(scene: &ValidScene) -> Option<Self> {
+        let start = Instant::now();
         let program = Oracle::rgb(scene, Options::default()).ok()?.program;
         let mut gates = 0.0;
         let qubits = lower::each_instruction(&program, |next, _| gates += 2.0 * next.len() as f64);
@@ -172,6 +197,7 @@ impl Size {
             qubits: f64::from(qubits),
             bits: bits.sum(),
             gates,
+            seconds: start.elapsed().as_secs_f64(),
         })
     }
 
@@ -183,6 +209,7 @@ impl Size {
             qubits: line(self.qubits, other.qubits),
             bits: line(self.bits, other.bits),
             gates: line(self.gates, other.gates),
+            seconds: line(self.seconds, other.seconds),
         }
     }
 
@@ -193,12 +220,13 @@ impl Size {
         let compiled = 40.0 * qubits + 700.0 * operations;
         match work {
             Work::Program => compiled,
-            Work::Gates(threads) if self.bits <= OracleCircuits::MOST_BITS as f64 => {
+            Work::Gates(threads) if self.bits <= MOST_BITS as f64 => {
                 compiled + 40.0 * self.gates + 256.0 * qubits * threads as f64
             }
             // Rows of 32 bytes, once; where registers are; the program with its inverse.
             Work::Gates(_) => compiled.max(64.0 * qubits + 500.0 * operations),
-            Work::Export => compiled + 48.0 * self.gates,
+            Work::Export if self.bits <= MOST_BITS as f64 => compiled + 48.0 * self.gates,
+            Work::Export => compiled,
         }
     }
 }

@@ -19,10 +19,13 @@ mod render;
 mod schema;
 mod stats;
 mod terminal;
+mod time;
 mod trade;
 mod verify;
 
 use clap::{Parser, Subcommand};
+use failure::Failure;
+use qrt_runtime::machines::InstructionSet;
 use std::process::ExitCode;
 
 /// Quantum ray tracing: scenes as countable sets of paths
@@ -42,6 +45,9 @@ Examples:
   qrt inspect box.yaml      what its circuit costs, and where
   qrt trade box.yaml -o out what its accuracy costs, parameter by parameter
   qrt export box.yaml       its circuit as OpenQASM, box.qasm
+
+QRT_INSTRUCTIONS=avx512, avx2, neon or portable, in the environment, names the instructions of the
+processor that are used; it changes nothing but the speed.
 
 Exit codes: 0; 1 the job failed or was interrupted; 2 the command line or the scene is at fault."
 )]
@@ -65,7 +71,21 @@ enum Command {
 
 pub(crate) fn main() -> ExitCode {
     interrupt::outlive_file_limits();
-    let done = match Cli::parse().command {
+    let command = Cli::parse().command;
+    let done = InstructionSet::asked()
+        .map_err(|error| Failure::Usage(error.to_string()))
+        .and_then(|_| run(command));
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            terminal::error(&failure);
+            failure.exit_code()
+        }
+    }
+}
+
+fn run(command: Command) -> Result<(), Failure> {
+    match command {
         Command::Render(args) => render::run(&args),
         Command::Inspect(args) => inspect::run(&args),
         Command::Count(args) => count::run(&args),
@@ -75,12 +95,5 @@ pub(crate) fn main() -> ExitCode {
         Command::New(args) => new::run(&args),
         Command::Schema(_) => schema::run(),
         Command::Completions(args) => completions::run(args),
-    };
-    match done {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(failure) => {
-            terminal::error(&failure);
-            failure.exit_code()
-        }
     }
 }

@@ -5,7 +5,7 @@ use super::failure::Failure;
 use super::files::{Output, keep_apart, named_after};
 use super::inspect::check_circuit;
 use super::progress::Bar;
-use super::{interrupt, plan, stats, terminal};
+use super::{interrupt, plan, stats, terminal, time};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use qrt_core::front::Loaded;
@@ -263,7 +263,10 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
             path.display()
         ));
     }
-    note_of_time(planned.as_ref().map_or(scene, |plan| &plan.scene), args);
+    if !args.quiet {
+        tell_of_time(planned.as_ref().map_or(scene, |plan| &plan.scene), args);
+    }
+    bar.set_up();
     let rendered = render_keeping(scene, &options);
     bar.clear();
     let (rendered, checkpoint) = rendered.map_err(|error| failure(error, &loaded))?;
@@ -294,19 +297,12 @@ fn kept(error: Failure, checkpoint: Option<Checkpoint>, outputs: &Outputs) -> Fa
     }
 }
 
-/// Tells of so many paths that nobody would wait for them: they may be meant, but hardly are.
-fn note_of_time(scene: &ValidScene, args: &RenderArgs) {
+/// Tells of what nobody would wait for: it may be meant, but hardly is.
+fn tell_of_time(scene: &ValidScene, args: &RenderArgs) {
     let film = scene.scene().film;
     let [_, _, width, height] = args.crop.unwrap_or([0, 0, film.width, film.height]);
-    let bits = scene.scene().sampling.path_bits;
-    let paths = f64::from(width) * f64::from(height) * libm::exp2(f64::from(bits));
-    let days = paths / 1e6 / 86_400.0;
-    if days >= 1.0 && !args.quiet {
-        terminal::note(&format!(
-            "{width} x {height} pixels of 2^{bits} paths each take {days:.0} days at a million paths a \
-             second; `--set sampling.path_bits=12` asks for fewer"
-        ));
-    }
+    let pixels = f64::from(width) * f64::from(height);
+    time::tell_of_paths(scene, pixels, 1.0, &[args.model], args.threads.or_cores());
 }
 
 /// Why there is no picture: at its place in the scene, or with what the user can do.

@@ -5,15 +5,19 @@ use super::failure::Failure;
 use super::files::{Output, keep_apart};
 use super::memory::Work;
 use super::progress::Bar;
-use super::{interrupt, plan, terminal};
+use super::{interrupt, plan, terminal, time};
 use clap::Args;
 use qrt_runtime::plan::Options as PlanOptions;
+use qrt_runtime::render::Model;
 use qrt_runtime::sample::SampleError;
 use qrt_runtime::trade::{Options, TradeError, trade};
 use qrt_runtime::workers::Workers;
 use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
+
+/// How often the paths of a pixel are traced, as measured of the lit box.
+const TRACED_ANEW: f64 = 20.0;
 
 /// Measure what a scene's accuracy costs, parameter by parameter
 ///
@@ -99,6 +103,15 @@ pub(crate) fn run(args: &TradeArgs) -> Result<(), Failure> {
         quick: args.quick,
         workers,
     };
+    if !args.quiet {
+        let film = scene.scene().film;
+        let film = f64::from(film.width) * f64::from(film.height);
+        let usual = if args.quick { 32 } else { 256 };
+        let pixels = film.min(args.pixels.unwrap_or(usual) as f64);
+        let threads = args.threads.or_cores();
+        time::tell_of_paths(scene, pixels, TRACED_ANEW, &[Model::Real], threads);
+    }
+    bar.set_up();
     let measured = trade(scene, &args.output, &options);
     bar.clear();
     let measured = measured.map_err(|error| match &error {

@@ -5,11 +5,12 @@ use super::failure::Failure;
 use super::inspect::check_circuit;
 use super::memory::Work;
 use super::progress::Bar;
-use super::{interrupt, plan, terminal};
+use super::{interrupt, plan, terminal, time};
 use clap::Args;
 use qrt_core::valid::ValidScene;
 use qrt_runtime::machines::Defect;
 use qrt_runtime::plan::Options as PlanOptions;
+use qrt_runtime::render::Model;
 use qrt_runtime::verify::{Mismatch, Options, Report, verify};
 use qrt_runtime::workers::Workers;
 use serde_json::{Value, json};
@@ -80,12 +81,16 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
     let work = Work::Gates(args.threads.or_cores());
     args.scene.memory().keep_circuit(&scene, work)?;
     check_circuit(&loaded, &scene)?;
+    let film = scene.scene().film;
+    let pixels = (f64::from(film.width) * f64::from(film.height)).min(args.pixels as f64);
+    time::tell_of_paths(&scene, pixels, 1.0, &Model::ALL, args.threads.or_cores());
     let options = Options {
         pixels: args.pixels,
         seed: args.seed,
         workers,
     };
     let start = Instant::now();
+    bar.set_up();
     let verified = verify(&scene, &options);
     bar.clear();
     let report = verified?;

@@ -198,11 +198,12 @@ fn a_picture_survives_its_folder() {
     folder.works(&slow);
     let expected = folder.read("out/p.png");
     fs::remove_file(folder.path("out/p.png")).unwrap();
-    let child = folder.started(&slow);
+    let mut child = folder.started(&slow);
     let partial = folder.path("out/p.png.qrt-partial");
     // The header and at least one tile.
     while fs::metadata(&partial).map_or(0, |found| found.len()) < 2048 {
-        std::thread::yield_now();
+        assert!(child.try_wait().unwrap().is_none(), "finished too soon");
+        std::thread::sleep(std::time::Duration::from_millis(1));
     }
     fs::remove_dir_all(folder.path("out")).unwrap();
     let output = child.wait_with_output().unwrap();
@@ -246,4 +247,33 @@ fn a_limit_on_the_size_of_files_is_told_and_not_died_of() {
     folder.works(&["render", "box.yaml", "-q", "--resume"]);
     assert_eq!(folder.read("box.png"), folder.read("expected.png"));
     assert_eq!(folder.names(), ["box.png", "box.yaml", "expected.png"]);
+}
+
+#[test]
+fn what_a_scene_reads_is_kept_whatever_its_name_ends_in() {
+    let folder = Folder::new();
+    fs::create_dir(folder.path("out")).unwrap();
+    let mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    let meshes = |file: &str| {
+        BOX.replace(
+            "geometry:\n",
+            &format!("geometry:\n  - mesh: {{ obj: {file}, material: lamp }}\n"),
+        )
+    };
+    fs::write(folder.path("mesh.exr"), mesh).unwrap();
+    fs::write(folder.path("box.yaml"), meshes("mesh.exr")).unwrap();
+    let errors = folder.fails(2, &["render", "box.yaml", "-o", "./mesh.exr"]);
+    assert!(errors.contains("mesh.exr"), "{errors}");
+    assert_eq!(folder.read("mesh.exr"), mesh.as_bytes());
+    // A folder of plots in which the scene lies, or its mesh.
+    fs::write(folder.path("out/mesh.svg"), mesh).unwrap();
+    fs::write(folder.path("out/scene.svg"), meshes("mesh.svg")).unwrap();
+    fs::write(folder.path("out/scene.yaml"), meshes("mesh.svg")).unwrap();
+    for scene in ["out/scene.svg", "out/scene.yaml"] {
+        let errors = folder.fails(2, &["trade", scene, "--quick", "-o", "out"]);
+        assert!(errors.contains(".svg"), "{errors}");
+    }
+    assert_eq!(folder.read("out/mesh.svg"), mesh.as_bytes());
+    assert_eq!(folder.read("out/scene.svg"), meshes("mesh.svg").as_bytes());
+    assert!(!folder.path("out/trade.csv").exists());
 }

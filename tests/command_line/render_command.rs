@@ -523,3 +523,103 @@ fn a_picture_goes_through_a_link_to_a_device() {
     folder.works(&["render", "box.yaml", "-o", "p.exr"]);
     assert_eq!(folder.names(), ["box.yaml", "p.exr"]);
 }
+
+/// The instruction set changes no byte of a picture, by any model.
+#[test]
+fn whatever_the_instruction_set_the_picture_is_the_same() {
+    use qrt::runtime::machines::InstructionSet;
+
+    let folder = folder();
+    for model in ["real", "fixed", "gates"] {
+        let small = ["--set", "film={ width: 2, height: 2 }", "--model", model];
+        let with = |name: &str, set: Option<InstructionSet>| {
+            let options = ["render", "box.yaml", "-q", "-o", name];
+            let mut command = folder.command(&[&options[..], &small].concat());
+            match set {
+                Some(set) => command.env(InstructionSet::VARIABLE, set.name()),
+                None => command.env_remove(InstructionSet::VARIABLE),
+            };
+            let output = command.output().unwrap();
+            assert!(output.status.success(), "{set:?}: {output:?}");
+            folder.read(name)
+        };
+        let expected = with("widest.exr", None);
+        for set in InstructionSet::available() {
+            assert!(
+                with("forced.exr", Some(set)) == expected,
+                "{model}, {set:?}"
+            );
+        }
+    }
+    let mut command = folder.command(&["render", "box.yaml"]);
+    let output = command
+        .env(InstructionSet::VARIABLE, "mmx")
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    let errors = String::from_utf8(output.stderr).unwrap();
+    assert!(
+        errors.contains("QRT_INSTRUCTIONS=mmx: this processor has"),
+        "{errors}"
+    );
+    assert!(!folder.path("box.png").exists());
+}
+
+/// Whether a process does something of its own at SIGINT.
+#[cfg(target_os = "linux")]
+fn handles_interrupts(process: u32) -> bool {
+    let status = fs::read_to_string(format!("/proc/{process}/status")).unwrap_or_default();
+    let caught = status.lines().find_map(|line| line.strip_prefix("SigCgt:"));
+    let caught = caught.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
+    caught.is_some_and(|mask| mask >> 1 & 1 == 1)
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn an_interrupt_before_the_first_path_ends_it_at_once() {
+    use crate::common::command::signalled;
+    use std::time::{Duration, Instant};
+
+    let folder = Folder::new();
+    // Its circuit takes many seconds to compile.
+    let knot = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes-yaml/knot.yaml");
+    let mut child = folder.started(&["render", knot, "--model", "fixed", "-o", "k.png"]);
+    while !handles_interrupts(child.id()) {
+        assert!(child.try_wait().unwrap().is_none(), "finished too soon");
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    let start = Instant::now();
+    let (code, said, errors) = signalled(child, "-INT");
+    assert_eq!(code, Some(1), "{errors}");
+    assert!(
+        errors.contains("error: interrupted before the first path"),
+        "{errors}"
+    );
+    assert!(said.is_empty() && start.elapsed() < Duration::from_secs(2));
+    assert!(folder.names().is_empty(), "{:?}", folder.names());
+}
+
+#[test]
+fn what_takes_long_is_told_beforehand() {
+    use std::io::{BufRead as _, BufReader};
+
+    let folder = folder();
+    let many = ["--set", "sampling.path_bits=40"];
+    for command in [
+        &["render", "box.yaml"][..],
+        &["render", "box.yaml", "--model", "gates"],
+        &["verify", "box.yaml", "--pixels", "1"],
+        &["trade", "box.yaml", "--quick", "-o", "out"],
+    ] {
+        let mut child = folder.started(&[command, &many].concat());
+        let mut lines = BufReader::new(child.stderr.take().unwrap()).lines();
+        let told = lines.next().unwrap().unwrap();
+        child.kill().unwrap();
+        child.wait().unwrap();
+        let words = [" of 2^40 paths each take about ", "`sampling.path_bits`"];
+        assert!(words.iter().all(|words| told.contains(words)), "{told}");
+        let _ = fs::remove_file(folder.path("box.png.qrt-partial"));
+    }
+    let output = folder.qrt(&["render", "box.yaml"]);
+    assert!(output.stderr.is_empty(), "{output:?}");
+}

@@ -2,4 +2,5 @@
 #![allow(dead_code)]
 
 pub(crate) mod command;
+pub(crate) mod numbers;
 pub(crate) mod scene;

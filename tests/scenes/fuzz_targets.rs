@@ -4,11 +4,18 @@ use crate::targets;
 use std::fs;
 use std::path::Path;
 
-/// The files of these folders.
+/// The files of these folders of the repository.
 fn corpus(folders: &[&str], ends: &[&str]) -> Vec<Vec<u8>> {
     let mut paths = Vec::new();
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    // The fuzzer's own package runs this, too.
+    let root = if root.ends_with("fuzz") {
+        root.join("..")
+    } else {
+        root.to_path_buf()
+    };
     for folder in folders {
-        let entries = fs::read_dir(folder).unwrap();
+        let entries = fs::read_dir(root.join(folder)).unwrap();
         paths.extend(entries.map(|entry| entry.unwrap().path()));
     }
     let wanted = |path: &Path| {
@@ -86,16 +93,8 @@ fn meshes() {
 
 #[test]
 fn expressions() {
-    let seeds = [
-        "sqrt(u)*cos(2*pi*v)",
-        "if_less(u, v, exp(-cos_a^2), atan2(cos_i, 0.1))",
-        "max(1e-3, 1/(cos_o + u^3))",
-    ];
-    tried(
-        targets::expression,
-        &seeds.map(|seed| seed.as_bytes().to_vec()),
-        2000,
-    );
+    let seeds = corpus(&["fuzz/seeds/expression"], &["txt"]);
+    tried(targets::expression, &seeds, 2000);
 }
 
 #[test]
@@ -105,4 +104,36 @@ fn programs() {
         .map(|_| (0..80).map(|_| numbers.below(256) as u8).collect())
         .collect();
     tried(targets::program, &seeds, 800);
+}
+
+#[test]
+fn checkpoints() {
+    let tile = |x: u8, y: u8| {
+        [
+            &[0, 0, 0, 0, x, 0, 0, 0, y, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0][..],
+            &[7; 59],
+        ]
+        .concat()
+    };
+    let part = |x: u8, number: u8| {
+        [
+            &[
+                1, 0, 0, 0, x, 0, 0, 0, 1, 0, 0, 0, number, 0, 0, 0, 0, 0, 0, 0,
+            ][..],
+            &[3; 8],
+            &[1, 0, 0, 0],
+            &[9; 8],
+        ]
+        .concat()
+    };
+    let both = [
+        tile(1, 0),
+        part(2, 0),
+        part(1, 1),
+        tile(2, 0),
+        part(1, 1),
+        part(2, 3),
+    ];
+    let seeds = [tile(2, 1), part(1, 4), both.join(&255)];
+    tried(targets::checkpoint, &seeds, 1000);
 }

@@ -51,8 +51,8 @@ impl Tally {
 pub(super) struct Writer<'a, W> {
     format: Format,
     registers: &'a [Register],
-    /// The name of each qubit.
-    names: Vec<String>,
+    /// Of each qubit: which register's it is, and which of its bits. Millions of names would take a gigabyte.
+    places: Vec<[u32; 2]>,
     tally: Tally,
     line: String,
     out: &'a mut W,
@@ -65,16 +65,16 @@ impl<'a, W: Write> Writer<'a, W> {
         qubits: u32,
         out: &'a mut W,
     ) -> Self {
-        let mut names = vec![String::new(); qubits as usize];
-        for register in registers {
-            for (bit, qubit) in register.qubits.iter().enumerate() {
-                names[*qubit as usize] = format!("{}[{bit}]", register.name);
+        let mut places = vec![[0; 2]; qubits as usize];
+        for (number, register) in (0..).zip(registers) {
+            for (bit, qubit) in (0..).zip(&register.qubits) {
+                places[*qubit as usize] = [number, bit];
             }
         }
         Self {
             format,
             registers,
-            names,
+            places,
             tally: Tally {
                 qubits,
                 ..Tally::default()
@@ -133,7 +133,11 @@ impl<'a, W: Write> Writer<'a, W> {
         }
         for (place, qubit) in on.iter().enumerate() {
             line.push_str(if place == 0 { " " } else { ", " });
-            line.push_str(&self.names[*qubit as usize]);
+            let [register, bit] = self.places[*qubit as usize];
+            line.push_str(&self.registers[register as usize].name);
+            line.push('[');
+            push_number(&mut line, bit);
+            line.push(']');
         }
         line.push_str(";\n");
         self.put(&line)?;
@@ -156,7 +160,7 @@ impl<'a, W: Write> Writer<'a, W> {
     fn phase(&mut self, turns: Turns, on: &[Qubit]) -> Result<(), ExportError> {
         match *on {
             // Z X Z X = -1, on whichever qubit.
-            [] if turns == Turns::HALF && !self.names.is_empty() => {
+            [] if turns == Turns::HALF && !self.places.is_empty() => {
                 for name in ["z", "x", "z", "x"] {
                     self.line(name, None, &[0])?;
                 }
@@ -192,4 +196,19 @@ impl<'a, W: Write> Writer<'a, W> {
         self.out.flush()?;
         Ok(self.tally)
     }
+}
+
+/// Appends a number's digits: most of a text are such numbers, and formatting them takes twice as long.
+fn push_number(line: &mut String, mut number: u32) {
+    let mut digits = [0; 10];
+    let mut first = digits.len();
+    loop {
+        first -= 1;
+        digits[first] = b'0' + (number % 10) as u8;
+        number /= 10;
+        if number == 0 {
+            break;
+        }
+    }
+    line.extend(digits[first..].iter().map(|digit| char::from(*digit)));
 }

@@ -38,7 +38,9 @@ mod walk;
 mod wire;
 
 pub use cost::{Cost, cost, costs, tally, toffoli};
-pub use place::{circuit, each_instruction, parts, parts_between, scratch_width};
+pub use place::{
+    circuit, each_instruction, parts, parts_between, scratch_width, try_each_instruction,
+};
 pub use size::{Size, depth, most_qubits, size};
 pub use table::best_low;
 

@@ -2,6 +2,7 @@
 
 use super::super::{Circuit, Gate, Op, Program, Qubit, RegisterId};
 use super::Lowering;
+use std::convert::Infallible;
 
 /// The pool of qubits that nobody owns, and from which ancillas are allocated.
 #[derive(Default)]
@@ -203,12 +204,30 @@ pub fn parts_between(program: &Program, cuts: &[usize]) -> (Vec<Circuit>, usize)
 /// Lowers a program instruction by instruction: `each` gets its gates, which are not kept, and how
 /// many qubits are in use meanwhile. The number of qubits in all is returned.
 pub fn each_instruction(program: &Program, mut each: impl FnMut(&[Gate], u32)) -> u32 {
+    let every = try_each_instruction(program, |gates, in_use| {
+        each(gates, in_use);
+        Ok::<(), Infallible>(())
+    });
+    match every {
+        Ok(qubits) => qubits,
+        Err(never) => match never {},
+    }
+}
+
+/// As [`each_instruction`], until `each` fails.
+///
+/// # Errors
+/// That of `each`.
+pub fn try_each_instruction<E>(
+    program: &Program,
+    mut each: impl FnMut(&[Gate], u32) -> Result<(), E>,
+) -> Result<u32, E> {
     let mut lowering = Lowering::on(program);
     for instruction in &program.instructions {
         let op = &program.ops[instruction.op as usize];
         let in_use = lowering.instruction(program, op, instruction.inverse);
-        each(&lowering.gates, in_use);
+        each(&lowering.gates, in_use)?;
         lowering.gates.clear();
     }
-    lowering.pool.made
+    Ok(lowering.pool.made)
 }

@@ -23,19 +23,33 @@ pub enum Flip {
 ///
 /// Its qubits are `0..qubits`. Those in superposition hold the path index and the comparator, of
 /// which some bits may be fixed; all others are zero before and after. The circuit of a pixel has its classical parameters built in.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct PhaseOracle {
-    /// Gates X, CNOT and Toffoli alone, in the order in which they run.
-    compute: Vec<Gate>,
-    flip: Vec<Flip>,
-    /// Gates X, CNOT and Toffoli alone, in the order in which they run.
-    uncompute: Vec<Gate>,
+    steps: Steps,
     /// The qubits of the index, bit 0 first: those in superposition and those that are fixed.
     ids: Vec<Qubit>,
     superposed: Vec<Qubit>,
     /// Of the fixed, those that hold 1.
     ones: Vec<Qubit>,
     qubits: u32,
+}
+
+/// What a call of an oracle does.
+#[derive(Clone, Debug, PartialEq)]
+enum Steps {
+    Held {
+        /// Gates X, CNOT and Toffoli alone, in the order in which they run.
+        compute: Vec<Gate>,
+        flip: Vec<Flip>,
+        /// Gates X, CNOT and Toffoli alone, in the order in which they run.
+        uncompute: Vec<Gate>,
+    },
+    /// A program that is lowered anew in each call.
+    Lowered {
+        program: Program,
+        words: Vec<u64>,
+        gates: u64,
+    },
 }
 
 impl PhaseOracle {
@@ -60,13 +74,68 @@ impl PhaseOracle {
             gate => Flip::Gate(gate),
         });
         let oracle = Self {
-            compute: loaded(&compute.gates, words)?,
-            flip: flip.collect(),
-            uncompute: loaded(&uncompute.gates, words)?,
+            steps: Steps::Held {
+                compute: loaded(&compute.gates, words)?,
+                flip: flip.collect(),
+                uncompute: loaded(&uncompute.gates, words)?,
+            },
             ids: superposed.clone(),
             superposed,
             ones: Vec::new(),
             qubits,
+        };
+        oracle.checked()
+    }
+
+    /// The oracle of a program that computes, flips and uncomputes, with very many gates: they are not held,
+    /// but made anew in each call. `superposed` are registers of its inputs, which come one after another.
+    /// It hands over what [`PhaseOracle::new`] does of its parts.
+    ///
+    /// # Errors
+    /// As [`PhaseOracle::new`]; phases are flipped wherever the program flips them.
+    pub fn lowered(
+        program: Program,
+        superposed: &[RegisterId],
+        words: &[u64],
+    ) -> Result<Self, QuantumError> {
+        // Inputs are placed first, in their order.
+        let mut first = 0;
+        let mut places = Vec::new();
+        for input in &program.inputs {
+            let end = first + program.width(*input);
+            places.push((*input, first..end));
+            first = end;
+        }
+        let qubits = superposed.iter().flat_map(|register| {
+            let found = places.iter().find(|(input, _)| input == register);
+            found.map_or(0..0, |(_, qubits)| qubits.clone())
+        });
+        let mut oracle = Self {
+            steps: Steps::Held {
+                compute: Vec::new(),
+                flip: Vec::new(),
+                uncompute: Vec::new(),
+            },
+            ids: Vec::new(),
+            superposed: qubits.collect(),
+            ones: Vec::new(),
+            qubits: lower::most_qubits(&program),
+        };
+        oracle.ids.clone_from(&oracle.superposed);
+        let mut gates = 0;
+        lower::try_each_instruction(&program, |next, _| {
+            for gate in next {
+                if let Some(gate) = with_words(*gate, words)? {
+                    oracle.check_gate(gate)?;
+                    gates += 1;
+                }
+            }
+            Ok(())
+        })?;
+        oracle.steps = Steps::Lowered {
+            program,
+            words: words.to_vec(),
+            gates,
         };
         oracle.checked()
     }
@@ -79,9 +148,11 @@ impl PhaseOracle {
     /// No bits, or a monomial with a bit that is not one of them.
     pub fn polynomial(bits: u32, monomials: Vec<Vec<Qubit>>) -> Result<Self, QuantumError> {
         let oracle = Self {
-            compute: Vec::new(),
-            flip: monomials.into_iter().map(Flip::Sign).collect(),
-            uncompute: Vec::new(),
+            steps: Steps::Held {
+                compute: Vec::new(),
+                flip: monomials.into_iter().map(Flip::Sign).collect(),
+                uncompute: Vec::new(),
+            },
             ids: (0..bits).collect(),
             superposed: (0..bits).collect(),
             ones: Vec::new(),
@@ -172,7 +243,14 @@ impl PhaseOracle {
 
     /// How many gates one call has, phase flips included.
     pub fn gates(&self) -> u64 {
-        (self.compute.len() + self.flip.len() + self.uncompute.len()) as u64
+        match &self.steps {
+            Steps::Held {
+                compute,
+                flip,
+                uncompute,
+            } => (compute.len() + flip.len() + uncompute.len()) as u64,
+            Steps::Lowered { gates, .. } => *gates,
+        }
     }
 
     /// Hands over the oracle's gates. With a `control`, only the phase flips have it: without a
@@ -185,20 +263,40 @@ impl PhaseOracle {
         control: Option<Qubit>,
         sink: &mut impl FnMut(QuantumGate<'_>) -> Result<(), E>,
     ) -> Result<(), E> {
-        reversible(&self.compute, sink)?;
-        for step in &self.flip {
-            match step {
-                Flip::Gate(gate) => reversible(&[*gate], sink)?,
-                Flip::Sign(qubits) => {
-                    let on: Vec<Qubit> = control.into_iter().chain(qubits.clone()).collect();
-                    sink(Phase {
-                        turns: Turns::HALF,
-                        on: &on,
-                    })?;
+        match &self.steps {
+            Steps::Held {
+                compute,
+                flip,
+                uncompute,
+            } => {
+                compute
+                    .iter()
+                    .try_for_each(|gate| reversible(*gate, sink))?;
+                for step in flip {
+                    match step {
+                        Flip::Gate(gate) => reversible(*gate, sink)?,
+                        Flip::Sign(qubits) => sign(control, qubits, sink)?,
+                    }
                 }
+                uncompute
+                    .iter()
+                    .try_for_each(|gate| reversible(*gate, sink))
+            }
+            Steps::Lowered { program, words, .. } => {
+                let done = lower::try_each_instruction(program, |next, _| {
+                    for gate in next {
+                        // That there are words for all was checked.
+                        match with_words(*gate, words) {
+                            Ok(Some(Gate::Z(qubit))) => sign(control, &[qubit], sink)?,
+                            Ok(Some(gate)) => reversible(gate, sink)?,
+                            Ok(None) | Err(_) => {}
+                        }
+                    }
+                    Ok(())
+                });
+                done.map(drop)
             }
         }
-        reversible(&self.uncompute, sink)
     }
 
     fn checked(self) -> Result<Self, QuantumError> {
@@ -206,28 +304,36 @@ impl PhaseOracle {
             return Err(QuantumError::NoIds);
         }
         self.different(&self.superposed)?;
-        for gate in self.compute.iter().chain(&self.uncompute) {
+        let Steps::Held {
+            compute,
+            flip,
+            uncompute,
+        } = &self.steps
+        else {
+            // Each gate was checked as it was counted.
+            return Ok(self);
+        };
+        for gate in compute.iter().chain(uncompute) {
             if let Gate::Z(qubit) = gate {
                 return Err(QuantumError::SignOutsideFlip(*qubit));
             }
+            self.check_gate(*gate)?;
         }
-        let flips = self.flip.iter().filter_map(|step| match step {
-            Flip::Gate(gate) => Some(gate),
-            Flip::Sign(_) => None,
-        });
-        for gate in self.compute.iter().chain(flips).chain(&self.uncompute) {
-            match *gate {
-                Gate::X(t) | Gate::Z(t) | Gate::Load { target: t, .. } => self.different(&[t])?,
-                Gate::Cx(a, t) => self.different(&[a, t])?,
-                Gate::Ccx(a, b, t) => self.different(&[a, b, t])?,
-            }
-        }
-        for step in &self.flip {
-            if let Flip::Sign(qubits) = step {
-                self.different(qubits)?;
+        for step in flip {
+            match step {
+                Flip::Gate(gate) => self.check_gate(*gate)?,
+                Flip::Sign(qubits) => self.different(qubits)?,
             }
         }
         Ok(self)
+    }
+
+    fn check_gate(&self, gate: Gate) -> Result<(), QuantumError> {
+        match gate {
+            Gate::X(t) | Gate::Z(t) | Gate::Load { target: t, .. } => self.different(&[t]),
+            Gate::Cx(a, t) => self.different(&[a, t]),
+            Gate::Ccx(a, b, t) => self.different(&[a, b, t]),
+        }
     }
 
     fn different(&self, qubits: &[Qubit]) -> Result<(), QuantumError> {
@@ -241,43 +347,55 @@ impl PhaseOracle {
 }
 
 fn reversible<E>(
-    gates: &[Gate],
+    gate: Gate,
     sink: &mut impl FnMut(QuantumGate<'_>) -> Result<(), E>,
 ) -> Result<(), E> {
-    for gate in gates {
-        match *gate {
-            Gate::X(t) => sink(X(t))?,
-            Gate::Cx(a, t) => sink(Cx(a, t))?,
-            Gate::Ccx(a, b, t) => sink(Ccx(a, b, t))?,
-            // Neither is left: loads are built in, and phase flips are steps of their own.
-            Gate::Load { .. } | Gate::Z(_) => {}
-        }
+    match gate {
+        Gate::X(t) => sink(X(t)),
+        Gate::Cx(a, t) => sink(Cx(a, t)),
+        Gate::Ccx(a, b, t) => sink(Ccx(a, b, t)),
+        // Neither is left: loads are built in, and phase flips are steps of their own.
+        Gate::Load { .. } | Gate::Z(_) => Ok(()),
     }
-    Ok(())
 }
 
-/// The gates with a pixel's classical parameters built in: each load is an X, or nothing.
+/// Flips the phase where `qubits` and the control hold.
+fn sign<E>(
+    control: Option<Qubit>,
+    qubits: &[Qubit],
+    sink: &mut impl FnMut(QuantumGate<'_>) -> Result<(), E>,
+) -> Result<(), E> {
+    let on: Vec<Qubit> = control.into_iter().chain(qubits.iter().copied()).collect();
+    sink(Phase {
+        turns: Turns::HALF,
+        on: &on,
+    })
+}
+
+/// The gates with a pixel's classical parameters built in.
 fn loaded(gates: &[Gate], words: &[u64]) -> Result<Vec<Gate>, QuantumError> {
-    let mut all = Vec::with_capacity(gates.len());
-    for gate in gates {
-        match *gate {
-            Gate::Load {
-                parameter,
-                bit,
-                target,
-            } => {
-                let word = words.get(parameter as usize).filter(|_| bit < 64);
-                let word = word.ok_or(QuantumError::MissingWord { parameter, bit })?;
-                if word >> bit & 1 == 1 {
-                    all.push(Gate::X(target));
-                }
-            }
-            // Toffolis of one control are CNOTs.
-            Gate::Ccx(a, b, t) if a == b => all.push(Gate::Cx(a, t)),
-            gate => all.push(gate),
+    let gates = gates.iter();
+    gates
+        .filter_map(|gate| with_words(*gate, words).transpose())
+        .collect()
+}
+
+/// A gate with a pixel's classical parameters built in: a load is an X, or nothing.
+fn with_words(gate: Gate, words: &[u64]) -> Result<Option<Gate>, QuantumError> {
+    Ok(match gate {
+        Gate::Load {
+            parameter,
+            bit,
+            target,
+        } => {
+            let word = words.get(parameter as usize).filter(|_| bit < 64);
+            let word = word.ok_or(QuantumError::MissingWord { parameter, bit })?;
+            (word >> bit & 1 == 1).then_some(Gate::X(target))
         }
-    }
-    Ok(all)
+        // Toffolis of one control are CNOTs.
+        Gate::Ccx(a, b, t) if a == b => Some(Gate::Cx(a, t)),
+        gate => Some(gate),
+    })
 }
 
 /// The program that looks a flag up, flips its phase, and uncomputes it.

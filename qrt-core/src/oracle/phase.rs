@@ -4,9 +4,15 @@ use super::Oracle;
 use qrt_circuit::lower;
 use qrt_circuit::quantum::{PhaseOracle, QuantumError};
 
+/// With more bits in registers than these, a circuit's gates are not held.
+pub const MOST_BITS: u64 = 1 << 19;
+
 impl Oracle {
     /// The circuit of channel number `channel` of [`Oracle::channels`] in pixel (column, row): its
     /// qubits in superposition are the path index and, above it, the comparator.
+    ///
+    /// If registers come to more than [`MOST_BITS`](super::MOST_BITS), gates are not held, but made in each
+    /// call: [`PhaseOracle::lowered`].
     ///
     /// # Errors
     /// No such channel.
@@ -19,14 +25,19 @@ impl Oracle {
         if channel >= self.channels.len() {
             return Err(QuantumError::NoChannel(channel));
         }
-        let compute = self.program.instructions.len();
         let whole = self.whole(channel);
+        let words = self.words(seed, pixel);
+        let widths = whole.registers.iter();
+        let bits: u64 = widths.map(|register| u64::from(register.width)).sum();
+        if bits > MOST_BITS {
+            return PhaseOracle::lowered(whole, &[self.id, self.comparator], &words);
+        }
+        let compute = self.program.instructions.len();
         let flip = whole.instructions.len() - 2 * compute;
         let parts = lower::parts(&whole, &[compute, compute + flip]);
         let [compute, flip, uncompute] = &parts[..] else {
             return Err(QuantumError::NoIds);
         };
-        let words = self.words(seed, pixel);
         let register = |register| {
             let mut inputs = compute.inputs.iter();
             let found = inputs.find(|(id, _)| *id == register);
@@ -34,5 +45,61 @@ impl Oracle {
         };
         let superposed = [register(self.id), register(self.comparator)].concat();
         PhaseOracle::new(compute, flip, uncompute, superposed, &words)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::front::parse;
+    use crate::oracle::Options;
+    use qrt_circuit::quantum::QuantumGate;
+
+    const WALL: &str = "
+name: wall
+camera: { perspective: { eye: [0, 0, 3], target: [0, 0, 0], vfov: 60 } }
+film: { width: 3, height: 2 }
+materials:
+  grey: { lambertian: { albedo: [0.5, 0.7, 0.2] } }
+  lamp: { emitter: { radiance: [4, 2, 1] } }
+geometry:
+  - quad: { vertices: [[-1, 0, -1], [-1, 0, 1], [1, 0, 1], [1, 0, -1]], material: grey }
+  - triangle: { vertices: [[-0.5, 1.9, 0.5], [0.5, 1.9, -0.5], [0.5, 1.9, 0.5]], material: lamp }
+precision: { fraction: 8 }
+comparator: { bits: 4 }
+sampling: { path_bits: 5, depths: [{ bits: [2, 3] }] }
+";
+
+    #[test]
+    fn gates_that_are_not_held_are_those_that_are() {
+        let scene = parse(WALL, "wall.yaml", &[], "".as_ref()).unwrap().valid;
+        let oracle = Oracle::rgb(&scene, Options::default()).unwrap();
+        let gates = |oracle: &PhaseOracle, control| {
+            let mut all = Vec::new();
+            let done = oracle.apply(control, &mut |gate: QuantumGate<'_>| {
+                all.push(format!("{gate:?}"));
+                Ok::<(), ()>(())
+            });
+            done.unwrap();
+            all
+        };
+        for channel in 0..3 {
+            let held = oracle.phase(channel, 7, [2, 1]).unwrap();
+            let words = oracle.words(7, [2, 1]);
+            let inputs = [oracle.id, oracle.comparator];
+            let lowered = PhaseOracle::lowered(oracle.whole(channel), &inputs, &words).unwrap();
+            assert_eq!(lowered.superposed(), held.superposed());
+            assert_eq!(lowered.ids(), held.ids());
+            assert_eq!(lowered.qubits(), held.qubits());
+            assert_eq!(lowered.gates(), held.gates());
+            for control in [None, Some(held.qubits())] {
+                let all = gates(&lowered, control);
+                assert_eq!(all.len() as u64, held.gates());
+                assert!(all == gates(&held, control));
+            }
+            let less = &words[..words.len() - 1];
+            let missing = PhaseOracle::lowered(oracle.whole(channel), &inputs, less);
+            assert!(matches!(missing, Err(QuantumError::MissingWord { .. })));
+        }
     }
 }

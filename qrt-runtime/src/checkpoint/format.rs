@@ -6,18 +6,23 @@
 //! header  "QRTTILES", u32 version, u32 length of the body, body, u32 CRC-32 of all before
 //! body    width, height, crop x, y, width, height (u32 each), u64 seed, scene hash, u32 count of
 //!         options, and for each its name and value; texts as u32 length and UTF-8
-//! record  x, y, width, height (u32 each), pixels (3 f64 each, rows from the top),
-//!         queries (u64 each), good ids (3 u64 each), strata (3 u8 each), u32 CRC-32 of all before
+//! record  a tile or a part, u32 CRC-32 of all before
+//! tile    u32 0, x, y, width, height (u32 each), pixels (3 f64 each, rows from the top),
+//!         queries (u64 each), good ids (3 u64 each), strata (3 u8 each)
+//! part    u32 1, x, y (u32 each), u64 number, u64 paths, u32 count of words, words (u64 each)
 //! ```
 
-use super::{CheckpointError, Difference, Header, Tile};
+use super::{CheckpointError, Difference, Header, Part, Tile};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 pub(super) const MAGIC: &[u8; 8] = b"QRTTILES";
-pub(super) const VERSION: u32 = 3;
+pub(super) const VERSION: u32 = 4;
+/// What records begin with.
+const TILE: u32 = 0;
+const PART: u32 = 1;
 /// Bytes of a tile's record beside its pixels, and for each pixel.
-const RECORD: u64 = 20;
+const RECORD: u64 = 24;
 const PIXEL: u64 = 59;
 
 impl Header {
@@ -127,6 +132,7 @@ impl Tile {
     pub(super) fn encode(&self) -> Vec<u8> {
         let size = RECORD as usize + PIXEL as usize * self.pixels.len();
         let mut bytes = Vec::with_capacity(size);
+        bytes.extend(TILE.to_le_bytes());
         for number in [self.x, self.y, self.width, self.height] {
             bytes.extend(number.to_le_bytes());
         }
@@ -140,9 +146,8 @@ impl Tile {
         seal(bytes)
     }
 
-    /// Takes a tile off `bytes`; `None` at the end, and if it is torn.
-    pub(super) fn decode(bytes: &mut &[u8], crop: [u32; 4]) -> Option<Self> {
-        let all = *bytes;
+    /// Takes a tile off `bytes`, behind its kind; `all` begins with that.
+    fn decode(bytes: &mut &[u8], all: &[u8], crop: [u32; 4]) -> Option<Self> {
         let mut tile = Self::of(take_rectangle(bytes)?);
         let area = tile.area_within(crop)?;
         let mut payload = take(bytes, area.checked_mul(PIXEL)?)?;
@@ -163,6 +168,57 @@ impl Tile {
             tile.strata.push(*strata);
         }
         Some(tile)
+    }
+}
+
+/// What stands behind the header.
+pub(super) enum Record {
+    Tile(Tile),
+    Part(Part),
+}
+
+impl Record {
+    /// Takes a record off `bytes`; `None` at the end, and if it is torn.
+    pub(super) fn decode(bytes: &mut &[u8], crop: [u32; 4]) -> Option<Self> {
+        let all = *bytes;
+        match take_u32(bytes)? {
+            TILE => Tile::decode(bytes, all, crop).map(Self::Tile),
+            PART => Part::decode(bytes, all, crop).map(Self::Part),
+            _ => None,
+        }
+    }
+}
+
+impl Part {
+    pub(super) fn encode(&self) -> Vec<u8> {
+        let mut bytes = Vec::with_capacity(36 + 8 * self.totals.len());
+        for number in [&[PART], &self.pixel[..]].into_iter().flatten() {
+            bytes.extend(number.to_le_bytes());
+        }
+        bytes.extend(self.number.to_le_bytes());
+        bytes.extend(self.paths.to_le_bytes());
+        bytes.extend((self.totals.len() as u32).to_le_bytes());
+        for word in &self.totals {
+            bytes.extend(word.to_le_bytes());
+        }
+        seal(bytes)
+    }
+
+    /// Takes a part off `bytes`, behind its kind; `all` begins with that.
+    fn decode(bytes: &mut &[u8], all: &[u8], crop: [u32; 4]) -> Option<Self> {
+        let pixel = [take_u32(bytes)?, take_u32(bytes)?];
+        Tile::of([pixel[0], pixel[1], 1, 1]).area_within(crop)?;
+        let [number, paths] = [take_u64(bytes)?, take_u64(bytes)?];
+        let words = u64::from(take_u32(bytes)?);
+        let payload = take(bytes, 8 * words)?;
+        take_seal(bytes, all)?;
+        let words = payload.as_chunks::<8>().0.iter();
+        Some(Self {
+            pixel,
+            number,
+            paths,
+            totals: words.map(|word| u64::from_le_bytes(*word)).collect(),
+        })
     }
 }
 

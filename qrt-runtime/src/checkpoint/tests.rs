@@ -53,6 +53,66 @@ fn written(path: &Path) -> Vec<u8> {
     fs::read(path).unwrap()
 }
 
+fn part(pixel: [u32; 2], number: u64, paths: u64) -> Part {
+    Part {
+        pixel,
+        number,
+        paths,
+        totals: (0..paths % 5).map(|word| !word).collect(),
+    }
+}
+
+/// Tiles, and parts of theirs and of other pixels; two of them in one write.
+fn records() -> Vec<Record> {
+    let [a, b, c] = tiles().map(Record::Tile);
+    let parts = [
+        part([6, 3], 0, 3),
+        part([6, 3], 4095, 1 << 40),
+        part([6, 4], 0, 0),
+        part([2, 3], 1, 9),
+        part([6, 3], 0, 4),
+        part([4, 3], 7, 8),
+    ];
+    let [p, q, r, s, t, u] = parts.map(Record::Part);
+    vec![p, q, b, r, s, t, a, u, c]
+}
+
+/// What such records leave: tiles, and parts in the order of their places.
+fn left(records: &[Record]) -> (Vec<Tile>, Vec<Part>) {
+    let (mut tiles, mut parts) = (Vec::new(), BTreeMap::new());
+    for record in records {
+        match record {
+            Record::Tile(tile) => {
+                parts.retain(|(pixel, _), _| !tile.has(*pixel));
+                tiles.push(tile.clone());
+            }
+            Record::Part(part) => {
+                parts.insert((part.pixel, part.number), part.clone());
+            }
+        }
+    }
+    (tiles, parts.into_values().collect())
+}
+
+fn with_parts(path: &Path) -> Vec<u8> {
+    let mut checkpoint = Checkpoint::create(path, &header()).unwrap();
+    for record in &records() {
+        match record {
+            Record::Tile(tile) => checkpoint.append(tile).unwrap(),
+            Record::Part(part) => checkpoint.append_parts(std::slice::from_ref(part)).unwrap(),
+        }
+    }
+    drop(checkpoint);
+    fs::read(path).unwrap()
+}
+
+fn opened(path: &Path) -> (Checkpoint, (Vec<Tile>, Vec<Part>)) {
+    let (mut checkpoint, tiles) = Checkpoint::open(path, &header()).unwrap();
+    let parts = checkpoint.take_parts();
+    assert!(checkpoint.take_parts().is_empty());
+    (checkpoint, (tiles, parts))
+}
+
 #[test]
 fn finished_tiles_come_back_and_the_render_goes_on() {
     let folder = Scratch::new();
@@ -68,30 +128,60 @@ fn finished_tiles_come_back_and_the_render_goes_on() {
     assert_eq!(finished[3..], [tile(6, 1, 1, 1)]);
 }
 
-#[test]
-fn wherever_the_file_is_cut_the_whole_tiles_survive_and_a_new_one_can_follow() {
-    let folder = Scratch::new();
-    let path = folder.path("c");
-    let bytes = written(&path);
+/// Where each record ends.
+fn ends() -> Vec<usize> {
     let start = header().encode().len();
-    let ends: Vec<usize> = tiles()
-        .iter()
-        .scan(start, |end, tile| {
-            *end += tile.encode().len();
+    let records = records();
+    let lengths = records.iter().map(|record| match record {
+        Record::Tile(tile) => tile.encode().len(),
+        Record::Part(part) => part.encode().len(),
+    });
+    lengths
+        .scan(start, |end, length| {
+            *end += length;
             Some(*end)
         })
-        .collect();
-    assert_eq!(ends[2], bytes.len());
+        .collect()
+}
+
+#[test]
+fn of_an_unfinished_pixel_the_last_of_each_part_comes_back() {
+    let folder = Scratch::new();
+    let path = folder.path("c");
+    with_parts(&path);
+    let (mut checkpoint, (tiles, parts)) = opened(&path);
+    assert_eq!((tiles.clone(), parts.clone()), left(&records()));
+    // Of those in the second tile none is left, but the one that came after it.
+    let [a, b] = &parts[..] else {
+        panic!("{parts:?}");
+    };
+    assert_eq!((a, b), (&part([2, 3], 1, 9), &part([4, 3], 7, 8)));
+    let two = [part([2, 3], 1, 12), part([3, 3], 0, 1)];
+    checkpoint.append_parts(&two).unwrap();
+    checkpoint.append_parts(&[]).unwrap();
+    drop(checkpoint);
+    let (_, (_, parts)) = opened(&path);
+    assert_eq!(parts, [two[0].clone(), two[1].clone(), part([4, 3], 7, 8)]);
+}
+
+#[test]
+fn wherever_the_file_is_cut_whole_records_survive_and_a_new_one_can_follow() {
+    let folder = Scratch::new();
+    let path = folder.path("c");
+    let bytes = with_parts(&path);
+    assert_eq!(ends().last(), Some(&bytes.len()));
+    let new = tile(6, 4, 1, 1);
     for length in 0..=bytes.len() {
         fs::write(&path, &bytes[..length]).unwrap();
-        let (mut checkpoint, finished) = Checkpoint::open(&path, &header()).unwrap();
-        let whole = ends.iter().filter(|&&end| end <= length).count();
-        assert_eq!(finished, tiles()[..whole], "cut at {length}");
-        checkpoint.append(&tile(6, 4, 1, 1)).unwrap();
+        let (mut checkpoint, found) = opened(&path);
+        let whole = ends().iter().filter(|&&end| end <= length).count();
+        let mut records = records();
+        records.truncate(whole);
+        assert_eq!(found, left(&records), "cut at {length}");
+        checkpoint.append(&new).unwrap();
         drop(checkpoint);
-        let (_, finished) = Checkpoint::open(&path, &header()).unwrap();
-        assert_eq!(finished.len(), whole + 1, "cut at {length}");
-        assert_eq!(finished[whole], tile(6, 4, 1, 1));
+        records.push(Record::Tile(new.clone()));
+        assert_eq!(opened(&path).1, left(&records), "cut at {length}");
     }
 }
 
@@ -99,20 +189,64 @@ fn wherever_the_file_is_cut_the_whole_tiles_survive_and_a_new_one_can_follow() {
 fn a_changed_byte_anywhere_is_noticed() {
     let folder = Scratch::new();
     let path = folder.path("c");
-    let bytes = written(&path);
+    let bytes = with_parts(&path);
     let start = header().encode().len();
     for at in 0..bytes.len() {
         let mut changed = bytes.clone();
         changed[at] ^= 0x10;
         fs::write(&path, &changed).unwrap();
         match Checkpoint::open(&path, &header()) {
-            Ok((_, finished)) => {
-                assert!(at >= start && finished.len() < 3, "byte {at}");
-                assert_eq!(finished, tiles()[..finished.len()], "byte {at}");
+            Ok((mut checkpoint, tiles)) => {
+                let whole = ends().iter().filter(|&&end| end <= at).count();
+                let found = (tiles, checkpoint.take_parts());
+                assert!(at >= start, "byte {at}");
+                assert_eq!(found, left(&records()[..whole]), "byte {at}");
             }
             Err(_) => assert!(at < start, "byte {at}"),
         }
     }
+}
+
+#[test]
+fn records_that_no_longer_count_do_not_fill_the_disk() {
+    let folder = Scratch::new();
+    let path = folder.path("c");
+    let mut checkpoint = Checkpoint::create(&path, &header()).unwrap();
+    let mut records = Vec::new();
+    let mut most = 0;
+    for paths in 1..2000 {
+        if paths % 400 == 0 {
+            let tile = &tiles()[paths as usize / 400 % 3];
+            checkpoint.append(tile).unwrap();
+            records.push(Record::Tile(tile.clone()));
+        }
+        let parts = [part([3, 3], paths % 3, paths), part([6, 3], 0, paths)];
+        checkpoint.append_parts(&parts).unwrap();
+        records.extend(parts.map(Record::Part));
+        most = most.max(fs::metadata(&path).unwrap().len());
+        if paths % 97 == 0 {
+            // Under its new name it is locked, too.
+            let second = Checkpoint::open(&path, &header());
+            assert!(matches!(second, Err(CheckpointError::InUse { .. })));
+            assert_eq!(folder.names(), ["c"]);
+        }
+    }
+    assert!(most < 4 * MOST_DEAD, "{most} bytes");
+    assert!(checkpoint.close().unwrap());
+    assert_eq!(opened(&path).1, left(&records));
+}
+
+#[test]
+fn a_part_of_a_pixel_outside_is_refused() {
+    let folder = Scratch::new();
+    let path = folder.path("c");
+    let mut checkpoint = Checkpoint::create(&path, &header()).unwrap();
+    for pixel in [[1, 1], [2, 0], [7, 1], [2, 5]] {
+        let refused = checkpoint.append_parts(&[part([2, 1], 0, 1), part(pixel, 0, 1)]);
+        assert!(matches!(refused, Err(CheckpointError::Tile { .. })));
+    }
+    drop(checkpoint);
+    assert_eq!(opened(&path).1, left(&[]));
 }
 
 #[test]
@@ -173,11 +307,11 @@ fn what_is_no_checkpoint_of_ours_is_left_alone() {
     }
     assert_eq!(fs::read(&path).unwrap(), b"a thesis");
     let mut newer = header().encode();
-    newer[8] = 4;
+    newer[8] = 5;
     fs::write(&path, newer).unwrap();
     let message = Checkpoint::open(&path, &header()).unwrap_err().to_string();
     assert!(
-        message.ends_with("is a checkpoint of format 4; this qrt reads 3"),
+        message.ends_with("is a checkpoint of format 5; this qrt reads 4"),
         "{message}"
     );
 }

@@ -128,6 +128,18 @@ impl Octaves {
         }
     }
 
+    /// The same comparator's, of other paths, as [`Octaves::by_length`] tells of them.
+    pub(crate) fn with_lengths(
+        &self,
+        mut next: impl FnMut() -> Option<(u64, u64)>,
+    ) -> Option<Self> {
+        let mut octaves = self.clone();
+        for (paths, sum) in octaves.paths.iter_mut().zip(&mut octaves.sums) {
+            (*paths, *sum) = next()?;
+        }
+        Some(octaves)
+    }
+
     /// By length of their counts in bits: how many paths, and the sum of their counts.
     pub(crate) fn by_length(&self) -> impl Iterator<Item = (u64, u64)> {
         self.paths.iter().copied().zip(self.sums.iter().copied())

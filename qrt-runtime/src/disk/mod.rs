@@ -52,7 +52,7 @@ pub(crate) fn has_no_locks(error: &io::Error) -> bool {
 #[derive(Debug)]
 pub struct DiskFile {
     file: File,
-    /// The name under which it was opened.
+    /// The name under which it was opened, or that it was given since.
     path: PathBuf,
 }
 
@@ -75,6 +75,42 @@ pub(crate) fn create_new(path: &Path) -> io::Result<DiskFile> {
     Ok(DiskFile::new(file, path))
 }
 
+/// So that a name that became a link is not followed, and of one that became a pipe no writer is waited for.
+#[cfg(unix)]
+const OPEN_FLAGS: i32 = libc::O_NOFOLLOW | libc::O_NONBLOCK;
+/// How often the file of a name is opened that changes meanwhile.
+const ATTEMPTS: u32 = 64;
+
+/// Opens the regular file at `path`, or makes it where that is asked for and there is none, and locks it
+/// against other processes until it is closed. None if another has it; of one that was removed or replaced
+/// before it was locked, what has its name is opened.
+pub(crate) fn open_locked(path: &Path, create: bool) -> io::Result<Option<DiskFile>> {
+    for _ in 0..ATTEMPTS {
+        let file = match open(path, true) {
+            Err(error) if create && error.kind() == ErrorKind::NotFound => create_new(path),
+            opened => opened,
+        };
+        let file = match file {
+            Ok(file) => file,
+            // It was made or removed meanwhile.
+            Err(error)
+                if create && error.kind() == ErrorKind::NotFound && folder(path).is_dir() =>
+            {
+                continue;
+            }
+            Err(error) if error.kind() == ErrorKind::AlreadyExists => continue,
+            Err(error) => return Err(error),
+        };
+        if file.try_lock()? == Lock::Others {
+            break;
+        }
+        if file.has_its_name()? {
+            return Ok(Some(file));
+        }
+    }
+    Ok(None)
+}
+
 /// Opens a regular file that is there; a link or a device is an error of the kind
 /// [`ErrorKind::InvalidInput`].
 pub(crate) fn open(path: &Path, write: bool) -> io::Result<DiskFile> {
@@ -85,8 +121,17 @@ pub(crate) fn open(path: &Path, write: bool) -> io::Result<DiskFile> {
     if !before.is_file() {
         return Err(irregular());
     }
-    let file = OpenOptions::new().read(true).write(write).open(path)?;
-    // The name may have got another file in between, or become a link.
+    let mut options = OpenOptions::new();
+    options.read(true).write(write);
+    #[cfg(unix)]
+    std::os::unix::fs::OpenOptionsExt::custom_flags(&mut options, OPEN_FLAGS);
+    let file = match options.open(path) {
+        // It became a link.
+        #[cfg(unix)]
+        Err(error) if error.raw_os_error() == Some(libc::ELOOP) => return Err(irregular()),
+        opened => opened?,
+    };
+    // The name may have got another file in between.
     let opened = file.metadata()?;
     if !opened.is_file() || Identity::of(&opened) != Identity::of(&before) {
         return Err(match fs::symlink_metadata(path) {
@@ -96,12 +141,6 @@ pub(crate) fn open(path: &Path, write: bool) -> io::Result<DiskFile> {
         });
     }
     Ok(DiskFile::new(file, path))
-}
-
-/// Gives a file another name, in place of a file that has it.
-pub(crate) fn rename(from: &Path, to: &Path) -> io::Result<()> {
-    begin(Operation::Rename, from)?;
-    fs::rename(from, to)
 }
 
 /// Removes a file.
@@ -151,6 +190,14 @@ impl DiskFile {
 
     pub(crate) fn metadata(&self) -> io::Result<Metadata> {
         self.file.metadata()
+    }
+
+    /// Gives it another name, in place of a file that has it.
+    pub(crate) fn rename(&mut self, to: &Path) -> io::Result<()> {
+        begin(Operation::Rename, &self.path)?;
+        fs::rename(&self.path, to)?;
+        self.path = to.to_path_buf();
+        Ok(())
     }
 
     /// Whether the name under which it was opened is still this file's.

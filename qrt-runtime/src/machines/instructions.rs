@@ -1,30 +1,74 @@
 //! Instruction sets that a machine's inner loops are compiled for.
 
+use crate::named::named;
 use pulp::WithSimd;
+use std::ffi::OsStr;
+use std::sync::OnceLock;
 
-/// An instruction set. All give the same bits.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum InstructionSet {
-    /// x86-64-v4: 512 bits.
-    Avx512,
-    /// x86-64-v3: 256 bits.
-    Avx2,
-    /// 128 bits of AArch64.
-    Neon,
-    /// What every processor of the target has.
-    Portable,
+named! {
+    /// An instruction set. All give the same bits.
+    pub enum InstructionSet {
+        /// x86-64-v4: 512 bits.
+        Avx512 = "avx512",
+        /// x86-64-v3: 256 bits.
+        Avx2 = "avx2",
+        /// 128 bits of AArch64.
+        Neon = "neon",
+        /// What every processor of the target has.
+        Portable = "portable",
+    }
+}
+
+/// The environment asks for an instruction set that is not to be had.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{}={asked}: this processor has {}", InstructionSet::VARIABLE, listed(.available))]
+pub struct InstructionsError {
+    /// What it asks for.
+    pub asked: String,
+    /// What this processor has.
+    pub available: Vec<InstructionSet>,
+}
+
+fn listed(sets: &[InstructionSet]) -> String {
+    let names: Vec<String> = sets.iter().map(|set| format!("`{}`", set.name())).collect();
+    names.join(", ")
 }
 
 impl InstructionSet {
+    /// The variable of the environment that names the instruction set that all machines take which are
+    /// told of none, such as `QRT_INSTRUCTIONS=portable`. It changes their speed alone.
+    pub const VARIABLE: &'static str = "QRT_INSTRUCTIONS";
+
     /// Those that this processor has, the widest first.
     pub fn available() -> Vec<Self> {
-        let all = [Self::Avx512, Self::Avx2, Self::Neon, Self::Portable];
-        all.into_iter().filter(|set| set.exists()).collect()
+        Self::ALL.into_iter().filter(|set| set.exists()).collect()
     }
 
-    /// The widest that this processor has.
+    /// The widest that this processor has, or the one that [`InstructionSet::VARIABLE`] names when it is
+    /// first asked for.
     pub fn widest() -> Self {
-        Self::available().first().copied().unwrap_or(Self::Portable)
+        static WIDEST: OnceLock<InstructionSet> = OnceLock::new();
+        *WIDEST.get_or_init(|| match Self::asked() {
+            Ok(Some(asked)) => asked,
+            _ => Self::available().first().copied().unwrap_or(Self::Portable),
+        })
+    }
+
+    /// The one that [`InstructionSet::VARIABLE`] names, if it is set.
+    ///
+    /// # Errors
+    /// If it names none that this processor has; machines take the widest then.
+    pub fn asked() -> Result<Option<Self>, InstructionsError> {
+        std::env::var_os(Self::VARIABLE).map_or(Ok(None), |name| Self::named(&name).map(Some))
+    }
+
+    fn named(name: &OsStr) -> Result<Self, InstructionsError> {
+        let available = Self::available();
+        let found = available.iter().find(|set| name == set.name());
+        found.copied().ok_or_else(|| InstructionsError {
+            asked: name.to_string_lossy().into_owned(),
+            available: available.clone(),
+        })
     }
 
     #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
@@ -75,5 +119,24 @@ impl InstructionSet {
             return pulp::Simd::vectorize(simd, operation);
         }
         operation.with_simd(pulp::Scalar::new())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_instruction_set_has_a_name_and_what_is_not_there_is_refused() {
+        for set in InstructionSet::ALL {
+            let found = InstructionSet::named(set.name().as_ref());
+            assert_eq!(found.is_ok_and(|found| found == set), set.exists());
+        }
+        for name in ["", "AVX2", "scalar"] {
+            let error = InstructionSet::named(name.as_ref()).unwrap_err();
+            let words = error.to_string();
+            assert!(words.starts_with(&format!("QRT_INSTRUCTIONS={name}: ")));
+            assert!(words.ends_with("`portable`"), "{words}");
+        }
     }
 }

@@ -26,7 +26,7 @@ mod transpose;
 
 pub use fixed::{Extremes, Fixed, Lanes, contents};
 pub use gates::{Dirty, Gates, InvalidGate, Rows};
-pub use instructions::InstructionSet;
+pub use instructions::{InstructionSet, InstructionsError};
 pub use native::NativeOracle;
 pub use nearest::{Answers, Asked, Candidate, NearestMachine};
 pub use oracle::{Defect, Finished, OracleCircuits, OracleMachine, PathRun, PrimaryHits};

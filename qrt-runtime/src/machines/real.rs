@@ -1,6 +1,8 @@
 //! The real machine: every path of a pixel, in `f64`.
 
 use super::bvh::{Bvh, FEW_FACES, Faces, Indexed};
+#[cfg(not(any(test, target_arch = "wasm32")))]
+use super::instructions::InstructionSet;
 use super::lanes::{BLOCK, Inputs, Lanes, lanes};
 
 /// Registers per value: two give the processor independent work while a division is under way.
@@ -14,7 +16,7 @@ use qrt_core::valid::ValidScene;
 /// Which lanes to use. All give the same bits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Simd {
-    /// The widest that this processor has.
+    /// Those of [`InstructionSet::widest`].
     #[default]
     Widest,
     /// One path at a time.
@@ -253,7 +255,7 @@ impl Real {
             // This crate's unit tests do without: each instruction set is a tracer to compile. So
             // do browsers: it would be a tracer to load, and not all of them know the widest.
             #[cfg(not(any(test, target_arch = "wasm32")))]
-            Simd::Widest => pulp::Arch::new().dispatch(work),
+            Simd::Widest => InstructionSet::widest().dispatch(work),
             #[cfg(any(test, target_arch = "wasm32"))]
             Simd::Widest => work.with_simd(pulp::Scalar::new()),
             Simd::Scalar => work.with_simd(pulp::Scalar::new()),

@@ -1,12 +1,13 @@
 //! The finished pixels of a picture, and the checkpoint that keeps them.
 
-use super::tiles::rows;
+use super::parts::Kept;
+use super::tiles::{pixels, rows};
 use super::{Options, RenderError};
-use crate::checkpoint::{AT_STAKE, Checkpoint, CheckpointError, Header, Tile};
+use crate::checkpoint::{AT_STAKE, Checkpoint, CheckpointError, Header, Part, Tile};
 use crate::image::{Image, Window};
 use std::io::ErrorKind;
 use std::path::Path;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// The part of the picture that is finished.
 pub(super) struct Film {
@@ -18,6 +19,9 @@ pub(super) struct Film {
     /// Pixels that are finished.
     pub(super) finished: u64,
     pub(super) checkpoint: Option<Checkpoint>,
+    /// Parts of unfinished pixels that the checkpoint does not have yet, and since when.
+    pending: Vec<Part>,
+    flushed: Instant,
 }
 
 impl Film {
@@ -41,18 +45,21 @@ impl Film {
             strata: filled([0; 3], area)?,
             finished: 0,
             checkpoint: None,
+            pending: Vec::new(),
+            flushed: Instant::now(),
         })
     }
 
-    /// Opens the checkpoint, and tells which pixels it has; of a new one, or none, an empty list.
+    /// Opens the checkpoint, and tells which pixels it has, and which parts of others; of a new one, or
+    /// none, an empty list.
     pub(super) fn open(
         &mut self,
         options: &Options<'_>,
         header: impl FnOnce() -> Header,
-    ) -> Result<Vec<bool>, RenderError> {
-        let mut finished = Vec::new();
+    ) -> Result<(Vec<bool>, Kept), RenderError> {
+        let (mut finished, mut kept) = (Vec::new(), Kept::new());
         let Some(path) = &options.checkpoint else {
-            return Ok(finished);
+            return Ok((finished, kept));
         };
         let header = header();
         let there = if options.resume {
@@ -60,7 +67,9 @@ impl Film {
         } else {
             None
         };
-        if let Some((checkpoint, tiles)) = there {
+        if let Some((mut checkpoint, tiles)) = there {
+            let parts = checkpoint.take_parts().into_iter();
+            kept.extend(parts.map(|part| ((part.pixel, part.number), part)));
             if !tiles.is_empty() {
                 finished.resize(self.queries.len(), false);
             }
@@ -75,7 +84,26 @@ impl Film {
         } else {
             self.checkpoint = Some(Checkpoint::create(path, &header)?);
         }
-        Ok(finished)
+        Ok((finished, kept))
+    }
+
+    /// Takes in what a part of an unfinished pixel adds up to.
+    pub(super) fn keep_part(&mut self, part: Part) -> Result<(), RenderError> {
+        self.pending.push(part);
+        if self.flushed.elapsed() >= AT_STAKE {
+            self.flush()?;
+        }
+        Ok(())
+    }
+
+    /// Hands the checkpoint what it does not have yet.
+    pub(super) fn flush(&mut self) -> Result<(), CheckpointError> {
+        let pending = std::mem::take(&mut self.pending);
+        if let Some(checkpoint) = &mut self.checkpoint {
+            checkpoint.append_parts(&pending)?;
+        }
+        self.flushed = Instant::now();
+        Ok(())
     }
 
     /// Takes in a tile that took so long, once it is in the checkpoint.
@@ -86,6 +114,11 @@ impl Film {
             if took >= AT_STAKE {
                 checkpoint.sync()?;
             }
+        }
+        if !self.pending.is_empty() {
+            let finished: Vec<[u32; 2]> =
+                pixels([tile.x, tile.y, tile.width, tile.height]).collect();
+            self.pending.retain(|part| !finished.contains(&part.pixel));
         }
         self.paint(tile);
         self.finished += tile.pixels.len() as u64;

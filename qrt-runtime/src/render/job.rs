@@ -2,6 +2,7 @@
 
 use super::classes::Classes;
 use super::film::Film;
+use super::parts::{Kept, Parts};
 use super::pixel::{Stop, Totals, go_on};
 use super::tiles::{self, Tiles};
 use super::{Colour, Model, RenderError, Rendered, Request};
@@ -18,6 +19,8 @@ pub(super) struct Job<'a> {
     tiles: Tiles,
     /// By pixel, whether a checkpoint has it; empty if there was none.
     resumed: Vec<bool>,
+    /// Parts of other pixels that it has.
+    kept: Kept,
     film: Mutex<Film>,
 }
 
@@ -26,11 +29,12 @@ impl<'a> Job<'a> {
     pub(super) fn new(request: Request<'a>, pixels: Classes) -> Result<Self, RenderError> {
         let whole = &request.scene.scene().film;
         let mut film = Film::new(request.crop, [whole.width, whole.height])?;
-        let resumed = film.open(request.options, || header(&request))?;
+        let (resumed, kept) = film.open(request.options, || header(&request))?;
         Ok(Self {
             tiles: Tiles::new(request.crop, request.options.tile, request.paths),
             pixels,
             resumed,
+            kept,
             film: Mutex::new(film),
             request,
         })
@@ -47,9 +51,11 @@ impl<'a> Job<'a> {
             paths,
         } = self.request;
         let resumed = self.resumed.iter().filter(|&&pixel| pixel).count() as u64;
+        let parts = self.kept.values().map(|part| part.paths);
+        let resumed_paths = resumed * paths + parts.sum::<u64>();
         options.workers.report(Progress::Started {
             total: area * paths,
-            resumed: resumed * paths,
+            resumed: resumed_paths,
         });
         let worked = options.workers.run(|| {
             let start = Instant::now();
@@ -63,7 +69,7 @@ impl<'a> Job<'a> {
         });
         let (done, seconds, threads) =
             worked.unwrap_or_else(|error| (Err(Stop::from(error)), 0.0, 0));
-        let film = self
+        let mut film = self
             .film
             .into_inner()
             .unwrap_or_else(PoisonError::into_inner);
@@ -89,13 +95,14 @@ impl<'a> Job<'a> {
                     scales: self.pixels.scales(),
                     ids: paths << scene.scene().comparator.bits,
                     paths: area * paths,
-                    resumed_paths: resumed * paths,
+                    resumed_paths,
                     seconds,
                     threads,
                 };
                 Ok((rendered, film.checkpoint))
             }
             Err(Stop::Cancelled) => {
+                film.flush()?;
                 let kept = closed(film.checkpoint)?;
                 Err(RenderError::Interrupted {
                     finished,
@@ -128,7 +135,7 @@ impl<'a> Job<'a> {
         let places: Vec<[u32; 2]> = tiles::pixels(self.tiles.rectangle(number)).collect();
         if self.pixels.splits() {
             for &place in &places {
-                let totals = self.pixels.at(place).many(place, workers)?;
+                let totals = self.pixels.at(place).many(place, workers, &self.parts())?;
                 self.finish(&mut tile, place, &totals)?;
             }
         } else {
@@ -142,6 +149,14 @@ impl<'a> Job<'a> {
         let mut film = self.film.lock().unwrap_or_else(PoisonError::into_inner);
         film.keep(&tile, start.elapsed())?;
         Ok(())
+    }
+
+    /// Where parts of pixels are kept.
+    fn parts(&self) -> Parts<'_> {
+        Parts {
+            before: Some(&self.kept),
+            film: (self.request.options.checkpoint.as_ref()).map(|_| &self.film),
+        }
     }
 
     /// Adds a pixel to its tile.

@@ -54,6 +54,7 @@ mod film;
 mod job;
 mod metadata;
 mod one_run;
+mod parts;
 mod pixel;
 mod tiles;
 mod visibility;

@@ -80,6 +80,38 @@ impl Segments {
         self.paths += 1;
     }
 
+    /// What it is, to go on from.
+    pub(super) fn words(&self, words: &mut Vec<u64>) {
+        words.extend([self.paths, self.sums.len() as u64]);
+        words.extend(&self.sums);
+        for (paths, sum) in self.octaves.iter().flat_map(Octaves::by_length) {
+            words.extend([paths, sum]);
+        }
+    }
+
+    /// What such words are of.
+    pub(super) fn of_words(
+        words: &mut impl ExactSizeIterator<Item = u64>,
+        one_run: Option<&OneRun>,
+    ) -> Option<Self> {
+        let (paths, length) = (words.next()?, words.next()?);
+        // More than there are words are not made room for.
+        let length = usize::try_from(length).ok().filter(|n| *n <= words.len())?;
+        let sums = (0..length).map(|_| words.next()).collect::<Option<_>>()?;
+        let mut octaves = Vec::new();
+        if let Some(one_run) = one_run.filter(|one_run| one_run.by_strata) {
+            let none = Octaves::new(one_run.comparator_bits);
+            for _ in 0..length {
+                octaves.push(none.with_lengths(|| Some((words.next()?, words.next()?)))?);
+            }
+        }
+        Some(Self {
+            sums,
+            octaves,
+            paths,
+        })
+    }
+
     /// By segment, the good indices within a stratum.
     fn within(&self, stratum: Stratum, whole: Stratum) -> Vec<u64> {
         if stratum == whole {

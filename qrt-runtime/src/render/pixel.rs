@@ -1,6 +1,7 @@
 //! From the paths of a pixel to its colour.
 
 use super::one_run::{OneRun, Segments};
+use super::parts::Parts;
 use super::{Colour, Options, RenderError};
 use crate::counting::{Comparators, Octaves};
 use crate::estimators::{
@@ -99,9 +100,7 @@ pub(super) fn go_on(workers: &Workers<'_>) -> Result<(), Stop> {
 }
 
 fn report(workers: &Workers<'_>, paths: u64) {
-    if paths > 0 {
-        workers.report(Progress::Finished(paths));
-    }
+    workers.report(Progress::Finished(paths));
 }
 
 impl Pixels {
@@ -211,27 +210,15 @@ impl Pixels {
         let mut totals = vec![self.none(); pixels.len()];
         let together = (self.run() / self.paths).max(1) as usize;
         for (pixels, totals) in pixels.chunks(together).zip(totals.chunks_mut(together)) {
-            self.trace_in_runs(pixels, 0..self.paths, totals, |_| go_on(workers))?;
+            let mut first = 0;
+            while first < self.paths {
+                go_on(workers)?;
+                let end = (first + self.run()).min(self.paths);
+                self.trace(pixels, first..end, totals)?;
+                first = end;
+            }
         }
         Ok(totals)
-    }
-
-    /// As [`Pixels::trace`], in runs, each of which `before` allows or stops.
-    fn trace_in_runs(
-        &self,
-        pixels: &[[u32; 2]],
-        ids: Range<u64>,
-        totals: &mut [Totals],
-        mut before: impl FnMut(u64) -> Result<(), Stop>,
-    ) -> Result<(), Stop> {
-        let mut first = ids.start;
-        while first < ids.end {
-            let end = (first + self.run()).min(ids.end);
-            before(end - first)?;
-            self.trace(pixels, first..end, totals)?;
-            first = end;
-        }
-        Ok(())
     }
 
     /// Adds the paths `ids` of `pixels` to their `totals`.
@@ -269,20 +256,36 @@ impl Pixels {
     }
 
     /// The totals of the many paths of one pixel, on all threads; `workers` are told of every run of
-    /// paths.
-    pub(super) fn many(&self, pixel: [u32; 2], workers: &Workers<'_>) -> Result<Totals, Stop> {
+    /// paths. Those of its parts are handed to `kept`, from which they go on.
+    pub(super) fn many(
+        &self,
+        pixel: [u32; 2],
+        workers: &Workers<'_>,
+        kept: &Parts<'_>,
+    ) -> Result<Totals, Stop> {
         let part = RUN.max(self.paths / PARTS);
         let parts = (0..self.paths.div_ceil(part)).into_par_iter();
         let totals = parts.map(|n| {
             let ids = n * part..((n + 1) * part).min(self.paths);
-            let mut totals = [self.none()];
-            let mut traced = 0;
-            self.trace_in_runs(&[pixel], ids, &mut totals, |paths| {
-                report(workers, traced);
-                traced = paths;
-                go_on(workers)
-            })?;
-            report(workers, traced);
+            let before = kept.before(pixel, n).and_then(|(paths, words)| {
+                let whole_runs = paths.is_multiple_of(self.run()) && paths <= ids.end - ids.start;
+                let totals = self.of_words(words).filter(|_| whole_runs)?;
+                Some((ids.start + paths, totals))
+            });
+            let (mut first, totals) = before.unwrap_or((ids.start, self.none()));
+            let mut totals = [totals];
+            let mut keeper = kept.keeper(pixel, n);
+            while first < ids.end {
+                if let Err(stop) = go_on(workers) {
+                    keeper.interrupted(first - ids.start, || totals[0].words())?;
+                    return Err(stop);
+                }
+                let end = (first + self.run()).min(ids.end);
+                self.trace(&[pixel], first..end, &mut totals)?;
+                report(workers, end - first);
+                first = end;
+                keeper.traced(first - ids.start, first == ids.end, || totals[0].words())?;
+            }
             let [totals] = totals;
             Ok(totals)
         });
@@ -293,6 +296,24 @@ impl Pixels {
             whole.append(later);
         }
         Ok(whole)
+    }
+
+    /// The totals that these words are of; none of words that are of none.
+    fn of_words(&self, words: &[u64]) -> Option<Totals> {
+        let mut words = words.iter().copied();
+        let words = &mut words;
+        let mut totals = self.none();
+        totals.queries = words.next()?;
+        for channel in 0..3 {
+            let sum: Vec<u64> = words.by_ref().take(Sum::WORDS).collect();
+            totals.colour[channel] = Sum::of_words(sum.as_array()?)?;
+            totals.good[channel] = words.next()?;
+            totals.stray[channel] = (words.next()?, f64::from_bits(words.next()?));
+            let none = &totals.octaves[channel];
+            totals.octaves[channel] = none.with_lengths(|| Some((words.next()?, words.next()?)))?;
+        }
+        totals.segments = Segments::of_words(words, self.one_run())?;
+        words.next().is_none().then_some(totals)
     }
 
     fn take(&self, totals: &mut Totals, block: &PathBlock<'_>) {
@@ -427,6 +448,21 @@ impl Pixels {
 }
 
 impl Totals {
+    /// What they are, to go on from.
+    fn words(&self) -> Vec<u64> {
+        let mut words = vec![self.queries];
+        for channel in 0..3 {
+            let (paths, colour) = self.stray[channel];
+            words.extend(self.colour[channel].words());
+            words.extend([self.good[channel], paths, colour.to_bits()]);
+            for (paths, sum) in self.octaves[channel].by_length() {
+                words.extend([paths, sum]);
+            }
+        }
+        self.segments.words(&mut words);
+        words
+    }
+
     /// Adds the totals of later path indices.
     fn append(&mut self, later: &Self) {
         self.segments.append(&later.segments);
@@ -496,7 +532,8 @@ sampling: { path_bits: 5 }
                 })) => {}
                 other => panic!("{:?}", other.ok().map(|pixel| pixel.colour)),
             }
-            let parts = pixels.many([1, 0], &Workers::default()).ok().unwrap();
+            let parts = pixels.many([1, 0], &Workers::default(), &Parts::default());
+            let parts = parts.ok().unwrap();
             assert!(finish(&pixels, &parts).is_err());
         }
     }

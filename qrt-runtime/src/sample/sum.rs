@@ -50,6 +50,29 @@ impl Sum {
         self.total + (((a + e) + (c + g)) + ((b + f) + (d + h)))
     }
 
+    /// How many words a sum is.
+    pub(crate) const WORDS: usize = LANES + 2;
+
+    /// What it is, to go on from.
+    pub(crate) fn words(&self) -> [u64; Self::WORDS] {
+        let mut words = [self.filled as u64; Self::WORDS];
+        words[0] = self.total.to_bits();
+        for (word, lane) in words[1..].iter_mut().zip(self.lanes) {
+            *word = lane.to_bits();
+        }
+        words
+    }
+
+    /// The sum that these words are of; none of words that are of none.
+    pub(crate) fn of_words(words: &[u64; Self::WORDS]) -> Option<Self> {
+        let [total, lanes @ .., filled] = *words;
+        Some(Self {
+            total: f64::from_bits(total),
+            lanes: lanes.map(f64::from_bits),
+            filled: usize::try_from(filled).ok().filter(|n| *n < BLOCK)?,
+        })
+    }
+
     /// Adds a sum over later path indices. To be used on block boundaries.
     pub(crate) fn append(&mut self, later: &Self) {
         self.total = self.value() + later.value();

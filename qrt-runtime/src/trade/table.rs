@@ -7,10 +7,10 @@
 use super::band::Band;
 use super::error::TradeError;
 use super::setting::{KEY, Setting};
-use crate::replace_file::replace_file;
+use crate::disk::{self, DiskFile};
+use crate::replace_file::replaced;
 use qrt_core::oracle::CallCost;
-use std::fs::{File, OpenOptions, TryLockError};
-use std::io::{self, Seek as _, SeekFrom, Write as _};
+use std::io::{self, Read as _, Seek as _, SeekFrom, Write as _};
 use std::path::{Path, PathBuf};
 
 /// Errors of a row, in their order.
@@ -103,7 +103,8 @@ pub(super) type Header = Vec<(&'static str, String)>;
 
 /// A table that grows.
 pub(super) struct Table {
-    file: File,
+    /// Locked against others who measure.
+    file: DiskFile,
     path: PathBuf,
     /// The first two lines.
     head: String,
@@ -124,8 +125,12 @@ impl Table {
         settings: &[Setting],
     ) -> Result<Self, TradeError> {
         let failed = failed(path);
-        let file = opened(path)?;
-        let bytes = std::fs::read(path).map_err(&failed)?;
+        let file = disk::open_locked(path, true).map_err(&failed)?;
+        let mut file = file.ok_or_else(|| TradeError::InUse {
+            path: path.to_path_buf(),
+        })?;
+        let mut bytes = Vec::new();
+        file.read_to_end(&mut bytes).map_err(&failed)?;
         // What is no text is damaged.
         let text = String::from_utf8_lossy(&bytes);
         // A last line without its end was cut off while it was written.
@@ -183,7 +188,7 @@ impl Table {
         let line = row.line();
         let summed = format!("{line},{:08x}", crc32fast::hash(line.as_bytes()));
         (self.file.write_all(format!("{summed}\n").as_bytes()))
-            .and_then(|()| self.file.sync_data())
+            .and_then(|()| self.file.sync())
             .map_err(failed(&self.path))?;
         self.lines[at] = Some(summed);
         Ok(Row::read(row.setting, &line).unwrap_or(*row))
@@ -205,32 +210,14 @@ impl Table {
             text.push_str(line);
             text.push('\n');
         }
-        replace_file(&self.path, |out| out.write_all(text.as_bytes())).map_err(&failed)?;
-        self.file = opened(&self.path)?;
+        // Locked before it has its name, as the other is until then.
+        self.file = replaced(&self.path, |out| out.write_all(text.as_bytes())).map_err(&failed)?;
         self.go_on_at(text.len() as u64).map_err(&failed)
     }
 
     fn go_on_at(&mut self, end: u64) -> io::Result<()> {
         self.file.set_len(end)?;
         self.file.seek(SeekFrom::Start(end)).map(drop)
-    }
-}
-
-/// The file, made if it is not there, and locked against others who measure.
-fn opened(path: &Path) -> Result<File, TradeError> {
-    let mut options = OpenOptions::new();
-    let file = (options.create(true).truncate(false).write(true))
-        .open(path)
-        .map_err(failed(path))?;
-    match file.try_lock() {
-        Err(TryLockError::WouldBlock) => Err(TradeError::InUse {
-            path: path.to_path_buf(),
-        }),
-        // Some network file systems have no locks.
-        Err(TryLockError::Error(error)) if !crate::disk::has_no_locks(&error) => {
-            Err(failed(path)(error))
-        }
-        _ => Ok(file),
     }
 }
 

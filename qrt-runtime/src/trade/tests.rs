@@ -178,6 +178,51 @@ fn two_do_not_measure_into_one_table() {
     assert_eq!(std::fs::read(&path).unwrap(), b"");
 }
 
+#[cfg(unix)]
+#[test]
+fn a_table_that_is_a_link_is_left_alone() {
+    let folder = Scratch::new();
+    std::fs::write(folder.path("thesis"), "a thesis").unwrap();
+    for target in ["thesis", "missing"] {
+        let path = folder.path("trade.csv");
+        std::os::unix::fs::symlink(target, &path).unwrap();
+        let error = trade(&scene(LIT), &folder.path(""), &quick()).unwrap_err();
+        assert!(error.to_string().contains("regular file"), "{error}");
+        std::fs::remove_file(&path).unwrap();
+    }
+    assert_eq!(std::fs::read(folder.path("thesis")).unwrap(), b"a thesis");
+    assert_eq!(folder.names(), ["thesis"]);
+}
+
+#[test]
+fn a_table_that_lost_its_name_is_nobodys() {
+    // Of many that begin at a time one measures, though its file is made, replaced and removed meanwhile.
+    use std::sync::atomic::{AtomicU32, Ordering};
+    let folder = Scratch::new();
+    let path = folder.path("trade.csv");
+    let (holders, finished) = (AtomicU32::new(0), AtomicU32::new(0));
+    std::thread::scope(|scope| {
+        for _ in 0..4 {
+            scope.spawn(|| {
+                while finished.load(Ordering::SeqCst) < 200 {
+                    match table::Table::open(&path, &vec![], &[]) {
+                        Err(TradeError::InUse { .. }) => continue,
+                        opened => {
+                            let table = opened.unwrap();
+                            assert_eq!(holders.fetch_add(1, Ordering::SeqCst), 0);
+                            if finished.fetch_add(1, Ordering::SeqCst).is_multiple_of(2) {
+                                std::fs::remove_file(&path).unwrap();
+                            }
+                            holders.fetch_sub(1, Ordering::SeqCst);
+                            drop(table);
+                        }
+                    }
+                }
+            });
+        }
+    });
+}
+
 #[test]
 fn any_changed_byte_of_a_row_is_noticed() {
     let row = "paths,fixed,sine,1.0e0";

@@ -7,6 +7,7 @@ use super::args::{SceneArgs, choice};
 use super::failure::Failure;
 use super::files::{Output, keep_apart};
 use super::memory::Work;
+use super::progress::Bar;
 use super::terminal;
 use clap::Args;
 use qrt_core::front::Loaded;
@@ -91,8 +92,11 @@ pub(crate) fn run(args: &InspectArgs) -> Result<(), Failure> {
     let scene = planned.as_ref().map_or(&loaded.valid, |plan| &plan.scene);
     let refused = |error: qrt_core::oracle::OracleError| loaded.report(vec![error.problem()]);
     args.scene.memory().keep_circuit(scene, Work::Program)?;
-    let inspection = Inspection::new(scene, args.channel, Options::default()).map_err(refused)?;
-    let passes = inspection.passes(scene).map_err(refused)?;
+    let bar = Bar::setting_up();
+    let inspection = Inspection::new(scene, args.channel, Options::default());
+    let passes = inspection.and_then(|inspection| Ok((inspection.passes(scene)?, inspection)));
+    bar.clear();
+    let (passes, inspection) = passes.map_err(refused)?;
 
     let name = &scene.scene().name;
     if let Some(file) = &registers {

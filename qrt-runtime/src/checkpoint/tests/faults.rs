@@ -17,7 +17,8 @@ fn bytes(tiles: &[Tile]) -> Vec<u8> {
 }
 
 /// Renders the picture into `folder`, as the command does: what the checkpoint has is taken, the rest
-/// appended, and the checkpoint removed when the picture is safe. Every fourth tile is made durable.
+/// appended, a part of each tile before it, and the checkpoint removed when the picture is safe. Every
+/// fourth tile is made durable.
 fn job(folder: &Scratch, resume: bool) -> Result<(), CheckpointError> {
     let path = folder.path("p.png.qrt-partial");
     let there = resume && path.exists();
@@ -29,6 +30,11 @@ fn job(folder: &Scratch, resume: bool) -> Result<(), CheckpointError> {
     let work = (|| {
         for (number, tile) in picture().into_iter().enumerate() {
             if !tiles.contains(&tile) {
+                let part = Part {
+                    totals: vec![7; 60],
+                    ..part([tile.x, tile.y], 0, 1)
+                };
+                checkpoint.append_parts(&[part])?;
                 checkpoint.append(&tile)?;
                 if number % 4 == 3 {
                     checkpoint.sync()?;

@@ -82,30 +82,37 @@ fn gates() -> impl Strategy<Value = Vec<Gate>> {
     proptest::collection::vec(piece, 0..40).prop_map(|pieces| pieces.concat())
 }
 
-/// All states of the qubits, in 4 pixels.
+/// All states of the qubits, in 4 pixels; and a quarter of them in rows of few lanes.
 fn check(gates: &[Gate], set: InstructionSet) {
     let circuit = circuit(gates.to_vec(), QUBITS);
     let machine = Gates::new(&[&circuit]).unwrap().with_instructions(set);
+    check_lanes(gates, &machine.clone().with_few_lanes(), set);
+    check_lanes(gates, &machine, set);
+}
+
+fn check_lanes(gates: &[Gate], machine: &Gates, set: InstructionSet) {
+    let lanes = machine.lanes();
     let mut rows = machine.rows();
     let qubits: Vec<Qubit> = (0..QUBITS).collect();
     let states = 1 << QUBITS;
-    let contents: Vec<u64> = (0..LANES as u64).map(|lane| lane % states).collect();
+    let contents: Vec<u64> = (0..lanes as u64).map(|lane| 5 * lane % states).collect();
+    let span = lanes / 4;
     let words: Vec<[u64; 2]> = (0..4).map(|pixel| [3 * pixel % 8, pixel / 2]).collect();
     let spans = words.iter().map(|words| Span {
-        lanes: states as usize,
+        lanes: span,
         parameters: words,
     });
     rows.set(&qubits, &contents);
     rows.set_parameters(&spans.collect::<Vec<_>>());
     machine.run(0, &mut rows);
-    let mut after = vec![0; LANES];
+    let mut after = vec![0; lanes];
     rows.get(&qubits, &mut after);
-    for lane in 0..LANES {
+    for lane in 0..lanes {
         let mut state = State {
             qubits: (0..QUBITS).map(|q| contents[lane] >> q & 1 == 1).collect(),
             negative: false,
         };
-        state.run(gates, &words[lane / states as usize]);
+        state.run(gates, &words[lane / span]);
         let expected = state.qubits.iter().rev();
         let expected = expected.fold(0, |sum, bit| 2 * sum + u64::from(*bit));
         assert_eq!(after[lane], expected, "lane {lane}, {set:?}");

@@ -1,7 +1,7 @@
 //! An oracle as circuits: what the gates machine runs.
 
 use qrt_circuit::{Circuit, Instruction, Operand, Program, Qubit, RegisterId, lower};
-use qrt_core::oracle::Oracle;
+use qrt_core::oracle::{MOST_BITS, Oracle};
 use std::sync::{Arc, Mutex};
 
 /// The parts of an oracle's circuit, which share their qubits.
@@ -31,7 +31,7 @@ pub(super) struct Streamed {
 
 impl OracleCircuits {
     /// With more bits in registers than these, gates of compute and uncompute are not held.
-    pub const MOST_BITS: u64 = 1 << 19;
+    pub const MOST_BITS: u64 = MOST_BITS;
 
     /// Lowers an oracle to gates: compute, all channels' flips one after another, uncompute.
     ///

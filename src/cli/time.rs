@@ -1,0 +1,111 @@
+//! How long work takes is estimated before it begins, and told where it is long: it may be meant, but hardly is.
+
+use super::{memory, terminal};
+use qrt_core::valid::ValidScene;
+use qrt_runtime::render::Model;
+
+/// Paths that a thread traces in a second; boxes and rooms take two to four times as many, meshes fewer.
+const PATHS: f64 = 1e6;
+/// Gates of a path that a thread runs in a second, and operations.
+const GATES: f64 = 2e10;
+const OPERATIONS: f64 = 2e8;
+/// Of so few, circuits are not looked at.
+const FEW_PATHS: f64 = 65_536.0;
+/// Less is not told of.
+const MINUTES: f64 = 10.0;
+
+/// What a path goes through.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct PathCost {
+    pub(crate) operations: f64,
+    pub(crate) gates: f64,
+}
+
+impl PathCost {
+    /// Seconds of a thread.
+    fn seconds(self, model: Model) -> f64 {
+        match model {
+            Model::Real => 1.0 / PATHS,
+            Model::Fixed => self.operations / OPERATIONS,
+            Model::Gates => self.gates / GATES,
+        }
+    }
+}
+
+/// Tells how long it takes to trace all paths of so many pixels on these models, each `times` over, if that is
+/// long.
+pub(crate) fn tell_of_paths(
+    scene: &ValidScene,
+    pixels: f64,
+    times: f64,
+    models: &[Model],
+    threads: usize,
+) {
+    let bits = scene.scene().sampling.path_bits;
+    let paths = times * pixels * libm::exp2(f64::from(bits));
+    // Of fewer, no circuit that is run takes long, and looking at it would.
+    let of_circuit = paths > FEW_PATHS && models.iter().any(|model| *model != Model::Real);
+    let cost = if of_circuit {
+        memory::path_cost(scene)
+    } else {
+        PathCost::default()
+    };
+    let seconds = models.iter().map(|model| cost.seconds(*model));
+    let seconds = paths * seconds.sum::<f64>() / threads as f64;
+    let plural = if pixels == 1.0 { "" } else { "s" };
+    let what = format!("{pixels} pixel{plural} of 2^{bits} paths each");
+    let less = "lower `sampling.path_bits` takes less, such as `--set sampling.path_bits=12`";
+    tell(&what, seconds, less);
+}
+
+/// Tells that `what` takes so long, if that is long, and what takes less.
+pub(crate) fn tell(what: &str, seconds: f64, less: &str) {
+    if let Some(long) = long(seconds) {
+        terminal::note(&format!("{what} take about {long} on this machine; {less}"));
+    }
+}
+
+/// A long time in words.
+fn long(seconds: f64) -> Option<String> {
+    let minutes = seconds / 60.0;
+    let (value, unit) = match minutes {
+        minutes if minutes < MINUTES => return None,
+        minutes if minutes < 120.0 => (minutes, "minutes"),
+        minutes if minutes < 48.0 * 60.0 => (minutes / 60.0, "hours"),
+        minutes if minutes < 2.0 * 365.0 * 1440.0 => (minutes / 1440.0, "days"),
+        minutes => (minutes / 1440.0 / 365.0, "years"),
+    };
+    Some(format!("{} {unit}", number(value)))
+}
+
+/// With two digits that count, or as a whole number; of large ones, in powers of ten.
+fn number(value: f64) -> String {
+    if value < 10.0 {
+        format!("{value:.1}")
+    } else if value < 1e6 {
+        format!("{value:.0}")
+    } else {
+        format!("{value:.1e}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_times_are_told_in_words() {
+        assert_eq!(long(599.0), None);
+        for (seconds, words) in [
+            (600.0, "10 minutes"),
+            (7199.0, "120 minutes"),
+            (7201.0, "2.0 hours"),
+            (3600.0 * 47.0, "47 hours"),
+            (86_400.0 * 2.5, "2.5 days"),
+            (86_400.0 * 365.0 * 1e6, "1.0e6 years"),
+        ] {
+            assert_eq!(long(seconds).as_deref(), Some(words));
+        }
+        assert!(long(f64::INFINITY).is_some());
+    }
+}

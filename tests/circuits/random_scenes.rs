@@ -1,0 +1,131 @@
+//! Random small scenes, path by path through all models: the circuit does what the integers do, bit for bit, and
+//! floating point what both do, but for the width of numbers.
+
+use crate::common::numbers::Numbers;
+use qrt::core::front::parse;
+use qrt::runtime::verify::{Options, verify};
+use std::fmt::Write as _;
+
+/// A scene that looks at a few surfaces; coordinates are eighths, so that parallelograms are flat.
+fn scene(numbers: &mut Numbers) -> String {
+    let mut text = String::from("name: random\n");
+    let eighths = |numbers: &mut Numbers, most: usize| {
+        (numbers.below(2 * most + 1) as f64 - most as f64) / 8.0
+    };
+    let point = |numbers: &mut Numbers, most| [(); 3].map(|()| eighths(numbers, most));
+    let eye = [eighths(numbers, 8), eighths(numbers, 8), 3.0];
+    let target = point(numbers, 4);
+    let vfov = 20 + numbers.below(100);
+    let _ = writeln!(
+        text,
+        "camera: {{ perspective: {{ eye: {eye:?}, target: {target:?}, vfov: {vfov} }} }}"
+    );
+    text += "film: { width: 3, height: 2 }\nmaterials:\n";
+    let fraction = |numbers: &mut Numbers| numbers.below(9) as f64 / 10.0;
+    let surfaces = 1 + numbers.below(5);
+    for number in 0..surfaces {
+        let rgb = [(); 3].map(|()| fraction(numbers));
+        let material = match numbers.below(if number == 0 { 1 } else { 6 }) {
+            0 => format!("emitter: {{ radiance: {:?} }}", rgb.map(|c| 4.0 * c + 0.5)),
+            1 => format!("mirror: {{ reflectance: {rgb:?} }}"),
+            2 => format!("dielectric: {{ ior: 1.{} }}", 1 + numbers.below(8)),
+            3 => format!(
+                "ggx: {{ reflectance: {rgb:?}, alpha: 0.{} }}",
+                2 + numbers.below(7)
+            ),
+            _ => format!("lambertian: {{ albedo: {rgb:?} }}"),
+        };
+        let _ = writeln!(text, "  m{number}: {{ {material} }}");
+    }
+    text += "geometry:\n";
+    for number in 0..surfaces {
+        let corner = point(numbers, 12);
+        let sides = [point(numbers, 16), point(numbers, 16)];
+        let at = |u: f64, v: f64| [0, 1, 2].map(|k| corner[k] + u * sides[0][k] + v * sides[1][k]);
+        let [a, b, c, d] = [at(0.0, 0.0), at(1.0, 0.0), at(1.0, 1.0), at(0.0, 1.0)];
+        let _ = match numbers.below(3) {
+            0 => writeln!(
+                text,
+                "  - triangle: {{ vertices: [{a:?}, {b:?}, {c:?}], material: m{number} }}"
+            ),
+            _ => writeln!(
+                text,
+                "  - quad: {{ vertices: [{a:?}, {b:?}, {c:?}, {d:?}], material: m{number} }}"
+            ),
+        };
+    }
+    let (bits, comparator) = (12 + numbers.below(7), 2 + numbers.below(5));
+    let _ = writeln!(
+        text,
+        "precision: {{ fraction: {bits} }}\ncomparator: {{ bits: {comparator} }}"
+    );
+    let second = numbers.below(3);
+    let _ = writeln!(
+        text,
+        "sampling: {{ path_bits: 5, depths: [{{ bits: [2, 3] }}{}] }}",
+        ", { bits: [2, 2] }".repeat(second)
+    );
+    if numbers.below(4) == 0 {
+        text += "circuit: { uncompute: scoped }\n";
+    }
+    text
+}
+
+/// Checks so many scenes that are scenes, on a thread of each core.
+fn check(scenes: usize, seed: u64) {
+    use std::sync::Mutex;
+    use std::sync::atomic::{AtomicUsize, Ordering};
+    let next = AtomicUsize::new(0);
+    let found = Mutex::new((0, 0_u64, 0.0));
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    std::thread::scope(|scope| {
+        for _ in 0..threads {
+            scope.spawn(|| {
+                loop {
+                    let number = next.fetch_add(1, Ordering::Relaxed);
+                    if found.lock().unwrap().0 >= scenes {
+                        break;
+                    }
+                    let mut numbers = Numbers(seed + number as u64);
+                    let text = scene(&mut numbers);
+                    // Some have surfaces without area; that is told, and no panic.
+                    let Ok(loaded) = parse(&text, "random.yaml", &[], "".as_ref()) else {
+                        continue;
+                    };
+                    let mut options = Options {
+                        pixels: 2,
+                        seed: number as u64,
+                        ..Options::default()
+                    };
+                    options.workers.threads = std::num::NonZeroUsize::new(1);
+                    let report = verify(&loaded.valid, &options);
+                    let report = report.unwrap_or_else(|error| panic!("{error}\n{text}"));
+                    assert!(report.holds(), "{report:?}\n{text}");
+                    let mut found = found.lock().unwrap();
+                    found.0 += 1;
+                    found.1 += report.paths;
+                    found.2 += report.parted;
+                }
+            });
+        }
+    });
+    let (checked, paths, parted) = found.into_inner().unwrap();
+    println!(
+        "{checked} scenes of {} were checked, {paths} paths; {:.3} % met something else",
+        next.into_inner(),
+        100.0 * parted / checked as f64
+    );
+    // A word of 12 to 18 bits decides another way at edges alone.
+    assert!(parted / (checked as f64) < 0.02);
+}
+
+#[test]
+fn of_forty_scenes_all_models_agree() {
+    check(40, 0);
+}
+
+#[test]
+#[ignore = "takes about an hour on two cores"]
+fn of_ten_thousand_scenes_all_models_agree() {
+    check(10_000, 1_000_000);
+}
