@@ -14,6 +14,7 @@ mod circuits {
     mod nearest_hits;
     mod only_what_the_scene_requires;
     mod random_scenes;
+    mod strategies;
     mod the_checker_is_checked;
     mod the_counting_circuit;
     mod the_shortcut_is_exact;

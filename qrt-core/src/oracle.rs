@@ -20,20 +20,24 @@
 
 mod budget;
 pub mod compiled;
+mod layouts;
 mod nearest;
 mod phase;
 mod recording;
 
 pub use budget::{CallCost, call_cost, check_budget};
+pub use layouts::Layout;
 pub use nearest::{MOST_FACES, NearestOracle};
 pub use phase::MOST_BITS;
 
-use crate::compile::{BuildError, Builder, Label, NamedPlace, Passes, PixelWord, Real, StageName};
+use crate::compile::{
+    BuildError, Builder, Label, NamedPlace, Passes, PixelWord, Real, StageName, Strategy,
+};
 use crate::sampling::{PathPoints, SamplingError};
 use crate::scene::ComparatorAt;
 use crate::tracer::{Arith, PixelClass, Stage};
 use crate::valid::ValidScene;
-use qrt_circuit::{Bit, BlockId, Instruction, Op, Operand, Program, RegisterId, Style, Word};
+use qrt_circuit::{Bit, BlockId, Instruction, Op, Operand, Program, RegisterId, Word, lower};
 use recording::{PrimaryHit, Recording};
 use std::fmt;
 
@@ -55,8 +59,8 @@ pub fn luminance(colour: &[f64; 3]) -> f64 {
 /// How a scene is compiled, where that differs from what the scene says.
 #[derive(Clone, Copy, Debug)]
 pub struct Options {
-    /// How operations that have garbage are lowered; by the scene's strategy unless set.
-    pub style: Option<Style>,
+    /// What is undone when; by the scene's `circuit.uncompute` unless set.
+    pub strategy: Option<Strategy>,
     /// What is done to make the program cheaper.
     pub passes: Passes,
     /// The class of the pixels that it is for. The default serves all pixels; that of a class has
@@ -65,6 +69,17 @@ pub struct Options {
 }
 
 impl Options {
+    /// What is undone when in circuits of `scene`.
+    ///
+    /// # Errors
+    /// As [`Oracle::new`]: `uncompute: auto` tries several.
+    pub fn strategy(&self, scene: &ValidScene) -> Result<Strategy, OracleError> {
+        match self.strategy {
+            Some(strategy) => Ok(strategy),
+            None => layouts::strategy_of(scene),
+        }
+    }
+
     /// The defaults, for pixels of this class.
     pub fn of_class(class: PixelClass) -> Self {
         Self {
@@ -77,7 +92,7 @@ impl Options {
 impl Default for Options {
     fn default() -> Self {
         Self {
-            style: None,
+            strategy: None,
             passes: Passes::ALL,
             class: PixelClass::default(),
         }
@@ -237,6 +252,16 @@ impl Oracle {
         words
             .map(|word| word.value(&self.points, seed, pixel))
             .collect()
+    }
+
+    /// How many qubits a call needs: the most in use at any time, channel number 0 being compared.
+    pub fn qubits(&self) -> u32 {
+        // Uncompute holds at each instruction what compute does.
+        let mut upto = self.flip(0);
+        let compute = self.program.instructions.iter().copied();
+        upto.instructions.splice(0..0, compute);
+        upto.inputs.clone_from(&self.program.inputs);
+        lower::most_qubits(&upto)
     }
 
     /// How many qubits the comparator has.

@@ -5,6 +5,7 @@ pub mod disk;
 pub mod draw;
 pub mod estimators;
 pub mod image;
+pub mod layouts;
 pub mod machines;
 pub mod memory;
 mod named;

@@ -4,9 +4,9 @@ use super::{memory, terminal};
 use qrt_core::valid::ValidScene;
 use qrt_runtime::render::Model;
 
-/// Paths that a thread traces in a second; boxes and rooms take two to four times as many, meshes fewer.
+/// Paths that a thread is taken to trace in a second: a round figure, for an estimate of hours or days.
 const PATHS: f64 = 1e6;
-/// Gates of a path that a thread runs in a second, and operations.
+/// Gates of a path that a thread is taken to run in a second, and operations: round figures, too.
 const GATES: f64 = 2e10;
 const OPERATIONS: f64 = 2e8;
 /// Of so few, circuits are not looked at.

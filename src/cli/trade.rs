@@ -16,7 +16,7 @@ use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// How often the paths of a pixel are traced, as measured of the lit box.
+/// How often the paths of a pixel are taken to be traced: a round figure.
 const TRACED_ANEW: f64 = 20.0;
 
 /// Measure what a scene's accuracy costs, parameter by parameter

@@ -43,6 +43,7 @@ const MODULES: &[(&str, &[&str])] = &[
             "plan",
             "render",
             "draw",
+            "layouts",
             "verify",
             "trade",
         ],

@@ -387,7 +387,7 @@ fn what_cannot_be_exported_is_said_and_nothing_is_written() {
         (&["--max-gates", "100"], "are more than --max-gates 100\n"),
         (
             &["--part", "counting", "--max-gates", "100"],
-            "; one iterate alone has 32,",
+            "; one iterate alone has 21,",
         ),
         (
             &["--part", "counting", "--set", "counting.phase_bits=40"],

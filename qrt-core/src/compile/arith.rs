@@ -232,16 +232,17 @@ impl Arith for Builder<'_> {
     fn enter(&mut self, part: Part) {
         let depth = |depth: usize| Some(depth as u32);
         match part {
-            Part::GenerateRay(k) => self.begin(StageName::GenerateRay, depth(k), true),
-            Part::FindIntersection(k) => self.begin(StageName::FindIntersection, depth(k), true),
-            Part::SampleLight(k) => self.begin(StageName::SampleLight, depth(k), true),
-            Part::Shadow(k) => self.begin(StageName::Shadow, depth(k), true),
-            Part::Plane(number) => self.begin(StageName::Plane(number as u32), None, true),
-            Part::Primitive(number) => self.begin(StageName::Primitive(number as u32), None, true),
-            Part::Side(k) => self.begin(StageName::Side, depth(k), true),
-            Part::Sample => self.begin(StageName::Sample, None, true),
-            Part::Component(axis) => self.begin(StageName::Component(axis as u32), None, true),
-            Part::Shade(k) => self.begin(StageName::Shade, depth(k), true),
+            Part::GenerateRay(k) => self.begin(StageName::GenerateRay, depth(k)),
+            Part::FindIntersection(k) => self.begin(StageName::FindIntersection, depth(k)),
+            Part::SampleLight(k) => self.begin(StageName::SampleLight, depth(k)),
+            Part::Shadow(k) => self.begin(StageName::Shadow, depth(k)),
+            Part::Body(number) => self.begin(StageName::Body(number as u32), None),
+            Part::Plane(number) => self.begin(StageName::Plane(number as u32), None),
+            Part::Primitive(number) => self.begin(StageName::Primitive(number as u32), None),
+            Part::Side(k) => self.begin(StageName::Side, depth(k)),
+            Part::Sample => self.begin(StageName::Sample, None),
+            Part::Component(axis) => self.begin(StageName::Component(axis as u32), None),
+            Part::Shade(k) => self.begin(StageName::Shade, depth(k)),
         }
     }
     fn leave(&mut self) {

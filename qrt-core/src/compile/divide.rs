@@ -1,7 +1,7 @@
 //! Quotients.
 
 use super::value::{Bool, Real, bits_above};
-use super::{BuildError, Builder, GARBAGE, MAX_BITS};
+use super::{BuildError, Builder, GARBAGE, Garbage, MAX_BITS};
 use qrt_circuit::{Bit, Op, Operand, Type, Word};
 
 /// A quotient of magnitudes.
@@ -41,7 +41,7 @@ impl Builder<'_> {
         };
         let width = (bits_above(most) + shift).clamp(1, MAX_BITS);
         let fraction_type = Type::UFixed { fraction: shift };
-        let style = self.target.style;
+        let style = self.target.strategy.style(Garbage::Quotients);
         let results = self.emit(Op::Divide {
             a,
             b,

@@ -55,7 +55,7 @@ impl Builder<'_> {
     /// What follows belongs to the comparison with the nearest so far, until
     /// [`crate::tracer::Arith::leave`].
     pub(crate) fn enter_nearer(&mut self) {
-        self.begin(StageName::Nearer, None, false);
+        self.begin(StageName::Nearer, None);
     }
 
     /// A number without its constant, and a bound that is looked up for it: moved by the constant,

@@ -80,6 +80,8 @@ pub enum StageName {
     SampleLight,
     /// Whether anything stands between a vertex and the point on a lamp.
     Shadow,
+    /// One convex body (by number), within a search.
+    Body(u32),
     /// One plane (by number) and the primitives on it, within a search.
     Plane(u32),
     /// One primitive (by number), within a search.
@@ -112,6 +114,7 @@ impl StageName {
     /// The stage's name, without its number.
     pub fn kind(self) -> &'static str {
         match self {
+            Self::Body(_) => "body",
             Self::Plane(_) => "plane",
             Self::Primitive(_) => "primitive",
             Self::Component(axis) => ["x", "y", "z"].get(axis as usize).unwrap_or(&"component"),
@@ -138,7 +141,9 @@ impl fmt::Display for StageName {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.kind())?;
         match self {
-            Self::Plane(number) | Self::Primitive(number) => write!(f, " {number}"),
+            Self::Plane(number) | Self::Primitive(number) | Self::Body(number) => {
+                write!(f, " {number}")
+            }
             _ => Ok(()),
         }
     }
@@ -184,6 +189,7 @@ impl Label {
                 0xff => StageName::Plane(number),
                 0xfe => StageName::Primitive(number),
                 0xfd => StageName::Component(number),
+                0xfc => StageName::Body(number),
                 kind => plain(kind).unwrap_or(StageName::Oracle),
             },
             depth: depth.checked_sub(1),
@@ -197,6 +203,7 @@ impl Label {
             StageName::Plane(number) => (0xff, number),
             StageName::Primitive(number) => (0xfe, number),
             StageName::Component(number) => (0xfd, number),
+            StageName::Body(number) => (0xfc, number),
             plain => {
                 let place = Self::PLAIN.iter().position(|&known| known == plain);
                 (place.unwrap_or(0) as u64, 0)
@@ -290,6 +297,7 @@ mod tests {
             StageName::Plane(u32::MAX),
             StageName::Primitive(65_536),
             StageName::Component(2),
+            StageName::Body(7),
         ];
         for stage in Label::PLAIN.into_iter().chain(numbered) {
             for depth in [None, Some(0), Some(1_000)] {

@@ -33,6 +33,7 @@ mod order;
 mod passes;
 mod product;
 mod root;
+mod strategy;
 mod table;
 mod truth;
 mod value;
@@ -40,6 +41,7 @@ mod value;
 pub use label::{Label, PixelWord, Role, StageName};
 pub use names::{NamedPlace, Place};
 pub(crate) use passes::{Known, assemble};
+pub use strategy::{Garbage, Scope, Strategy};
 pub use value::{Bool, Index, Real};
 
 use crate::sampling::PathPoints;
@@ -47,7 +49,7 @@ use crate::syntax::{Circuit, What};
 use crate::tracer::{Coordinate, Named};
 use names::Nameable;
 use passes::Draft;
-use qrt_circuit::{Bit, Block, BlockId, Op, Operand, Register, RegisterId, Style, Type, Word};
+use qrt_circuit::{Bit, Block, BlockId, Op, Operand, Register, RegisterId, Type, Word};
 use std::collections::HashMap;
 use value::{Affine, Choice, Truth, Value};
 
@@ -109,8 +111,8 @@ impl std::error::Error for BuildError {}
 pub struct Target<'a> {
     /// How many fraction bits every number has.
     pub fraction: u32,
-    /// How operations that have garbage are lowered.
-    pub style: Style,
+    /// What is undone when.
+    pub strategy: Strategy,
     /// The paths of a pixel.
     pub points: &'a PathPoints,
     /// Columns and rows of the film.
@@ -158,8 +160,6 @@ pub struct Builder<'a> {
     target: Target<'a>,
     registers: Vec<Register>,
     blocks: Vec<Block>,
-    /// Whether the work of each block is uncomputed at its end, under `uncompute: scoped`.
-    scopes: Vec<bool>,
     parameters: Vec<PixelWord>,
     ops: Vec<(Op, BlockId)>,
     records: Vec<RegisterId>,
@@ -200,7 +200,6 @@ impl<'a> Builder<'a> {
                 }
                 .block(None),
             ],
-            scopes: vec![false],
             parameters: Vec::new(),
             ops: Vec::new(),
             records: Vec::new(),
@@ -241,7 +240,7 @@ impl<'a> Builder<'a> {
 
     /// What follows belongs to the rounding of colours, until [`crate::tracer::Arith::leave`].
     pub(crate) fn enter_count(&mut self) {
-        self.begin(StageName::Count, None, false);
+        self.begin(StageName::Count, None);
     }
 
     /// What was recorded, or why that cannot be.
@@ -253,7 +252,6 @@ impl<'a> Builder<'a> {
                 draft: Draft {
                     registers: self.registers,
                     blocks: self.blocks,
-                    scopes: self.scopes,
                     ops: self.ops,
                 },
                 parameters: self.parameters,
@@ -281,12 +279,11 @@ impl<'a> Builder<'a> {
         self.open.last().copied().unwrap_or(BlockId::ROOT)
     }
 
-    fn begin(&mut self, stage: StageName, depth: Option<u32>, scope: bool) {
+    fn begin(&mut self, stage: StageName, depth: Option<u32>) {
         let id = BlockId(self.blocks.len() as u32);
         let parent = self.block();
         let depth = depth.or(Label::of(&self.blocks[parent.index()]).depth);
         self.blocks.push(Label { stage, depth }.block(Some(parent)));
-        self.scopes.push(scope);
         self.open.push(id);
     }
 

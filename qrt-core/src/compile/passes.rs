@@ -4,10 +4,10 @@
 //! 1. [`needed`]: operations that nothing needs vanish.
 //! 2. [`merge_tables`]: tables of one address become one table of several columns, which share the
 //!    selection of the row: the greater part of a table's Toffolis.
-//! 3. [`schedule`]: under `keep` all operations run once and stay; under `scoped` each scope
-//!    copies out what is needed outside of it and then runs backwards.
+//! 3. [`schedule`]: operations run once and stay, but for those of scopes: a scope copies out what is
+//!    needed outside of it and then runs backwards.
 
-use super::{Passes, PixelWord, Recorded};
+use super::{Label, Passes, PixelWord, Recorded, Strategy};
 use qrt_circuit::{
     Bit, Block, BlockId, Instruction, Op, Program, Register, RegisterId, Style, Word, lower,
 };
@@ -19,8 +19,6 @@ use std::sync::Arc;
 pub(super) struct Draft {
     pub(super) registers: Vec<Register>,
     pub(super) blocks: Vec<Block>,
-    /// Whether the work of each block is uncomputed at its end, under `uncompute: scoped`.
-    pub(super) scopes: Vec<bool>,
     pub(super) ops: Vec<(Op, BlockId)>,
 }
 
@@ -196,6 +194,8 @@ enum Item {
 
 struct Scheduler<'a> {
     draft: &'a mut Draft,
+    /// Whether the work of each block is undone at its end.
+    scopes: Vec<bool>,
     items: Vec<Vec<Item>>,
     /// By register: the blocks around the ops that read it, none for what stays to the end.
     readers: HashMap<RegisterId, Vec<Option<BlockId>>>,
@@ -207,10 +207,10 @@ struct Scheduler<'a> {
 /// scopes, some of them may end up in copies, which the result maps them to.
 pub(super) fn schedule(
     draft: &mut Draft,
-    scoped: bool,
+    strategy: Strategy,
     roots: &[RegisterId],
 ) -> (Vec<Instruction>, HashMap<RegisterId, RegisterId>) {
-    if !scoped {
+    if strategy.is_keep() {
         let instructions = draft.ops.iter().enumerate();
         let instructions = instructions.map(|(op, &(_, block))| Instruction {
             op: op as u32,
@@ -240,7 +240,9 @@ pub(super) fn schedule(
         }
         items[block.index()].push(Item::Op(place));
     }
+    let scope = |block| strategy.is_scope(Label::of(block).stage);
     let mut scheduler = Scheduler {
+        scopes: draft.blocks.iter().map(scope).collect(),
         draft,
         items,
         readers,
@@ -270,7 +272,7 @@ impl Scheduler<'_> {
                 Item::Block(inner) => forward.extend(self.block(inner)),
             }
         }
-        if !self.draft.scopes[block.index()] {
+        if !self.scopes[block.index()] {
             return forward;
         }
         let parent = self.draft.blocks[block.index()]
@@ -378,7 +380,7 @@ pub(crate) fn assemble(
     recorded: Recorded,
     roots: &[RegisterId],
     passes: Passes,
-    scoped: bool,
+    strategy: Strategy,
     inputs: &[RegisterId],
     known: &mut Known,
 ) -> (Program, HashMap<RegisterId, RegisterId>) {
@@ -392,7 +394,7 @@ pub(crate) fn assemble(
         merge_tables(&mut draft, known);
     }
     draft.size_scratch(known);
-    let (instructions, renamed) = schedule(&mut draft, scoped, roots);
+    let (instructions, renamed) = schedule(&mut draft, strategy, roots);
     let program = Program {
         registers: draft.registers,
         blocks: draft.blocks,

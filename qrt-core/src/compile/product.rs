@@ -1,7 +1,7 @@
 //! Products, squares, and products with constants.
 
 use super::value::{Real, bits_of};
-use super::{Builder, GARBAGE, MAX_BITS};
+use super::{Builder, GARBAGE, Garbage, MAX_BITS};
 use qrt_circuit::{Op, Operand, Word};
 
 fn hull(ends: [i128; 4]) -> [i64; 2] {
@@ -70,7 +70,7 @@ impl Builder<'_> {
         let range = hull([ends[0], ends[1], ends[0], ends[1]]);
         let a = self.word_of(node);
         let (ty, width, signed) = self.shape(range);
-        let style = self.target.style;
+        let style = self.target.strategy.style(Garbage::Products);
         let target = self.emit(Op::Scale {
             a,
             factor: odd,
@@ -159,7 +159,7 @@ impl Builder<'_> {
             let order = |word: Word| (word.width, word.register, word.offset, word.shift);
             let (rows, other) = if order(x) <= order(y) { (x, y) } else { (y, x) };
             let (ty, width, signed) = self.shape(range);
-            let style = self.target.style;
+            let style = self.target.strategy.style(Garbage::Products);
             let target = self.emit(Op::Multiply {
                 a: rows,
                 b: other,
@@ -181,7 +181,7 @@ impl Builder<'_> {
 
     pub(super) fn square(&mut self, a: Word, drop: u32, range: [i64; 2]) -> Real {
         let (ty, width, signed) = self.shape(range);
-        let style = self.target.style;
+        let style = self.target.strategy.style(Garbage::Products);
         let target = self.emit(Op::Square {
             a,
             drop,

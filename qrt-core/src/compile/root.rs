@@ -1,7 +1,7 @@
 //! Square roots and lengths.
 
 use super::value::Real;
-use super::{Builder, GARBAGE, MAX_BITS};
+use super::{Builder, GARBAGE, Garbage, MAX_BITS};
 use qrt_circuit::{Op, Operand, Word};
 
 impl Builder<'_> {
@@ -81,7 +81,7 @@ impl Builder<'_> {
     fn integer_root(&mut self, word: Word, range: [i64; 2]) -> Real {
         let range = range.map(|end| end.max(0).cast_unsigned().isqrt().cast_signed());
         let (ty, width, signed) = self.shape(range);
-        let style = self.target.style;
+        let style = self.target.strategy.style(Garbage::Quotients);
         let a = Word {
             signed: false,
             ..word

@@ -1,7 +1,7 @@
 //! Functions of few bits.
 
 use super::value::{Real, Tabulated, Value};
-use super::{Builder, FEW, GARBAGE};
+use super::{Builder, FEW, GARBAGE, Garbage};
 use qrt_circuit::{Bit, Op, RegisterId, Type, Word};
 use std::rc::Rc;
 use std::sync::Arc;
@@ -199,7 +199,7 @@ impl Builder<'_> {
     ) -> RegisterId {
         let columns: Arc<[Box<[i64]>]> = Arc::new([entries]);
         let address: Box<[Bit]> = address.into();
-        let style = self.target.style;
+        let style = self.target.strategy.style(Garbage::Tables);
         self.emit(Op::Table {
             low: 0,
             style,

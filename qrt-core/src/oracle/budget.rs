@@ -41,16 +41,8 @@ pub fn call_cost(channels: &[Oracle]) -> CallCost {
             dearest = Some((toffoli, oracle));
         }
     }
-    let qubits = |oracle: &Oracle| {
-        // Uncompute holds at each instruction what compute does.
-        let mut upto = oracle.flip(0);
-        let compute = oracle.program.instructions.iter().copied();
-        upto.instructions.splice(0..0, compute);
-        upto.inputs.clone_from(&oracle.program.inputs);
-        lower::most_qubits(&upto)
-    };
     CallCost {
-        qubits: dearest.map_or(0, |(_, oracle)| u64::from(qubits(oracle))),
+        qubits: dearest.map_or(0, |(_, oracle)| u64::from(oracle.qubits())),
         toffoli: dearest.map_or(0, |(toffoli, _)| toffoli),
     }
 }
@@ -65,12 +57,17 @@ pub fn check_budget(scene: &ValidScene, spent: CallCost) -> Result<(), Vec<Probl
     let Some(budget) = written.budget else {
         return Ok(());
     };
-    let scoped = written.circuit.uncompute == Uncompute::Scoped;
+    let uncompute = written.circuit.uncompute;
+    let scoped = uncompute == Uncompute::Scoped;
     let path = Path::root().key("budget");
     let mut problems = Problems::default();
     let used = spent.qubits;
     if let Some(most) = budget.qubits.filter(|&most| most < used) {
-        let what = Circuit::Qubits { used, most, scoped };
+        let what = Circuit::Qubits {
+            used,
+            most,
+            auto: uncompute == Uncompute::Auto,
+        };
         problems.add(path.key("qubits"), what);
     }
     let used = spent.toffoli;
@@ -145,14 +142,18 @@ geometry: [quad: {{ vertices: [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], mate
     #[test]
     fn advice_names_a_knob_that_is_not_yet_turned() {
         for (more, advice) in [
-            ("", ["circuit.uncompute: scoped", "sampling.depths"]),
+            ("", ["circuit.uncompute: auto", "sampling.depths"]),
             (
                 "circuit: { uncompute: scoped }",
-                ["sampling.depths", "circuit.uncompute: keep"],
+                ["circuit.uncompute: auto", "circuit.uncompute: keep"],
+            ),
+            (
+                "circuit: { uncompute: auto }",
+                ["no way to lay it out", "sampling.depths"],
             ),
             (
                 "circuit: { nearest: paper }",
-                ["circuit.uncompute: scoped", "circuit.nearest: running"],
+                ["circuit.uncompute: auto", "circuit.nearest: running"],
             ),
         ] {
             let loaded = loaded(&format!(

@@ -5,7 +5,6 @@ use super::recording::target;
 use super::{Options, OracleError, register_of};
 use crate::compile::{self, Builder, Label, PixelWord, Role, StageName};
 use crate::sampling::PathPoints;
-use crate::scene::Uncompute;
 use crate::tracer::{Arith, FaceTable, Named, Part, PixelClass, Quantity, Stage};
 use crate::valid::ValidScene;
 use qrt_circuit::lower::{self, Cost};
@@ -86,7 +85,8 @@ impl NearestOracle {
         fits_table(&list)?;
         let points = PathPoints::new(&scene.scene().sampling)?;
         let options = Options::default();
-        let target = target(scene, &stage, &points, options);
+        let strategy = options.strategy(scene)?;
+        let target = target(scene, &stage, &points, strategy, options.passes);
         let fraction = target.fraction;
         let mut builder = Builder::new(target);
         let cx = &mut builder;
@@ -132,7 +132,7 @@ impl NearestOracle {
             recorded,
             &roots.collect::<Vec<_>>(),
             options.passes,
-            scene.scene().circuit.uncompute == Uncompute::Scoped,
+            strategy,
             &[id, primitive, best_distance, best_primitive],
             &mut compile::Known::default(),
         );

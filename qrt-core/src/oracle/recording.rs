@@ -5,14 +5,14 @@ use super::{
     Channel, DEFAULT_FRACTION, LUMINANCE, LUMINANCE_CHANNEL, Options, Oracle, OracleError, faces,
     luminance, register_of,
 };
-use crate::compile::{self, Builder, NamedPlace, Real, Recorded, Role, Target};
+use crate::compile::{self, Builder, NamedPlace, Passes, Real, Recorded, Role, Strategy, Target};
 use crate::sampling::PathPoints;
-use crate::scene::{Nearest, Uncompute};
+use crate::scene::Nearest;
 use crate::tracer::{
     self, Arith, FaceTable, PrimaryHitGiven, Quantity, Records, Search, Stage, trace,
 };
 use crate::valid::ValidScene;
-use qrt_circuit::{Operand, Program, RegisterId, Style, Type, Word};
+use qrt_circuit::{Operand, Program, RegisterId, Type, Word};
 use std::collections::HashSet;
 
 /// Channels by number.
@@ -32,22 +32,17 @@ pub(super) fn target<'a, const C: usize>(
     scene: &ValidScene,
     stage: &Stage<C>,
     points: &'a PathPoints,
-    options: Options,
+    strategy: Strategy,
+    passes: Passes,
 ) -> Target<'a> {
     let written = scene.scene();
-    let scoped = written.circuit.uncompute == Uncompute::Scoped;
-    let own = if scoped {
-        Style::InPlace
-    } else {
-        Style::OutOfPlace
-    };
     Target {
         fraction: written.precision.fraction.unwrap_or(DEFAULT_FRACTION),
-        style: options.style.unwrap_or(own),
+        strategy,
         points,
         film: [written.film.width, written.film.height],
         faces: faces(stage),
-        passes: options.passes,
+        passes,
     }
 }
 
@@ -73,7 +68,7 @@ fn record<'a, N: tracer::Nearest<Builder<'a>>, const C: usize>(
 /// What was recorded, and what is known of it: `known` is an oracle without a program.
 pub(super) struct Recording {
     recorded: Recorded,
-    scoped: bool,
+    strategy: Strategy,
     options: Options,
     known: Oracle,
     ops: compile::Known,
@@ -131,9 +126,9 @@ impl Recording {
         let written = scene.scene();
         let stage = Stage::new(scene, channels, options.class).relative();
         let points = PathPoints::new(&written.sampling)?;
-        let target = target(scene, &stage, &points, options);
+        let strategy = options.strategy(scene)?;
+        let target = target(scene, &stage, &points, strategy, options.passes);
         let (film, fraction) = (target.film, target.fraction);
-        let scoped = written.circuit.uncompute == Uncompute::Scoped;
         let mut builder = Builder::new(target);
         let bits = written.comparator.bits;
         let comparator = builder.outside("comparator", Type::UInt, Role::Comparator, bits);
@@ -182,7 +177,7 @@ impl Recording {
         };
         Ok(Self {
             recorded,
-            scoped,
+            strategy,
             options,
             known,
             ops: compile::Known::default(),
@@ -203,7 +198,7 @@ impl Recording {
             self.recorded.clone(),
             &roots,
             self.options.passes,
-            self.scoped,
+            self.strategy,
             &inputs,
             &mut self.ops,
         );

@@ -484,8 +484,10 @@ keyword! {
     pub enum Uncompute = "a strategy";
     /// All at the end: fewest gates, most qubits.
     Keep = "keep";
-    /// After each search for an intersection: fewer qubits, more gates.
+    /// After each part of the tracer: fewer qubits, more gates.
     Scoped = "scoped";
+    /// As much as `budget.qubits` asks for, at the fewest gates.
+    Auto = "auto";
 }
 
 keyword! {

@@ -447,13 +447,13 @@ problems! {
 
     /// Of the circuit that a scene compiles to.
     Circuit {
-        Qubits { used: u64, most: u64, scoped: bool } = BUDGET_QUBITS
+        Qubits { used: u64, most: u64, auto: bool } = BUDGET_QUBITS
             { over(*used, *most, "qubits") } label { format!("at most {}", grouped(*most)) }
-            help { Some(if *scoped {
-                "use fewer bits of `precision.fraction`, or a shorter list of `sampling.depths`; or raise \
-                 `budget.qubits`"
+            help { Some(if *auto {
+                "no way to lay it out needs fewer; use fewer bits of `precision.fraction`, or a shorter \
+                 list of `sampling.depths`; or raise `budget.qubits`"
             } else {
-                "`circuit.uncompute: scoped` needs fewer qubits, for more gates; or use fewer bits of \
+                "`circuit.uncompute: auto` finds the cheapest circuit that fits; or use fewer bits of \
                  `precision.fraction`, or raise `budget.qubits`"
             }.to_owned()) };
         Toffolis { used: u64, most: u64, scoped: bool, running: bool } = BUDGET_TOFFOLI

@@ -16,6 +16,8 @@ pub enum Part {
     SampleLight(usize),
     /// Whether anything stands between.
     Shadow(usize),
+    /// One convex body (by number), within an intersection.
+    Body(usize),
     /// One plane (by number) and the primitives on it, within an intersection.
     Plane(usize),
     /// One primitive (by number), within an intersection.

@@ -116,6 +116,14 @@ enum Starts {
     Leaving,
 }
 
+impl Plan {
+    /// The bodies at which there are no lamps.
+    fn bodies_apart(&self) -> impl Iterator<Item = (usize, &Met)> {
+        let bodies = self.bodies.iter().enumerate();
+        bodies.filter(|(_, body)| !body.at_lamps)
+    }
+}
+
 impl Facet {
     /// What stands for its faces until the nearest hit is known.
     fn first(&self) -> u32 {
@@ -818,9 +826,11 @@ impl<A: Arith> Nearest<A> for Search<'_> {
             gone = math!(cx, gone || outwards);
         }
         self.planes(cx, ray, &plan.planes, &mut nearest);
-        for body in &plan.bodies {
+        for (number, body) in plan.bodies.iter().enumerate() {
+            cx.enter(Part::Body(number));
             let (meets, here) = self.body(cx, ray, body, nearest.distance);
             nearest.take(cx, meets, &here);
+            cx.leave();
         }
         let none = cx.index(NO_FACE);
         nearest.face = cx.select_index(gone, none, nearest.face);
@@ -834,9 +844,11 @@ impl<A: Arith> Nearest<A> for Search<'_> {
         self.planes(cx, ray, &plan.emitting, &mut nearest);
         let mut hit = nearest.hit(cx, wanted);
         let mut hidden = cx.truth(false);
-        for body in plan.bodies.iter().filter(|body| !body.at_lamps) {
+        for (number, body) in plan.bodies_apart() {
+            cx.enter(Part::Body(number));
             let (meets, _) = self.body(cx, ray, body, hit.distance);
             hidden = math!(cx, hidden || meets);
+            cx.leave();
         }
         for (number, places) in &plan.before_lamps {
             let faces = places.iter().map(|&place| &self.geometry.faces[place]);
@@ -854,9 +866,11 @@ impl<A: Arith> Nearest<A> for Search<'_> {
         let plan = self.plan(ray);
         let mut hidden = cx.truth(false);
         let end = cx.real(1.0);
-        for body in plan.bodies.iter().filter(|body| !body.at_lamps) {
+        for (number, body) in plan.bodies_apart() {
+            cx.enter(Part::Body(number));
             let (meets, _) = self.body(cx, ray, body, end);
             hidden = math!(cx, hidden || meets);
+            cx.leave();
         }
         for (number, places) in &plan.before_lamps {
             let faces = places.iter().map(|&place| &self.geometry.faces[place]);

@@ -1,9 +1,10 @@
 //! `qrt inspect`: what a scene's oracle costs, and where.
 
 mod json;
+mod pareto;
 mod text;
 
-use super::args::{SceneArgs, choice};
+use super::args::{SceneArgs, ThreadsArgs, choice};
 use super::failure::Failure;
 use super::files::{Output, keep_apart};
 use super::memory::Work;
@@ -37,7 +38,8 @@ Examples:
   qrt inspect box.yaml --planes                         with each plane of each search
   qrt inspect box.yaml --json --set precision.fraction=12
   qrt inspect box.yaml --registers map.svg --circuit frame.svg
-  qrt inspect box.yaml --circuit -                      the circuit, drawn in the terminal")]
+  qrt inspect box.yaml --circuit -                      the circuit, drawn in the terminal
+  qrt inspect box.yaml --pareto                         qubits against gates: what can be had")]
 pub(crate) struct InspectArgs {
     /// The channel [default: the one whose oracle has the most Toffolis]
     #[arg(long, value_parser = choice(CHANNEL_CHOICES, channel_name), value_name = "CHANNEL")]
@@ -54,6 +56,14 @@ pub(crate) struct InspectArgs {
     /// Draw the circuit as boxes on wires; `-` draws it in the terminal
     #[arg(long, value_name = "FILE.svg")]
     circuit: Option<PathBuf>,
+    /// Compile under each strategy, and list those that no other beats in qubits and in Toffolis
+    #[arg(long, conflicts_with_all = ["planes", "registers", "circuit"])]
+    pareto: bool,
+    /// Draw qubits against gates
+    #[arg(long, value_name = "FILE.svg", requires = "pareto")]
+    pareto_plot: Option<PathBuf>,
+    #[command(flatten)]
+    threads: ThreadsArgs,
     #[command(flatten)]
     scene: SceneArgs,
 }
@@ -82,7 +92,8 @@ pub(crate) fn run(args: &InspectArgs) -> Result<(), Failure> {
     let circuit = args.circuit.as_deref().filter(|_| !in_terminal);
     let circuit = circuit.map(Output::new).transpose()?;
     let registers = args.registers.as_deref().map(Output::new).transpose()?;
-    let outputs: Vec<&Output> = circuit.iter().chain(&registers).collect();
+    let front = args.pareto_plot.as_deref().map(Output::new).transpose()?;
+    let outputs: Vec<&Output> = circuit.iter().chain(&registers).chain(&front).collect();
     keep_apart([&*args.scene.scene], &outputs)?;
     let loaded = args.scene.load()?;
     keep_apart(loaded.valid.files().iter().map(PathBuf::as_path), &outputs)?;
@@ -92,6 +103,9 @@ pub(crate) fn run(args: &InspectArgs) -> Result<(), Failure> {
     let scene = planned.as_ref().map_or(&loaded.valid, |plan| &plan.scene);
     let refused = |error: qrt_core::oracle::OracleError| loaded.report(vec![error.problem()]);
     args.scene.memory().keep_circuit(scene, Work::Program)?;
+    if args.pareto {
+        return pareto::run(args, &loaded, scene, front.as_ref());
+    }
     let bar = Bar::setting_up();
     let inspection = Inspection::new(scene, args.channel, Options::default());
     let passes = inspection.and_then(|inspection| Ok((inspection.passes(scene)?, inspection)));

@@ -195,26 +195,31 @@ fn within(
     let inner = blocks[start + 1..]
         .iter()
         .take_while(|block| block.level > level);
-    let inner = inner.filter(|block| block.level == level + 1);
-    let mut kinds: BTreeMap<&str, Vec<&BlockFigures>> = BTreeMap::new();
-    for block in inner {
-        kinds
-            .entry(block.label.stage.kind())
-            .or_default()
-            .push(block);
+    let inner: Vec<&BlockFigures> = inner.collect();
+    // Each with what is within it.
+    let own = inner.chunk_by(|_, next| next.level > level + 1);
+    let mut kinds: BTreeMap<&str, Vec<&[&BlockFigures]>> = BTreeMap::new();
+    for blocks in own {
+        let kind = blocks[0].label.stage.kind();
+        kinds.entry(kind).or_default().push(blocks);
     }
     let rows: Vec<(String, Cost)> = kinds
         .iter()
         .flat_map(|(kind, blocks)| {
-            let total = blocks.iter().map(|block| block.compute).sum();
+            let total = blocks.iter().map(|block| block[0].compute).sum();
             let count = grouped(blocks.len() as u64);
-            let plural = if blocks.len() == 1 { "" } else { "s" };
-            let mut rows = vec![(format!("{count} {kind}{plural}"), total)];
+            let name = match (*kind, blocks.len()) {
+                (kind, 1) => kind.to_owned(),
+                ("body", _) => "bodies".to_owned(),
+                (kind, _) => format!("{kind}s"),
+            };
+            let mut rows = vec![(format!("{count} {name}"), total)];
             if each {
-                let single = blocks.iter();
-                rows.extend(
-                    single.map(|block| (format!("  {}", block.label.stage), block.compute)),
-                );
+                rows.extend(blocks.iter().copied().flatten().map(|block| {
+                    let indent = 2 * (block.level - level) as usize;
+                    let name = format!("{:indent$}{}", "", block.label.stage);
+                    (name, block.compute)
+                }));
             }
             rows
         })

@@ -95,50 +95,50 @@ const _: () = {
             Declaration::at(2, "flag", Type::Bool, Tag(5), 1),
             Declaration::at(3, "ray0.sample.u", Type::UInt, Tag(0), 1).block(1),
             Declaration::at(4, "parity4", Type::UInt, Tag(0), 1).block(1),
-            Declaration::at(5, "load5", Type::UFixed { fraction: 6 }, Tag(0), 2).block(4),
+            Declaration::at(5, "load5", Type::Fixed { fraction: 6 }, Tag(0), 3).block(2),
             Declaration::at(6, "table6", Type::UFixed { fraction: 6 }, Tag(0), 1)
-                .block(4)
+                .block(2)
                 .scratch(7),
-            Declaration::at(7, "table7", Type::Scratch, Tag(3), 0).block(4),
-            Declaration::at(8, "add8", Type::Fixed { fraction: 6 }, Tag(0), 3).block(4),
-            Declaration::at(9, "parity9", Type::UInt, Tag(0), 2).block(6),
-            Declaration::at(10, "parity10", Type::UInt, Tag(0), 1).block(6),
-            Declaration::at(11, "add11", Type::UFixed { fraction: 6 }, Tag(0), 4).block(15),
-            Declaration::at(12, "table12", Type::UFixed { fraction: 6 }, Tag(0), 6).block(15),
-            Declaration::at(13, "table13", Type::Scratch, Tag(3), 0).block(15),
-            Declaration::at(14, "divide14", Type::UFixed { fraction: 6 }, Tag(0), 7)
-                .block(15)
+            Declaration::at(7, "table7", Type::Scratch, Tag(3), 0).block(2),
+            Declaration::at(8, "add8", Type::Fixed { fraction: 6 }, Tag(0), 4).block(2),
+            Declaration::at(9, "select9", Type::UInt, Tag(0), 2).block(2),
+            Declaration::at(10, "parity10", Type::UInt, Tag(0), 2).block(5),
+            Declaration::at(11, "parity11", Type::UInt, Tag(0), 1).block(5),
+            Declaration::at(12, "add12", Type::UFixed { fraction: 6 }, Tag(0), 4).block(14),
+            Declaration::at(13, "table13", Type::UFixed { fraction: 6 }, Tag(0), 6).block(14),
+            Declaration::at(14, "table14", Type::Scratch, Tag(3), 0).block(14),
+            Declaration::at(15, "divide15", Type::UFixed { fraction: 6 }, Tag(0), 7)
+                .block(14)
                 .range(0, 33),
-            Declaration::at(15, "divide15", Type::Bool, Tag(0), 1).block(15),
-            Declaration::at(16, "divide16", Type::Scratch, Tag(3), 0).block(15),
-            Declaration::at(17, "table17", Type::Fixed { fraction: 6 }, Tag(0), 7).block(15),
-            Declaration::at(18, "table18", Type::Scratch, Tag(3), 0).block(15),
-            Declaration::at(19, "multiply19", Type::Fixed { fraction: 6 }, Tag(0), 6)
-                .block(15)
+            Declaration::at(16, "divide16", Type::Bool, Tag(0), 1).block(14),
+            Declaration::at(17, "divide17", Type::Scratch, Tag(3), 0).block(14),
+            Declaration::at(18, "table18", Type::Fixed { fraction: 6 }, Tag(0), 7).block(14),
+            Declaration::at(19, "table19", Type::Scratch, Tag(3), 0).block(14),
+            Declaration::at(20, "multiply20", Type::Fixed { fraction: 6 }, Tag(0), 6)
+                .block(14)
                 .range(-31, 30),
-            Declaration::at(20, "multiply20", Type::Scratch, Tag(3), 0).block(15),
-            Declaration::at(21, "table21", Type::UFixed { fraction: 6 }, Tag(0), 1).block(15),
-            Declaration::at(22, "table22", Type::Scratch, Tag(3), 0).block(15),
-            Declaration::at(23, "add23", Type::Fixed { fraction: 6 }, Tag(0), 7)
-                .block(15)
+            Declaration::at(21, "multiply21", Type::Scratch, Tag(3), 0).block(14),
+            Declaration::at(22, "table22", Type::UFixed { fraction: 6 }, Tag(0), 1).block(14),
+            Declaration::at(23, "table23", Type::Scratch, Tag(3), 0).block(14),
+            Declaration::at(24, "add24", Type::Fixed { fraction: 6 }, Tag(0), 7)
+                .block(14)
                 .range(-33, 30),
-            Declaration::at(24, "load24", Type::Fixed { fraction: 6 }, Tag(0), 3).block(15),
-            Declaration::at(25, "add25", Type::Fixed { fraction: 6 }, Tag(0), 4).block(15),
-            Declaration::at(26, "select26", Type::UFixed { fraction: 6 }, Tag(0), 7)
-                .block(15)
+            Declaration::at(25, "load25", Type::Fixed { fraction: 6 }, Tag(0), 3).block(14),
+            Declaration::at(26, "add26", Type::Fixed { fraction: 6 }, Tag(0), 4).block(14),
+            Declaration::at(27, "select27", Type::UFixed { fraction: 6 }, Tag(0), 7)
+                .block(14)
                 .range(0, 127),
-            Declaration::at(27, "select27", Type::UInt, Tag(0), 2).block(15),
-            Declaration::at(28, "add28", Type::Fixed { fraction: 6 }, Tag(0), 8).block(16),
+            Declaration::at(28, "select28", Type::UInt, Tag(0), 2).block(14),
             Declaration::at(29, "colour.b", Type::UFixed { fraction: 6 }, Tag(4), 1)
-                .block(20)
+                .block(18)
                 .scratch(30),
-            Declaration::at(30, "table30", Type::Scratch, Tag(3), 0).block(20),
+            Declaration::at(30, "table30", Type::Scratch, Tag(3), 0).block(18),
             Declaration::at(31, "table31", Type::UFixed { fraction: 6 }, Tag(0), 6)
-                .block(20)
+                .block(18)
                 .range(7, 39),
-            Declaration::at(32, "table32", Type::Scratch, Tag(3), 0).block(20),
-            Declaration::at(33, "ray1.origin.x", Type::UFixed { fraction: 6 }, Tag(0), 1).block(2),
-            Declaration::at(34, "select27'", Type::UInt, Tag(0), 2),
+            Declaration::at(32, "table32", Type::Scratch, Tag(3), 0).block(18),
+            Declaration::at(33, "ray1.origin.x", Type::UFixed { fraction: 6 }, Tag(0), 1),
+            Declaration::at(34, "select28'", Type::UInt, Tag(0), 2),
         ];
         const BLOCKS: &[BlockDeclaration] = &[
             BlockDeclaration {
@@ -158,11 +158,6 @@ const _: () = {
             },
             BlockDeclaration {
                 parent: Some(BlockId(2)),
-                name: "plane 0",
-                tag: Tag(18374686483966590976),
-            },
-            BlockDeclaration {
-                parent: Some(BlockId(2)),
                 name: "plane 1",
                 tag: Tag(18374686483966590977),
             },
@@ -177,37 +172,37 @@ const _: () = {
                 tag: Tag(72057602627862528),
             },
             BlockDeclaration {
-                parent: Some(BlockId(6)),
+                parent: Some(BlockId(5)),
                 name: "sample",
                 tag: Tag(288230384741646336),
             },
             BlockDeclaration {
-                parent: Some(BlockId(6)),
+                parent: Some(BlockId(5)),
                 name: "x",
                 tag: Tag(18230571300185702400),
             },
             BlockDeclaration {
-                parent: Some(BlockId(6)),
+                parent: Some(BlockId(5)),
                 name: "y",
                 tag: Tag(18230571300185702401),
             },
             BlockDeclaration {
-                parent: Some(BlockId(6)),
+                parent: Some(BlockId(5)),
                 name: "z",
                 tag: Tag(18230571300185702402),
             },
             BlockDeclaration {
-                parent: Some(BlockId(6)),
+                parent: Some(BlockId(5)),
                 name: "x",
                 tag: Tag(18230571300185702400),
             },
             BlockDeclaration {
-                parent: Some(BlockId(6)),
+                parent: Some(BlockId(5)),
                 name: "y",
                 tag: Tag(18230571300185702401),
             },
             BlockDeclaration {
-                parent: Some(BlockId(6)),
+                parent: Some(BlockId(5)),
                 name: "z",
                 tag: Tag(18230571300185702402),
             },
@@ -217,17 +212,12 @@ const _: () = {
                 tag: Tag(144115196665790464),
             },
             BlockDeclaration {
-                parent: Some(BlockId(14)),
+                parent: Some(BlockId(13)),
                 name: "plane 1",
                 tag: Tag(18374686488261558273),
             },
             BlockDeclaration {
-                parent: Some(BlockId(14)),
-                name: "plane 0",
-                tag: Tag(18374686488261558272),
-            },
-            BlockDeclaration {
-                parent: Some(BlockId(14)),
+                parent: Some(BlockId(13)),
                 name: "plane 1",
                 tag: Tag(18374686488261558273),
             },
@@ -278,10 +268,10 @@ const _: () = {
                 bits: 1,
             },
             PixelWord::Affine {
-                constant: 0.035041260736242384,
-                along: [-0.02588834764831844, 0.0],
+                constant: -0.02320752147247411,
+                along: [0.05177669529663688, 0.0],
                 fraction: 6,
-                width: 2,
+                width: 3,
             },
             PixelWord::Shift {
                 coordinate: Coordinate {
@@ -366,9 +356,9 @@ const _: () = {
             order: &[
                 RegisterId(3),
                 RegisterId(6),
-                RegisterId(24),
                 RegisterId(25),
-                RegisterId(27),
+                RegisterId(26),
+                RegisterId(28),
                 RegisterId(29),
                 RegisterId(33),
                 RegisterId(34),
@@ -396,55 +386,53 @@ const _: () = {
                 id: &M::Register,
                 apply: impl FnOnce(&mut M, Computed<'_, Self, M::Register>) -> T,
             ) -> T {
-                let (ray0_sample_u_3, ray1_origin_x_33, select27__34, colour_b_29, table31) = {
+                let (ray0_sample_u_3, ray1_origin_x_33, select28__34, colour_b_29, table31) = {
                     m.block(BlockId(1));
                     let ray0_sample_u_3 = m.parity(&R[3], id, &[1, 0], Some(0));
-                    m.block(BlockId(4));
-                    let [table6] = m.table([&R[6]], &[Bit::at(&ray0_sample_u_3, 0)], [T6], 0);
                     m.block(BlockId(2));
-                    let ray1_origin_x_33 = m.copy(&R[33], Word::unsigned(&table6, 0, 1));
-                    m.block(BlockId(4));
-                    m.undo([table6]);
                     let [table6] = m.table([&R[6]], &[Bit::at(&ray0_sample_u_3, 0)], [T6], 0);
+                    m.block(BlockId(0));
+                    let ray1_origin_x_33 = m.copy(&R[33], Word::unsigned(&table6, 0, 1));
+                    m.block(BlockId(2));
                     m.undo([table6]);
-                    m.block(BlockId(15));
-                    let load24 = m.load(&R[24], 5);
-                    let add25 = m.add(
-                        &R[25],
-                        Operand::signed(&load24, 0, 3),
+                    m.block(BlockId(14));
+                    let load25 = m.load(&R[25], 5);
+                    let add26 = m.add(
+                        &R[26],
+                        Operand::signed(&load25, 0, 3),
                         Word::unsigned(&ray1_origin_x_33, 0, 1).shifted(1).into(),
                     );
-                    let select27 = m.select(
-                        &R[27],
-                        Bit::at(&add25, 3).inverted(),
+                    let select28 = m.select(
+                        &R[28],
+                        Bit::at(&add26, 3).inverted(),
                         Operand::Constant(1),
                         Operand::Constant(2),
                     );
-                    m.undo([add25]);
-                    m.undo([load24]);
+                    m.undo([add26]);
+                    m.undo([load25]);
                     m.block(BlockId(0));
-                    let select27__34 = m.copy(&R[34], Word::unsigned(&select27, 0, 2));
-                    m.block(BlockId(15));
-                    let load24 = m.load(&R[24], 5);
-                    let add25 = m.add(
-                        &R[25],
-                        Operand::signed(&load24, 0, 3),
+                    let select28__34 = m.copy(&R[34], Word::unsigned(&select28, 0, 2));
+                    m.block(BlockId(14));
+                    let load25 = m.load(&R[25], 5);
+                    let add26 = m.add(
+                        &R[26],
+                        Operand::signed(&load25, 0, 3),
                         Word::unsigned(&ray1_origin_x_33, 0, 1).shifted(1).into(),
                     );
-                    m.undo([select27]);
-                    m.undo([add25]);
-                    m.undo([load24]);
-                    m.block(BlockId(20));
+                    m.undo([select28]);
+                    m.undo([add26]);
+                    m.undo([load25]);
+                    m.block(BlockId(18));
                     let [colour_b_29, table31] = m.table(
                         [&R[29], &R[31]],
-                        &[Bit::at(&select27__34, 0), Bit::at(&select27__34, 1)],
+                        &[Bit::at(&select28__34, 0), Bit::at(&select28__34, 1)],
                         [T29, T31],
                         0,
                     );
                     (
                         ray0_sample_u_3,
                         ray1_origin_x_33,
-                        select27__34,
+                        select28__34,
                         colour_b_29,
                         table31,
                     )
@@ -468,40 +456,38 @@ const _: () = {
                 let applied = apply(m, Computed::new(fields, channels));
                 let () = {
                     m.undo([colour_b_29, table31]);
-                    m.block(BlockId(15));
-                    let load24 = m.load(&R[24], 5);
-                    let add25 = m.add(
-                        &R[25],
-                        Operand::signed(&load24, 0, 3),
+                    m.block(BlockId(14));
+                    let load25 = m.load(&R[25], 5);
+                    let add26 = m.add(
+                        &R[26],
+                        Operand::signed(&load25, 0, 3),
                         Word::unsigned(&ray1_origin_x_33, 0, 1).shifted(1).into(),
                     );
-                    let select27 = m.select(
-                        &R[27],
-                        Bit::at(&add25, 3).inverted(),
+                    let select28 = m.select(
+                        &R[28],
+                        Bit::at(&add26, 3).inverted(),
                         Operand::Constant(1),
                         Operand::Constant(2),
                     );
-                    m.undo([add25]);
-                    m.undo([load24]);
+                    m.undo([add26]);
+                    m.undo([load25]);
                     m.block(BlockId(0));
-                    m.undo([select27__34]);
-                    m.block(BlockId(15));
-                    let load24 = m.load(&R[24], 5);
-                    let add25 = m.add(
-                        &R[25],
-                        Operand::signed(&load24, 0, 3),
+                    m.undo([select28__34]);
+                    m.block(BlockId(14));
+                    let load25 = m.load(&R[25], 5);
+                    let add26 = m.add(
+                        &R[26],
+                        Operand::signed(&load25, 0, 3),
                         Word::unsigned(&ray1_origin_x_33, 0, 1).shifted(1).into(),
                     );
-                    m.undo([select27]);
-                    m.undo([add25]);
-                    m.undo([load24]);
-                    m.block(BlockId(4));
-                    let [table6] = m.table([&R[6]], &[Bit::at(&ray0_sample_u_3, 0)], [T6], 0);
-                    m.undo([table6]);
-                    let [table6] = m.table([&R[6]], &[Bit::at(&ray0_sample_u_3, 0)], [T6], 0);
+                    m.undo([select28]);
+                    m.undo([add26]);
+                    m.undo([load25]);
                     m.block(BlockId(2));
+                    let [table6] = m.table([&R[6]], &[Bit::at(&ray0_sample_u_3, 0)], [T6], 0);
+                    m.block(BlockId(0));
                     m.undo([ray1_origin_x_33]);
-                    m.block(BlockId(4));
+                    m.block(BlockId(2));
                     m.undo([table6]);
                     m.block(BlockId(1));
                     m.undo([ray0_sample_u_3]);
@@ -527,15 +513,15 @@ const _: () = {
                     let table6 = v.marks(2, t7);
                     let t9 = v.ints(1).choose(table6, v.ints(0));
                     let ray1_origin_x_33 = t9.has(1);
-                    let load24 = v.ints(word(words, 5, 3, true) as i32);
+                    let load25 = v.ints(word(words, 5, 3, true) as i32);
                     let t12 = v.ints(1).choose(ray1_origin_x_33, v.ints(0));
                     let t13 = t12.left(1);
-                    let add25 = load24.add(t13);
-                    let t15 = add25.less(v.ints(0));
+                    let add26 = load25.add(t13);
+                    let t15 = add26.less(v.ints(0));
                     let t16 = t15.not();
-                    let select27 = v.ints(1).choose(t16, v.ints(2));
-                    let colour_b_29 = v.marks(2, select27);
-                    let table31 = v.table16(&N31, select27);
+                    let select28 = v.ints(1).choose(t16, v.ints(2));
+                    let colour_b_29 = v.marks(2, select28);
+                    let table31 = v.table16(&N31, select28);
                     let t20 = table31.right(4);
                     let t21 = v.widen(t20);
                     let t22 = v.ints(1).choose(colour_b_29, v.ints(0));

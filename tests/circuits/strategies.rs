@@ -1,0 +1,121 @@
+//! Whatever is undone when, a circuit computes the same and returns every qubit; and `uncompute: auto`
+//! finds the cheapest that fits.
+
+use super::paths::{CORNER, film, paths};
+use crate::common::command::Folder;
+use crate::common::scene::{from_file, written};
+use qrt::core::compile::Strategy;
+use qrt::core::oracle::{Layout, Options, Oracle, call_cost};
+use qrt::core::valid::ValidScene;
+use qrt::runtime::machines::OracleMachine;
+use std::sync::Arc;
+
+/// All paths of all pixels by gates, which refuse a circuit that leaves a qubit behind: as `keep`
+/// computes them.
+fn agree(scene: &ValidScene, strategies: &[Strategy]) {
+    let under = |strategy| {
+        let options = Options {
+            strategy: Some(strategy),
+            ..Options::default()
+        };
+        Arc::new(Oracle::rgb(scene, options).unwrap())
+    };
+    let keep = under(Strategy::KEEP);
+    let pixels = film(&keep);
+    let expected = paths(&OracleMachine::fixed(keep, 3, true), &pixels).unwrap();
+    for &strategy in strategies {
+        let oracle = under(strategy);
+        let fixed = paths(&OracleMachine::fixed(oracle.clone(), 3, true), &pixels).unwrap();
+        assert!(fixed == expected, "{strategy} changes a path");
+        let gates = OracleMachine::gates(oracle, 3, true);
+        let gates = gates.unwrap_or_else(|defect| panic!("{strategy}: {defect}"));
+        let traced = paths(&gates, &pixels);
+        let traced = traced.unwrap_or_else(|defect| panic!("{strategy}: {defect}"));
+        assert!(traced == fixed, "{strategy}: the models differ");
+    }
+}
+
+#[test]
+fn every_strategy_computes_the_same() {
+    let all = Strategy::all();
+    assert_eq!(all.len(), 512);
+    let some: Vec<Strategy> = all.into_iter().step_by(7).collect();
+    agree(&written(CORNER, &[]), &some);
+}
+
+#[test]
+fn so_do_those_of_auto_in_example_scenes() {
+    let small = [
+        "film={ width: 3, height: 2 }",
+        "sampling.path_bits=5",
+        "precision.fraction=9",
+        "comparator.bits=5",
+    ];
+    for file in ["cornell-box", "lit-box", "cornell-mirror"] {
+        let scene = from_file(&format!("scenes-yaml/{file}.yaml"), &small);
+        agree(&scene, &Strategy::LADDER);
+    }
+}
+
+#[test]
+fn auto_is_the_cheapest_that_fits() {
+    let (channel, keep) = Layout::of_dearest(&written(CORNER, &[]), Strategy::KEEP).unwrap();
+    let layouts = Strategy::LADDER
+        .map(|strategy| Layout::new(&written(CORNER, &[]), channel, strategy).unwrap());
+    let front = Layout::front(layouts.to_vec());
+    assert_eq!(front[0], keep);
+    assert!(front.len() > 5);
+    for layout in &front {
+        // As many as it needs, and one fewer than the next cheaper one does.
+        let next = front
+            .iter()
+            .rev()
+            .find(|l| l.cost.toffoli < layout.cost.toffoli);
+        for qubits in [
+            Some(layout.cost.qubits),
+            next.map(|next| next.cost.qubits - 1),
+        ] {
+            let Some(qubits) = qubits else { continue };
+            let budget = format!("budget.qubits={qubits}");
+            let scene = written(CORNER, &["circuit.uncompute=auto", &budget]);
+            let oracle = Oracle::new(&scene, channel, Options::default()).unwrap();
+            assert_eq!(call_cost(&[oracle]), layout.cost, "{budget}");
+        }
+    }
+    // Without a budget nothing is undone early.
+    let scene = written(CORNER, &["circuit.uncompute=auto"]);
+    assert_eq!(Options::default().strategy(&scene), Ok(Strategy::KEEP));
+}
+
+#[test]
+fn the_command_lists_the_front_and_tells_the_least() {
+    let folder = Folder::new();
+    let file = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/scenes-yaml/floor-and-light.yaml"
+    );
+    let front = folder.works(&["inspect", file, "--pareto", "--json"]);
+    let front: serde_json::Value = serde_json::from_str(&front).unwrap();
+    let front = front["front"].as_array().unwrap();
+    let qubits = |place: usize| front[place]["qubits"].as_u64().unwrap();
+    assert!(front.len() > 5 && qubits(0) > 2 * qubits(front.len() - 1));
+    let least = qubits(front.len() - 1);
+    let auto = [
+        "--set",
+        "circuit.uncompute=auto",
+        "--set",
+        "budget.qubits=30",
+    ];
+    let said = folder.fails(2, &[&["inspect", file][..], &auto].concat());
+    let told = said.contains("QRT0601") && said.contains("no way to lay it out needs fewer");
+    assert!(told, "{said}");
+    let number = said
+        .split(" qubits, ")
+        .next()
+        .and_then(|text| text.rsplit(' ').next());
+    let number: u64 = number.unwrap().replace(',', "").parse().unwrap();
+    assert!(
+        (least..=least + least / 4).contains(&number),
+        "{number} {least}"
+    );
+}
