@@ -104,7 +104,7 @@ impl Strategy {
 
     /// All parts but convex bodies are scopes, and operations leave no garbage.
     pub const SCOPED: Self = Self {
-        scopes: (1 << Scope::ALL.len()) - 1 & !(1 << Scope::Body as u16),
+        scopes: ((1 << Scope::ALL.len()) - 1) & !(1 << Scope::Body as u16),
         lean: [true; 3],
     };
 
@@ -190,12 +190,12 @@ impl Strategy {
     }
 
     /// Whether a block of this stage is a scope.
-    pub(super) fn is_scope(&self, stage: StageName) -> bool {
+    pub(super) fn is_scope(self, stage: StageName) -> bool {
         Scope::of(stage).is_some_and(|scope| self.undoes(scope))
     }
 
     /// Whether anything is undone before the end.
-    pub(super) const fn is_keep(&self) -> bool {
+    pub(super) const fn is_keep(self) -> bool {
         self.scopes == 0
     }
 }

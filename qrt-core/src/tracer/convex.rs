@@ -373,23 +373,17 @@ impl Finder<'_> {
             .planes
             .iter()
             .chain(self.virtual_planes.iter());
-        let found = all.clone().position(same);
-        match found {
-            Some(number) => {
-                if let Some(known) = all.clone().nth(number) {
-                    *plane = Plane {
-                        faces: 0..0,
-                        emitters: 0..0,
-                        ..known.clone()
-                    };
-                }
-                number
-            }
-            None => {
-                self.virtual_planes.push(plane.clone());
-                self.geometry.planes.len() + self.virtual_planes.len() - 1
-            }
+        let found = all.enumerate().find(|(_, other)| same(other));
+        if let Some((number, known)) = found {
+            *plane = Plane {
+                faces: 0..0,
+                emitters: 0..0,
+                ..known.clone()
+            };
+            return number;
         }
+        self.virtual_planes.push(plane.clone());
+        self.geometry.planes.len() + self.virtual_planes.len() - 1
     }
 }
 

@@ -91,6 +91,7 @@ struct Met {
 }
 
 #[derive(Debug, PartialEq)]
+#[allow(clippy::struct_excessive_bools)] // Each is a fact of its own.
 struct MetBound {
     number: usize,
     plane: Plane,
@@ -243,7 +244,7 @@ impl Planner<'_> {
             let entered: Vec<bool> = body.bounds.iter().map(entered).collect();
             // The walls of a room are outer planes, and better off as these.
             let is_outer =
-                |bound: &Bound| outer_sides.get(bound.number).is_some_and(|s| s.is_some());
+                |bound: &Bound| outer_sides.get(bound.number).is_some_and(Option::is_some);
             let walls = |bound: &Bound| is_outer(bound) || bound.faces.is_empty();
             if from_inside && body.bounds.iter().all(walls) {
                 continue;
@@ -397,13 +398,12 @@ impl Planner<'_> {
                         facing.axis == plane.axis && facing.form == plane.form
                     })
             });
-            match opposite {
-                Some(opposite) => opposite.sides[place] = side,
-                None => {
-                    let mut sides = [None, None];
-                    sides[place] = side;
-                    outer.push(Outer { sides });
-                }
+            if let Some(opposite) = opposite {
+                opposite.sides[place] = side;
+            } else {
+                let mut sides = [None, None];
+                sides[place] = side;
+                outer.push(Outer { sides });
             }
         }
         outer

@@ -211,6 +211,7 @@ impl Indexed<'_> {
 }
 
 /// What a ray is tried against. (One type, so that the tracer is compiled once for both.)
+#[allow(clippy::large_enum_variant)] // There is one for all rays of a batch.
 pub(crate) enum Faces<'a> {
     /// All faces, in turn.
     Few(&'a Geometry),
