@@ -219,14 +219,13 @@ impl Size {
         let (qubits, operations) = (self.qubits, self.operations);
         let compiled = 40.0 * qubits + 700.0 * operations;
         match work {
-            Work::Program => compiled,
             Work::Gates(threads) if self.bits <= MOST_BITS as f64 => {
                 compiled + 40.0 * self.gates + 256.0 * qubits * threads as f64
             }
             // Rows of 32 bytes, once; where registers are; the program with its inverse.
             Work::Gates(_) => compiled.max(64.0 * qubits + 500.0 * operations),
             Work::Export if self.bits <= MOST_BITS as f64 => compiled + 48.0 * self.gates,
-            Work::Export => compiled,
+            Work::Program | Work::Export => compiled,
         }
     }
 }

@@ -71,7 +71,7 @@ fn hostile(numbers: &mut Numbers) -> (Vec<u8>, Vec<u8>) {
                         "geometry:\n{}",
                         "  - &m mesh: { obj: any.obj, material: lamp }\n".repeat(large / 64)
                     ),
-                )
+                );
             }
             1 => text.extend(["more: ", &"[".repeat(large), &"]".repeat(large)]),
             2 => text.extend(["more: [", &"&a [*a, *a, 1], ".repeat(large / 4), "]"]),

@@ -206,7 +206,7 @@ fn a_table_that_lost_its_name_is_nobodys() {
             scope.spawn(|| {
                 while finished.load(Ordering::SeqCst) < 200 {
                     match table::Table::open(&path, &vec![], &[]) {
-                        Err(TradeError::InUse { .. }) => continue,
+                        Err(TradeError::InUse { .. }) => {}
                         opened => {
                             let table = opened.unwrap();
                             assert_eq!(holders.fetch_add(1, Ordering::SeqCst), 0);

@@ -280,6 +280,7 @@ impl Comparison<'_> {
         asked.map(|(face, distance, _)| (face, distance))
     }
 
+    #[allow(clippy::needless_pass_by_value)] // Answers are made to be compared.
     fn judge<T: PartialEq + std::fmt::Debug>(&mut self, what: &str, ray: &Ray<Scalar>, a: T, b: T) {
         if a != b {
             let (origin, direction, from) = (ray.origin, ray.direction, ray.from);
@@ -561,17 +562,17 @@ fn scenes() -> Vec<(&'static str, Stage<3>)> {
     with(
         "a camera inside a box",
         &perspective([0.05, 0.4, 0.0], [1.0, 0.5, 0.3], 90.0),
-        &[room, &[tall.clone()]],
+        &[room, std::slice::from_ref(&tall)],
     );
     with(
         "a camera on a box's plane",
         &perspective([0.3, 0.4, -1.4], [0.2, 0.5, 0.0], 90.0),
-        &[room, &[tall.clone()]],
+        &[room, std::slice::from_ref(&tall)],
     );
     with(
         "a camera on a box's other plane",
         &perspective([-0.3, 0.4, -1.4], [-0.2, 0.5, 0.0], 90.0),
-        &[room, &[tall.clone()]],
+        &[room, std::slice::from_ref(&tall)],
     );
     let closed = [lamp(0.4, 2.99), cuboid([-1.5, 0.0, -1.5], [1.5, 3.0, 1.5])];
     with(
@@ -685,7 +686,7 @@ fn scenes() -> Vec<(&'static str, Stage<3>)> {
     with(
         "a lamp on a box's top, listed first",
         &front,
-        &[&[mark.clone()], room, &[small(0.0, 0.0)]],
+        &[std::slice::from_ref(&mark), room, &[small(0.0, 0.0)]],
     );
     with(
         "a lamp on a box's top, listed last",

@@ -162,7 +162,7 @@ fn bodies_that_rays_may_be_in_are_met_where_they_leave() {
     assert_eq!(inside(&in_front, &[room, &[glass]]), [[true], [true]]);
     let within = perspective([0.05, 0.7, 0.0], [1.0, 0.8, 0.3], 90.0);
     assert_eq!(
-        inside(&within, &[room, &[hovering.clone()]]),
+        inside(&within, &[room, std::slice::from_ref(&hovering)]),
         [[true], [true]]
     );
     // Rays start on the polygon within, if any come there.
