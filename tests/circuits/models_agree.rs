@@ -10,9 +10,8 @@ use qrt::runtime::machines::OracleMachine;
 /// A film of 8 x 8 pixels with 2^4 paths each.
 const FILM: [&str; 3] = ["film.width=8", "film.height=8", "sampling.path_bits=4"];
 
-/// Numbers short enough for a circuit that is soon built, and fine enough to tell the box's lamp from the
-/// ceiling above it.
-const SHORT: [&str; 2] = ["precision.fraction=11", "comparator.bits=6"];
+/// Numbers short enough for a circuit that is soon built.
+const SHORT: [&str; 2] = ["precision.fraction=8", "comparator.bits=6"];
 
 /// With numbers and comparators as wide as they are written.
 fn agrees_at_full_width(file: &str, sets: &[&str]) {

@@ -161,6 +161,24 @@ fn a_crop_is_a_part_of_the_whole() {
     }
 }
 
+/// How a render ends that `cancel` stops, its progress told.
+fn stopped(
+    scene: &ValidScene,
+    options: &Options<'_>,
+    cancel: &AtomicBool,
+    progress: &(dyn Fn(Progress) + Sync),
+) -> RenderError {
+    let options = Options {
+        workers: Workers {
+            cancel: Some(cancel),
+            progress: Some(progress),
+            ..options.workers
+        },
+        ..options.clone()
+    };
+    render(scene, &options).unwrap_err()
+}
+
 /// Renders until `paths` more paths are traced, and tells how many pixels were finished then.
 fn interrupt(scene: &ValidScene, options: &Options<'_>, paths: u64) -> u64 {
     let cancel = AtomicBool::new(false);
@@ -172,15 +190,7 @@ fn interrupt(scene: &ValidScene, options: &Options<'_>, paths: u64) -> u64 {
             cancel.store(true, Ordering::SeqCst);
         }
     };
-    let options = Options {
-        workers: Workers {
-            cancel: Some(&cancel),
-            progress: Some(&progress),
-            ..options.workers
-        },
-        ..options.clone()
-    };
-    match render(scene, &options).unwrap_err() {
+    match stopped(scene, options, &cancel, &progress) {
         RenderError::Interrupted { finished, .. } => finished,
         other => panic!("{other}"),
     }
@@ -305,15 +315,7 @@ fn resumed(scene: &ValidScene, options: &Options<'_>) -> u64 {
             found.store(resumed, Ordering::SeqCst);
         }
     };
-    let options = Options {
-        workers: Workers {
-            cancel: Some(&cancel),
-            progress: Some(&progress),
-            ..options.workers
-        },
-        ..options.clone()
-    };
-    render(scene, &options).unwrap_err();
+    stopped(scene, options, &cancel, &progress);
     found.into_inner()
 }
 

@@ -405,4 +405,4 @@ pub(super) fn covered(geometry: &Geometry, plane: usize, faces: &[usize]) -> boo
 }
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;

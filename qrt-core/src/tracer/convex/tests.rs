@@ -30,7 +30,10 @@ fn found(outlines: &[Vec<[f64; 3]>]) -> Vec<[usize; 2]> {
 }
 
 /// The sides of a box at low and high x, y, z.
-fn cuboid([ax, ay, az]: [f64; 3], [bx, by, bz]: [f64; 3]) -> Vec<Vec<[f64; 3]>> {
+pub(in crate::tracer) fn cuboid(
+    [ax, ay, az]: [f64; 3],
+    [bx, by, bz]: [f64; 3],
+) -> Vec<Vec<[f64; 3]>> {
     vec![
         vec![[ax, ay, az], [ax, ay, bz], [ax, by, bz], [ax, by, az]],
         vec![[bx, ay, az], [bx, by, az], [bx, by, bz], [bx, ay, bz]],
