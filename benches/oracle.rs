@@ -203,12 +203,13 @@ fn passes(root: &Path) {
     let scene = load(root, "cornell-box", &[]);
     let mut passes = Passes::NONE;
     let mut before = None;
-    for name in ["none", "share", "tabulate", "needed", "merge"] {
+    for name in ["none", "share", "tabulate", "needed", "merge", "multiples"] {
         match name {
             "share" => passes.share = true,
             "tabulate" => passes.tabulate = true,
             "needed" => passes.needed = true,
             "merge" => passes.merge = true,
+            "multiples" => passes.multiples = true,
             _ => {}
         }
         let (_, Cost { toffoli, .. }) = worst(&scene, passes);

@@ -174,6 +174,17 @@ impl Contents {
                 let product = i128::from(self.word(*a)) * i128::from(*factor);
                 self.set(*target, (product >> drop) as i64);
             }
+            Op::Multiples {
+                a,
+                products,
+                targets,
+                ..
+            } => {
+                let a = i128::from(self.word(*a));
+                for (&(factor, drop), target) in products.products().iter().zip(targets) {
+                    self.set(*target, (a * i128::from(factor) >> drop) as i64);
+                }
+            }
             Op::Divide {
                 a,
                 b,

@@ -5,7 +5,8 @@
 //! that program; over a machine that holds numbers it computes with them, compiled by `rustc` and
 //! inlined, without a list of operations to look through.
 
-use super::{Bit, BlockId, Op, Operand, RegisterId, Style, Tag, Type, When, Word};
+use super::{Bit, BlockId, Multiples, Op, Operand, RegisterId, Style, Tag, Type, When, Word};
+use std::sync::Arc;
 
 /// A register as it is declared in code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -321,6 +322,23 @@ pub trait Machine {
                 drop,
                 style: STYLE,
                 target: t,
+                scratch: &GARBAGE,
+            },
+        )
+    }
+    /// [`Op::Multiples`]
+    fn multiples<const N: usize>(
+        &mut self,
+        targets: [&Declaration; N],
+        a: Word<&Self::Register>,
+        products: &Arc<Multiples>,
+    ) -> [Self::Register; N] {
+        compute_all(
+            self,
+            Op::Multiples {
+                a,
+                products: products.clone(),
+                targets: targets.into(),
                 scratch: &GARBAGE,
             },
         )

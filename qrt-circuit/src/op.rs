@@ -4,7 +4,7 @@
 //! operation's shape: names, targets, garbage and renamings follow from it. What an operation
 //! computes on integers is in [`super::Contents`]; its gates are in [`super::lower`].
 
-use super::{Bit, Operand, RegisterId, Word};
+use super::{Bit, Multiples, Operand, RegisterId, Word};
 use std::fmt::Debug;
 use std::sync::Arc;
 
@@ -492,6 +492,19 @@ operations! {
         style style: Style,
         /// The target `t`, or what is changed in place.
         target target: T,
+        /// The register of the garbage.
+        garbage scratch: T,
+    }
+    {
+        /// `t_k = floor(factor_k a / 2^drop_k) mod 2^w_k`, for constant factors above 0, by sums that
+        /// the products share.
+        Multiples = "multiples"
+        /// The number `a` that is read.
+        reads a: Word<R>,
+        /// The factors, what is dropped, and the sums.
+        constant products: Arc<Multiples>,
+        /// The targets.
+        targets targets: Box<[T]>,
         /// The register of the garbage.
         garbage scratch: T,
     }

@@ -162,11 +162,12 @@ fn every_pass_pays() {
     };
     let mut passes = Passes::NONE;
     let mut last = toffoli(passes);
-    let steps: [fn(&mut Passes); 4] = [
+    let steps: [fn(&mut Passes); 5] = [
         |p| p.share = true,
         |p| p.tabulate = true,
         |p| p.needed = true,
         |p| p.merge = true,
+        |p| p.multiples = true,
     ];
     for step in steps {
         step(&mut passes);

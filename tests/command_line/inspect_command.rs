@@ -170,13 +170,14 @@ fn passes_lead_from_nothing_done_to_the_circuit() {
     let answer = json(&folder(), &[&example("cornell-box")]);
     let passes = list(&answer, "passes");
     let names: Vec<&Value> = passes.iter().map(|pass| &pass["name"]).collect();
-    assert_eq!(names, ["share", "tabulate", "needed", "merge"]);
+    let all = ["share", "tabulate", "needed", "merge", "multiples"];
+    assert_eq!(names, all);
     for key in ["toffoli", "ops", "qubits"] {
         for pair in passes.windows(2) {
             assert_eq!(pair[0][key]["after"], pair[1][key]["before"]);
         }
     }
-    let last = &passes[3];
+    let last = &passes[4];
     assert_eq!(last["toffoli"]["after"], answer["gates"]["toffoli"]);
     assert_eq!(last["qubits"]["after"], answer["qubits"]["peak"]);
     assert!(number(&last["toffoli"]["after"]) < number(&passes[0]["toffoli"]["before"]));

@@ -242,6 +242,15 @@ impl Lowering {
                 target,
                 ..
             } => self.scale(*a, *factor, *drop, *style, &self.register(*target)),
+            Op::Multiples {
+                a,
+                products,
+                targets,
+                ..
+            } => {
+                let targets: Vec<_> = targets.iter().map(|id| self.register(*id)).collect();
+                self.multiples(*a, products, &targets);
+            }
             Op::Divide {
                 a,
                 b,

@@ -5,9 +5,11 @@
 //! where the copies overlap does an addition cost anything; in place, it takes twice as many
 //! Toffolis.
 
+use super::super::multiples::{Multiples, Term};
 use super::super::{Style, Word};
 use super::multiply::Landing;
 use super::{Gates, Lowering, Qubit, Wire, extended, invert, qubits};
+use std::collections::HashMap;
 
 /// The addition of a shifted copy.
 pub(super) struct Row {
@@ -129,6 +131,47 @@ impl Lowering {
         };
         if signed && needed == bits {
             self.extend_sign(&landing, product, needed);
+        }
+    }
+
+    /// All sums are garbage, of which the targets are copies.
+    pub(super) fn multiples(&mut self, a: Word, products: &Multiples, targets: &[Vec<Qubit>]) {
+        let number = Word { shift: 0, ..a };
+        let range = number.range();
+        let own = self.word(number, a.width as usize);
+        let mut known: HashMap<i64, (Vec<Wire>, bool)> = HashMap::from([(1, (own, a.signed))]);
+        for &(multiple, sum) in products.sums() {
+            let (bits, signed) = extent(range, i128::from(multiple) << sum.zeros);
+            let [a, mut b] = [sum.a, sum.b].map(|term| {
+                let (own, signed) = &known[&term.factor];
+                let mut shifted = vec![Wire::ZERO; term.shift as usize];
+                shifted.extend_from_slice(own);
+                extended(&shifted, top(own, *signed), bits)
+            });
+            // Below them there is one term alone.
+            let (alone, below) = match (sum.a.shift, sum.b.shift) {
+                (shift, 0) if !sum.subtract => (shift as usize, &b),
+                (_, shift) => (shift as usize, &a),
+            };
+            let mut whole = below[..alone.min(bits)].to_vec();
+            invert(&mut b, sum.subtract);
+            let t = self.allocate_garbage(bits - whole.len());
+            let from = whole.len();
+            self.add(&a[from..], &b[from..], Wire::constant(sum.subtract), &t);
+            whole.extend(qubits(&t));
+            known.insert(multiple, (whole.split_off(sum.zeros as usize), signed));
+        }
+        for (&(factor, drop), target) in products.products().iter().zip(targets) {
+            let multiple = Term::of(factor);
+            let (own, signed) = &known[&multiple.factor];
+            let zeros = (a.shift + multiple.shift) as usize;
+            for (place, target) in target.iter().enumerate() {
+                let wire = match (place + drop as usize).checked_sub(zeros) {
+                    None => Wire::ZERO,
+                    Some(place) => own.get(place).copied().unwrap_or(top(own, *signed)),
+                };
+                self.copy(wire, *target);
+            }
         }
     }
 

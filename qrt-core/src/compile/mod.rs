@@ -136,6 +136,8 @@ pub struct Passes {
     pub needed: bool,
     /// Whether tables of one address become one.
     pub merge: bool,
+    /// Whether products of one number with several constants share sums.
+    pub multiples: bool,
 }
 
 impl Passes {
@@ -145,6 +147,7 @@ impl Passes {
         tabulate: true,
         needed: true,
         merge: true,
+        multiples: true,
     };
     /// No passes.
     pub const NONE: Self = Self {
@@ -152,6 +155,7 @@ impl Passes {
         tabulate: false,
         needed: false,
         merge: false,
+        multiples: false,
     };
 }
 

@@ -4,12 +4,15 @@
 //! 1. [`needed`]: operations that nothing needs vanish.
 //! 2. [`merge_tables`]: tables of one address become one table of several columns, which share the
 //!    selection of the row: the greater part of a table's Toffolis.
-//! 3. [`schedule`]: operations run once and stay, but for those of scopes: a scope copies out what is
+//! 3. [`share_multiples`]: products of one number with several constants share the sums that they
+//!    consist of.
+//! 4. [`schedule`]: operations run once and stay, but for those of scopes: a scope copies out what is
 //!    needed outside of it and then runs backwards.
 
 use super::{Label, Passes, PixelWord, Recorded, Strategy};
 use qrt_circuit::{
-    Bit, Block, BlockId, Instruction, Op, Program, Register, RegisterId, Style, Word, lower,
+    Bit, Block, BlockId, Instruction, Multiples, Op, Program, Register, RegisterId, Style, Word,
+    lower,
 };
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
@@ -30,6 +33,8 @@ pub(crate) struct Known {
     lows: HashMap<Box<[RegisterId]>, u32>,
     /// [`lower::scratch_width`]
     widths: HashMap<Box<[RegisterId]>, u32>,
+    /// By the constants and what is dropped, and the bits of the number.
+    multiples: HashMap<(Vec<(i64, u32)>, u32), Option<Arc<Multiples>>>,
 }
 
 impl Draft {
@@ -183,6 +188,75 @@ pub(super) fn merge_tables(draft: &mut Draft, known_of: &mut Known) {
         }
     }
     draft.ops = merged;
+}
+
+/// So many products are computed together, at most.
+const TOGETHER: usize = 12;
+
+/// Computes products of one number with constants by sums that they share, where that is cheaper.
+fn share_multiples(draft: &mut Draft, strategy: Strategy, known: &mut Known) {
+    // What is in a scope is not there for others.
+    let is_scope = |block: &BlockId| {
+        let stage = Label::of(&draft.blocks[block.index()]).stage;
+        strategy.is_scope(stage)
+    };
+    let mut groups: HashMap<(Word, Option<BlockId>), Vec<usize>> = HashMap::new();
+    for (place, (op, block)) in draft.ops.iter().enumerate() {
+        if let Op::Scale { a, style, .. } = op
+            && *style == Style::OutOfPlace
+        {
+            let scope = draft.ancestors(*block).into_iter().find(is_scope);
+            groups.entry((*a, scope)).or_default().push(place);
+        }
+    }
+    let mut groups: Vec<((Word, _), Vec<usize>)> = groups.into_iter().collect();
+    groups.sort_by_key(|(_, places)| places[0]);
+    let mut gone: HashSet<usize> = HashSet::new();
+    for ((a, _), places) in groups {
+        for places in places.chunks(TOGETHER) {
+            let mut products = Vec::new();
+            let mut targets = Vec::new();
+            let mut leavings = None;
+            for &place in places {
+                if let Op::Scale {
+                    factor,
+                    drop,
+                    target,
+                    scratch,
+                    ..
+                } = draft.ops[place].0
+                {
+                    products.push((factor, drop));
+                    targets.push(target);
+                    leavings.get_or_insert(scratch);
+                }
+            }
+            let planned = known.multiples.entry((products, a.width));
+            let planned = planned.or_insert_with_key(|(products, width)| {
+                Multiples::new(products, *width).map(Arc::new)
+            });
+            let (Some(products), Some(scratch)) = (planned.clone(), leavings) else {
+                continue;
+            };
+            let together = Op::Multiples {
+                a,
+                products,
+                targets: targets.into(),
+                scratch,
+            };
+            let width = |id: RegisterId| draft.registers[id.index()].width;
+            let toffoli = |op: &Op| lower::cost(op, false, width).toffoli;
+            let apart = places.iter().map(|&place| toffoli(&draft.ops[place].0));
+            if toffoli(&together) < apart.sum() {
+                draft.ops[places[0]].0 = together;
+                gone.extend(&places[1..]);
+            }
+        }
+    }
+    let mut place = 0..;
+    draft
+        .ops
+        .retain(|_| place.next().is_none_or(|place| !gone.contains(&place)));
 }
 
 /// A block's content, in order.
@@ -392,6 +466,9 @@ pub(crate) fn assemble(
     }
     if passes.merge {
         merge_tables(&mut draft, known);
+    }
+    if passes.multiples {
+        share_multiples(&mut draft, strategy, known);
     }
     draft.size_scratch(known);
     let (instructions, renamed) = schedule(&mut draft, strategy, roots);

@@ -9,7 +9,7 @@ use qrt_circuit::lower::{self, Cost};
 /// The cost of a call of the oracle after a pass was added to those before it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PassFigures {
-    /// The name of the pass: `none`, `share`, `tabulate`, `needed`, `merge`.
+    /// The name of the pass: `none`, `share`, `tabulate`, `needed`, `merge`, `multiples`.
     pub name: &'static str,
     /// How many Toffolis the call has.
     pub toffoli: u64,
@@ -40,11 +40,16 @@ pub fn pass_figures(
         needed: true,
         ..tabulate
     };
+    let merge = Passes {
+        merge: true,
+        ..needed
+    };
     let steps = [
         ("none", Passes::NONE),
         ("share", share),
         ("tabulate", tabulate),
         ("needed", needed),
+        ("merge", merge),
     ];
     let mut figures = Vec::with_capacity(steps.len() + 1);
     for (name, passes) in steps {
@@ -62,7 +67,7 @@ pub fn pass_figures(
         });
     }
     figures.push(PassFigures {
-        name: "merge",
+        name: "multiples",
         toffoli: inspection.total().toffoli,
         ops: inspection.oracle.program.ops.len() as u64,
         qubits: inspection.qubits,

@@ -131,7 +131,9 @@ impl Coder<'_> {
         } else {
             bound = own();
             let targets = match (op, targets.as_slice()) {
-                (Op::Table { .. } | Op::Divide { .. }, all) => format!("[{}]", all.join(", ")),
+                (Op::Table { .. } | Op::Multiples { .. } | Op::Divide { .. }, all) => {
+                    format!("[{}]", all.join(", "))
+                }
                 (_, all) => all.concat(),
             };
             format!("let {targets} = m.{};", self.call(op))
@@ -160,6 +162,12 @@ impl Coder<'_> {
             arguments.push(format!("&[{}]", address.join(", ")));
             arguments.push(format!("[{}]", columns.join(", ")));
             arguments.push(low.to_string());
+        } else if let Op::Multiples { a, .. } = op {
+            // By the number of the first target, as the tables are.
+            let first = op.targets().first().map_or(0, |target| target.0);
+            arguments.push(format!("[{}]", targets.join(", ")));
+            arguments.push(self.word(*a));
+            arguments.push(format!("&M{first}"));
         } else {
             arguments.extend(targets);
             let read = op.arguments().into_iter().map(|argument| match argument {

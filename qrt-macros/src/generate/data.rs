@@ -74,7 +74,7 @@ fn blocks(out: &mut String, oracle: &Oracle) {
     out.push_str("];\n");
 }
 
-/// Writes the columns of tables, each called by its target's number.
+/// Writes the columns of tables and the products of one number, each called by its target's number.
 fn tables(out: &mut String, oracle: &Oracle) {
     for op in &oracle.program.ops {
         if let Op::Table {
@@ -84,6 +84,23 @@ fn tables(out: &mut String, oracle: &Oracle) {
             for (column, target) in columns.iter().zip(targets) {
                 let _ = writeln!(out, "static T{}: &[i64] = &{column:?};", target.0);
             }
+        }
+        if let Op::Multiples {
+            a,
+            products,
+            targets,
+            ..
+        } = op
+        {
+            let _ = writeln!(
+                out,
+                "static M{}: ::std::sync::LazyLock<::std::sync::Arc<Multiples>> = \
+                 ::std::sync::LazyLock::new(|| Multiples::new(&{:?}, {})\
+                 .expect(\"the constants were in bounds\").into());",
+                targets[0].0,
+                products.products(),
+                a.width
+            );
         }
     }
 }

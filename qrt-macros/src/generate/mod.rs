@@ -79,8 +79,8 @@ fn text(
             use ::qrt::core::compile::{{NamedPlace, PixelWord, Place}};
             use ::qrt::core::sampling::{{Axis::{{U, V}}, Coordinate, Square::{{Light, Ray}}}};
             use ::qrt::circuit::{{
-                Bit, BlockId, Declaration, Machine, Operand, RegisterId, Style, Tag, Type,
-                Word,
+                Bit, BlockId, Declaration, Machine, Multiples, Operand, RegisterId, Style, Tag,
+                Type, Word,
             }};
             use ::qrt::core::oracle::Channel;
             use ::qrt::core::oracle::compiled::{{

@@ -1,7 +1,8 @@
 //! Every operation of up to 32 bits, at random, and programs of several operations.
 
 use super::super::super::{
-    Bit, BlockId, Contents, Gate, Instruction, Op, Operand, RegisterId, Style, When, Word,
+    Bit, BlockId, Contents, Gate, Instruction, Multiples, Op, Operand, RegisterId, Style, When,
+    Word,
 };
 use super::super::{circuit, depth, tally};
 use super::simulate::{Bench, program};
@@ -151,6 +152,22 @@ fn op() -> impl Strategy<Value = (Op, Vec<u32>)> {
                 (op, vec![32, 32, width])
             }
         ),
+        (
+            word(0),
+            [1_i64..1 << 20, 1_i64..1 << 39],
+            [0_u32..40, 0_u32..60],
+            1_u32..50
+        )
+            .prop_map(move |(a, factors, drops, width)| {
+                let products = [(factors[0], drops[0]), (factors[1], drops[1])];
+                let op = Op::Multiples {
+                    a,
+                    products: Multiples::new(&products, a.width).unwrap().into(),
+                    targets: [r2, r3].into(),
+                    scratch: r4,
+                };
+                (op, vec![32, 32, width, width])
+            }),
         (
             unsigned(0),
             prop_oneof![unsigned(0), unsigned(1)],

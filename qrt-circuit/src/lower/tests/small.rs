@@ -1,6 +1,6 @@
 //! Every operation, for all contents of small registers.
 
-use super::super::super::{Bit, Op, Operand, RegisterId, Style, When, Word};
+use super::super::super::{Bit, Multiples, Op, Operand, RegisterId, Style, When, Word};
 use super::simulate::{Bench, check};
 use std::sync::Arc;
 
@@ -302,6 +302,34 @@ fn multiples() {
                         };
                         check(&op, &[n, width]);
                     }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn products_with_several_constants() {
+    for n in [1, 2, 3, 5_u32] {
+        for signed in [false, true] {
+            for constants in [&[3][..], &[1, 6, 45], &[45, 361, 90], &[683, 1365, 171]] {
+                for (drop, width) in [(0, n + 7), (0, 2), (3, n), (2, n + 12), (n + 6, 3), (60, 2)]
+                {
+                    let a = Word {
+                        shift: 1,
+                        ..word(0, n, signed)
+                    };
+                    let products: Vec<_> = constants.iter().map(|&c| (c, drop)).collect();
+                    let targets = R[1..=products.len()].into();
+                    let op = Op::Multiples {
+                        a,
+                        products: Multiples::new(&products, n).unwrap().into(),
+                        targets,
+                        scratch: R[1 + products.len()],
+                    };
+                    let mut widths = vec![n];
+                    widths.resize(1 + products.len(), width);
+                    check(&op, &widths);
                 }
             }
         }

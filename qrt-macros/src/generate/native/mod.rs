@@ -297,6 +297,19 @@ impl Coder<'_> {
                 let product = self.product(&a, &Self::constant(*factor), *drop, width);
                 self.set(*target, product);
             }
+            Op::Multiples {
+                a,
+                products,
+                targets,
+                ..
+            } => {
+                let a = self.word(*a);
+                for (&(factor, drop), target) in products.products().iter().zip(targets) {
+                    let width = width(self, *target);
+                    let product = self.product(&a, &Self::constant(factor), drop, width);
+                    self.set(*target, product);
+                }
+            }
             Op::Divide {
                 a,
                 b,

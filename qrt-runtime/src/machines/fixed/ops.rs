@@ -131,6 +131,16 @@ impl Compiler<'_> {
                 target,
                 ..
             } => self.product(*a, Operand::Constant(*factor), *drop, *target),
+            Op::Multiples {
+                a,
+                products,
+                targets,
+                ..
+            } => {
+                for (&(factor, drop), target) in products.products().iter().zip(targets) {
+                    self.product(*a, Operand::Constant(factor), drop, *target);
+                }
+            }
             Op::Divide {
                 a,
                 b,

@@ -1,8 +1,8 @@
 //! Random programs.
 
 use qrt_circuit::{
-    Bit, BlockId, Instruction, Op, Operand, Parameter, Program, Register, RegisterId, Style, Type,
-    When, Word,
+    Bit, BlockId, Instruction, Multiples, Op, Operand, Parameter, Program, Register, RegisterId,
+    Style, Type, When, Word,
 };
 
 /// Choices keyed by a seed.
@@ -219,6 +219,20 @@ impl Maker {
                 target: self.any_register(),
                 scratch,
             },
+            10 if self.dice.coin() => {
+                let a = self.word(62, false);
+                let mut product = || {
+                    let factor = self.dice.word() as i64 >> self.dice.between(24, 62);
+                    (factor.abs() | 1, self.dice.between(0, 40))
+                };
+                let products = [product(), product()];
+                Op::Multiples {
+                    a,
+                    products: Multiples::new(&products, a.width).unwrap().into(),
+                    targets: [self.any_register(), self.any_register()].into(),
+                    scratch,
+                }
+            }
             10 => Op::Scale {
                 a: self.word(62, false),
                 factor: (self.dice.word() as i64 >> self.dice.between(2, 62)) | 1,
