@@ -90,6 +90,18 @@ mod tests {
     use super::*;
     use crate::{Bit, BlockId, Instruction, Register, RegisterId, Type, Word};
 
+    /// What scope k computes, its copy, and that undone again.
+    fn run(scope: u32, depth: u32, out: &mut Vec<(u32, bool)>) {
+        let mut inside = Vec::new();
+        if scope + 1 < depth {
+            run(scope + 1, depth, &mut inside);
+        }
+        inside.push((2 * scope, false));
+        out.extend(&inside);
+        out.push((2 * scope + 1, false));
+        out.extend(inside.iter().rev().map(|(op, inverse)| (*op, !inverse)));
+    }
+
     /// An AND of two bits for each scope: that of scope k reads the one of scope k + 1, and is copied
     /// out before its scope is undone.
     fn nested(depth: u32) -> Program {
@@ -118,17 +130,6 @@ mod tests {
                 target: RegisterId(2 * scope + 2),
             });
         }
-        // What scope k computes, its copy, and that undone again.
-        fn run(scope: u32, depth: u32, out: &mut Vec<(u32, bool)>) {
-            let mut inside = Vec::new();
-            if scope + 1 < depth {
-                run(scope + 1, depth, &mut inside);
-            }
-            inside.push((2 * scope, false));
-            out.extend(&inside);
-            out.push((2 * scope + 1, false));
-            out.extend(inside.iter().rev().map(|(op, inverse)| (*op, !inverse)));
-        }
         let mut steps = Vec::new();
         run(0, depth, &mut steps);
         let back: Vec<_> = steps
@@ -143,7 +144,7 @@ mod tests {
             block: BlockId::ROOT,
         });
         Program {
-            registers: (0..2 * depth + 1)
+            registers: (0..=2 * depth)
                 .map(|_| Register::new("r", Type::Bool, 1))
                 .collect(),
             ops,
