@@ -53,7 +53,7 @@ def estimator(counts, name, error):
 
 
 def qre(counts, name, error):
-    """Physical qubits and seconds, of the fastest way that the engine finds."""
+    """Physical qubits and seconds, of the way with the fewest qubits that the engine finds."""
     from qdk.estimator import LogicalCounts
     from qdk.qre import estimate
     from qdk.qre.application import QSharpApplication
