@@ -9,6 +9,7 @@ pub mod layouts;
 pub mod machines;
 pub mod memory;
 mod named;
+pub mod physical;
 pub mod plan;
 pub mod random;
 pub mod render;

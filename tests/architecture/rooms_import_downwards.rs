@@ -44,6 +44,7 @@ const MODULES: &[(&str, &[&str])] = &[
             "render",
             "draw",
             "layouts",
+            "physical",
             "verify",
             "trade",
         ],

@@ -99,6 +99,18 @@ fn the_command_lists_the_front_and_tells_the_least() {
     let front = front["front"].as_array().unwrap();
     let qubits = |place: usize| front[place]["qubits"].as_u64().unwrap();
     assert!(front.len() > 5 && qubits(0) > 2 * qubits(front.len() - 1));
+    // Ghosts save only where something is undone early, and never more than that costs.
+    let ands = |line: &serde_json::Value, key: &str| line[key].as_u64().unwrap();
+    let keep = ands(&front[0], "and_measured");
+    assert_eq!(ands(&front[0], "estimated_and_with_ghosts"), keep);
+    let mut fewer = 0;
+    for line in front {
+        let ghosts = ands(line, "estimated_and_with_ghosts");
+        let measured = ands(line, "and_measured");
+        assert!((keep..=measured).contains(&ghosts), "{line}");
+        fewer += usize::from(ghosts < measured);
+    }
+    assert!(3 * fewer > front.len(), "{fewer} of {}", front.len());
     let least = qubits(front.len() - 1);
     let auto = [
         "--set",

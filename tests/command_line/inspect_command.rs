@@ -278,6 +278,110 @@ fn planes_are_summed_unless_each_is_asked_for() {
     assert!(planes(&folder().works(&["inspect", &scene, "-v"])) >= 16 + 16 + 11);
 }
 
+/// What `--logical-counts` writes of the floor's red channel.
+fn logical_counts(folder: &Folder, sets: &[&str]) -> Value {
+    let file = ["--channel", "r", "--logical-counts", "counts.json"];
+    json(folder, &[&["floor.yaml"][..], &file, sets].concat());
+    serde_json::from_slice(&folder.read("counts.json")).unwrap()
+}
+
+/// How Q# calls what is counted; other keys it drops without a word.
+const QSHARP: [&str; 7] = [
+    "numQubits",
+    "cczCount",
+    "ccixCount",
+    "tCount",
+    "rotationCount",
+    "rotationDepth",
+    "measurementCount",
+];
+
+#[test]
+fn logical_counts_are_those_of_the_gates_that_export_writes() {
+    let folder = folder();
+    for (estimator, rotations) in [("sine", true), ("paper", true), ("iqae", false)] {
+        let set = format!("counting={{ phase_bits: 3, repetitions: 4, estimator: {estimator} }}");
+        let sets = ["--set", &set];
+        let counts = logical_counts(&folder, &sets);
+        let inspected = json(&folder, &["floor.yaml", "--channel", "r", sets[0], sets[1]]);
+        let toffoli = number(&inspected["gates"]["toffoli"]);
+        let [unitary, measured] = ["unitary", "measured"].map(|kind| &counts[kind]);
+        assert_eq!(unitary["oracle"]["cczCount"], toffoli);
+        assert_eq!(unitary["oracle"]["numQubits"], inspected["qubits"]["peak"]);
+        let ands = &measured["oracle"];
+        let left = number(&ands["cczCount"]) + number(&ands["ccixCount"]);
+        assert_eq!(inspected["gates"]["and_measured"], left);
+        assert_eq!(ands["measurementCount"], toffoli - left);
+
+        let export = |part: &str| -> Value {
+            let part = [
+                "--part",
+                part,
+                "--channel",
+                "r",
+                "-o",
+                "part.qasm",
+                "--json",
+            ];
+            let text = folder.works(&[&["export", "floor.yaml"][..], &part, &sets].concat());
+            serde_json::from_str(&text).unwrap()
+        };
+        let run = &unitary["channel"];
+        if rotations {
+            let whole = export("counting");
+            assert_eq!(
+                whole["gates"]["ccx"].as_u64().map(|n| 4 * n),
+                run["cczCount"].as_u64()
+            );
+            assert_eq!(whole["qubits"], run["numQubits"]);
+            assert_eq!(run["measurementCount"], 4 * 3);
+            // Of two quarter turns and an eighth: an eighth is three T gates on each side of a CNOT,
+            // and a sixteenth three rotations. The sine window rotates each bit twice.
+            let window = if estimator == "sine" { 2 * 3 } else { 0 };
+            assert_eq!(run["tCount"], 4 * 2 * 3);
+            assert_eq!(run["rotationCount"], 4 * (3 + window));
+        } else {
+            let iterate = number(&export("grover")["gates"]["ccx"]);
+            assert_eq!(run["cczCount"], 4 * 7 * iterate);
+            // Path and comparator, after each query.
+            assert_eq!(run["measurementCount"], 4 * 7 * (6 + 5));
+            assert_eq!([&run["rotationCount"], &run["tCount"]], [0, 0]);
+        }
+        assert_eq!(counts["queries"]["channel"], 4 * 7);
+        assert_eq!(counts["queries"]["film"], 3 * 16 * 4 * 7);
+        for kind in [unitary, measured] {
+            for part in ["oracle", "channel", "pixel", "film"] {
+                assert_eq!(kind[part].as_object().unwrap().len(), QSHARP.len());
+                for key in QSHARP {
+                    number(&kind[part][key]);
+                }
+            }
+            assert_eq!(
+                number(&kind["film"]["ccixCount"]) + number(&kind["film"]["cczCount"]),
+                16 * (number(&kind["pixel"]["ccixCount"]) + number(&kind["pixel"]["cczCount"]))
+            );
+        }
+    }
+}
+
+#[test]
+fn logical_counts_leave_out_what_is_not_counted() {
+    let folder = folder();
+    let one = logical_counts(
+        &folder,
+        &["--set", "materials.sky.emitter.radiance=[1, 0, 0]"],
+    );
+    assert_eq!(one["queries"]["pixel"], one["queries"]["channel"]);
+    assert_eq!(one["unitary"]["pixel"], one["unitary"]["channel"]);
+    let arguments = ["inspect", "floor.yaml", "--logical-counts", "new.json"];
+    let refused = |set: &str| folder.fails(2, &[&arguments[..], &["--set", set]].concat());
+    let errors = refused("counting.estimator=exact");
+    assert!(errors.contains("`exact` does not iterate G"), "{errors}");
+    let errors = refused("counting={ phase_bits: 40, repetitions: 1000000 }");
+    assert!(errors.contains("more gates than 2^64"), "{errors}");
+    assert_eq!(folder.names(), ["counts.json", "floor.yaml"]);
+}
+
 #[test]
 fn a_budget_beyond_which_a_circuit_goes_is_an_error_at_its_place() {
     let text = format!("{SCENE}budget: {{ qubits: 9, toffoli: 7 }}\n");
@@ -347,6 +451,10 @@ fn files_that_cannot_be_written_are_known_before_the_work() {
     assert!(inspect(2, &["--registers", "map.svg"]).contains("is a folder"));
     assert!(inspect(2, &["--circuit", "floor.yaml"]).contains("two different things"));
     assert!(inspect(2, &["--circuit", "a.svg", "--registers", "a.svg"]).contains("two different"));
+    assert!(inspect(2, &["--logical-counts", "floor.yaml"]).contains("two different things"));
+    let twice = ["--logical-counts", "a", "--circuit", "a"];
+    assert!(inspect(2, &twice).contains("two different things"));
+    assert!(inspect(2, &["--logical-counts", "a", "--pareto"]).contains("cannot be used with"));
     assert!(inspect(2, &["--circuit", "-", "--json"]).contains("`--circuit -`"));
     assert!(inspect(2, &["--channel", "x"]).contains("possible values: r, g, b"));
     assert_eq!(folder.names(), ["floor.yaml", "map.svg"]);

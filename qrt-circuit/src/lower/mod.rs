@@ -25,6 +25,7 @@ mod adder;
 mod choose;
 mod cost;
 mod divide;
+mod ghosts;
 mod multiply;
 mod place;
 mod root;
@@ -38,6 +39,7 @@ mod walk;
 mod wire;
 
 pub use cost::{Cost, cost, costs, tally, toffoli};
+pub use ghosts::with_ghosts;
 pub use place::{
     circuit, each_instruction, parts, parts_between, scratch_width, try_each_instruction,
 };

@@ -6,7 +6,8 @@
 //! * [`PhaseOracle`]: O_f of one pixel and channel, as gates;
 //! * [`GroverIterate`]: `G = H O_0 H O_f`, alone or under a control;
 //! * [`Counting`]: Hadamards on the qubits in superposition, the phase register's window,
-//!   controlled powers of G and the inverse Fourier transform.
+//!   controlled powers of G and the inverse Fourier transform;
+//! * [`LogicalCounts`]: what estimators of physical resources take of them.
 //!
 //! Circuits are handed over gate by gate and never held: the controlled powers of G repeat the
 //! oracle `T - 1` times. A *sink* is a closure that receives each gate and may refuse it, which
@@ -41,6 +42,7 @@ mod error;
 mod fourier;
 mod gate;
 mod grover;
+mod logical;
 mod oracle;
 #[cfg(test)]
 mod tests;
@@ -51,6 +53,7 @@ pub use counting::{Counting, Part};
 pub use error::QuantumError;
 pub use gate::{QuantumGate, Turns};
 pub use grover::GroverIterate;
+pub use logical::LogicalCounts;
 pub use oracle::{Flip, PhaseOracle};
 pub use window::Window;
 

@@ -16,6 +16,9 @@ pub struct Layout {
     pub cost: CallCost,
     /// How many ANDs there are if measurements undo them.
     pub and_measured: u64,
+    /// An estimate: how many of those would be left on the same qubits if what is undone early were
+    /// measured, and left ghosts until it is computed again: see [`lower::with_ghosts`].
+    pub and_with_ghosts: u64,
 }
 
 impl Layout {
@@ -35,8 +38,9 @@ impl Layout {
         let oracle = Oracle::new(scene, channel, options)?;
         let whole = oracle.whole(0);
         let mut known = HashMap::new();
-        let (mut toffoli, mut and_measured) = (0, 0);
-        for instruction in &whole.instructions {
+        let (mut toffoli, mut and_measured, mut and_with_ghosts) = (0, 0, 0);
+        let left = lower::with_ghosts(&whole);
+        for (instruction, left) in whole.instructions.iter().zip(left) {
             let costs = known.entry(instruction.op).or_insert_with(|| {
                 let op = &whole.ops[instruction.op as usize];
                 lower::costs(op, |register| whole.width(register))
@@ -44,6 +48,7 @@ impl Layout {
             let cost = &costs[usize::from(instruction.inverse)];
             toffoli += cost.toffoli;
             and_measured += cost.and_measured;
+            and_with_ghosts += if left { cost.and_measured } else { 0 };
         }
         let cost = CallCost {
             qubits: u64::from(oracle.qubits()),
@@ -53,6 +58,7 @@ impl Layout {
             strategy,
             cost,
             and_measured,
+            and_with_ghosts,
         })
     }
 

@@ -415,6 +415,14 @@ impl Estimator {
         matches!(self, Self::AdaptiveBayes | Self::RandomDepth)
     }
 
+    /// Whether it reads a phase register: it runs the circuit of quantum counting, again and again.
+    pub const fn has_register(self) -> bool {
+        matches!(
+            self,
+            Self::Paper | Self::PosteriorMean | Self::Sine | Self::Qss
+        )
+    }
+
     /// The window in which the phase register is prepared: that of `paper`, `qss` and `sine`, which
     /// have one of their own, and `asked`, the scene's `counting.window`, for all others.
     pub fn register_window(self, asked: Window) -> Window {

@@ -1,6 +1,7 @@
 //! `qrt inspect`: what a scene's oracle costs, and where.
 
 mod json;
+mod logical;
 mod pareto;
 mod text;
 
@@ -39,7 +40,8 @@ Examples:
   qrt inspect box.yaml --json --set precision.fraction=12
   qrt inspect box.yaml --registers map.svg --circuit frame.svg
   qrt inspect box.yaml --circuit -                      the circuit, drawn in the terminal
-  qrt inspect box.yaml --pareto                         qubits against gates: what can be had")]
+  qrt inspect box.yaml --pareto                         qubits against gates: what can be had
+  qrt inspect box.yaml --logical-counts counts.json     for estimators of physical resources")]
 pub(crate) struct InspectArgs {
     /// The channel [default: the one whose oracle has the most Toffolis]
     #[arg(long, value_parser = choice(CHANNEL_CHOICES, channel_name), value_name = "CHANNEL")]
@@ -56,8 +58,12 @@ pub(crate) struct InspectArgs {
     /// Draw the circuit as boxes on wires; `-` draws it in the terminal
     #[arg(long, value_name = "FILE.svg")]
     circuit: Option<PathBuf>,
+    /// Write what estimators of physical resources take, as Q#'s `LogicalCounts`: the counts of a call
+    /// of the oracle, of a channel of a pixel, of a pixel and of the film, with all that counting needs
+    #[arg(long, value_name = "FILE.json")]
+    logical_counts: Option<PathBuf>,
     /// Compile under each strategy, and list those that no other beats in qubits and in Toffolis
-    #[arg(long, conflicts_with_all = ["planes", "registers", "circuit"])]
+    #[arg(long, conflicts_with_all = ["planes", "registers", "circuit", "logical_counts"])]
     pareto: bool,
     /// Draw qubits against gates
     #[arg(long, value_name = "FILE.svg", requires = "pareto")]
@@ -93,7 +99,10 @@ pub(crate) fn run(args: &InspectArgs) -> Result<(), Failure> {
     let circuit = circuit.map(Output::new).transpose()?;
     let registers = args.registers.as_deref().map(Output::new).transpose()?;
     let front = args.pareto_plot.as_deref().map(Output::new).transpose()?;
-    let outputs: Vec<&Output> = circuit.iter().chain(&registers).chain(&front).collect();
+    let counts = args.logical_counts.as_deref();
+    let counts = counts.map(Output::new).transpose()?;
+    let outputs = [&circuit, &registers, &front, &counts];
+    let outputs: Vec<&Output> = outputs.into_iter().flatten().collect();
     keep_apart([&*args.scene.scene], &outputs)?;
     let loaded = args.scene.load()?;
     keep_apart(loaded.valid.files().iter().map(PathBuf::as_path), &outputs)?;
@@ -119,11 +128,16 @@ pub(crate) fn run(args: &InspectArgs) -> Result<(), Failure> {
     if let Some(file) = &circuit {
         write(file, &draw::frame(&inspection, name).svg())?;
     }
+    let plan = planned.as_ref().map(|plan| &plan.figures);
+    if let Some(file) = &counts {
+        let counts = logical::json(&loaded, scene, inspection.channel, plan)?;
+        write(file, &format!("{counts:#}\n"))?;
+    }
     let shown = Shown {
         scene,
         inspection: &inspection,
         passes: &passes,
-        plan: planned.as_ref().map(|plan| &plan.figures),
+        plan,
     };
     let mut out = if args.json {
         format!("{:#}\n", json::json(&shown))

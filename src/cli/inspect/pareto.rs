@@ -64,19 +64,24 @@ fn text(name: &str, channel: usize, front: &[Layout]) -> String {
     );
     let _ = writeln!(
         out,
-        "{:>13}  {:>13}  {:>13}  what is undone at the end of its part",
-        "qubits", "Toffoli", "measured AND"
+        "{:>9}  {:>13}  {:>13}  {:>13}  what is undone at the end of its part",
+        "qubits", "Toffoli", "measured AND", "with ghosts*"
     );
     for layout in front {
         let _ = writeln!(
             out,
-            "{:>13}  {:>13}  {:>13}  {}",
+            "{:>9}  {:>13}  {:>13}  {:>13}  {}",
             grouped(layout.cost.qubits),
             grouped(layout.cost.toffoli),
             grouped(layout.and_measured),
+            grouped(layout.and_with_ghosts),
             layout.strategy
         );
     }
+    out.push_str(
+        "\n* an estimate: the ANDs that are left if what is undone early is measured as a whole, and its\n  \
+         signs are repaired when it is computed again; qrt has no such circuit\n",
+    );
     out
 }
 
@@ -86,6 +91,7 @@ fn to_json(name: &str, channel: usize, front: &[Layout]) -> Value {
             "qubits": layout.cost.qubits,
             "toffoli": layout.cost.toffoli,
             "and_measured": layout.and_measured,
+            "estimated_and_with_ghosts": layout.and_with_ghosts,
             "strategy": layout.strategy.to_string(),
         })
     });

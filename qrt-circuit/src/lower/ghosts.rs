@@ -1,0 +1,205 @@
+//! Ghosts: what a program takes where registers may be undone by measurement.
+//!
+//! A register that is measured in the X basis is free at once, without its operation running
+//! backwards. What stays is a *ghost*: where the measurement gave `m`, each path has the sign
+//! `(-1)^(m.v)` of the value `v` that the register had. When the same operation has computed `v` again,
+//! Zs on its bits take that sign away (Gidney, *Spooky pebble games and irreversible
+//! uncomputation*, 2019; Kornerup, Sadun & Soloveichik, *Tight bounds on the spooky pebble game*,
+//! Quantum 9, 1636, 2025). Until then nothing is lost: all values are functions of the index, which
+//! an oracle does not change, and so is the sign.
+//!
+//! A program whose scopes are undone early computes their operations several times. So each but the
+//! last run of an operation may end in a ghost, which the next run repairs; the last is undone by
+//! gates. What was computed anew only to undo something that is a ghost now need not run at all.
+//! Of `k` scopes, one in another, the innermost is computed `k + 1` times in place of `2^k`.
+
+use super::super::{Op, Program};
+
+/// Which instructions are left of a program that returns all it computes to zero, where registers may
+/// leave ghosts. All qubits are where they were, so that it needs no more of them.
+///
+/// Where an operation changes a register in place, or two compute the same one, or something is not
+/// returned to zero, all instructions are left.
+pub fn with_ghosts(program: &Program) -> Vec<bool> {
+    let Some(runs) = Runs::of(program) else {
+        return vec![true; program.instructions.len()];
+    };
+    let mut left = vec![false; program.instructions.len()];
+    let mut needed: Vec<usize> = runs.always.clone();
+    while let Some(at) = needed.pop() {
+        if !std::mem::replace(&mut left[at], true) {
+            needed.extend(&runs.reads[at]);
+        }
+    }
+    left
+}
+
+/// Who computed what each instruction reads.
+struct Runs {
+    /// For each instruction, those that computed what it reads.
+    reads: Vec<Vec<usize>>,
+    /// The last run of each operation, and its inverse; operations that compute nothing.
+    always: Vec<usize>,
+}
+
+impl Runs {
+    fn of(program: &Program) -> Option<Self> {
+        // The instruction that computed what a register holds.
+        let mut holder: Vec<Option<usize>> = vec![None; program.registers.len()];
+        // The last run of each operation: where it begins and ends.
+        let mut last: Vec<Option<[usize; 2]>> = vec![None; program.ops.len()];
+        let mut writer: Vec<Option<u32>> = vec![None; program.registers.len()];
+        let mut reads = Vec::with_capacity(program.instructions.len());
+        let mut always = Vec::new();
+        for (at, instruction) in program.instructions.iter().enumerate() {
+            let op = &program.ops[instruction.op as usize];
+            let found = op.reads().into_iter();
+            let found = found.filter_map(|register| holder[register.index()]);
+            reads.push(found.collect());
+            let fresh = op.fresh();
+            if fresh.is_empty() {
+                if !matches!(op, Op::Phase { .. }) {
+                    return None;
+                }
+                always.push(at);
+            }
+            for register in &fresh {
+                // Two that write one register need not compute the same.
+                let writer = writer[register.index()].get_or_insert(instruction.op);
+                if *writer != instruction.op {
+                    return None;
+                }
+                let holder = &mut holder[register.index()];
+                if let Some(begin) = holder.filter(|_| instruction.inverse) {
+                    last[instruction.op as usize] = Some([begin, at]);
+                }
+                *holder = (!instruction.inverse).then_some(at);
+            }
+        }
+        // What is not returned to zero was never undone.
+        if holder.iter().any(Option::is_some) {
+            return None;
+        }
+        always.extend(last.into_iter().flatten().flatten());
+        Some(Self { reads, always })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Bit, BlockId, Instruction, Register, RegisterId, Type, Word};
+
+    /// What scope k computes, its copy, and that undone again.
+    fn run(scope: u32, depth: u32, out: &mut Vec<(u32, bool)>) {
+        let mut inside = Vec::new();
+        if scope + 1 < depth {
+            run(scope + 1, depth, &mut inside);
+        }
+        inside.push((2 * scope, false));
+        out.extend(&inside);
+        out.push((2 * scope + 1, false));
+        out.extend(inside.iter().rev().map(|(op, inverse)| (*op, !inverse)));
+    }
+
+    /// An AND of two bits for each scope: that of scope k reads the one of scope k + 1, and is copied
+    /// out before its scope is undone.
+    fn nested(depth: u32) -> Program {
+        let bit = |register| Bit {
+            register: RegisterId(register),
+            index: 0,
+            inverted: false,
+        };
+        // Input 0; scope k computes register 2k + 1, and copies it to 2k + 2.
+        let mut ops = Vec::new();
+        for scope in 0..depth {
+            let inner = if scope + 1 < depth { 2 * scope + 4 } else { 0 };
+            ops.push(Op::And {
+                a: bit(0),
+                b: bit(inner),
+                target: RegisterId(2 * scope + 1),
+            });
+            ops.push(Op::Copy {
+                a: Word {
+                    register: RegisterId(2 * scope + 1),
+                    offset: 0,
+                    width: 1,
+                    signed: false,
+                    shift: 0,
+                },
+                target: RegisterId(2 * scope + 2),
+            });
+        }
+        let mut steps = Vec::new();
+        run(0, depth, &mut steps);
+        let back: Vec<_> = steps
+            .iter()
+            .rev()
+            .map(|(op, inverse)| (*op, !inverse))
+            .collect();
+        steps.extend(back);
+        let instructions = steps.into_iter().map(|(op, inverse)| Instruction {
+            op,
+            inverse,
+            block: BlockId::ROOT,
+        });
+        Program {
+            registers: (0..=2 * depth)
+                .map(|_| Register::new("r", Type::Bool, 1))
+                .collect(),
+            ops,
+            instructions: instructions.collect(),
+            inputs: vec![RegisterId(0)],
+            ..Program::default()
+        }
+    }
+
+    #[test]
+    fn the_innermost_of_k_scopes_is_computed_k_and_one_times() {
+        for depth in 1..7 {
+            let program = nested(depth);
+            let left = with_ghosts(&program);
+            let times = |op: u32, inverse: bool, left: &dyn Fn(usize) -> bool| {
+                let steps = program.instructions.iter().enumerate();
+                let same = steps
+                    .filter(|(at, step)| step.op == op && step.inverse == inverse && left(*at));
+                same.count() as u32
+            };
+            for scope in 0..depth {
+                let op = 2 * scope;
+                assert_eq!(times(op, false, &|_| true), 2 << scope, "{depth} {scope}");
+                assert_eq!(
+                    times(op, false, &|at| left[at]),
+                    scope + 2,
+                    "{depth} {scope}"
+                );
+                assert_eq!(times(op, true, &|at| left[at]), 1);
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_left_reads_what_is_there_and_leaves_no_ghost() {
+        let program = nested(5);
+        let left = with_ghosts(&program);
+        let mut there = vec![false; program.registers.len()];
+        let mut ghost = there.clone();
+        there[0] = true;
+        for (instruction, left) in program.instructions.iter().zip(left) {
+            let op = &program.ops[instruction.op as usize];
+            for target in op.targets() {
+                let at = target.index();
+                if left {
+                    assert!(op.reads().iter().all(|read| there[read.index()]));
+                    assert_eq!(there[at], instruction.inverse);
+                    // Computed again, it repairs what was measured.
+                    (there[at], ghost[at]) = (!instruction.inverse, false);
+                } else if instruction.inverse {
+                    ghost[at] |= std::mem::take(&mut there[at]);
+                }
+            }
+        }
+        assert_eq!(there.iter().filter(|there| **there).count(), 1);
+        assert!(!ghost.contains(&true));
+    }
+}

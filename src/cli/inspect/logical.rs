@@ -1,0 +1,82 @@
+//! `qrt inspect --logical-counts`: what estimators of physical resources take of a picture.
+
+use crate::cli::failure::Failure;
+use qrt_circuit::quantum::LogicalCounts;
+use qrt_core::front::Loaded;
+use qrt_core::inspect::CHANNELS;
+use qrt_core::valid::ValidScene;
+use qrt_runtime::physical::{Counts, PhysicalError, PictureCounts};
+use qrt_runtime::plan::Figures;
+use serde_json::{Map, Value, json};
+
+/// Under two keys, `unitary` and `measured`, the counts of a call of the oracle and of a pixel's run
+/// of `channel`, of a pixel and of the film; beside them, what they are counts of.
+///
+/// # Errors
+/// As [`PictureCounts::of`].
+pub(super) fn json(
+    loaded: &Loaded,
+    scene: &ValidScene,
+    channel: usize,
+    plan: Option<&Figures>,
+) -> Result<Value, Failure> {
+    let picture = PictureCounts::of(scene).map_err(|error| match error {
+        PhysicalError::Oracle(error) => loaded.report(vec![error.problem()]).into(),
+        PhysicalError::Estimator(_) | PhysicalError::TooMany => Failure::Usage(error.to_string()),
+        other => Failure::Job(other.to_string()),
+    })?;
+    let one = picture.channels[channel];
+    let of = |kind: fn(&Counts) -> LogicalCounts| {
+        let parts = [
+            ("oracle", one.oracle),
+            ("channel", one.pixel),
+            ("pixel", picture.pixel),
+            ("film", picture.film),
+        ];
+        let parts = parts.map(|(name, counts)| (name.to_owned(), for_qsharp(kind(&counts))));
+        Map::from_iter(parts)
+    };
+    let written = scene.scene();
+    let counting = written.counting;
+    let film = picture.queries.saturating_mul(picture.pixels);
+    Ok(json!({
+        "version": 1,
+        "qrt": env!("CARGO_PKG_VERSION"),
+        "scene": written.name,
+        "scene_hash": scene.fingerprint().to_string(),
+        "channel": CHANNELS[channel],
+        "strategy": written.circuit.uncompute.name(),
+        "estimator": counting.estimator.name(),
+        "phase_bits": counting.phase_bits,
+        "repetitions": counting.repetitions,
+        "pixels": picture.pixels,
+        "queries": { "channel": one.queries, "pixel": picture.queries, "film": film },
+        "plan": plan.map(crate::cli::plan::json),
+        "assumed": {
+            "queries": "as many as the scene's counting may use",
+            "circuit": if counting.estimator.has_register() {
+                "quantum counting with its phase register, repeated"
+            } else {
+                "iterates without a control; after each the index is measured"
+            },
+            "order": "channels and pixels one after another, on the same qubits",
+            "unitary": "everything is undone by gates",
+            "measured": "ANDs into clean qubits are undone by measurement",
+        },
+        "unitary": of(|counts| counts.unitary),
+        "measured": of(|counts| counts.measured),
+    }))
+}
+
+/// Under the names of Q#'s `LogicalCounts`.
+fn for_qsharp(counts: LogicalCounts) -> Value {
+    json!({
+        "numQubits": counts.qubits,
+        "cczCount": counts.toffoli,
+        "ccixCount": counts.and,
+        "tCount": counts.t,
+        "rotationCount": counts.rotations,
+        "rotationDepth": counts.rotation_depth,
+        "measurementCount": counts.measurements,
+    })
+}
