@@ -10,10 +10,14 @@
 //! * Toffolis and qubits over the number of quads P, rays D, path bits log2 R, comparator bits
 //!   log2 C and fraction bits w, each with the exponent of a power of it that fits best, and the
 //!   fraction of the cost by which that misses (root mean square);
-//! * Toffolis a face of convex bodies: a cube, an icosahedron and a hull of 80 faces.
+//! * Toffolis a face of convex bodies: a cube, an icosahedron and a hull of 80 faces;
+//! * the front of the box: the strategies that no other beats in qubits and in Toffolis, each beside what
+//!   `keep` took when every plane was asked about every ray; and how the cheapest within 5,000 and within
+//!   2,000 qubits, and the one with the fewest, grow with P, D and w;
+//! * what sampled lamps cost: the box with them, by the box without.
 //!
-//! It fails where a promise is broken: what the box may cost, how the cost may grow, and what a face of
-//! a convex body may cost.
+//! It fails where a promise is broken: what the box may cost, how the cost may grow, what a face of a
+//! convex body may cost, and how much more sampled lamps may.
 
 // A bench that cannot run has nothing to report.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
@@ -36,10 +40,12 @@ use bodies::Solid;
 use growth::{fit, quads};
 use promises::Promises;
 use qrt::circuit::lower::{self, Cost};
-use qrt::core::compile::Passes;
+use qrt::core::compile::{Passes, Strategy};
 use qrt::core::front;
-use qrt::core::oracle::{Options, Oracle};
+use qrt::core::oracle::{Layout, Options, Oracle};
 use qrt::core::valid::ValidScene;
+use qrt::runtime::layouts;
+use qrt::runtime::workers::Workers;
 use scenes::CIRCUITS;
 use std::ops::RangeInclusive;
 use std::path::Path;
@@ -47,10 +53,19 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 /// Toffolis that the box's oracle may take under `uncompute: keep`, and those aimed at.
-const TOFFOLIS: [u64; 2] = [500_000, 150_000];
+const TOFFOLIS: [u64; 2] = [85_000, 67_000];
 
 /// Qubits that it may take under `uncompute: scoped`, and those aimed at.
 const QUBITS: [u64; 2] = [1_500, 500];
+
+/// Toffolis that it may take, at most, within so many qubits.
+const WITHIN: [[u64; 2]; 2] = [[5_000, 200_000], [2_000, 500_000]];
+
+/// What the box took under `keep` when every plane was asked about every ray: Toffolis and qubits.
+const ALL_PLANES: [u64; 2] = [160_912, 87_280];
+
+/// How many times as many Toffolis the box may take with sampled lamps.
+const LIT: f64 = 1.9;
 
 /// Convex bodies, and the Toffolis that each of their faces took when every face was tested by its
 /// plane and its edges: at most half may be left.
@@ -70,6 +85,8 @@ fn main() -> ExitCode {
     passes(root);
     let rules = growth(root);
     let faces = faces(root);
+    let front = pareto(root);
+    let lit = lit(root);
 
     let mut promises = Promises::new();
     println!();
@@ -82,6 +99,17 @@ fn main() -> ExitCode {
             is <= bar,
         );
     }
+    for [qubits, bar] in WITHIN {
+        let toffoli = cheapest(&front, qubits).map_or(u64::MAX, |layout| layout.cost.toffoli);
+        promises.judge(
+            &format!("Toffolis of the box within {qubits} qubits: {toffoli}, at most {bar}"),
+            toffoli <= bar,
+        );
+    }
+    promises.judge(
+        &format!("the box with sampled lamps by the box without: {lit:.2}, at most {LIT}"),
+        lit <= LIT,
+    );
     for (what, rule) in rules {
         promises.judge(what, rule);
     }
@@ -221,37 +249,32 @@ fn passes(root: &Path) {
 
 /// Prints how the cost grows, and says which promises about that hold.
 fn growth(root: &Path) -> [(&'static str, bool); 4] {
-    let generated = |count: u32| {
-        let parsed = front::parse(&quads(count), "quads.yaml", &[], root);
-        parsed.unwrap_or_else(|report| panic!("{report}")).valid
-    };
     let set = |key: &str, value: u32| load(root, "cornell-box", &[&format!("{key}={value}")]);
-    let rays = |depth: u32| {
-        let depths = vec!["{ bits: [10, 10] }"; depth as usize].join(", ");
-        let depths = format!("sampling.depths=[{depths}]");
-        load(root, "cornell-box", &[&depths])
+    let grown = |what: &str, sizes: &[u32], scene: &dyn Fn(u32) -> ValidScene| {
+        grown(what, sizes, Strategy::KEEP, scene)
     };
     println!("\nhow one O_f grows (first channel, keep)");
     let sizes = [4, 8, 16, 32, 64, 128];
-    let faces = grown("quads P, D = 3", &sizes, generated).fitted(4..=128);
+    let generated = |count| generated(root, count);
+    let faces = grown("quads P, D = 3", &sizes, &generated).fitted(4..=128);
     let sizes = [1, 2, 3, 4, 5, 6, 7, 8, 12, 16, 20, 24];
-    let depths = grown("rays D, of the box", &sizes, rays);
+    let depths = grown("rays D, of the box", &sizes, &|depth| rays(root, depth));
     // The first ray is the cheapest: a straight line, but not through zero. Far on, what a ray can
     // still add rounds to nothing, and it vanishes.
     depths.fitted(2..=8);
     let depths = depths.fitted(8..=24);
     let sizes = [4, 8, 12, 16, 20, 24];
-    let paths = grown("path bits log2 R, of the box", &sizes, |bits| {
+    let paths = grown("path bits log2 R, of the box", &sizes, &|bits| {
         set("sampling.path_bits", bits)
     });
     let paths = paths.fitted(4..=24);
     let sizes = [2, 4, 8, 12, 16, 20, 24];
-    let thresholds = grown("comparator bits log2 C, of the box", &sizes, |bits| {
+    let thresholds = grown("comparator bits log2 C, of the box", &sizes, &|bits| {
         set("comparator.bits", bits)
     });
     let thresholds = thresholds.fitted(2..=24);
     let sizes = [6, 10, 14, 16, 18, 22, 26, 30];
-    let fractions = grown("fraction bits w, of the box", &sizes, |bits| {
+    let fractions = grown("fraction bits w, of the box", &sizes, &|bits| {
         set("precision.fraction", bits)
     });
     fractions.fitted(6..=30);
@@ -290,18 +313,110 @@ fn faces(root: &Path) -> [u64; 3] {
     })
 }
 
+/// A scene of so many quads.
+fn generated(root: &Path, count: u32) -> ValidScene {
+    let parsed = front::parse(&quads(count), "quads.yaml", &[], root);
+    parsed.unwrap_or_else(|report| panic!("{report}")).valid
+}
+
+/// The box, with paths of so many rays.
+fn rays(root: &Path, depth: u32) -> ValidScene {
+    let depths = vec!["{ bits: [10, 10] }"; depth as usize].join(", ");
+    load(
+        root,
+        "cornell-box",
+        &[&format!("sampling.depths=[{depths}]")],
+    )
+}
+
+/// Prints the front of the box, and how some of its strategies grow.
+fn pareto(root: &Path) -> Vec<Layout> {
+    let scene = load(root, "cornell-box", &[]);
+    let started = Instant::now();
+    let front = layouts::front(&scene, 0, &Workers::default());
+    let front = front.unwrap_or_else(|error| panic!("{error}"));
+    let seconds = started.elapsed().as_secs_f64();
+    let [toffoli, qubits] = ALL_PLANES;
+    println!(
+        "\nfront of the box (first channel), in {seconds:.1} s; by {toffoli} Toffolis on {qubits} qubits"
+    );
+    for layout in &front {
+        println!(
+            "  {:6} qubits {:9} Toffoli {:9} measured ANDs  {:6.3} and {:6.3} times  {}",
+            layout.cost.qubits,
+            layout.cost.toffoli,
+            layout.and_measured,
+            layout.cost.qubits as f64 / qubits as f64,
+            layout.cost.toffoli as f64 / toffoli as f64,
+            layout.strategy,
+        );
+    }
+    let fewest = front.iter().min_by_key(|layout| layout.cost.qubits);
+    let [most, some] = WITHIN.map(|[qubits, _]| cheapest(&front, qubits));
+    for layout in [most, some, fewest].into_iter().flatten() {
+        let strategy = layout.strategy;
+        println!("\nhow that grows which undoes: {strategy}");
+        grown("quads P, D = 3", &[4, 16, 64], strategy, &|count| {
+            generated(root, count)
+        })
+        .fitted(4..=64);
+        grown("rays D, of the box", &[2, 4, 8], strategy, &|depth| {
+            rays(root, depth)
+        })
+        .fitted(2..=8);
+        grown(
+            "fraction bits w, of the box",
+            &[10, 16, 24],
+            strategy,
+            &|bits| {
+                load(
+                    root,
+                    "cornell-box",
+                    &[&format!("precision.fraction={bits}")],
+                )
+            },
+        )
+        .fitted(10..=24);
+    }
+    front
+}
+
+/// The cheapest within so many qubits.
+fn cheapest(front: &[Layout], qubits: u64) -> Option<&Layout> {
+    let within = front.iter().filter(|layout| layout.cost.qubits <= qubits);
+    within.min_by_key(|layout| layout.cost.toffoli)
+}
+
+/// How many times as many Toffolis the box takes with sampled lamps, with the same bits.
+fn lit(root: &Path) -> f64 {
+    let light = "{ bits: [10, 10], light: [8, 8] }";
+    let depths = format!("sampling.depths=[{{ bits: [10, 10] }}, {light}, {light}]");
+    let toffoli = |sets: &[&str]| {
+        let (_, cost) = worst(&load(root, "cornell-box", sets), Passes::ALL);
+        cost.toffoli
+    };
+    let [with, without] = [toffoli(&[&depths]), toffoli(&[])];
+    println!("\nthe box with sampled lamps: {with} Toffolis, without: {without}");
+    with as f64 / without as f64
+}
+
 /// The costs of a family of scenes: size, Toffolis and qubits.
 struct Grown(Vec<[f64; 3]>);
 
 /// Prints the costs of a family of scenes.
-fn grown(what: &str, sizes: &[u32], scene: impl Fn(u32) -> ValidScene) -> Grown {
+fn grown(
+    what: &str,
+    sizes: &[u32],
+    strategy: Strategy,
+    scene: &dyn Fn(u32) -> ValidScene,
+) -> Grown {
     println!("  {what}");
     let costs = sizes.iter().map(|&size| {
-        let oracle = oracle(&scene(size), 0, Passes::ALL);
-        let toffoli = cost(&oracle).toffoli;
-        let qubits = lower::circuit(&oracle.whole(0)).qubits;
+        let layout = Layout::new(&scene(size), 0, strategy);
+        let cost = layout.unwrap_or_else(|error| panic!("{error}")).cost;
+        let (toffoli, qubits) = (cost.toffoli, cost.qubits);
         println!("    {size:4}  {toffoli:9} Toffoli  {qubits:7} qubits");
-        [f64::from(size), toffoli as f64, f64::from(qubits)]
+        [f64::from(size), toffoli as f64, qubits as f64]
     });
     Grown(costs.collect())
 }

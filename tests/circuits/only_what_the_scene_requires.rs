@@ -78,6 +78,9 @@ fn count(program: &Program, kind: impl Fn(&Op) -> bool) -> usize {
     program.ops.iter().filter(|op| kind(op)).count()
 }
 
+/// What stands before the sampling of a room with a tilted quad.
+const TILTED: &str = "  - quad: { vertices: [[2, 0, 0], [3, 0, 0.3], [3, 1, 0.3], [2, 1, 0]], material: white }\nsampling:";
+
 /// Constant products are for the film's rays (which are affine in the sample) and for cos_theta.
 #[test]
 fn axis_aligned_walls_cost_no_constant_products() {
@@ -95,12 +98,14 @@ fn axis_aligned_walls_cost_no_constant_products() {
             false
         });
         within
-            .filter(|step| matches!(program.ops[step.op as usize], Op::Scale { .. }))
+            .filter(|step| {
+                let op = &program.ops[step.op as usize];
+                matches!(op, Op::Scale { .. } | Op::Multiples { .. })
+            })
             .count()
     };
     assert_eq!(scales(&program(ROOM)), 0);
-    let tilted = "  - quad: { vertices: [[2, 0, 0], [3, 0, 0.3], [3, 1, 0.3], [2, 1, 0]], material: white }\nsampling:";
-    assert!(scales(&program(&changed("sampling:", tilted))) > 0);
+    assert!(scales(&program(&changed("sampling:", TILTED))) > 0);
 }
 
 /// Nothing but mirrors scatters here, so no ray but the camera's is sampled.
@@ -154,7 +159,8 @@ fn every_pass_pays() {
             passes,
             ..Options::default()
         };
-        let whole = Oracle::new(&written(ROOM, &[]), 0, options)
+        let room = changed("sampling:", TILTED);
+        let whole = Oracle::new(&written(&room, &[]), 0, options)
             .unwrap()
             .whole(0);
         let costs = lower::tally(&whole);

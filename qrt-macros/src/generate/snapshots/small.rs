@@ -53,7 +53,8 @@ const _: () = {
     type __Scene = Lamp;
     const _: () = {
         use ::qrt::circuit::{
-            Bit, BlockId, Declaration, Machine, Operand, RegisterId, Style, Tag, Type, Word,
+            Bit, BlockId, Declaration, Machine, Multiples, Operand, RegisterId, Style, Tag, Type,
+            Word,
         };
         use ::qrt::core::compile::{NamedPlace, PixelWord, Place};
         use ::qrt::core::oracle::Channel;
