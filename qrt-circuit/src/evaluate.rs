@@ -182,7 +182,7 @@ impl Contents {
             } => {
                 let a = i128::from(self.word(*a));
                 for (&(factor, drop), target) in products.products().iter().zip(targets) {
-                    self.set(*target, (a * i128::from(factor) >> drop) as i64);
+                    self.set(*target, ((a * i128::from(factor)) >> drop) as i64);
                 }
             }
             Op::Divide {

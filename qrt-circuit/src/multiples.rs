@@ -112,7 +112,7 @@ fn partners(multiple: i64, known: i64, most: i64, mut found: impl FnMut(i64, Sum
 
 /// Nonzero digits of a number in the signed form that has fewest.
 fn digits(number: i64) -> u32 {
-    (number ^ 3 * number).count_ones()
+    (number ^ (3 * number)).count_ones()
 }
 
 impl Multiples {

@@ -25,6 +25,9 @@ pub(super) struct Draft {
     pub(super) ops: Vec<(Op, BlockId)>,
 }
 
+/// Constants and what their products drop, and the bits of the number.
+type Products = (Vec<(i64, u32)>, u32);
+
 /// What was found out about operations, by their targets: of use to programs that are assembled
 /// from parts of one recording.
 #[derive(Clone, Debug, Default)]
@@ -33,8 +36,8 @@ pub(crate) struct Known {
     lows: HashMap<Box<[RegisterId]>, u32>,
     /// [`lower::scratch_width`]
     widths: HashMap<Box<[RegisterId]>, u32>,
-    /// By the constants and what is dropped, and the bits of the number.
-    multiples: HashMap<(Vec<(i64, u32)>, u32), Option<Arc<Multiples>>>,
+    /// [`Multiples::new`]
+    multiples: HashMap<Products, Option<Arc<Multiples>>>,
 }
 
 impl Draft {

@@ -11,8 +11,8 @@ impl Oracle {
     /// The circuit of channel number `channel` of [`Oracle::channels`] in pixel (column, row): its
     /// qubits in superposition are the path index and, above it, the comparator.
     ///
-    /// If registers come to more than [`MOST_BITS`](super::MOST_BITS), gates are not held, but made in each
-    /// call: [`PhaseOracle::lowered`].
+    /// If registers come to more than [`MOST_BITS`], gates are not held, but made in each call:
+    /// [`PhaseOracle::lowered`].
     ///
     /// # Errors
     /// No such channel.
