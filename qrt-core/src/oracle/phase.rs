@@ -55,24 +55,12 @@ mod tests {
     use crate::oracle::Options;
     use qrt_circuit::quantum::QuantumGate;
 
-    const WALL: &str = "
-name: wall
-camera: { perspective: { eye: [0, 0, 3], target: [0, 0, 0], vfov: 60 } }
-film: { width: 3, height: 2 }
-materials:
-  grey: { lambertian: { albedo: [0.5, 0.7, 0.2] } }
-  lamp: { emitter: { radiance: [4, 2, 1] } }
-geometry:
-  - quad: { vertices: [[-1, 0, -1], [-1, 0, 1], [1, 0, 1], [1, 0, -1]], material: grey }
-  - triangle: { vertices: [[-0.5, 1.9, 0.5], [0.5, 1.9, -0.5], [0.5, 1.9, 0.5]], material: lamp }
-precision: { fraction: 8 }
-comparator: { bits: 4 }
-sampling: { path_bits: 5, depths: [{ bits: [2, 3] }] }
-";
-
     #[test]
     fn gates_that_are_not_held_are_those_that_are() {
-        let scene = parse(WALL, "wall.yaml", &[], "".as_ref()).unwrap().valid;
+        let text = include_str!("../../../scenes-yaml/floor-and-light.yaml");
+        let short = ["precision.fraction=8", "comparator.bits=4"].map(String::from);
+        let scene = parse(text, "floor.yaml", &short, "".as_ref());
+        let scene = scene.unwrap().valid;
         let oracle = Oracle::rgb(&scene, Options::default()).unwrap();
         let gates = |oracle: &PhaseOracle, control| {
             let mut all = Vec::new();

@@ -59,6 +59,7 @@ pub(super) fn json(
             } else {
                 "iterates without a control; after each the index is measured"
             },
+            "oracle": "the one that serves every pixel; strata of the comparator save nothing",
             "order": "channels and pixels one after another, on the same qubits",
             "unitary": "everything is undone by gates",
             "measured": "ANDs into clean qubits are undone by measurement",
