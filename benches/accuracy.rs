@@ -4,7 +4,10 @@
 //! says on the circuit's numbers, and compares with 2^20 paths of another seed. It fails unless the
 //! asked fraction of channels is within the asked error, at no more than twice the queries of the
 //! best parameters that a sweep by hand finds: every register and number of repetitions, over any
-//! number of paths. A name alone asks the scenes whose names hold it.
+//! number of paths. Then it asks the Cornell box for an error of 1 % with its lamp sampled, and fails
+//! unless the best parameters by hand, which count the comparator whole, take 2.5 times fewer
+//! queries, and a plan, which counts it by strata, 6 times fewer. A name alone asks the scenes whose
+//! names hold it, `lamps` this.
 
 // A bench that cannot run has nothing to report.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
@@ -13,6 +16,7 @@ use qrt_core::scene::meshes::Meshes;
 use qrt_core::scene::{
     Accuracy, Comparator, Counting, Estimator, Film, Precision, Sampling, Scene,
 };
+use qrt_core::tracer::{PixelClass, PixelClasses};
 use qrt_core::valid::{ValidScene, validate};
 use qrt_runtime::estimators::{Device, Noise, Problem, Settings, estimator};
 use qrt_runtime::machines::Real;
@@ -34,9 +38,10 @@ const SCENES: [&str; 4] = [
 const ERRORS: [f64; 3] = [0.1, 0.03, 0.01];
 const CONFIDENCE: f64 = 0.95;
 const SIDE: u32 = 20;
-/// Paths of the truth, and its seed; that of pictures.
+/// Paths of the truth, and its seed; that of the sweep's paths; those of pictures.
 const TRUTH: (u32, u64) = (20, 77);
 const SEED: u64 = 1;
+const SEEDS: [u64; 3] = [1, 2, 3];
 /// Path bits of the sweep.
 const PATHS: [u32; 5] = [12, 14, 16, 18, 20];
 /// Pictures over which the sweep's fractions are averaged.
@@ -45,9 +50,11 @@ const DRAWS: u64 = 4;
 /// standard deviations of so many channels.
 const LACK: f64 = 0.02;
 
-fn scene(name: &str, error: f64) -> ValidScene {
+/// The scene of a file with these overrides, asked for an error.
+fn scene(name: &str, sets: &[&str], error: f64) -> ValidScene {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes-yaml");
-    let loaded = qrt_core::front::load(&root.join(format!("{name}.yaml")), &[]);
+    let sets: Vec<String> = sets.iter().map(|&set| set.into()).collect();
+    let loaded = qrt_core::front::load(&root.join(format!("{name}.yaml")), &sets);
     let scene: Scene = loaded.unwrap().valid.scene().clone();
     let scene = Scene {
         film: Film {
@@ -78,11 +85,11 @@ fn share(values: &[[f64; 3]], truth: &[[f64; 3]], error: f64) -> f64 {
 }
 
 /// The fewest queries a pixel with which counting over one of `means` keeps the error, and the
-/// parameters.
+/// parameters; `bounds` are the scales of the pixels.
 fn by_hand(
     means: &[Means],
     truth: &Means,
-    bound: [f64; 3],
+    bounds: &[[f64; 3]],
     error: f64,
     name: Estimator,
 ) -> Option<(f64, [u32; 3])> {
@@ -109,8 +116,8 @@ fn by_hand(
                 if draw == 1 && kept * (DRAWS as f64) < CONFIDENCE - LACK {
                     break;
                 }
-                let pixel = |(&[x, y], mean): (&[u32; 2], &[f64; 3])| -> [f64; 3] {
-                    std::array::from_fn(|c| {
+                let pixel = |((&[x, y], mean), bound): ((&[u32; 2], &[f64; 3]), &[f64; 3])| {
+                    let channel = |c: usize| {
                         if bound[c] == 0.0 {
                             return 0.0;
                         }
@@ -121,13 +128,15 @@ fn by_hand(
                         let estimate = made.estimate(&mut device).unwrap();
                         spent += estimate.queries;
                         bound[c] * estimate.amplitude
-                    })
+                    };
+                    [0, 1, 2].map(channel)
                 };
-                let values: Means = pixels.iter().zip(means).map(pixel).collect();
+                let pixels = pixels.iter().zip(means).zip(bounds);
+                let values: Means = pixels.map(pixel).collect();
                 kept += share(&values, truth, error) / DRAWS as f64;
             }
             if kept >= CONFIDENCE {
-                let spent = spent as f64 / (DRAWS * pixels.len() as u64) as f64;
+                let spent = spent as f64 / (DRAWS * bounds.len() as u64) as f64;
                 return Some((spent, [bits, phase_bits, repetitions]));
             }
         }
@@ -160,21 +169,13 @@ fn main() -> ExitCode {
         {
             continue;
         }
-        let any = scene(name, ERRORS[0]);
-        let mut parameters = any.parameters();
-        parameters.sampling.path_bits = TRUTH.0;
-        let wide = any.with_parameters(parameters).unwrap();
-        let pixels = spread([SIDE; 2], u64::MAX);
-        let truth = Real::new(&wide, TRUTH.1).unwrap();
-        let truth = prefix_means(&truth, &pixels, &[TRUTH.0], &Workers::default())
-            .unwrap()
-            .remove(0);
-        let real = Real::new(&wide, SEED).unwrap();
-        let means = prefix_means(&real, &pixels, &PATHS, &Workers::default()).unwrap();
-        let bound = real.stage().bound();
+        let any = scene(name, &[], ERRORS[0]);
+        let wide = wide(&any);
+        let truth = truth(&wide);
+        let (means, bounds) = paths(&wide);
         let mean = radiance(&truth);
         for error in ERRORS {
-            let asked = scene(name, error);
+            let asked = scene(name, &[], error);
             let start = Instant::now();
             let planned: Plan = match plan::plan(&asked, &plan::Options::default()) {
                 Ok(planned) => planned.unwrap(),
@@ -185,17 +186,9 @@ fn main() -> ExitCode {
                 }
             };
             let seconds = start.elapsed().as_secs_f64();
-            let options = Options {
-                seed: SEED,
-                model: Model::Fixed,
-                plan: Some(&planned),
-                ..Options::default()
-            };
-            let picture = render(&asked, &options).unwrap();
-            let measured = share(&picture.image.pixels, &truth, error * mean);
-            let queries = picture.total_queries() as f64 / pixels.len() as f64;
+            let (queries, measured) = counted(&asked, &planned, &truth);
             let figures = planned.figures;
-            let hand = by_hand(&means, &truth, bound, error * mean, figures.estimator);
+            let hand = by_hand(&means, &truth, &bounds, error * mean, figures.estimator);
             let hand_text = hand.map_or("none".to_owned(), |(queries, [r, t, b])| {
                 format!("{queries:.0} (2^{r}, t={t}, B={b})")
             });
@@ -221,5 +214,96 @@ fn main() -> ExitCode {
             }
         }
     }
+    if asked.is_none_or(|asked| "lamps".contains(&asked)) {
+        fine &= lamps_pay();
+    }
     ExitCode::from(u8::from(!fine))
+}
+
+/// The scene with enough paths for a truth.
+fn wide(scene: &ValidScene) -> ValidScene {
+    let mut parameters = scene.parameters();
+    parameters.sampling.path_bits = TRUTH.0;
+    scene.with_parameters(parameters).unwrap()
+}
+
+fn truth(wide: &ValidScene) -> Means {
+    let pixels = spread([SIDE; 2], u64::MAX);
+    let real = Real::new(wide, TRUTH.1).unwrap();
+    prefix_means(&real, &pixels, &[TRUTH.0], &Workers::default())
+        .unwrap()
+        .remove(0)
+}
+
+/// Means over as many paths as the sweep tries, and the scales of the pixels.
+fn paths(wide: &ValidScene) -> (Vec<Means>, Vec<[f64; 3]>) {
+    let pixels = spread([SIDE; 2], u64::MAX);
+    let classes = PixelClasses::new(wide);
+    let of = |class| Real::of_class(wide, SEED, class).unwrap();
+    let [all, dim] = PixelClass::ALL.map(of);
+    let scale = |&pixel: &[u32; 2]| match classes.of(pixel) {
+        PixelClass::MayMeetLamp => all.stage().bound(),
+        PixelClass::MeetsNoLamp => dim.stage().bound(),
+    };
+    let means = prefix_means(&all, &pixels, &PATHS, &Workers::default()).unwrap();
+    (means, pixels.iter().map(scale).collect())
+}
+
+/// Renders by a plan: queries of a pixel, and the fraction of channels within the asked error.
+fn counted(asked: &ValidScene, planned: &Plan, truth: &Means) -> (f64, f64) {
+    let error = planned.figures.accuracy.error * radiance(truth);
+    let (mut queries, mut within) = (0.0, 0.0);
+    for seed in SEEDS {
+        let options = Options {
+            seed,
+            model: Model::Fixed,
+            plan: Some(planned),
+            ..Options::default()
+        };
+        let picture = render(asked, &options).unwrap();
+        queries += picture.total_queries() as f64 / truth.len() as f64;
+        within += share(&picture.image.pixels, truth, error);
+    }
+    let pictures = SEEDS.len() as f64;
+    (queries / pictures, within / pictures)
+}
+
+/// How many times fewer queries the Cornell box needs where its lamp is sampled: by hand, with the
+/// comparator counted whole, and by a plan, by strata.
+const LAMPS_PAY: [f64; 2] = [2.5, 6.0];
+
+fn lamps_pay() -> bool {
+    const LIT: &str = "sampling.depths=[{ bits: [8, 8] }, { bits: [8, 8], light: [8, 8] }, \
+                       { bits: [8, 8], light: [8, 8] }]";
+    const ERROR: f64 = 0.01;
+    let mut fine = true;
+    let mut spent = Vec::new();
+    for (about, sets) in [("not sampled", &[][..]), ("sampled", &[LIT])] {
+        let asked = scene("cornell-box", sets, ERROR);
+        let wide = wide(&asked);
+        let truth = truth(&wide);
+        let planned: Plan = plan::plan(&asked, &plan::Options::default())
+            .unwrap()
+            .unwrap();
+        let (queries, measured) = counted(&asked, &planned, &truth);
+        let (means, bounds) = paths(&wide);
+        let error = ERROR * radiance(&truth);
+        let hand = by_hand(&means, &truth, &bounds, error, planned.figures.estimator);
+        let (hand, [r, t, b]) = hand.unwrap();
+        println!(
+            "cornell-box, error {ERROR}, lamp {about}: {queries:.0} queries a pixel, 2^{} paths, \
+             {measured:.4} within; by hand {hand:.0} (2^{r}, t={t}, B={b})",
+            planned.figures.path_bits
+        );
+        if measured < CONFIDENCE {
+            println!("  the promise is broken");
+            fine = false;
+        }
+        spent.push([hand, queries]);
+    }
+    for ((unlit, lit), promise) in spent[0].iter().zip(spent[1]).zip(LAMPS_PAY) {
+        println!("  {:.2} times fewer, at least {promise}", unlit / lit);
+        fine &= *unlit >= promise * lit;
+    }
+    fine
 }

@@ -1,14 +1,16 @@
 //! What holds for any bytes: the fuzzer looks for some for which it does not, and `cargo test --test scenes`
 //! tries those of the corpora, and changes of them.
 
+use qrt_circuit::export::{Format, write_program};
 use qrt_circuit::{
-    Bit, Contents, Declaration, Gate, Machine, Operand, Program, Recorded, Recorder, Style, Type,
-    Word, lower,
+    Bit, Circuit, Contents, Declaration, Gate, Machine, Operand, Program, Qubit, Recorded,
+    Recorder, RegisterId, Style, Type, Word, lower,
 };
 use qrt_core::expr::{Domain, Expr, Variable, Variables};
 use qrt_core::front::{Files, parse_with};
 use qrt_core::scene::Scene;
 use qrt_runtime::checkpoint::{Checkpoint, Header, Part, Tile};
+use std::collections::HashMap;
 
 /// Reads a scene. What is refused has an error that can be shown; what is read can be printed, and what is
 /// printed is the same scene.
@@ -138,10 +140,14 @@ impl Bytes<'_> {
     }
 }
 
-/// Records a program, runs it by its definition and by its gates on some inputs, and undoes it: both hold the
-/// same, and nothing but the inputs is left.
-pub(crate) fn program(data: &[u8]) {
-    let mut bytes = Bytes(data.iter());
+/// A program of a few operations, and what it computes.
+struct Made {
+    program: Program,
+    widths: Vec<u32>,
+    held: Vec<RegisterId>,
+}
+
+fn made(bytes: &mut Bytes<'_>) -> Made {
     let style = [Style::InPlace, Style::OutOfPlace][bytes.below(2) as usize];
     let mut machine = Recorder::new(style);
     let mut widths = vec![1 + bytes.below(8), 1 + bytes.below(8)];
@@ -193,8 +199,23 @@ pub(crate) fn program(data: &[u8]) {
         registers.push(made);
         widths.push(width);
     }
-    let held: Vec<_> = registers.iter().map(Recorded::id).collect();
-    let mut program = machine.finish();
+    let held = registers.iter().map(Recorded::id).collect();
+    Made {
+        program: machine.finish(),
+        widths,
+        held,
+    }
+}
+
+/// Records a program, runs it by its definition and by its gates on some inputs, and undoes it: both hold the
+/// same, and nothing but the inputs is left.
+pub(crate) fn program(data: &[u8]) {
+    let mut bytes = Bytes(data.iter());
+    let Made {
+        mut program,
+        widths,
+        held,
+    } = made(&mut bytes);
     let undo = program.inverse().instructions;
     let computed = program.instructions.len();
     program.instructions.extend(undo);
@@ -210,11 +231,112 @@ pub(crate) fn program(data: &[u8]) {
     }
 }
 
+/// Writes a program whose registers have any names, in both languages: what is written is a text of that language
+/// with the gates of the circuit, one after another, on the qubits that they are on.
+pub(crate) fn openqasm(data: &[u8]) {
+    let mut bytes = Bytes(data.iter());
+    let Made { mut program, .. } = made(&mut bytes);
+    for register in &mut program.registers {
+        let length = bytes.below(8) as usize;
+        let name: Vec<u8> = bytes.0.by_ref().take(length).copied().collect();
+        register.name = String::from_utf8_lossy(&name).into_owned();
+    }
+    let comment = String::from_utf8_lossy(bytes.0.as_slice()).into_owned();
+    let circuit = lower::circuit(&program);
+    for format in [Format::OpenQasm3, Format::OpenQasm2] {
+        let mut text = Vec::new();
+        let comments = [comment.clone()];
+        write_program(&program, &[], format, &comments, &mut text).expect("memory takes all");
+        let text = String::from_utf8(text).expect("it is text");
+        read_openqasm(&text, format, &circuit);
+    }
+}
+
+fn read_openqasm(text: &str, format: Format, circuit: &Circuit) {
+    let mut lines = text.lines();
+    let (version, library) = match format {
+        Format::OpenQasm3 => ("OPENQASM 3.0;", "include \"stdgates.inc\";"),
+        Format::OpenQasm2 => ("OPENQASM 2.0;", "include \"qelib1.inc\";"),
+    };
+    assert_eq!(lines.next(), Some(version));
+    assert_eq!(lines.next(), Some(library));
+    let mut sizes: HashMap<&str, usize> = HashMap::new();
+    // Which qubit of the circuit each of the text's is, as far as gates have told.
+    let mut places: HashMap<(&str, usize), Qubit> = HashMap::new();
+    let mut gates = circuit.gates.iter();
+    for line in lines {
+        assert!(
+            line.chars().all(|c| c == ' ' || c.is_ascii_graphic()),
+            "{line:?}"
+        );
+        if line.starts_with("//") {
+            continue;
+        }
+        let statement = line.strip_suffix(';').expect("a statement ends");
+        let declared = match format {
+            Format::OpenQasm3 => statement.strip_prefix("qubit[").map(|rest| {
+                let (size, name) = rest.split_once("] ").expect("a size and a name");
+                (name, size)
+            }),
+            Format::OpenQasm2 => statement.strip_prefix("qreg ").map(|rest| {
+                let rest = rest.strip_suffix(']').expect("a size");
+                rest.split_once('[').expect("a name and a size")
+            }),
+        };
+        if let Some((name, size)) = declared {
+            let legal = |c: char| c == '_' || c.is_ascii_alphanumeric();
+            assert!(name.starts_with(|c: char| c.is_ascii_lowercase()), "{name}");
+            assert!(name.len() > 1 && name.chars().all(legal), "{name}");
+            assert!(!WORDS.contains(&name), "{name}");
+            let size = size.parse().expect("a number");
+            assert!(sizes.insert(name, size).is_none(), "{name} twice");
+            continue;
+        }
+        let (gate, on) = statement.split_once(' ').expect("a gate and qubits");
+        let expected = gates.next().expect("a gate of the circuit");
+        let (name, qubits) = match *expected {
+            Gate::X(t) => ("x", vec![t]),
+            Gate::Cx(a, t) => ("cx", vec![a, t]),
+            Gate::Ccx(a, b, t) => ("ccx", vec![a, b, t]),
+            Gate::Load { .. } | Gate::Z(_) => unreachable!("no parameter, no phase"),
+        };
+        assert_eq!(gate, name);
+        let on: Vec<_> = on.split(", ").collect();
+        assert_eq!(on.len(), qubits.len(), "{line}");
+        for (place, qubit) in on.into_iter().zip(qubits) {
+            let (register, bit) = place
+                .strip_suffix(']')
+                .expect("a bit")
+                .split_once('[')
+                .expect("a bit");
+            let bit: usize = bit.parse().expect("a number");
+            assert!(bit < sizes[register], "{line}");
+            assert_eq!(
+                *places.entry((register, bit)).or_insert(qubit),
+                qubit,
+                "{line}"
+            );
+        }
+    }
+    assert_eq!(gates.next(), None, "a gate is missing");
+    assert_eq!(sizes.values().sum::<usize>(), circuit.qubits as usize);
+    let mut qubits: Vec<Qubit> = places.values().copied().collect();
+    qubits.sort_unstable();
+    qubits.dedup();
+    assert_eq!(qubits.len(), places.len(), "two names for one qubit");
+}
+
+/// Some of the words and gates of OpenQASM, which no register is called.
+const WORDS: [&str; 14] = [
+    "input", "output", "bit", "qubit", "qreg", "creg", "gate", "if", "in", "measure", "reset",
+    "cx", "swap", "pi",
+];
+
 fn follow(
     program: &Program,
     computed: usize,
-    parts: [&qrt_circuit::Circuit; 2],
-    held: &[qrt_circuit::RegisterId],
+    parts: [&Circuit; 2],
+    held: &[RegisterId],
     values: &[u64],
 ) {
     let mut contents = Contents::new(program, values, &[]);
@@ -225,7 +347,7 @@ fn follow(
         }
     }
     let before = bits.clone();
-    let run = |circuit: &qrt_circuit::Circuit, bits: &mut Vec<bool>| {
+    let run = |circuit: &Circuit, bits: &mut Vec<bool>| {
         for gate in &circuit.gates {
             match *gate {
                 Gate::X(t) => bits[t as usize] ^= true,

@@ -2,6 +2,8 @@
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
 mod common;
+#[path = "../fuzz/numbers.rs"]
+mod numbers;
 #[path = "../fuzz/targets.rs"]
 mod targets;
 

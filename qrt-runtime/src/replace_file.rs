@@ -22,8 +22,8 @@ const ATTEMPTS: u32 = 64;
 /// file that it replaces, once everything is on the disk. If anything fails, what was at `path` is
 /// still there, whole, and the partial file is removed; a process killed meanwhile leaves only the
 /// partial file behind, which the next to write the same file removes. A link is followed, to a file
-/// that is not there yet, too. A device or pipe (such as `/dev/stdout`) cannot be replaced and is
-/// written to directly.
+/// that is not there yet, too. A device or pipe cannot be replaced and is written to directly, as is
+/// `/dev/stdout`, into whatever file a shell may have led it.
 ///
 /// # Errors
 /// What `write` returns, or what the file system says.

@@ -277,3 +277,43 @@ fn what_a_scene_reads_is_kept_whatever_its_name_ends_in() {
     assert_eq!(folder.read("out/scene.svg"), meshes("mesh.svg").as_bytes());
     assert!(!folder.path("out/trade.csv").exists());
 }
+
+/// A shell that leads standard output into a file has that file open: others write to it too, before and
+/// after.
+#[cfg(unix)]
+#[test]
+fn what_standard_output_is_led_into_is_added_to_and_not_replaced() {
+    use std::io::Write as _;
+    let folder = folder();
+    let mut log = fs::File::create(folder.path("log")).unwrap();
+    log.write_all(b"before\n").unwrap();
+    for name in ["/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"] {
+        if cfg!(not(target_os = "linux")) && name.starts_with("/proc") {
+            continue;
+        }
+        let arguments = [
+            "render",
+            "mesh.yaml",
+            "-q",
+            "-o",
+            "k.exr",
+            "--crop",
+            "1,1,1,1",
+            "--counts",
+            name,
+        ];
+        let mut command = folder.command(&arguments);
+        let output = command.stdout(log.try_clone().unwrap()).output().unwrap();
+        let errors = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(0), "{name}: {errors}");
+    }
+    let text = String::from_utf8(folder.read("log")).unwrap();
+    let header = "x,y,channel,value,good,total,scale";
+    let pictures = if cfg!(target_os = "linux") { 3 } else { 2 };
+    assert!(
+        text.starts_with(&format!("before\n{header}\n1,1,r,")),
+        "{text}"
+    );
+    assert_eq!(text.matches(header).count(), pictures, "{text}");
+    assert_eq!(text.lines().count(), 1 + 4 * pictures, "{text}");
+}

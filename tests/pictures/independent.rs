@@ -69,6 +69,16 @@ pub(crate) fn asking(depth: usize, path_bits: u32) -> Vec<String> {
     ]
 }
 
+/// The same with lamps sampled at every bounce, in this way.
+pub(crate) fn asking_lamps(depth: usize, path_bits: u32, lights: &str) -> Vec<String> {
+    let directions = ", {bits: [10, 10], light: [10, 10]}".repeat(depth - 1);
+    vec![
+        format!("sampling.depths=[{{bits: [16, 16]}}{directions}]"),
+        format!("sampling.path_bits={path_bits}"),
+        format!("sampling.lights={lights}"),
+    ]
+}
+
 /// The scene of a file of the reference data, with overrides.
 pub(crate) fn scene(name: &str, sets: &[String]) -> ValidScene {
     let path = file(&format!("{name}.yaml"));

@@ -71,22 +71,12 @@ fn agrees(name: &str, path_bits: u32, promise: f64) {
     });
 }
 
-/// Overrides as [`independent::asking`]'s, with lamps sampled at every bounce, in this way.
-fn asking_lamps(depth: usize, path_bits: u32, lights: &str) -> Vec<String> {
-    let directions = ", {bits: [10, 10], light: [10, 10]}".repeat(depth - 1);
-    vec![
-        format!("sampling.depths=[{{bits: [16, 16]}}{directions}]"),
-        format!("sampling.path_bits={path_bits}"),
-        format!("sampling.lights={lights}"),
-    ]
-}
-
 /// The same with lamps sampled, in both ways; `promise` is the RMSE that 2^12 paths keep.
 fn agrees_by_lamps(name: &str, promise: f64) {
     for lights in ["auto", "mis"] {
         // As `agrees` states it, of 2^18 paths whose error falls as that of random ones.
         agrees_with(name, 11, promise / 8.0, |depth| {
-            asking_lamps(depth, 11, lights)
+            independent::asking_lamps(depth, 11, lights)
         });
     }
 }

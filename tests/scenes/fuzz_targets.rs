@@ -1,5 +1,6 @@
 //! The fuzzer's targets on the corpora of this repository, and on changes of them that are the same each time.
 
+use crate::numbers::Numbers;
 use crate::targets;
 use std::fs;
 use std::path::Path;
@@ -30,19 +31,6 @@ fn corpus(folders: &[&str], ends: &[&str]) -> Vec<Vec<u8>> {
         .map(read)
         .filter(|bytes| bytes.len() < 10_000)
         .collect()
-}
-
-/// Numbers as good as random.
-struct Numbers(u64);
-
-impl Numbers {
-    fn below(&mut self, count: usize) -> usize {
-        self.0 = self
-            .0
-            .wrapping_mul(6364136223846793005)
-            .wrapping_add(1442695040888963407);
-        (self.0 >> 33) as usize % count.max(1)
-    }
 }
 
 /// Calls `target` on every seed, and so many times on one with a few bytes changed, left out, or taken from another.
@@ -104,6 +92,21 @@ fn programs() {
         .map(|_| (0..80).map(|_| numbers.below(256) as u8).collect())
         .collect();
     tried(targets::program, &seeds, 800);
+}
+
+#[test]
+fn openqasm() {
+    let mut numbers = Numbers(3);
+    let mut seeds: Vec<Vec<u8>> = (0..100)
+        .map(|_| (0..80).map(|_| numbers.below(256) as u8).collect())
+        .collect();
+    // The sum of both inputs, and all are called by a word of the language.
+    for word in ["input", "bit", "swap", "work", "in", "measure"] {
+        let name = [&[word.len() as u8][..], word.as_bytes()].concat();
+        let sum = vec![0, 3, 4, 0, 0, 0, 3, 0, 1, 0, 3, 0, 1];
+        seeds.push([sum, name.repeat(3)].concat());
+    }
+    tried(targets::openqasm, &seeds, 800);
 }
 
 #[test]

@@ -227,8 +227,8 @@ impl<'a> Export<'a> {
 }
 
 /// Writes a reversible program: its inputs and what it computes as registers of their names, in
-/// which characters that OpenQASM's names lack become `_`, and all other qubits, which are zero
-/// before and after, as `work`. `words` are the contents of its classical parameters, `comments` as
+/// which characters that OpenQASM's names lack become `_`, and which begin with `r_` if they were a
+/// word or a gate of OpenQASM; and all other qubits, which are zero before and after, as `work`. `words` are the contents of its classical parameters, `comments` as
 /// in [`Export::write`].
 ///
 /// # Errors
@@ -289,8 +289,9 @@ fn registers(program: &Program, circuit: &Circuit) -> Vec<Register> {
             .chars()
             .map(legal)
             .collect();
-        // Names of one letter are gates; others begin with a letter.
+        // Names of one letter are gates, as some others are; all begin with a letter.
         let plain = name.len() > 1 && name.starts_with(|c: char| c.is_ascii_lowercase());
+        let plain = plain && !format::is_reserved(&name);
         let name = if plain { name } else { format!("r_{name}") };
         let alike = |name: &str| registers.iter().any(|other| other.name == name) || name == "work";
         let numbered = (2..).map(|number| format!("{name}_{number}"));

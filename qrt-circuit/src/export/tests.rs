@@ -123,6 +123,31 @@ fn a_programs_registers_keep_their_names() {
     );
 }
 
+/// Words and gates of OpenQASM are names that authors of circuits like, too.
+#[test]
+fn words_of_the_language_are_no_names_of_registers() {
+    use crate::{Declaration, Recorder, Style, Type};
+    let mut m = Recorder::new(Style::InPlace);
+    for name in ["input", "bit", "swap", "inputs", "cos"] {
+        m.input(&Declaration::work(name, Type::UInt, 2));
+    }
+    let program = m.finish();
+    let mut text = Vec::new();
+    write_program(&program, &[], Format::OpenQasm2, &[], &mut text).unwrap();
+    let text = String::from_utf8(text).unwrap();
+    let declared: Vec<&str> = text.lines().skip(2).take(5).collect();
+    assert_eq!(
+        declared,
+        [
+            "qreg r_input[2];",
+            "qreg r_bit[2];",
+            "qreg r_swap[2];",
+            "qreg inputs[2];",
+            "qreg r_cos[2];"
+        ]
+    );
+}
+
 #[test]
 fn a_parameter_without_a_word_is_refused() {
     use crate::{Declaration, Machine, Parameter, Recorder, Style, Type};

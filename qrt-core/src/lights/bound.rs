@@ -11,6 +11,9 @@ const TIGHT: f64 = 1.05;
 /// Pairs of parts that are looked at, at most.
 const MOST_PAIRS: usize = 16_000;
 
+/// Where parts so small, against what they are parts of, still touch, there is no bound.
+const TOUCHING: f64 = 1.0 / 64.0;
+
 /// What a lamp does to a surface at most.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reached {
@@ -45,9 +48,15 @@ pub fn strongest<'a>(surface: impl Iterator<Item = &'a [DVec3]>, lamp: &[DVec3])
         faces.iter().flat_map(of)
     };
     Reached {
-        form: supremum(pairs(), form),
-        nearness: supremum(pairs(), nearness),
+        form: supremum(pairs(), form, MOST_PAIRS),
+        nearness: supremum(pairs(), nearness, MOST_PAIRS),
     }
+}
+
+/// The same bound of `q / r^4` for one polygon, looser: of so many pairs of parts.
+pub fn strongest_form(face: &[DVec3], lamp: &[DVec3], most_pairs: usize) -> f64 {
+    let of = |face: Part| Part::of(lamp).map(move |lamp| (face, lamp));
+    supremum(Part::of(face).flat_map(of), form, most_pairs)
 }
 
 /// A triangle of a surface or a lamp.
@@ -57,6 +66,9 @@ struct Part {
     normal: DVec3,
     centre: DVec3,
     radius: f64,
+    /// The box around it.
+    low: DVec3,
+    high: DVec3,
 }
 
 impl Part {
@@ -74,6 +86,8 @@ impl Part {
             centre,
             // Above what rounding takes from it.
             radius: far(a).max(far(b)).max(far(c)) * (1.0 + 1e-12),
+            low: a.min(b).min(c),
+            high: a.max(b).max(c),
         }
     }
 
@@ -109,10 +123,12 @@ fn seen(face: &Part, lamp: &Part) -> Option<[f64; 3]> {
     if rise <= slack || before <= slack {
         return None;
     }
-    // Apart by their spheres, and each by the other's plane.
+    // Apart by their spheres, by their boxes, and each by the other's plane.
     let apart = (face.centre - lamp.centre).length() - size;
     let by_planes = below.max(-above).max(behind);
-    Some([rise, before, apart.max(by_planes).max(0.0)])
+    let between = (face.low - lamp.high).max(lamp.low - face.high);
+    let by_boxes = between.max(DVec3::ZERO).length() * (1.0 - 1e-12);
+    Some([rise, before, apart.max(by_planes).max(by_boxes)])
 }
 
 fn form(face: &Part, lamp: &Part) -> f64 {
@@ -138,6 +154,12 @@ struct Pair {
     lamp: Part,
 }
 
+impl Pair {
+    fn size(&self) -> f64 {
+        self.face.radius + self.lamp.radius
+    }
+}
+
 impl PartialEq for Pair {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other) == Ordering::Equal
@@ -152,14 +174,17 @@ impl PartialOrd for Pair {
 impl Ord for Pair {
     fn cmp(&self, other: &Self) -> Ordering {
         // Of two without a bound, the larger is cut first.
-        let size = |pair: &Self| pair.face.radius + pair.lamp.radius;
         let by_bound = self.most.total_cmp(&other.most);
-        by_bound.then(size(self).total_cmp(&size(other)))
+        by_bound.then(self.size().total_cmp(&other.size()))
     }
 }
 
 /// An upper bound over all pairs, which `bound` gives for each.
-fn supremum(pairs: impl Iterator<Item = (Part, Part)>, bound: fn(&Part, &Part) -> f64) -> f64 {
+fn supremum(
+    pairs: impl Iterator<Item = (Part, Part)>,
+    bound: fn(&Part, &Part) -> f64,
+    most_pairs: usize,
+) -> f64 {
     let mut heap: BinaryHeap<Pair> = pairs
         .map(|(face, lamp)| Pair {
             most: bound(&face, &lamp),
@@ -168,19 +193,25 @@ fn supremum(pairs: impl Iterator<Item = (Part, Part)>, bound: fn(&Part, &Part) -
         })
         .filter(|pair| pair.most > 0.0)
         .collect();
+    let whole = heap.iter().map(Pair::size).fold(0.0, f64::max);
     let point = |part: &Part| Part {
         radius: 0.0,
         corners: [part.centre; 3],
+        low: part.centre,
+        high: part.centre,
         ..*part
     };
     let mut taken: f64 = 0.0;
-    for _ in 0..MOST_PAIRS {
+    for _ in 0..most_pairs {
         let Some(pair) = heap.pop() else {
             return 0.0;
         };
         let middle = bound(&point(&pair.face), &point(&pair.lamp));
         if middle.is_finite() {
             taken = taken.max(middle);
+        }
+        if pair.most.is_infinite() && pair.size() < TOUCHING * whole {
+            return pair.most;
         }
         if pair.most <= TIGHT * taken {
             return pair.most * (1.0 + 1e-9);

@@ -12,7 +12,7 @@
 
 mod bound;
 
-pub use bound::{Reached, strongest};
+pub use bound::{Reached, strongest, strongest_form};
 
 use glam::DVec3;
 

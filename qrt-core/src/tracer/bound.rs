@@ -1,19 +1,21 @@
 //! The bound on a path's colour: the colour scale of the comparator, in the paper `2^b`.
 //!
 //! The tighter it is, the larger the fraction of good basis states that a pixel has, and the fewer
-//! queries an estimate needs. Let `B_k(s)` bound what a path carries from its vertex `k`, on surface
+//! queries an estimate needs. Let `B_k(s)` bound what a path carries from its vertex `k`, at the place
 //! `s`, without what is emitted there, `W` the weight, `F(s, t)` the factor by which the emission of
 //! `t` counts of a ray from `s`, and `N(s)` what a lamp adds that is sampled there:
 //!
 //! ```text
-//! B_k(s) = N(s) + W(s) max over t of (F(s, t) Le(t) + B_{k+1}(t))
+//! B_k(s) = N(s) + W(s) max over t that s sees of (F(s, t) Le(t) + B_{k+1}(t))
 //! ```
 //!
-//! Where no lamp is sampled `N` is 0 and `F` is 1. A path from the camera carries at most
-//! `max of B_0`, and with `Le` where it may meet a lamp at once.
+//! Where no lamp is sampled `N` is 0 and `F` is 1. A path from the camera carries at most the
+//! greatest `B_0` of what the camera sees, and with `Le` where it may meet a lamp at once. Places are
+//! those of [`Places`]: sides of faces, or surfaces.
 
 use super::bsdf::ScatterStage;
 use super::geometry::Geometry;
+use super::places::Places;
 use crate::valid::{Scatter, Surface};
 use glam::DVec3;
 use std::collections::HashMap;
@@ -22,16 +24,18 @@ use std::collections::HashMap;
 /// emit, unless `direct`. `refraction` replaces the weights of glass by 1, if it is known: see
 /// [`refraction`].
 pub(crate) fn colour<const C: usize>(
+    places: &Places,
     radiance: &[[f64; C]],
     scatters: &[ScatterStage<C>],
     direct: bool,
     refraction: Option<f64>,
 ) -> [f64; C] {
-    let surfaces = 0..radiance.len() as u32;
-    let mut beyond = vec![[0.0; C]; radiance.len()];
+    let emitted = |place: usize| &radiance[places.surface(place) as usize];
+    let mut beyond = vec![[0.0; C]; places.len()];
     // From the last vertex back to the first.
     for scatter in scatters.iter().rev() {
-        let at = |surface: u32| {
+        let at = |place: usize| {
+            let surface = places.surface(place);
             let mut weight = scatter.weight_bound(surface);
             if refraction.is_some() && scatter.is_glass(surface) {
                 weight = [1.0; C];
@@ -39,22 +43,25 @@ pub(crate) fn colour<const C: usize>(
             let samples = scatter.samples_lights(surface);
             let lights = scatter.lights.as_ref();
             let mut most = [0.0; C];
-            for other in surfaces.clone() {
-                let factor = lights.map_or(1.0, |l| l.emission_bound(surface, other, samples));
-                let (emitted, after) = (&radiance[other as usize], &beyond[other as usize]);
-                for (most, (emitted, after)) in most.iter_mut().zip(emitted.iter().zip(after)) {
+            for other in places.next(place) {
+                let factor =
+                    lights.map_or(1.0, |l| l.emission_bound(places, [place, other], samples));
+                for (most, (emitted, after)) in most
+                    .iter_mut()
+                    .zip(emitted(other).iter().zip(&beyond[other]))
+                {
                     *most = f64::max(*most, emitted * factor + after);
                 }
             }
-            let light = lights.map_or([0.0; C], |l| l.light_bound(surface, samples));
+            let light = lights.map_or([0.0; C], |l| l.light_bound(place, samples));
             let reflected = scatter.light_weight_bound(surface);
             std::array::from_fn(|c| light[c] * reflected[c] + weight[c] * most[c])
         };
-        beyond = surfaces.clone().map(at).collect();
+        beyond = (0..places.len()).map(at).collect();
     }
     let mut bound = [0.0; C];
-    for (beyond, emitted) in beyond.iter().zip(radiance) {
-        for ((bound, beyond), emitted) in bound.iter_mut().zip(beyond).zip(emitted) {
+    for place in places.first() {
+        for ((bound, beyond), emitted) in bound.iter_mut().zip(beyond[place]).zip(emitted(place)) {
             let emitted = if direct { *emitted } else { 0.0 };
             *bound = f64::max(*bound, beyond + emitted);
         }

@@ -24,6 +24,7 @@
 
 use super::bsdf::{Lit, ScatterStage, Vertex};
 use super::geometry::Geometry;
+use super::places::Places;
 use super::ray::{Nearest, Ray, Start};
 use super::vector::{self, Vector};
 use super::{Arith, Coordinate, Part, Sampled, Work};
@@ -46,6 +47,8 @@ pub(super) struct Lamps {
     powers: Vec<f64>,
     /// By surface and lamp.
     reached: Vec<Vec<Reached>>,
+    /// By lamp and place: a bound of `q / r^4`.
+    forms: Vec<Vec<f64>>,
 }
 
 impl Lamps {
@@ -55,6 +58,7 @@ impl Lamps {
         geometry: &Geometry,
         surfaces: &[&Surface],
         surface_of: &[u32],
+        places: &Places,
     ) -> Option<Self> {
         let (mut shapes, mut faces, mut powers) = (vec![], vec![], vec![]);
         // Numbered as the geometry numbers its emitting faces.
@@ -84,8 +88,15 @@ impl Lamps {
             };
             faces.iter().map(all).collect()
         };
+        let reached: Vec<Vec<Reached>> = (0..surfaces.len()).map(reached).collect();
+        let number = faces.len();
+        let forms = |(lamp, face): (usize, &u32)| {
+            let by_surface = |surface: u32| reached[surface as usize][lamp].form;
+            places.lit_by(geometry, (*face, number), by_surface)
+        };
         Some(Self {
-            reached: (0..surfaces.len()).map(reached).collect(),
+            forms: faces.iter().enumerate().map(forms).collect(),
+            reached,
             shapes,
             faces,
             powers,
@@ -111,12 +122,13 @@ pub(crate) struct LightStage<const C: usize> {
     areas: Vec<[f64; 1]>,
     /// By lamp: what its front emits.
     radiance: Vec<[f64; C]>,
-    /// By lamp: its surface.
+    /// By lamp: its surface, and its face.
     surfaces: Vec<u32>,
+    faces: Vec<u32>,
     /// By face: `areas` of the lamp that it is, 0 for others.
     area_of_face: Vec<[f64; 1]>,
     receivers: Receivers,
-    /// By surface and lamp: a bound of the factor `F` or `G`.
+    /// By place and lamp: a bound of the factor `F` or `G`.
     factors: Vec<Vec<f64>>,
     /// The greatest of these where rays of its own do not count.
     most: f64,
@@ -180,7 +192,7 @@ impl Receivers {
 impl<const C: usize> LightStage<C> {
     /// None where no surface samples a lamp, or there is none.
     pub(super) fn new(
-        lamps: &Lamps,
+        (lamps, places): (&Lamps, &Places),
         surfaces: &[&Surface],
         radiance: &[[f64; C]],
         surface_of: &[u32],
@@ -205,7 +217,7 @@ impl<const C: usize> LightStage<C> {
             // Nothing reached, at infinite strength, is nothing.
             pairs.map(|(reached, area)| reached.form * area).collect()
         };
-        let (mut weighs, mut factors, mut near) = (vec![], vec![], false);
+        let (mut weighs, mut near) = (vec![], false);
         let mut most: f64 = 0.0;
         for (surface, &samples) in samples.iter().enumerate() {
             let direct = next_event(surface);
@@ -227,21 +239,26 @@ impl<const C: usize> LightStage<C> {
                 near |= nearest.fold(0.0, f64::max) > NEAR.powi(-2);
             }
             weighs.push(!alone);
-            let balanced = |direct: f64| {
-                if direct.is_finite() {
+        }
+        let factor = |place: usize| -> Vec<f64> {
+            let surface = places.surface(place);
+            let weighed = |(forms, area): (&Vec<f64>, &f64)| {
+                let direct = forms[place] * area;
+                if direct == 0.0 {
+                    0.0
+                } else if !scatter.is_projected(surface) {
+                    1.0
+                } else if !weighs[surface as usize] {
+                    direct
+                } else if direct.is_finite() {
                     direct / (1.0 + direct)
                 } else {
                     1.0
                 }
             };
-            factors.push(if alone {
-                direct
-            } else if matte {
-                direct.into_iter().map(balanced).collect()
-            } else {
-                vec![1.0; direct.len()]
-            });
-        }
+            lamps.forms.iter().zip(&areas).map(weighed).collect()
+        };
+        let factors = (0..places.len()).map(factor).collect();
         let mut lamp_of = Vec::new();
         let mut starts = Vec::new();
         for (lamp, &columns) in (0..).zip(&columns) {
@@ -277,6 +294,7 @@ impl<const C: usize> LightStage<C> {
                 .map(|&surface| radiance[surface as usize])
                 .collect(),
             surfaces: surface_of_lamp,
+            faces: lamps.faces.clone(),
             area_of_face,
             receivers: Receivers::new(&samples, &weighs, &scatters),
             factors,
@@ -290,25 +308,31 @@ impl<const C: usize> LightStage<C> {
         super::bsdf::in_units(&mut self.radiance, units);
     }
 
-    /// An upper bound of the factor by which a ray of this depth that leaves `surface` counts the
-    /// emission of surface `other`.
-    pub(super) fn emission_bound(&self, surface: u32, other: u32, samples: bool) -> f64 {
+    /// An upper bound of the factor by which a ray of this depth that leaves one place, of a surface
+    /// that samples lamps or does not, counts the emission of another.
+    pub(super) fn emission_bound(
+        &self,
+        places: &Places,
+        [place, other]: [usize; 2],
+        samples: bool,
+    ) -> f64 {
         if !samples {
             return 1.0;
         }
-        if self.receivers.weighs[surface as usize] == 0 {
+        if self.receivers.weighs[places.surface(place) as usize] == 0 {
             return 0.0;
         }
-        let mine = self.surfaces.iter().zip(&self.factors[surface as usize]);
-        let mine = mine.filter(|(lamp, _)| **lamp == other);
+        let lamps = self.faces.iter().zip(&self.surfaces);
+        let lamps = lamps.zip(&self.factors[place]);
+        let mine = lamps.filter(|((face, surface), _)| places.holds(other, (**face, **surface)));
         mine.map(|(_, &factor)| factor).fold(0.0, f64::max)
     }
 
-    /// An upper bound of what a lamp adds at `surface`, over its weight there.
-    pub(super) fn light_bound(&self, surface: u32, samples: bool) -> [f64; C] {
+    /// An upper bound of what a lamp adds at a place, over its weight there.
+    pub(super) fn light_bound(&self, place: usize, samples: bool) -> [f64; C] {
         let mut bound = [0.0; C];
         if samples {
-            let lamps = self.radiance.iter().zip(&self.factors[surface as usize]);
+            let lamps = self.radiance.iter().zip(&self.factors[place]);
             for (radiance, factor) in lamps {
                 for (bound, radiance) in bound.iter_mut().zip(radiance) {
                     *bound = f64::max(*bound, radiance * factor);

@@ -36,6 +36,7 @@ mod lights;
 mod overlap;
 mod paper;
 mod pixel_class;
+mod places;
 mod polygon;
 mod ray;
 mod sampled;

@@ -5,6 +5,7 @@ use super::camera::{self, CameraStage};
 use super::geometry::Geometry;
 use super::lights::{Lamps, LightStage};
 use super::pixel_class::PixelClass;
+use super::places::Places;
 use super::{Arith, bound, geometry};
 use crate::valid::{Surface, ValidScene};
 use glam::DVec3;
@@ -70,10 +71,17 @@ impl<const C: usize> Stage<C> {
         let emitters = Emitters::new(&surfaces, channels);
         let sampling = &written.sampling;
         let lit = (0..depths.len()).any(|depth| sampling.light(depth).is_some());
-        let lamps = if lit {
-            Lamps::new(&geometry, &surfaces, &surface_of)
+        let transmits = |surface: &u32| surfaces[*surface as usize].transmits();
+        let transmits: Vec<bool> = surface_of.iter().map(transmits).collect();
+        let starts = geometry.staged(&starts);
+        let (places, lamps) = if lit {
+            let number = geometry.faces.iter().filter(|face| face.emits).count();
+            let of = (&*surface_of, surfaces.len());
+            let places = Places::sides(&geometry, of, &transmits, &starts, number);
+            let lamps = Lamps::new(&geometry, &surfaces, &surface_of, &places);
+            (places, lamps)
         } else {
-            None
+            (Places::surfaces(surfaces.len()), None)
         };
         let scatters: Vec<_> = depths
             .iter()
@@ -85,21 +93,26 @@ impl<const C: usize> Stage<C> {
                 if let (Some(lamps), Some(bits)) = (&lamps, sampling.light(depth)) {
                     let asked = (depth, bits, sampling.lights);
                     let radiance = emitters.radiance();
-                    let lights =
-                        LightStage::new(lamps, &surfaces, radiance, &surface_of, &scatter, asked);
+                    let lights = LightStage::new(
+                        (lamps, &places),
+                        &surfaces,
+                        radiance,
+                        &surface_of,
+                        &scatter,
+                        asked,
+                    );
                     scatter.sample_lights(lights);
                 }
                 scatter
             })
             .collect();
         let unit = scatters.iter().any(|scatter| scatter.asks_for_angles);
-        let starts = geometry.staged(&starts);
         let refraction = bound::refraction(&geometry, &surfaces, &surface_of, &starts);
-        let transmits = |surface: &u32| surfaces[*surface as usize].transmits();
-        let transmits = surface_of.iter().map(transmits).collect();
         let direct = class == PixelClass::MayMeetLamp;
         let bound = {
-            let of = |refraction| bound::colour(emitters.radiance(), &scatters, direct, refraction);
+            let of = |refraction| {
+                bound::colour(&places, emitters.radiance(), &scatters, direct, refraction)
+            };
             let (plain, alternating) = (of(None), refraction.map(|product| of(Some(product))));
             std::array::from_fn(|c| alternating.map_or(plain[c], |other| other[c].min(plain[c])))
         };

@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::format_push_string)]
 
 pub(crate) mod checks;
+mod fuzzed;
 mod grammar;
 mod twins;
 mod writer;

@@ -184,7 +184,8 @@ impl DiskFile {
     /// A device or a pipe, which is written to as it is.
     pub(crate) fn device(path: &Path) -> io::Result<Self> {
         begin(Operation::Open, path)?;
-        let file = OpenOptions::new().write(true).open(path)?;
+        // What a shell has led into a file begins where others have ended.
+        let file = OpenOptions::new().append(true).open(path)?;
         Ok(Self::new(file, path))
     }
 

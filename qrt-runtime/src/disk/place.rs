@@ -45,7 +45,7 @@ enum Kind {
     New,
     File(Identity),
     Folder,
-    /// A device or a pipe.
+    /// A device or a pipe, or what the process has open, whatever that is.
     Device,
 }
 
@@ -56,6 +56,10 @@ impl Place {
     /// A path that names no file, or whose folder is not there; and what the file system says.
     pub fn of(path: &Path) -> io::Result<Self> {
         let mut path = path.to_path_buf();
+        if is_open(&path) {
+            let kind = Kind::Device;
+            return Ok(Self { path, kind });
+        }
         for _ in 0..LINKS {
             match fs::metadata(&path) {
                 Ok(found) => return Self::found(path, &found),
@@ -114,7 +118,7 @@ impl Place {
         matches!(self.kind, Kind::Folder)
     }
 
-    /// Whether a device or a pipe is there.
+    /// Whether a device or a pipe is there, or what the process has open, such as `/dev/stdout`.
     pub fn is_device(&self) -> bool {
         matches!(self.kind, Kind::Device)
     }
@@ -130,6 +134,25 @@ impl Place {
             _ => self.path == other.path,
         }
     }
+}
+
+/// Whether the path is, or leads by links to, one of the files that this process has open:
+/// `/dev/stdout`, `/dev/fd/3`. Where that is a file, others write to it too, before and after: it is
+/// not to be replaced.
+fn is_open(path: &Path) -> bool {
+    let own = fs::canonicalize("/proc/self/fd").ok();
+    let mut path = path.to_path_buf();
+    for _ in 0..LINKS {
+        let within = fs::canonicalize(folder(&path)).ok();
+        if within.is_some() && (within == own || within.as_deref() == Some("/dev/fd".as_ref())) {
+            return true;
+        }
+        let Ok(target) = fs::read_link(&path) else {
+            return false;
+        };
+        path = folder(&path).join(target);
+    }
+    false
 }
 
 /// The folder that a file is in.
