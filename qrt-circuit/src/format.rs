@@ -120,9 +120,7 @@ impl<R: fmt::Debug, T> fmt::Debug for Reg<R, T> {
 }
 
 impl<R, T: Format> Reg<R, T> {
-    /// A register that a machine has, of which `T` must be the format.
-    #[inline(always)]
-    pub fn of(register: R) -> Self {
+    fn new(register: R) -> Self {
         Self {
             register,
             format: PhantomData,
@@ -132,7 +130,7 @@ impl<R, T: Format> Reg<R, T> {
     /// A register of one's own, which holds 0.
     #[inline(always)]
     pub fn zero<M: Machine<Register = R>>(machine: &mut M, name: &'static str) -> Self {
-        Self::of(machine.zero(&Declaration::work(name, T::TYPE, T::WIDTH)))
+        Self::new(machine.zero(&Declaration::work(name, T::TYPE, T::WIDTH)))
     }
 
     /// Frees a register of one's own, which holds 0 again.
@@ -170,9 +168,23 @@ impl<R, T: Format> Reg<R, T> {
 }
 
 impl<T: Format> Reg<Recorded, T> {
+    /// A register that a machine has, read in the format `T`.
+    ///
+    /// # Panics
+    /// If the register has another width than `T`.
+    pub fn of(register: Recorded) -> Self {
+        assert!(
+            register.width() == T::WIDTH,
+            "a register of {} bits was taken for one of {}",
+            register.width(),
+            T::WIDTH
+        );
+        Self::new(register)
+    }
+
     /// A register that holds something before the recorded program's first instruction.
     pub fn input(recorder: &mut Recorder, name: &'static str) -> Self {
-        Self::of(recorder.input(&Declaration::work(name, T::TYPE, T::WIDTH)))
+        Self::new(recorder.input(&Declaration::work(name, T::TYPE, T::WIDTH)))
     }
 }
 
@@ -197,6 +209,14 @@ mod tests {
         assert_eq!(Int::<8>::value(0x80), -128.0);
         assert_eq!(UFixed::<3, 5>::value(1), 0.03125);
         assert_eq!(Bool::value(1), 1.0);
+    }
+
+    #[test]
+    #[should_panic(expected = "a register of 4 bits was taken for one of 8")]
+    fn a_register_is_of_its_own_width() {
+        let mut m = Recorder::new(crate::Style::InPlace);
+        let a = m.input(&Declaration::work("a", Type::UInt, 4));
+        let _: Reg<_, UInt<8>> = Reg::of(a);
     }
 
     #[test]

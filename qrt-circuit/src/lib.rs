@@ -177,6 +177,7 @@ mod program;
 pub mod quantum;
 mod record;
 mod register;
+mod routine;
 mod text;
 
 pub use controlled::{Controlled, controlled, unconditional};
@@ -188,4 +189,5 @@ pub use op::{Argument, Op, Style, When};
 pub use program::{Instruction, Parameter, Program};
 pub use record::{Recorded, Recorder};
 pub use register::{Bit, Block, BlockId, Operand, Register, RegisterId, Tag, Type, Word};
+pub use routine::Routine;
 pub use text::grouped;

@@ -5,6 +5,7 @@ use super::{
     Block, BlockId, Instruction, Op, Parameter, Program, Register, RegisterId, Style, Type, lower,
 };
 use std::collections::HashMap;
+use std::sync::atomic::{AtomicU32, Ordering};
 
 /// A machine that records what it is asked to do.
 ///
@@ -19,8 +20,13 @@ use std::collections::HashMap;
 /// assert_eq!(program.instructions.len(), 1);
 /// assert_eq!(program.inputs.len(), 2);
 /// ```
+///
+/// Registers belong to the recorder that made them, and to its clones; another one panics where it
+/// is handed one of them.
 #[derive(Clone, Debug)]
 pub struct Recorder {
+    /// By which its registers are told from those of others.
+    number: u32,
     program: Program,
     style: Style,
     /// The operation that computes each register.
@@ -30,14 +36,36 @@ pub struct Recorder {
 
 /// A register of a [`Recorder`]: a handle on a register of the program that it records.
 #[derive(Debug, PartialEq, Eq)]
-pub struct Recorded(RegisterId);
+pub struct Recorded {
+    id: RegisterId,
+    recorder: u32,
+    width: u32,
+}
 
 impl Recorded {
     /// The register's index in the program's list.
     pub fn id(&self) -> RegisterId {
-        self.0
+        self.id
+    }
+
+    /// How many qubits the register has.
+    pub fn width(&self) -> u32 {
+        self.width
+    }
+
+    /// The register's index, if that recorder made it.
+    fn on(&self, recorder: u32) -> RegisterId {
+        assert!(
+            self.recorder == recorder,
+            "register {} belongs to another machine: a register is used on the machine that made it",
+            self.id.0
+        );
+        self.id
     }
 }
+
+/// Recorders so far.
+static RECORDERS: AtomicU32 = AtomicU32::new(0);
 
 impl Recorder {
     /// Records a program of one block, whose operations are lowered in `style`.
@@ -47,6 +75,7 @@ impl Recorder {
             ..Program::default()
         };
         Self {
+            number: RECORDERS.fetch_add(1, Ordering::Relaxed),
             program,
             style,
             computed: HashMap::new(),
@@ -74,7 +103,24 @@ impl Recorder {
     pub fn input(&mut self, t: &Declaration) -> Recorded {
         let id = self.declare(t);
         self.program.inputs.push(id);
-        Recorded(id)
+        self.recorded(id)
+    }
+
+    fn recorded(&self, id: RegisterId) -> Recorded {
+        let register = self.program.registers.get(id.index());
+        Recorded {
+            id,
+            recorder: self.number,
+            width: register.map_or(0, |register| register.width),
+        }
+    }
+
+    /// The register's index in the program's list.
+    ///
+    /// # Panics
+    /// If another recorder made it.
+    pub fn own(&self, register: &Recorded) -> RegisterId {
+        register.on(self.number)
     }
 
     /// The program that has been recorded until now.
@@ -118,10 +164,10 @@ impl Recorder {
     /// Records an operation, and returns its targets.
     fn compute(&mut self, op: Op<&Recorded, &Declaration>) -> Vec<RegisterId> {
         let declared = op.targets().first().and_then(|t| t.scratch);
-        let style = self.style;
+        let (style, number) = (self.style, self.number);
         let unknown = RegisterId(self.program.registers.len() as u32 + op.targets().len() as u32);
         let op = op.map(
-            |register| register.0,
+            |register| register.on(number),
             |t| match t.ty {
                 Type::Scratch => unknown,
                 _ => self.declare(t),
@@ -168,9 +214,13 @@ impl Machine for Recorder {
 
     fn call(&mut self, call: Call<'_, Recorded>) -> Vec<Recorded> {
         match call {
-            Call::Compute(op) => self.compute(op).into_iter().map(Recorded).collect(),
+            Call::Compute(op) => {
+                let targets = self.compute(op).into_iter();
+                targets.map(|id| self.recorded(id)).collect()
+            }
             Call::Undo(computed) => {
-                let op = computed.first().and_then(|t| self.computed.get(&t.0));
+                let first = computed.first().map(|register| self.own(register));
+                let op = first.and_then(|id| self.computed.get(&id));
                 if let Some(&op) = op {
                     self.step(op, true);
                 }

@@ -177,7 +177,7 @@ impl<R> Word<R> {
             let half = 1_i64 << (self.width - 1);
             (-half, half - 1)
         } else {
-            (0, (1_i64 << self.width) - 1)
+            (0, i64::MAX >> (63 - self.width))
         };
         [low << self.shift, high << self.shift]
     }

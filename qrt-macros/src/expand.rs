@@ -1,5 +1,6 @@
 //! What the macros expand to, as pure functions.
 
+use crate::dependency;
 use crate::scene::Asked;
 use proc_macro2::TokenStream;
 use std::path::PathBuf;
@@ -15,8 +16,18 @@ pub(crate) fn resume(input: TokenStream) -> TokenStream {
 }
 
 fn proceed(asked: Asked) -> TokenStream {
-    // Without cargo, the compiler's own folder.
+    let folder = folder();
+    dependency::named(crate::scene::expand(asked, &folder), &folder)
+}
+
+/// What `#[reversible]` expands a function to.
+pub(crate) fn reversible(arguments: &TokenStream, item: TokenStream) -> TokenStream {
+    dependency::named(crate::reversible::expand(arguments, item), &folder())
+}
+
+/// The folder of the author's Cargo.toml; without cargo, the compiler's own.
+fn folder() -> PathBuf {
     let manifest = std::env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from);
     let root = manifest.or_else(|| std::env::current_dir().ok());
-    crate::scene::expand(asked, &root.unwrap_or_default())
+    root.unwrap_or_default()
 }

@@ -7,6 +7,7 @@
 
 #![forbid(unsafe_code)]
 
+mod dependency;
 mod expand;
 mod generate;
 mod reversible;
@@ -34,5 +35,5 @@ pub fn reversible(
     arguments: proc_macro::TokenStream,
     item: proc_macro::TokenStream,
 ) -> proc_macro::TokenStream {
-    reversible::expand(&arguments.into(), item.into()).into()
+    expand::reversible(&arguments.into(), item.into()).into()
 }

@@ -42,12 +42,17 @@ pub enum Progress {
 #[error("the threads cannot be started: {0}")]
 pub struct ThreadsError(#[from] rayon::ThreadPoolBuildError);
 
+/// Bytes of a thread's stack: enough for the native code of the longest circuit that becomes code,
+/// compiled without optimisation. Memory is taken as it is used.
+const STACK: usize = 64 << 20;
+
 impl Workers<'_> {
     /// Does `work` on threads that are started for it.
     pub(crate) fn run<T: Send>(&self, work: impl FnOnce() -> T + Send) -> Result<T, ThreadsError> {
         let threads = self.threads.map_or(0, NonZeroUsize::get);
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads)
+            .stack_size(STACK)
             .build()?;
         Ok(pool.install(work))
     }

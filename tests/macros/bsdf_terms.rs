@@ -1,6 +1,11 @@
 //! A reversible function as a scene's BSDF: its mathematics, which the function itself computes to
 //! within its rounding, on every machine.
 
+#![allow(
+    deprecated,
+    reason = "that is how `qrt!` warns of values that are not reciprocal"
+)]
+
 use qrt::core::expr::{Expr, Variable, Variables};
 use qrt::core::scene::Material;
 use qrt::prelude::*;

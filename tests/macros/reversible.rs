@@ -490,3 +490,36 @@ fn wide_registers() {
         vec![s[0], s[1], s[2], out as u64 & ((1 << 54) - 1)]
     });
 }
+
+#[reversible]
+fn beyond_the_half(a: &mut UInt<63>) {
+    a += 4_611_686_018_427_387_904;
+    a ^= 9_223_372_036_854_775_807;
+}
+
+#[test]
+fn the_longest_register_takes_the_longest_constants() {
+    let program = beyond_the_half_program(Style::InPlace);
+    let states = [0, 7, 1 << 62, (1 << 63) - 1].map(|before: u64| vec![before]);
+    for (before, after) in states.iter().zip(run_all(&program, &states)) {
+        let sum = (before[0] + (1 << 62)) % (1 << 63);
+        assert_eq!(after, [sum ^ ((1 << 63) - 1)]);
+    }
+}
+
+#[reversible]
+fn question(a: &UInt<2>, b: &mut UInt<2>) {
+    answer(&a, &mut b);
+}
+
+#[reversible]
+fn answer(a: &UInt<2>, b: &mut UInt<2>) {
+    b += a;
+    question(&a, &mut b);
+}
+
+#[test]
+#[should_panic(expected = "question` calls itself, by way of `")]
+fn functions_that_call_each_other_in_a_circle_say_so() {
+    let _ = question_program(Style::InPlace);
+}

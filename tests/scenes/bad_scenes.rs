@@ -102,10 +102,10 @@ fn a_file_that_cannot_be_read_is_an_error_like_others() {
 
 /// Codes that no scene file gets from its checks: the first two only scenes that are built in Rust,
 /// the third only a file of 256 MiB, the fourth only millions of faces, the fifth only where the OBJ library disagrees with the
-/// checks before it, the next ones only when the scene's circuit is compiled, the last as a warning.
+/// checks before it, the next ones only when the scene's circuit is compiled, the last two as warnings.
 /// The unit tests of `valid`, of the OBJ reader and of `oracle`, `inspect_command` and the test
 /// below show them.
-const ELSEWHERE: [&str; 11] = [
+const ELSEWHERE: [&str; 12] = [
     codes::DUPLICATE_NAME,
     codes::BSDF_CHANNELS,
     codes::OBJ_TOO_LARGE,
@@ -116,6 +116,7 @@ const ELSEWHERE: [&str; 11] = [
     codes::QUOTIENT_UNBOUNDED,
     codes::NUMBER_TOO_WIDE,
     codes::TOO_MANY_FACES,
+    codes::NOT_RECIPROCAL,
     codes::LIGHT_UNUSED,
 ];
 
@@ -147,6 +148,27 @@ sampling: {{ depths: [{{ bits: [8, 8] }}, {{ bits: [8, 8], light: [8, 8] }}] }}
         &mirrors,
     )
     .unwrap();
+}
+
+/// A scene with a material that is darker one way than the other is rendered as it is written.
+#[test]
+fn a_value_that_is_not_reciprocal_is_warned_of() {
+    let text = r#"name: one-way
+camera: { perspective: { eye: [0, 0, 1], target: [0, 0, 0], vfov: 45 } }
+film: { width: 1, height: 1 }
+materials:
+  lamp: { emitter: { radiance: [1, 1, 1] } }
+  cloth:
+    bsdf:
+      map: ["sqrt(u)*cos(2*pi*v)", "sqrt(u)*sin(2*pi*v)", "sqrt(1-u)"]
+      value: ["0.2", "0.2*(1+0.3*cos_i)", "0.05*(1+cos_i)*(1+cos_o)"]
+geometry:
+  - quad: { vertices: [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], material: cloth }
+  - quad: { vertices: [[0, 0, 2], [0, 1, 2], [1, 1, 2], [1, 0, 2]], material: lamp }
+"#;
+    let loaded = front::parse(text, "one-way.yaml", &[], "".as_ref()).unwrap();
+    let shown = loaded.warnings().unwrap().render(false);
+    compare(&Path::new(FOLDER).join("not-reciprocal.yaml"), &shown).unwrap();
 }
 
 #[test]

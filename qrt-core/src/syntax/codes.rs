@@ -192,6 +192,10 @@ codes! {
         "Let every direction come from one point of the unit square";
     PDF_MISMATCH = "QRT0420", "a density that is not that of its map",
         "Write 1 over the map's Jacobian, as a function of the angles; or leave it out";
+    MAP_LEAVES_OUT = "QRT0421", "a map that leaves out directions that the value reflects to",
+        "Let it reach all of them, once; or make the value zero where it does not go";
+    NOT_RECIPROCAL = "QRT0422", "a BSDF that is not the same in both directions",
+        "Write a value that keeps when cos_i and cos_o are exchanged: it is a warning";
     NO_DEPTH = "QRT0501", "a path without rays",
         "Give `depths` at least one entry";
     PATH_BITS_SUM = "QRT0502", "path_bits that is not the sum of the lattice's bits",

@@ -363,10 +363,15 @@ problems! {
             { format!("the map takes a whole area of the square to a line or a point, as around {}",
                 point(*around)) }
             help "the direction must change with u and with v, along different ways";
-        CoversTwice { around: [f64; 2] } = MAP_COVERS_TWICE
-            { format!("the map reaches the same directions more than once, as around {}",
-                point(*around)) }
-            help "their light would count as often: cover each direction at most once";
+        CoversTwice { around: [f64; 3], times: f64, whole: f64 } = MAP_COVERS_TWICE
+            { covered(*around, *times, *whole) }
+            help { Some(once()) };
+        LeavesOut { around: [f64; 3], times: f64, whole: f64 } = MAP_LEAVES_OUT
+            { covered(*around, *times, *whole) }
+            help { Some(once()) };
+        OnlyBelow = MAP_LEAVES_OUT
+            "the map reaches directions below the surface alone: its third component is negative"
+            help "the third component is the cosine to the normal: write `sqrt(1-u)` for `-sqrt(1-u)`";
         WrongJacobian { stated: f64, right: f64, at: [f64; 2], mistake: Mistake } = JACOBIAN_MISMATCH
             { format!("the stated Jacobian is {} at {}, but |dphi/du x dphi/dv| = {}",
                 rounded(*stated), point(*at), rounded(*right)) } help "{mistake}";
@@ -385,7 +390,7 @@ problems! {
                 rounded(*albedo)) }
             help { Some(format!(
                 "the integral of value * |cos_i| over all directions must not pass 1: scale the value \
-                 by {} or less", rounded((1e4 / albedo).floor() / 1e4))) };
+                 by {} or less", rounded(rounded_down(albedo.recip())))) };
         WrongPdf { stated: f64, right: f64, at: [f64; 2], mistake: Mistake } = PDF_MISMATCH
             { format!("the stated density is {} at {}, but 1 / |dphi/du x dphi/dv| = {}",
                 rounded(*stated), point(*at), rounded(*right)) } help "{mistake}";
@@ -398,6 +403,11 @@ problems! {
             help "let the map reach every direction, or leave `pdf` out";
         PdfBelow = PDF_MISMATCH "the map goes below the surface, where no lamp is sampled"
             help "leave `pdf` out";
+        NotReciprocal { there: f64, back: f64, at: [f64; 2] } = NOT_RECIPROCAL
+            { let [i, o] = at.map(rounded);
+              format!("the value is {} at cos_i = {i}, cos_o = {o}, but {} with the two exchanged: \
+                  light does not go this way as it goes the other", rounded(*there), rounded(*back)) }
+            help "let cos_o enter as cos_i does, as in (1 + cos_i)*(1 + cos_o)";
         Unbounded = BSDF_UNBOUNDED "no bound of the weight value * |phi_z| * J can be shown"
             help "choose a map that sends more points where the value is large; a denominator that \
                   vanishes at grazing angles needs a small number more, as in 1/(cos_i + cos_o + 1e-3)";
@@ -666,6 +676,30 @@ fn without_article(noun: &str) -> &str {
 
 fn point([u, v]: [f64; 2]) -> String {
     format!("u = {}, v = {}", rounded(u), rounded(v))
+}
+
+/// The number, down to four digits.
+fn rounded_down(number: f64) -> f64 {
+    let unit = 10_f64.powf(number.log10().floor() - 3.0);
+    (number / unit).floor() * unit
+}
+
+/// How often a map covers directions.
+fn covered(around: [f64; 3], times: f64, whole: f64) -> String {
+    let [x, y, z] = around.map(|c| rounded((c * 100.0).round() / 100.0));
+    let times = rounded((times * 10.0).round() / 10.0);
+    let whole = rounded((whole * 100.0).round() / 100.0);
+    format!(
+        "the map covers the directions around [{x}, {y}, {z}] {times} times, and counts the \
+         reflected light {whole} times on the whole"
+    )
+}
+
+/// What a map must do.
+fn once() -> String {
+    "let each direction that the value reflects to come from one point of the square, as with \
+     sqrt(u)*cos(2*pi*v), sqrt(u)*sin(2*pi*v), sqrt(1-u)"
+        .to_owned()
 }
 
 fn situation(variables: &Variables) -> String {

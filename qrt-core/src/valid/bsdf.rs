@@ -16,8 +16,10 @@ use crate::scene::{Bsdf, Jacobian, Rgb};
 use crate::syntax::{Bsdf as Fault, Path, Problem};
 
 mod bound;
+mod coverage;
 mod light;
 mod pdf;
+mod reciprocity;
 mod shape;
 #[cfg(test)]
 mod tests;
@@ -29,7 +31,8 @@ mod tests;
 /// value, `QRT0413` a map of whole areas to points or lines, `QRT0414` a Jacobian that is not the
 /// map's, `QRT0415` a negative value, `QRT0416` a value that is not finite, `QRT0417` a BSDF that
 /// gains energy, `QRT0418` a weight without a bound, `QRT0419` a map that reaches directions more
-/// than once, `QRT0420` a density that is not the map's.
+/// than once, `QRT0420` a density that is not the map's, `QRT0421` a map that leaves out directions
+/// that the value reflects to.
 pub fn compile(bsdf: &Bsdf) -> Result<CustomBsdf, Vec<Problem>> {
     let mut problems = Vec::new();
     let root = Path::root();
@@ -78,17 +81,30 @@ pub fn compile(bsdf: &Bsdf) -> Result<CustomBsdf, Vec<Problem>> {
         }
     };
     let values: Vec<Expr> = values.into_iter().flatten().collect();
-    // What a wrong Jacobian would say of the energy is not the value's fault.
-    let quadrature = light::Quadrature::new(&map, &by_map);
+    let value = |i: usize| root.key("value").item(i);
+    let before = problems.len();
     for (i, f) in values.iter().enumerate() {
-        let path = root.key("value").item(i);
-        let wrong = light::value(&map, f, &path).or_else(|| quadrature.energy(f, &path));
+        problems.extend(light::value(&map, f, &value(i)));
+    }
+    let mut covers_wrong = false;
+    if problems.len() == before {
+        let wrong = coverage::check(&map, &by_map, &values);
+        covers_wrong = wrong.is_some();
         problems.extend(wrong);
+    }
+    if problems.len() == before {
+        // What a wrong map would say of the energy is not the value's fault, nor a wrong Jacobian.
+        let quadrature = light::Quadrature::new(&map, &by_map);
+        for (i, f) in values.iter().enumerate() {
+            problems.extend(quadrature.energy(f, &value(i)));
+        }
     }
     let pdf = match pdf {
         Some(None) => return Err(problems),
         Some(Some(pdf)) => {
-            problems.extend(pdf::check(&map, &values, &pdf));
+            if !covers_wrong {
+                problems.extend(pdf::check(&map, &values, &pdf));
+            }
             Some(pdf.simplify())
         }
         None => None,
@@ -128,6 +144,17 @@ pub fn compile(bsdf: &Bsdf) -> Result<CustomBsdf, Vec<Problem>> {
     } else {
         Err(problems)
     }
+}
+
+/// What is not wrong with a BSDF, but surely not meant: `QRT0422` a value that is not reciprocal.
+/// Paths are relative to the BSDF.
+pub fn warnings(values: &[Expr]) -> Vec<Problem> {
+    let path = Path::root().key("value");
+    let found = values
+        .iter()
+        .enumerate()
+        .filter_map(|(i, f)| reciprocity::check(f, &path.item(i)));
+    found.collect()
 }
 
 /// An upper bound, per channel, of `value * projected_jacobian` over u and v in (0, 1), cos_o in

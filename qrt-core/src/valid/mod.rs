@@ -217,7 +217,8 @@ pub(crate) fn check(
     camera::check(&scene.camera, &mut problems);
     sampling::check(&scene, &mut problems);
     counting::check(&scene, &mut problems);
-    let mut materials = surfaces(&scene, &mut problems);
+    let mut warnings = Vec::new();
+    let mut materials = surfaces(&scene, &mut problems, &mut warnings);
     let shapes = geometry::polygons(&scene, meshes, &mut materials, &mut problems);
     let geometry::Shapes { polygons, files } = shapes;
     let mut valid = ValidScene {
@@ -225,13 +226,13 @@ pub(crate) fn check(
         materials,
         polygons,
         files,
-        warnings: Vec::new(),
+        warnings,
     };
     lights::check(&mut valid, &mut problems);
     problems.result(valid)
 }
 
-fn surfaces(scene: &Scene, problems: &mut Problems) -> Vec<Surface> {
+fn surfaces(scene: &Scene, problems: &mut Problems, warnings: &mut Vec<Problem>) -> Vec<Surface> {
     let materials = Path::root().key("materials");
     let surface = |(name, material): &(String, Material)| {
         let path = materials.key(name.as_str());
@@ -245,7 +246,10 @@ fn surfaces(scene: &Scene, problems: &mut Problems) -> Vec<Surface> {
                 problems.extend(phong_energy(part, &path));
                 ([0.0; 3], Scatter::Phong(*part))
             }
-            Material::Bsdf(part) => ([0.0; 3], custom(part, &path.key("bsdf"), problems)),
+            Material::Bsdf(part) => {
+                let scatter = custom(part, &path.key("bsdf"), problems, warnings);
+                ([0.0; 3], scatter)
+            }
         };
         Surface {
             name: name.clone(),
@@ -283,9 +287,19 @@ fn phong_energy(phong: &Phong, path: &Path) -> Option<Problem> {
     Some(Problem::new(path.key("specular"), what).also(path.key("diffuse")))
 }
 
-fn custom(bsdf: &Bsdf, path: &Path, problems: &mut Problems) -> Scatter {
+fn custom(
+    bsdf: &Bsdf,
+    path: &Path,
+    problems: &mut Problems,
+    warnings: &mut Vec<Problem>,
+) -> Scatter {
     match bsdf::compile(bsdf) {
-        Ok(compiled) => Scatter::Custom(Box::new(compiled)),
+        Ok(compiled) => {
+            let written = &compiled.value[..bsdf.value.len().min(3)];
+            let found = bsdf::warnings(written).into_iter();
+            warnings.extend(found.map(|problem| problem.below(path)));
+            Scatter::Custom(Box::new(compiled))
+        }
         Err(found) => {
             problems.extend(found.into_iter().map(|problem| problem.below(path)));
             Scatter::Black

@@ -1,6 +1,6 @@
 //! Compute and uncompute as straight-line code.
 
-use super::lines::{self, Line};
+use super::lines::{self, Around, Line};
 use super::names::Names;
 use qrt_circuit::{Argument, Bit, BlockId, Instruction, Op, Operand, Program, RegisterId, Word};
 use qrt_core::oracle::{Channel, Oracle};
@@ -43,11 +43,11 @@ pub(super) fn write(out: &mut String, oracle: &Oracle, names: &Names) {
     for instruction in &oracle.program.instructions {
         coder.instruction(*instruction);
     }
-    let compute = lines::blocks(&std::mem::take(&mut coder.lines), |_, _| true);
+    let compute = lines::blocks(&std::mem::take(&mut coder.lines), Around::Call, |_, _| true);
     for instruction in &oracle.program.inverse().instructions {
         coder.instruction(*instruction);
     }
-    let uncompute = lines::blocks(&coder.lines, |_, _| true);
+    let uncompute = lines::blocks(&coder.lines, Around::Call, |_, _| true);
     let fields = oracle.places.iter();
     let fields: Vec<String> = fields
         .map(|named| coder.borrowed(named.place.register()))

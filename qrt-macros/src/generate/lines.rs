@@ -1,7 +1,9 @@
 //! Long straight lines of code, in blocks.
 //!
 //! Each `let` opens a scope within the last one's, and compilers go through scopes recursively: a
-//! function of thousands of them overflows their stacks. A block's scopes end with it.
+//! function of thousands of them overflows their stacks. A block's scopes end with it. Compiled
+//! without optimisation, each `let` also has a place of its own in the function's frame: a closure's
+//! frame ends with it.
 
 use std::collections::HashMap;
 use std::fmt::Write as _;
@@ -19,9 +21,30 @@ pub(super) struct Line {
 /// The most statements of a block.
 const LENGTH: usize = 100;
 
+/// The closure that a block of statements is.
+#[derive(Clone, Copy)]
+pub(super) enum Around {
+    /// One that compilers may inline.
+    Call,
+    /// One that they must inline if they optimise: instructions for vectors end up in a function
+    /// that may use them.
+    Inlined,
+}
+
 /// The statements, in blocks that hand on what they bind and do not consume, if `needed` after the
 /// statement of that number.
-pub(super) fn blocks(lines: &[Line], needed: impl Fn(&str, usize) -> bool) -> String {
+pub(super) fn blocks(
+    lines: &[Line],
+    around: Around,
+    needed: impl Fn(&str, usize) -> bool,
+) -> String {
+    let [open, close] = match around {
+        Around::Call => ["(|| {", "})()"],
+        Around::Inlined => [
+            "block(#[cfg_attr(not(debug_assertions), inline(always))] || {",
+            "})",
+        ],
+    };
     let mut out = String::new();
     for (number, block) in lines.chunks(LENGTH).enumerate() {
         let last = number * LENGTH + block.len() - 1;
@@ -36,12 +59,12 @@ pub(super) fn blocks(lines: &[Line], needed: impl Fn(&str, usize) -> bool) -> St
             let _ = write!(all, "{name}, ");
             all
         });
-        let _ = writeln!(out, "let ({live}) = {{");
+        let _ = writeln!(out, "let ({live}) = {open}");
         for line in block {
             out.push_str(&line.text);
             out.push('\n');
         }
-        let _ = writeln!(out, "({live})\n}};");
+        let _ = writeln!(out, "({live})\n{close};");
     }
     out
 }

@@ -88,7 +88,7 @@ fn text(
             }};
             use ::qrt::core::tracer::{{Named, Quantity}};
             use ::qrt::runtime::machines::native::{{
-                Integers, NativeOracle, Truths, Vectors, word,
+                Integers, NativeOracle, Truths, Vectors, block, word,
             }};"
         );
         let _ = writeln!(

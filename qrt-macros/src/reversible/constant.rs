@@ -45,7 +45,7 @@ impl Constant {
             fraction -= 1;
         }
         let units = i64::try_from(number).map_err(|_| Inexact::TooLong)?;
-        if fraction > 62 || units >= 1 << 62 {
+        if fraction > 62 {
             return Err(Inexact::TooLong);
         }
         Ok(Self { units, fraction })
@@ -72,6 +72,8 @@ mod tests {
         assert_eq!(read("125e-3"), Ok((1, 3)));
         assert_eq!(read("1.5e1"), Ok((15, 0)));
         assert_eq!(read("0.1"), Err(Inexact::Never));
+        assert_eq!(read("9223372036854775807"), Ok((i64::MAX, 0)));
+        assert_eq!(read("9223372036854775808"), Err(Inexact::TooLong));
         assert_eq!(read("99999999999999999999"), Err(Inexact::TooLong));
     }
 

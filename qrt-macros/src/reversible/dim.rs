@@ -32,9 +32,10 @@ impl Linear {
 
     pub(super) fn plus(&self, other: &Self) -> Self {
         let mut sum = self.clone();
-        sum.constant += other.constant;
+        sum.constant = sum.constant.saturating_add(other.constant);
         for (name, factor) in &other.terms {
-            *sum.terms.entry(name.clone()).or_default() += factor;
+            let own = sum.terms.entry(name.clone()).or_default();
+            *own = own.saturating_add(*factor);
         }
         sum.terms.retain(|_, factor| *factor != 0);
         sum

@@ -18,17 +18,39 @@ pub(super) fn routine(routine: &Routine) -> TokenStream {
         quote_spanned!(span=> const { ::core::assert!(#condition, #message) };)
     });
     let demands: TokenStream = demands.collect();
-    let body = |statements: &[Statement]| {
+    let calls = calls(&routine.body);
+    let body = |statements: &[Statement], name: String| {
         let mut emitter = Emitter::default();
         let body = emitter.block(statements);
         let used = used(&body);
-        quote!(#used #demands #body)
+        let (constants, running) = (&routine.signature.constants, own("routine"));
+        let entered = calls.then(|| {
+            quote! {
+                let #running = ::qrt::circuit::Routine::enter(
+                    ::core::concat!(::core::module_path!(), "::", #name),
+                    [::core::line!(), ::core::column!()],
+                    &[#(#constants),*],
+                );
+            }
+        });
+        quote!(#used #demands #entered #body)
     };
+    let name = &routine.signature.name;
     functions(
         &routine.signature,
-        &body(&routine.body),
-        &body(&inverse(&routine.body)),
+        &body(&routine.body, name.to_string()),
+        &body(&inverse(&routine.body), format!("{name}_inverse")),
     )
+}
+
+/// Whether a routine calls another, which may call it.
+fn calls(statements: &[Statement]) -> bool {
+    statements.iter().any(|statement| match &statement.kind {
+        K::Call { .. } => true,
+        K::Update(..) | K::Swap(..) => false,
+        K::If(_, a, b) | K::Within(a, b) => calls(a) || calls(b),
+        K::For { body, .. } | K::Scratch(_, body) | K::Block(body) => calls(body),
+    })
 }
 
 /// The functions of a routine that was not understood: whoever calls them sees no more errors.

@@ -150,16 +150,20 @@ fn parameter(input: &FnArg, constants: &[Ident], problems: &mut Problems) -> Opt
     {
         let message = "whether a register may be changed is said in its type";
         let shown = match &*input.ty {
-            Type::Reference(reference) => type_text(&reference.elem),
-            ty => type_text(ty),
+            Type::Reference(reference) => register_text(&reference.elem),
+            ty => register_text(ty),
         };
         let help = format!("write `{name}: &mut {shown}`");
         problems.add(codes::REV_PARAMETER, mutability, message, &help);
     }
     let Type::Reference(reference) = &*input.ty else {
         let ty = &input.ty;
-        let shown = type_text(ty);
-        let help = format!("write `{name}: &{shown}`, or `&mut {shown}` if it is changed");
+        let shown = register_text(ty);
+        let mut help = format!("write `{name}: &{shown}`, or `&mut {shown}` if it is changed");
+        if matches!(&**ty, Type::Path(path) if path.path.is_ident("u32")) {
+            let constant = name.to_string().to_uppercase();
+            help = format!("{help}; a constant stands in the generics, as `const {constant}: u32`");
+        }
         let message = "a register is taken by reference: it can neither be copied nor dropped";
         problems.add(codes::REV_PARAMETER, ty, message, &help);
         return None;
@@ -176,6 +180,19 @@ fn parameter(input: &FnArg, constants: &[Ident], problems: &mut Problems) -> Opt
         parameter: true,
         mutable: reference.mutability.is_some(),
     })
+}
+
+/// A type as a register's: another format for what is none.
+fn register_text(ty: &Type) -> String {
+    let formats = ["Bool", "UInt", "Int", "UFixed", "Fixed"];
+    let last = match ty {
+        Type::Path(path) => path.path.segments.last(),
+        _ => None,
+    };
+    match last {
+        Some(last) if formats.iter().any(|format| last.ident == format) => type_text(ty),
+        _ => "UInt<8>".to_owned(),
+    }
 }
 
 /// The format that a type is.

@@ -179,7 +179,7 @@ impl Scope {
     fn no_statement(&mut self, expression: &Expr) {
         let (code, place, message, help) = match expression {
             Expr::Assign(assign) => {
-                let (left, right) = (text(&assign.left), text(&assign.right));
+                let (left, right) = (bare(&assign.left), bare(&assign.right));
                 let help = format!("write `{left} ^= {right}`, `+=` or `-=`");
                 let place = assign.eq_token.to_token_stream();
                 let message = format!("an assignment forgets what was in `{left}`");
@@ -278,7 +278,7 @@ impl Scope {
     }
 
     fn no_update(&mut self, binary: &syn::ExprBinary, operator: BinOp) {
-        let (left, right) = (text(&binary.left), text(&binary.right));
+        let (left, right) = (bare(&binary.left), bare(&binary.right));
         let shown = text(operator);
         let (message, help) = match operator {
             BinOp::MulAssign(_) => (
@@ -391,6 +391,7 @@ impl Scope {
             self.check_free(&variable);
         }
         self.loops.push((variable.clone(), bounds.clone()));
+        self.check_passes(&turns.expr);
         let body = self.block(&turns.body);
         self.loops.pop();
         Some(K::For {
@@ -401,6 +402,27 @@ impl Scope {
         })
     }
 
+    /// Complains about more passes of the loops around than a program could hold: each becomes
+    /// operations of its own.
+    fn check_passes(&mut self, place: &Expr) {
+        const MOST: i64 = 1_000_000;
+        let mut all = 1_i64;
+        for (_, [first, end]) in self.loops.clone() {
+            let least = self.least(&first.minus(&end));
+            if let Some(minus) = least.known() {
+                all = all.saturating_mul(minus.saturating_neg().max(0));
+            } else {
+                let message = "QRT0811: a loop of more than 1,000,000 passes";
+                self.holds(&end.minus(&first).times(-1).plus(&MOST.into()), message);
+            }
+        }
+        if all > MOST {
+            let message = format!("{all} passes, each of which becomes gates of its own");
+            let help = "write loops of 1,000,000 passes or fewer, and call the function again";
+            self.problems.add(codes::REV_LOOP, place, &message, help);
+        }
+    }
+
     fn bounds(&mut self, range: &syn::ExprRange) -> Option<[Linear; 2]> {
         let start = self.linear(range.start.as_ref()?)?;
         let end = self.linear(range.end.as_ref()?)?;
@@ -408,6 +430,19 @@ impl Scope {
             syn::RangeLimits::HalfOpen(_) => [start, end],
             syn::RangeLimits::Closed(_) => [start, end.plus(&1.into())],
         })
+    }
+}
+
+/// The text of an expression without the `*` that other Rust would need: a register is named as it
+/// is.
+fn bare(expression: &Expr) -> String {
+    match expression {
+        Expr::Unary(unary) if matches!(unary.op, syn::UnOp::Deref(_)) => bare(&unary.expr),
+        Expr::Paren(inner) => match bare(&inner.expr) {
+            inside if syn::parse_str::<Ident>(&inside).is_ok() => inside,
+            _ => text(expression),
+        },
+        _ => text(expression),
     }
 }
 

@@ -2,8 +2,8 @@
 //! is there when it is undone.
 //!
 //! A register's content is named by the list of changes that made it. A statement that is the
-//! inverse of the last of them, and reads what that read, takes it off the list again; additions
-//! may be undone in any order, and so may exclusive ors. What is left at the end of a scratch
+//! inverse of the last of them, and reads what that read, takes it off the list again; neighbouring
+//! additions may be undone in any order, and so may neighbouring exclusive ors. What is left at the end of a scratch
 //! register's scope has never been uncomputed.
 
 use super::dim::Linear;
@@ -332,9 +332,8 @@ impl<'a> Tracker<'a> {
         let dirty = frame.changes.remove(&name).unwrap_or_default();
         if let Some(first) = dirty.first() {
             let message = format!("computed here, never uncomputed: `{name}` is not 0 at its end");
-            let late = dirty
-                .iter()
-                .find(|later| later.effects[0] == first.effects[1]);
+            let mut later = dirty.iter().skip(1);
+            let late = later.find(|later| later.effects[0] == first.effects[1]);
             let help = match late {
                 Some(late) => format!(
                     "`{}` does not undo it: what it reads has changed in between",

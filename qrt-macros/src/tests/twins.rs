@@ -122,7 +122,7 @@ const WITHOUT_TWIN: [&str; 40] = [
 /// Codes of the checker that these scenes do not show: what the grammar says itself (a variant has
 /// one kind, an expression something in it), and what only scenes built in Rust, files of 256 MiB,
 /// millions of faces and disagreements of the OBJ library get; a warning is none of its errors.
-const ELSEWHERE: [&str; 8] = [
+const ELSEWHERE: [&str; 9] = [
     codes::ONE_VARIANT,
     codes::DUPLICATE_NAME,
     codes::MESH_TOO_MANY,
@@ -130,6 +130,7 @@ const ELSEWHERE: [&str; 8] = [
     codes::OBJ_REFUSED,
     codes::EXPR_EMPTY,
     codes::BSDF_CHANNELS,
+    codes::NOT_RECIPROCAL,
     codes::LIGHT_UNUSED,
 ];
 

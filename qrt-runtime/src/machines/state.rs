@@ -6,19 +6,30 @@ use qrt_circuit::{
 use qrt_core::oracle::compiled::CompiledOracle;
 use qrt_core::sampling::SamplingError;
 
-/// A register that was not what it must be when it was undone or freed.
+/// A register that is not left as it must be.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error(
-    "`{register}` held {held} when it was undone, and not {expected}: something it was computed \
-     from, or itself, was changed"
-)]
-pub struct Unclean {
-    /// The register's name.
-    pub register: String,
-    /// The register's content when it was undone.
-    pub held: u64,
-    /// What it had to hold, so that the inverse leaves 0.
-    pub expected: u64,
+pub enum Unclean {
+    /// It was not what it must be when it was undone or freed.
+    #[error(
+        "`{register}` held {held} when it was undone, and not {expected}: something it was \
+         computed from, or itself, was changed"
+    )]
+    Undone {
+        /// The register's name.
+        register: String,
+        /// The register's content when it was undone.
+        held: u64,
+        /// What it had to hold, so that the inverse leaves 0.
+        expected: u64,
+    },
+    /// It was never undone.
+    #[error("`{register}` holds {held} and was never uncomputed: undo what was computed into it")]
+    Left {
+        /// The register's name.
+        register: String,
+        /// What it holds.
+        held: u64,
+    },
 }
 
 /// A machine of one basis state, which shows what registers hold and checks what is undone.
@@ -87,16 +98,25 @@ impl State {
     }
 
     /// What a register holds.
+    ///
+    /// # Panics
+    /// If another machine made the register.
     pub fn bits(&self, register: &Recorded) -> u64 {
-        self.contents.registers[register.id().index()]
+        self.contents.registers[self.recorder.own(register).index()]
     }
 
     /// What a word reads.
+    ///
+    /// # Panics
+    /// If another machine made the register.
     pub fn read(&self, word: Word<&Recorded>) -> i64 {
         word.read(self.bits(word.register))
     }
 
     /// What an operand reads.
+    ///
+    /// # Panics
+    /// If another machine made the register.
     pub fn operand(&self, operand: Operand<&Recorded>) -> i64 {
         match operand {
             Operand::Word(word) => self.read(word),
@@ -104,12 +124,26 @@ impl State {
         }
     }
 
-    /// Whether everything has been undone as it must be.
+    /// Whether everything has been undone as it must be, and nothing but inputs is left: a result
+    /// is computed into an [`input`](Self::input) of 0.
     ///
     /// # Errors
-    /// The first register that was not.
+    /// The first register that was not, or that still holds something.
     pub fn clean(&self) -> Result<(), Unclean> {
-        self.unclean.clone().map_or(Ok(()), Err)
+        if let Some(unclean) = &self.unclean {
+            return Err(unclean.clone());
+        }
+        let program = self.recorder.program();
+        let registers = program.registers.iter().zip(&self.contents.registers);
+        let is_input = |number: usize| program.inputs.iter().any(|id| id.index() == number);
+        let mut left = registers.enumerate();
+        match left.find(|(number, (_, held))| **held != 0 && !is_input(*number)) {
+            None => Ok(()),
+            Some((_, (register, &held))) => Err(Unclean::Left {
+                register: register.name.clone(),
+                held,
+            }),
+        }
     }
 
     /// Adds new registers, which hold 0.
@@ -128,7 +162,7 @@ impl State {
             return;
         };
         if let Err(unclean) = self.contents.follow(program, *instruction) {
-            self.unclean.get_or_insert_with(|| Unclean {
+            self.unclean.get_or_insert_with(|| Unclean::Undone {
                 register: program.registers[unclean.register.index()].name.clone(),
                 held: unclean.held,
                 expected: unclean.expected,
@@ -195,9 +229,8 @@ mod tests {
         let double = twice(&mut state, &a);
         state.add_into(&mut a, Operand::Constant(1), false, When::Always);
         state.undo([double]);
-        let unclean = state.clean().unwrap_err();
-        assert_eq!((unclean.held, unclean.expected), (22, 24));
-        assert!(unclean.to_string().starts_with("`double` held 22"));
+        let unclean = state.clean().unwrap_err().to_string();
+        assert!(unclean.starts_with("`double` held 22 when it was undone, and not 24"));
     }
 
     #[test]
@@ -207,6 +240,54 @@ mod tests {
         state.xor_into(&mut own, Operand::Constant(5), None);
         assert_eq!(state.bits(&own), 5);
         state.free(own);
-        assert_eq!(state.clean().unwrap_err().held, 5);
+        let unclean = state.clean().unwrap_err();
+        assert!(
+            matches!(unclean, Unclean::Undone { held: 5, .. }),
+            "{unclean}"
+        );
+    }
+
+    #[test]
+    fn what_nobody_undoes_is_found() {
+        let mut state = State::new();
+        let a = state.input(&A, 11);
+        let _ = twice(&mut state, &a);
+        let unclean = state.clean().unwrap_err();
+        assert_eq!(
+            unclean.to_string(),
+            "`double` holds 22 and was never uncomputed: undo what was computed into it"
+        );
+        // Nor is a scratch register that is forgotten, be it within a part that is undone.
+        let mut state = State::new();
+        let a = state.input(&A, 11);
+        qrt_circuit::unconditional(&mut state, |state| {
+            let mut own = state.zero(&A);
+            state.xor_into(&mut own, Operand::unsigned(&a, 0, 4), None);
+        });
+        let left = Unclean::Left {
+            register: "a".to_owned(),
+            held: 11,
+        };
+        assert_eq!(state.clean(), Err(left));
+    }
+
+    #[test]
+    #[should_panic(expected = "register 1 belongs to another machine")]
+    fn a_register_is_read_on_its_own_machine() {
+        let [mut one, mut other] = [State::new(), State::new()];
+        one.input(&A, 1);
+        let second = one.input(&A, 2);
+        other.input(&A, 3);
+        other.input(&A, 4);
+        other.bits(&second);
+    }
+
+    #[test]
+    #[should_panic(expected = "register 0 belongs to another machine")]
+    fn a_register_is_an_operand_on_its_own_machine() {
+        let [mut one, mut other] = [State::new(), State::new()];
+        let a = one.input(&A, 1);
+        other.input(&A, 3);
+        twice(&mut other, &a);
     }
 }

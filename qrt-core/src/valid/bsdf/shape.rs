@@ -52,8 +52,8 @@ impl Slopes {
     }
 }
 
-/// Checks that the map is finite, has finite partial derivatives, stays on the sphere, is no mere
-/// line, and reaches no direction twice.
+/// Checks that the map is finite, has finite partial derivatives, stays on the sphere and is no mere
+/// line.
 pub(super) fn map(map: &[Expr; 3]) -> Option<Problem> {
     let root = Path::root().key("map");
     let slopes = Slopes::of(map);
@@ -92,51 +92,7 @@ pub(super) fn map(map: &[Expr; 3]) -> Option<Problem> {
             }
         }
     }
-    let at = twice(map, &slopes)?;
-    let around = [at.u, at.v];
-    Some(Problem::new(root, Bsdf::CoversTwice { around }))
-}
-
-/// A point of the square around which directions are covered twice. The sphere is cut into parts of
-/// one area; the solid angles `J du dv` of the cells that fall into a part add up to that area,
-/// or to a multiple. Parts where the cells are too coarse to tell are passed over.
-fn twice(map: &[Expr; 3], slopes: &Slopes) -> Option<Variables> {
-    const CELLS: u32 = 256;
-    const HEIGHTS: usize = 16;
-    const TURNS: usize = 24;
-    /// The longest side of a cell that still tells, in radians: a sixth of a part's.
-    const FINE: f64 = 0.03;
-    let part = 4.0 * std::f64::consts::PI / (HEIGHTS * TURNS) as f64;
-    let mut covered = vec![(0.0, 0_u32, Variables::default()); HEIGHTS * TURNS];
-    let mut room = Vec::new();
-    for i in 0..CELLS {
-        for j in 0..CELLS {
-            let centre = |k| (f64::from(k) + 0.5) / f64::from(CELLS);
-            let at = Variables {
-                u: centre(i),
-                v: centre(j),
-                ..Variables::default()
-            };
-            let [x, y, z] = map.each_ref().map(|c| c.eval_in(&at, &mut room));
-            let turn = libm::atan2(y, x) / std::f64::consts::TAU + 0.5;
-            let height = (f64::midpoint(z, 1.0) * HEIGHTS as f64) as usize;
-            let turn = (turn * TURNS as f64) as usize;
-            let slot = height.min(HEIGHTS - 1) * TURNS + turn.min(TURNS - 1);
-            let slopes = slopes.at(&at, &mut room);
-            let [along_u, along_v] = slopes.map(|slope| slope / f64::from(CELLS));
-            let fine = along_u.length() < FINE && along_v.length() < FINE;
-            let (area, count, place) = &mut covered[slot];
-            *area += if fine {
-                along_u.cross(along_v).length()
-            } else {
-                f64::NEG_INFINITY
-            };
-            *count += 1;
-            *place = at;
-        }
-    }
-    let often = |(area, count, _): &&(f64, u32, Variables)| *area > 1.6 * part && *count >= 30;
-    covered.iter().find(often).map(|(_, _, place)| *place)
+    None
 }
 
 /// The map's Jacobian by point of the square: the solid angle per unit of it.

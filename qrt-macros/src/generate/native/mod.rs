@@ -11,7 +11,7 @@ mod table;
 #[cfg(test)]
 mod tests;
 
-use super::lines::{self, Line};
+use super::lines::{self, Around, Line};
 use super::names::Names;
 use number::Number;
 use qrt_circuit::{Bit, Op, Operand, Program, Register, RegisterId, Type, Word};
@@ -78,7 +78,7 @@ pub(super) fn write(out: &mut String, oracle: &Oracle, names: &Names) {
     });
     let uses = lines::last_uses(&lines);
     let needed = |name: &str, after: usize| uses.get(name).is_some_and(|&last| last > after);
-    let code = lines::blocks(&lines[..body], needed);
+    let code = lines::blocks(&lines[..body], Around::Inlined, needed);
     let _ = writeln!(
         out,
         "{}

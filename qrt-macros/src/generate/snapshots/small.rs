@@ -67,7 +67,9 @@ const _: () = {
             Square::{Light, Ray},
         };
         use ::qrt::core::tracer::{Named, Quantity};
-        use ::qrt::runtime::machines::native::{Integers, NativeOracle, Truths, Vectors, word};
+        use ::qrt::runtime::machines::native::{
+            Integers, NativeOracle, Truths, Vectors, block, word,
+        };
         impl __Scene {
             /// Where the numbers of a path are among its registers, ray by ray.
             pub const LAYOUT: LampLayout = LampLayout {
@@ -387,57 +389,58 @@ const _: () = {
                 id: &M::Register,
                 apply: impl FnOnce(&mut M, Computed<'_, Self, M::Register>) -> T,
             ) -> T {
-                let (ray0_sample_u_3, ray1_origin_x_33, select28__34, colour_b_29, table31) = {
-                    m.block(BlockId(1));
-                    let ray0_sample_u_3 = m.parity(&R[3], id, &[1, 0], Some(0));
-                    m.block(BlockId(2));
-                    let [table6] = m.table([&R[6]], &[Bit::at(&ray0_sample_u_3, 0)], [T6], 0);
-                    m.block(BlockId(0));
-                    let ray1_origin_x_33 = m.copy(&R[33], Word::unsigned(&table6, 0, 1));
-                    m.block(BlockId(2));
-                    m.undo([table6]);
-                    m.block(BlockId(14));
-                    let load25 = m.load(&R[25], 5);
-                    let add26 = m.add(
-                        &R[26],
-                        Operand::signed(&load25, 0, 3),
-                        Word::unsigned(&ray1_origin_x_33, 0, 1).shifted(1).into(),
-                    );
-                    let select28 = m.select(
-                        &R[28],
-                        Bit::at(&add26, 3).inverted(),
-                        Operand::Constant(1),
-                        Operand::Constant(2),
-                    );
-                    m.undo([add26]);
-                    m.undo([load25]);
-                    m.block(BlockId(0));
-                    let select28__34 = m.copy(&R[34], Word::unsigned(&select28, 0, 2));
-                    m.block(BlockId(14));
-                    let load25 = m.load(&R[25], 5);
-                    let add26 = m.add(
-                        &R[26],
-                        Operand::signed(&load25, 0, 3),
-                        Word::unsigned(&ray1_origin_x_33, 0, 1).shifted(1).into(),
-                    );
-                    m.undo([select28]);
-                    m.undo([add26]);
-                    m.undo([load25]);
-                    m.block(BlockId(18));
-                    let [colour_b_29, table31] = m.table(
-                        [&R[29], &R[31]],
-                        &[Bit::at(&select28__34, 0), Bit::at(&select28__34, 1)],
-                        [T29, T31],
-                        0,
-                    );
-                    (
-                        ray0_sample_u_3,
-                        ray1_origin_x_33,
-                        select28__34,
-                        colour_b_29,
-                        table31,
-                    )
-                };
+                let (ray0_sample_u_3, ray1_origin_x_33, select28__34, colour_b_29, table31) =
+                    (|| {
+                        m.block(BlockId(1));
+                        let ray0_sample_u_3 = m.parity(&R[3], id, &[1, 0], Some(0));
+                        m.block(BlockId(2));
+                        let [table6] = m.table([&R[6]], &[Bit::at(&ray0_sample_u_3, 0)], [T6], 0);
+                        m.block(BlockId(0));
+                        let ray1_origin_x_33 = m.copy(&R[33], Word::unsigned(&table6, 0, 1));
+                        m.block(BlockId(2));
+                        m.undo([table6]);
+                        m.block(BlockId(14));
+                        let load25 = m.load(&R[25], 5);
+                        let add26 = m.add(
+                            &R[26],
+                            Operand::signed(&load25, 0, 3),
+                            Word::unsigned(&ray1_origin_x_33, 0, 1).shifted(1).into(),
+                        );
+                        let select28 = m.select(
+                            &R[28],
+                            Bit::at(&add26, 3).inverted(),
+                            Operand::Constant(1),
+                            Operand::Constant(2),
+                        );
+                        m.undo([add26]);
+                        m.undo([load25]);
+                        m.block(BlockId(0));
+                        let select28__34 = m.copy(&R[34], Word::unsigned(&select28, 0, 2));
+                        m.block(BlockId(14));
+                        let load25 = m.load(&R[25], 5);
+                        let add26 = m.add(
+                            &R[26],
+                            Operand::signed(&load25, 0, 3),
+                            Word::unsigned(&ray1_origin_x_33, 0, 1).shifted(1).into(),
+                        );
+                        m.undo([select28]);
+                        m.undo([add26]);
+                        m.undo([load25]);
+                        m.block(BlockId(18));
+                        let [colour_b_29, table31] = m.table(
+                            [&R[29], &R[31]],
+                            &[Bit::at(&select28__34, 0), Bit::at(&select28__34, 1)],
+                            [T29, T31],
+                            0,
+                        );
+                        (
+                            ray0_sample_u_3,
+                            ray1_origin_x_33,
+                            select28__34,
+                            colour_b_29,
+                            table31,
+                        )
+                    })();
 
                 let fields = &[&ray0_sample_u_3, &ray1_origin_x_33];
                 let channels = [
@@ -455,7 +458,7 @@ const _: () = {
                     ],
                 ];
                 let applied = apply(m, Computed::new(fields, channels));
-                let () = {
+                let () = (|| {
                     m.undo([colour_b_29, table31]);
                     m.block(BlockId(14));
                     let load25 = m.load(&R[25], 5);
@@ -493,7 +496,7 @@ const _: () = {
                     m.block(BlockId(1));
                     m.undo([ray0_sample_u_3]);
                     ()
-                };
+                })();
 
                 applied
             }
@@ -503,43 +506,46 @@ const _: () = {
         impl NativeOracle for __Scene {
             #[inline(always)]
             fn native<V: Vectors>(v: V, words: &[u64], ids: V::Longs) -> [[V::Longs; 3]; 2] {
-                let (t21, t24, t26, t29, t31, t34) = {
-                    let t1 = ids;
-                    let t2 = v.narrow(t1);
-                    let t3 = v.ints(word(words, 0, 1, false) as i32);
-                    let t4 = v.table16(&[0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1], t2);
-                    let t5 = t4.xor(t3);
-                    let ray0_sample_u_3 = t5.has(1);
-                    let t7 = v.ints(1).choose(ray0_sample_u_3, v.ints(0));
-                    let table6 = v.marks(2, t7);
-                    let t9 = v.ints(1).choose(table6, v.ints(0));
-                    let ray1_origin_x_33 = t9.has(1);
-                    let load25 = v.ints(word(words, 5, 3, true) as i32);
-                    let t12 = v.ints(1).choose(ray1_origin_x_33, v.ints(0));
-                    let t13 = t12.left(1);
-                    let add26 = load25.add(t13);
-                    let t15 = add26.less(v.ints(0));
-                    let t16 = t15.not();
-                    let select28 = v.ints(1).choose(t16, v.ints(2));
-                    let colour_b_29 = v.marks(2, select28);
-                    let table31 = v.table16(&N31, select28);
-                    let t20 = table31.right(4);
-                    let t21 = v.widen(t20);
-                    let t22 = v.ints(1).choose(colour_b_29, v.ints(0));
-                    let t23 = t22.left(5);
-                    let t24 = v.widen(t23);
-                    let t25 = table31.right(4);
-                    let t26 = v.widen(t25);
-                    let t27 = v.ints(1).choose(colour_b_29, v.ints(0));
-                    let t28 = t27.left(5);
-                    let t29 = v.widen(t28);
-                    let t30 = table31.right(4);
-                    let t31 = v.widen(t30);
-                    let t32 = v.ints(1).choose(colour_b_29, v.ints(0));
-                    let t33 = t32.left(5);
-                    let t34 = v.widen(t33);
-                    (t21, t24, t26, t29, t31, t34)
-                };
+                let (t21, t24, t26, t29, t31, t34) = block(
+                    #[cfg_attr(not(debug_assertions), inline(always))]
+                    || {
+                        let t1 = ids;
+                        let t2 = v.narrow(t1);
+                        let t3 = v.ints(word(words, 0, 1, false) as i32);
+                        let t4 = v.table16(&[0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1], t2);
+                        let t5 = t4.xor(t3);
+                        let ray0_sample_u_3 = t5.has(1);
+                        let t7 = v.ints(1).choose(ray0_sample_u_3, v.ints(0));
+                        let table6 = v.marks(2, t7);
+                        let t9 = v.ints(1).choose(table6, v.ints(0));
+                        let ray1_origin_x_33 = t9.has(1);
+                        let load25 = v.ints(word(words, 5, 3, true) as i32);
+                        let t12 = v.ints(1).choose(ray1_origin_x_33, v.ints(0));
+                        let t13 = t12.left(1);
+                        let add26 = load25.add(t13);
+                        let t15 = add26.less(v.ints(0));
+                        let t16 = t15.not();
+                        let select28 = v.ints(1).choose(t16, v.ints(2));
+                        let colour_b_29 = v.marks(2, select28);
+                        let table31 = v.table16(&N31, select28);
+                        let t20 = table31.right(4);
+                        let t21 = v.widen(t20);
+                        let t22 = v.ints(1).choose(colour_b_29, v.ints(0));
+                        let t23 = t22.left(5);
+                        let t24 = v.widen(t23);
+                        let t25 = table31.right(4);
+                        let t26 = v.widen(t25);
+                        let t27 = v.ints(1).choose(colour_b_29, v.ints(0));
+                        let t28 = t27.left(5);
+                        let t29 = v.widen(t28);
+                        let t30 = table31.right(4);
+                        let t31 = v.widen(t30);
+                        let t32 = v.ints(1).choose(colour_b_29, v.ints(0));
+                        let t33 = t32.left(5);
+                        let t34 = v.widen(t33);
+                        (t21, t24, t26, t29, t31, t34)
+                    },
+                );
 
                 [[t21, t26, t31], [t24, t29, t34]]
             }

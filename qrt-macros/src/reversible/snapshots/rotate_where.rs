@@ -10,8 +10,16 @@ fn rotate_where<const W: u32, M: ::qrt::circuit::Machine>(
 ) {
     use ::qrt::circuit::{Bit, Declaration, Operand, Type, When, Word, controlled};
     const { ::core::assert!(1 <= W, "QRT0819: bits beyond the last of `b`") };
+    const {
+        ::core::assert!(W <= 1000001, "QRT0811: a loop of more than 1,000,000 passes")
+    };
     const { ::core::assert!(W <= 62, "QRT0829: a number of more than 63 bits") };
     const { ::core::assert!(3 <= W, "QRT0806: `5` has more bits than its target") };
+    let routine = ::qrt::circuit::Routine::enter(
+        ::core::concat!(::core::module_path!(), "::", "rotate_where"),
+        [::core::line!(), ::core::column!()],
+        &[W],
+    );
     let t0 = machine
         .and(
             &Declaration::work("and", Type::Bool, 1),
@@ -79,8 +87,16 @@ fn rotate_where_inverse<const W: u32, M: ::qrt::circuit::Machine>(
 ) {
     use ::qrt::circuit::{Bit, Declaration, Operand, Type, When, Word, controlled};
     const { ::core::assert!(1 <= W, "QRT0819: bits beyond the last of `b`") };
+    const {
+        ::core::assert!(W <= 1000001, "QRT0811: a loop of more than 1,000,000 passes")
+    };
     const { ::core::assert!(W <= 62, "QRT0829: a number of more than 63 bits") };
     const { ::core::assert!(3 <= W, "QRT0806: `5` has more bits than its target") };
+    let routine = ::qrt::circuit::Routine::enter(
+        ::core::concat!(::core::module_path!(), "::", "rotate_where_inverse"),
+        [::core::line!(), ::core::column!()],
+        &[W],
+    );
     machine.swap(a.register_mut(), b.register_mut(), None);
     let t0 = machine
         .and(

@@ -40,6 +40,13 @@ pub trait NativeOracle: CompiledOracle {
     fn native<V: Vectors>(v: V, words: &[u64], ids: V::Longs) -> [[V::Longs; 3]; 2];
 }
 
+/// Runs a part of the code, which has a frame of its own on the stack where it is not inlined.
+#[doc(hidden)]
+#[inline(always)]
+pub fn block<T>(part: impl FnOnce() -> T) -> T {
+    part()
+}
+
 /// Neighbouring path indices of one pixel.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Run<'a> {

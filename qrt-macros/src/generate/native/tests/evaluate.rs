@@ -127,6 +127,10 @@ impl Path<'_> {
                 Constant(value) => Constant((value as i32).into()),
                 other => panic!("{other:?}"),
             },
+            Expr::Closure(part) => self.value(&part.body),
+            Expr::Call(call) if matches!(call.args[0], Expr::Closure(_)) => {
+                self.value(&call.args[0])
+            }
             Expr::Call(call) => {
                 let given: Vec<Value> = call.args.iter().map(|a| self.value(a)).collect();
                 let [Words, Constant(place), Constant(width), Truth(signed)] = given[..] else {

@@ -1,0 +1,295 @@
+//! That a map covers each direction that its material reflects to exactly once.
+//!
+//! The light that a surface scatters is an integral over directions, and a path samples it as one
+//! over the square:
+//!
+//! `integral g(omega) |omega_z| domega = integral g(phi) |phi_z| J du dv`
+//!
+//! for every function `g`, if and only if phi covers directions once. Both sides are compared for
+//! the value times functions that are local in height and azimuth: their quotient tells how often
+//! the directions around a place are covered. Where the value is zero, nothing needs to be covered;
+//! and as `value |phi_z| J` is what a path weighs, no integrand is worse than a path's weight.
+//!
+//! A value that depends on u or v is known where the map goes alone. Its map may leave directions
+//! out, which are black then; it covers none more than once.
+
+use crate::expr::{Expr, Variable, Variables};
+use crate::syntax::{Bsdf, Path, Problem};
+use std::f64::consts::TAU;
+
+/// Heights, from the horizon to the pole, and azimuths of the places around which is compared.
+const HEIGHTS: usize = 16;
+const TURNS: usize = 12;
+/// Both sides of the surface.
+const PLACES: usize = 2 * (HEIGHTS + 1) * TURNS;
+/// By how much the whole may be off, of it, and by how much that around a place.
+const OFF_WHOLE: f64 = 5e-3;
+const OFF_PLACE: f64 = 0.1;
+/// A place with less of the whole is not looked at.
+const LEAST: f64 = 1e-5;
+/// The part of a map, by its weight, that makes a side of the surface one that it goes to.
+const SIDE: f64 = 1e-4;
+/// Points per side of the square; more where fewer leave a doubt.
+const RULES: [u32; 4] = [96, 192, 384, 768];
+/// Heights at which the value is tabulated, from below to above.
+const ROWS: usize = 1024;
+/// Heights of its integrals.
+const STEPS: usize = 16 * ROWS;
+
+/// Checks that `map` covers what `values` reflect to, which are finite and not negative.
+pub(super) fn check(
+    map: &[Expr; 3],
+    projected_jacobian: &Expr,
+    values: &[Expr],
+) -> Option<Problem> {
+    let asked = Asked::of(values);
+    let path = Path::root().key("map");
+    let mut coarse: Option<Covered> = None;
+    for points in RULES {
+        let covered = Covered::of(map, projected_jacobian, &asked, points);
+        let Some(found) = covered.worst(&asked) else {
+            return Some(Problem::new(path, Bsdf::OnlyBelow));
+        };
+        if found.within(0.5) {
+            return None;
+        }
+        // What a finer rule does not change is the map's own.
+        let same =
+            coarse.is_some_and(|coarse| found.agrees(&coarse.deviation(&asked, found.place)));
+        if same && !found.within(1.0) {
+            return Some(Problem::new(path, found.problem()));
+        }
+        coarse = Some(covered);
+    }
+    None
+}
+
+/// How often a map covers what is around a place, and what the value reflects in all.
+#[derive(Clone, Copy)]
+struct Deviation {
+    place: usize,
+    times: f64,
+    whole: f64,
+}
+
+impl Deviation {
+    /// Whether it is no more than this part of what is allowed.
+    fn within(&self, part: f64) -> bool {
+        (self.whole - 1.0).abs() <= part * OFF_WHOLE && (self.times - 1.0).abs() <= part * OFF_PLACE
+    }
+
+    fn agrees(&self, other: &Self) -> bool {
+        let near = |a: f64, b: f64, off: f64| (a - b).abs() <= 0.25 * (a - 1.0).abs().max(off);
+        near(self.whole, other.whole, OFF_WHOLE) && near(self.times, other.times, OFF_PLACE)
+    }
+
+    fn problem(&self) -> Bsdf {
+        let &Self {
+            place,
+            times,
+            whole,
+        } = self;
+        let around = direction(place);
+        if times > 1.0 {
+            Bsdf::CoversTwice {
+                around,
+                times,
+                whole,
+            }
+        } else {
+            Bsdf::LeavesOut {
+                around,
+                times,
+                whole,
+            }
+        }
+    }
+}
+
+/// The direction in the middle of a place.
+fn direction(number: usize) -> [f64; 3] {
+    let (side, ring) = (
+        number / ((HEIGHTS + 1) * TURNS),
+        number / TURNS % (HEIGHTS + 1),
+    );
+    // Of the outermost rings, the middle of their one half.
+    let height = (ring as f64).clamp(0.5, HEIGHTS as f64 - 0.5) / HEIGHTS as f64;
+    let azimuth = (number % TURNS) as f64 / TURNS as f64 * TAU;
+    let radius = (1.0 - height * height).sqrt();
+    let z = if side == 0 { height } else { -height };
+    [radius * libm::cos(azimuth), radius * libm::sin(azimuth), z]
+}
+
+/// The function by which directions count, and its integrals.
+struct Asked {
+    /// By height from -1 to 1; constant where the value depends on the square.
+    rows: Vec<f64>,
+    /// Whether the value says where light is reflected to, whatever the map.
+    everywhere: bool,
+    /// Its integrals around the places.
+    places: Vec<f64>,
+}
+
+impl Asked {
+    fn of(values: &[Expr]) -> Self {
+        let known: Vec<&Expr> = values
+            .iter()
+            .filter(|value| {
+                let asked = value.variables(value.root());
+                !Variable::SQUARE.iter().any(|&axis| asked.contains(axis))
+            })
+            .collect();
+        let mut rows: Vec<f64> = (0..=ROWS)
+            .map(|row| {
+                let z = 2.0 * row as f64 / ROWS as f64 - 1.0;
+                known.iter().map(|value| mean(value, z)).sum()
+            })
+            .collect();
+        let sum: f64 = rows.iter().sum();
+        let everywhere = known.len() == values.len() && sum > 0.0 && sum.is_finite();
+        if !everywhere {
+            rows = vec![1.0; ROWS + 1];
+        }
+        let mut asked = Self {
+            rows,
+            everywhere,
+            places: vec![0.0; PLACES],
+        };
+        // Rings all around, whose azimuths share alike.
+        for step in 0..STEPS {
+            let z = (2.0 * step as f64 + 1.0) / STEPS as f64 - 1.0;
+            let light = asked.at(z) * z.abs() * TAU * 2.0 / STEPS as f64 / TURNS as f64;
+            for (ring, part) in rings(z) {
+                for place in &mut asked.places[ring * TURNS..(ring + 1) * TURNS] {
+                    *place += part * light;
+                }
+            }
+        }
+        asked
+    }
+
+    fn at(&self, z: f64) -> f64 {
+        let place = f64::midpoint(z.clamp(-1.0, 1.0), 1.0) * ROWS as f64;
+        let row = (place as usize).min(ROWS - 1);
+        let part = place - row as f64;
+        self.rows[row] * (1.0 - part) + self.rows[row + 1] * part
+    }
+}
+
+/// The value at height `z`, on the average over some viewers, one in the mirror direction.
+fn mean(value: &Expr, z: f64) -> f64 {
+    let sine = ((1.0 - z) * (1.0 + z)).max(0.0).sqrt();
+    let mut room = Vec::new();
+    let mut sum = 0.0;
+    for cos_o in [z.abs(), 1.0, 0.9, 0.6, 0.3, 0.1] {
+        let sin_o = ((1.0 - cos_o) * (1.0 + cos_o)).max(0.0).sqrt();
+        for turn in [1.0, 0.0, -1.0] {
+            let at = Variables {
+                cos_i: z.abs(),
+                cos_o,
+                cos_a: (z * cos_o + turn * sine * sin_o).clamp(-1.0, 1.0),
+                ..Variables::default()
+            };
+            sum += value.eval_in(&at, &mut room).max(0.0);
+        }
+    }
+    sum / 18.0
+}
+
+/// The rings that a height belongs to, and by how much: 1 in all.
+fn rings(z: f64) -> [(usize, f64); 2] {
+    let first = if z < 0.0 { HEIGHTS + 1 } else { 0 };
+    let place = z.abs().min(1.0) * HEIGHTS as f64;
+    let ring = (place as usize).min(HEIGHTS - 1);
+    let part = place - ring as f64;
+    [(first + ring, 1.0 - part), (first + ring + 1, part)]
+}
+
+/// What a map covers.
+struct Covered {
+    places: Vec<f64>,
+    /// `|phi_z| J`, above and below.
+    sides: [f64; 2],
+}
+
+impl Covered {
+    fn of(map: &[Expr; 3], projected_jacobian: &Expr, asked: &Asked, points: u32) -> Self {
+        // Points are dense where maps have their poles.
+        let ticks: Vec<(f64, f64)> = (0..points)
+            .map(|i| {
+                let s = (f64::from(i) + 0.5) / f64::from(points);
+                let t = s * s * s * (10.0 - s * (15.0 - 6.0 * s));
+                let rate = 30.0 * s * s * (1.0 - s) * (1.0 - s);
+                (t, rate / f64::from(points))
+            })
+            .collect();
+        let mut places = vec![0.0; PLACES];
+        let mut sides = [0.0; 2];
+        let mut room = Vec::new();
+        for &(u, du) in &ticks {
+            for &(v, dv) in &ticks {
+                let at = Variables {
+                    u,
+                    v,
+                    ..Variables::default()
+                };
+                let [x, y, z] = map.each_ref().map(|c| c.eval_in(&at, &mut room));
+                let area = projected_jacobian.eval_in(&at, &mut room) * du * dv;
+                sides[usize::from(z < -1e-9)] += area;
+                let light = asked.at(z) * area;
+                let place = (libm::atan2(y, x) / TAU).rem_euclid(1.0) * TURNS as f64;
+                let turn = (place as usize).min(TURNS - 1);
+                let part = place - turn as f64;
+                for (ring, share) in rings(z) {
+                    let row = &mut places[ring * TURNS..(ring + 1) * TURNS];
+                    row[turn] += light * share * (1.0 - part);
+                    row[(turn + 1) % TURNS] += light * share * part;
+                }
+            }
+        }
+        Self { places, sides }
+    }
+
+    /// How many of the places are to be covered: those of the sides that the map goes to, which one
+    /// of them must be the upper.
+    fn demanded(&self) -> Option<usize> {
+        let all = self.sides[0] + self.sides[1];
+        match self.sides.map(|side| side > SIDE * all) {
+            [false, true] => None,
+            [_, false] => Some(PLACES / 2),
+            [true, true] => Some(PLACES),
+        }
+    }
+
+    /// The place where the map is most wrong; none if it goes below the surface alone.
+    fn worst(&self, asked: &Asked) -> Option<Deviation> {
+        let places = self.demanded()?;
+        let whole: f64 = asked.places[..places].iter().sum();
+        let counts = |&place: &usize| {
+            let (covered, asks) = (self.places[place], asked.places[place]);
+            asks > LEAST * whole && (asked.everywhere || covered > asks)
+        };
+        // Of several that are as wrong, the one with the most light.
+        let off = |place: usize| {
+            let off = (self.places[place] - asked.places[place]).abs();
+            (off / asked.places[place]).min(1.0) + 1e-3 * off / whole
+        };
+        let place = (0..places).filter(counts);
+        let place = place.max_by(|&a, &b| off(a).total_cmp(&off(b)));
+        Some(self.deviation(asked, place.unwrap_or(0)))
+    }
+
+    fn deviation(&self, asked: &Asked, place: usize) -> Deviation {
+        let places = self.demanded().unwrap_or(PLACES);
+        let sum = |places: &[f64]| places.iter().sum::<f64>();
+        let least = if asked.everywhere { 0.0 } else { 1.0 };
+        Deviation {
+            place,
+            times: (self.places[place] / asked.places[place]).max(least),
+            whole: (sum(&self.places[..places]) / sum(&asked.places[..places])).max(least),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;
