@@ -11,7 +11,7 @@
 #[path = "../tests/pictures/independent.rs"]
 mod independent;
 
-use independent::{asking, asking_lamps, mean, reference, rms_difference, scene, traced};
+use independent::{asking, mean, reference, rms_difference, scene, traced};
 use std::process::ExitCode;
 use std::time::Instant;
 
@@ -68,12 +68,7 @@ fn measure(lights: &str, path_bits: u32) -> bool {
                 standard_error,
             } = reference(name, depth);
             let level = mean(&theirs);
-            let sets = if lights == "none" {
-                asking(depth, path_bits)
-            } else {
-                asking_lamps(depth, path_bits, lights)
-            };
-            let scene = scene(name, &sets);
+            let scene = scene(name, &asking(depth, path_bits, lights));
             let started = Instant::now();
             let ours = traced(&scene, 1);
             let seconds = started.elapsed().as_secs_f64();

@@ -60,18 +60,13 @@ pub(crate) fn reference(scene: &str, depth: usize) -> Reference {
 }
 
 /// Overrides that ask for `depth` rays and `2^path_bits` paths, with 16 bits for each coordinate in
-/// the pixel and 10 for those of directions.
-pub(crate) fn asking(depth: usize, path_bits: u32) -> Vec<String> {
-    let directions = ", {bits: [10, 10]}".repeat(depth - 1);
-    vec![
-        format!("sampling.depths=[{{bits: [16, 16]}}{directions}]"),
-        format!("sampling.path_bits={path_bits}"),
-    ]
-}
-
-/// The same with lamps sampled at every bounce, in this way.
-pub(crate) fn asking_lamps(depth: usize, path_bits: u32, lights: &str) -> Vec<String> {
-    let directions = ", {bits: [10, 10], light: [10, 10]}".repeat(depth - 1);
+/// the pixel and 10 for those of directions; and of lamps, where they are sampled in some way.
+pub(crate) fn asking(depth: usize, path_bits: u32, lights: &str) -> Vec<String> {
+    let light = match lights {
+        "none" => "",
+        _ => ", light: [10, 10]",
+    };
+    let directions = format!(", {{bits: [10, 10]{light}}}").repeat(depth - 1);
     vec![
         format!("sampling.depths=[{{bits: [16, 16]}}{directions}]"),
         format!("sampling.path_bits={path_bits}"),

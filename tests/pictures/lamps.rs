@@ -7,6 +7,7 @@ use qrt::core::tracer::{PixelClass, PixelClasses};
 use qrt::core::valid::ValidScene;
 use qrt::runtime::machines::Real;
 use qrt::runtime::random::Stream;
+use std::fmt::Write as _;
 
 /// A floor that a camera looks down at, what hangs above it, and a material of the floor.
 fn room(material: &str, lamps: &str, more: &str, sampling: &str) -> ValidScene {
@@ -214,7 +215,11 @@ fn no_path_of_random_scenes_exceeds_the_proven_scale() {
                 0 => "lamp",
                 _ => MATERIALS[number(0.0, 6.0) as usize],
             };
-            faces += &format!("  - {shape}: {{ vertices: [{corners}], material: {material} }}\n");
+            writeln!(
+                faces,
+                "  - {shape}: {{ vertices: [{corners}], material: {material} }}"
+            )
+            .unwrap();
         }
         let lights = ["auto", "mis"][(seed % 2) as usize];
         let depth = "{ bits: [6, 6], light: [6, 6] }";

@@ -67,7 +67,7 @@ fn compare(ours: &Measured, theirs: &Reference) -> Result<(), String> {
 /// RMSE over the mean that 2^18 paths keep.
 fn agrees(name: &str, path_bits: u32, promise: f64) {
     agrees_with(name, path_bits, promise, |depth| {
-        independent::asking(depth, path_bits)
+        independent::asking(depth, path_bits, "none")
     });
 }
 
@@ -76,7 +76,7 @@ fn agrees_by_lamps(name: &str, promise: f64) {
     for lights in ["auto", "mis"] {
         // As `agrees` states it, of 2^18 paths whose error falls as that of random ones.
         agrees_with(name, 11, promise / 8.0, |depth| {
-            independent::asking_lamps(depth, 11, lights)
+            independent::asking(depth, 11, lights)
         });
     }
 }
@@ -174,7 +174,7 @@ fn floor_furnace_and_mesh_agree_by_lamps() {
 fn the_furnace_is_exact_at_every_depth() {
     let (radiance, albedo) = ([1.0, 0.5, 0.25], [0.25, 0.5, 0.8]);
     for depth in 1..=16 {
-        let scene = independent::scene("furnace", &independent::asking(depth, 5));
+        let scene = independent::scene("furnace", &independent::asking(depth, 5, "none"));
         let exact: [f64; 3] = std::array::from_fn(|c| {
             radiance[c] * (1.0 - f64::powi(albedo[c], depth as i32)) / (1.0 - albedo[c])
         });
@@ -203,7 +203,7 @@ fn the_floor_is_its_closed_form_at_every_depth_and_by_every_map() {
     let exact = floor(1.0);
     for map in ["auto", "cosine-hemisphere", "uniform-hemisphere"] {
         for depth in 2..=4 {
-            let mut sets = independent::asking(depth, 14);
+            let mut sets = independent::asking(depth, 14, "none");
             sets.push(format!("sampling.depths[1].map={map}"));
             let ours = measure(&independent::scene("floorlight", &sets));
             assert_eq!(compare(&ours, &exact), Ok(()), "{map} D={depth}");
@@ -217,7 +217,7 @@ const UNIFORM: &str = "['sqrt(1-u^2)*cos(2*pi*v)', 'sqrt(1-u^2)*sin(2*pi*v)', 'u
 /// The floor with a BSDF of one's own, whose values hold half of the scene's albedo.
 fn floor_of(map: &str, value: &str) -> Measured {
     let values = [0.4, 0.25, 0.1].map(|half| format!("\"{half}*({value})\""));
-    let mut sets = independent::asking(2, 14);
+    let mut sets = independent::asking(2, 14, "none");
     sets.push(format!(
         "materials.floor={{ bsdf: {{ map: {map}, value: [{}] }} }}",
         values.join(", ")
@@ -247,7 +247,7 @@ fn a_wrong_cosine_or_jacobian_would_be_noticed() {
 #[test]
 fn a_flipped_picture_or_swapped_channels_would_be_noticed() {
     let side = SIDE as usize;
-    let scene = independent::scene("cornell", &independent::asking(3, 13));
+    let scene = independent::scene("cornell", &independent::asking(3, 13, "none"));
     let reference = independent::reference("cornell", 3);
     let right = measure(&scene);
     assert_eq!(compare(&right, &reference), Ok(()));
