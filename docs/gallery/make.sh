@@ -17,7 +17,7 @@ for scene in scenes-yaml/*.yaml; do
     furnace) exposure=0 paths=6 sets=() ;; # nothing but lamps; all of its paths are equal
     floor-and-light) exposure=0 ;;
     lit-box) sets=() ;; # as its file says
-    cornell-glass) paths=13 sets=(--set "sampling.depths=[{ bits: [8, 8] }, $lit, $lit, $lit, $lit]") ;;
+    cornell-glass) paths=11 sets=(--set "sampling.depths=[{ bits: [8, 8] }, $lit, $lit, $lit, $lit]") ;;
   esac
   echo "$name"
   "$qrt" render "$scene" -o "docs/gallery/$name.png" --exposure "$exposure" "${sets[@]}" \

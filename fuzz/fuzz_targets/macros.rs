@@ -6,8 +6,12 @@
     reason = "what only the macros' entries use"
 )]
 
+extern crate proc_macro;
+
 use libfuzzer_sys::fuzz_target;
 
+#[path = "../../qrt-macros/src/dependency.rs"]
+mod dependency;
 #[path = "../../qrt-macros/src/expand.rs"]
 mod expand;
 #[path = "../../qrt-macros/src/generate/mod.rs"]
