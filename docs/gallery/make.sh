@@ -21,7 +21,7 @@ for scene in scenes-yaml/*.yaml; do
   esac
   echo "$name"
   "$qrt" render "$scene" -o "docs/gallery/$name.png" --exposure "$exposure" "${sets[@]}" \
-    --set film.width=256 --set film.height=256 --set "sampling.path_bits=$paths" --quiet
+    --set film.width=256 --set film.height=256 --set "sampling.path_bits=$paths" --estimator sine --quiet
 done
 
 # By gates alone: half a minute.
