@@ -228,8 +228,8 @@ impl<'a> Export<'a> {
 
 /// Writes a reversible program: its inputs and what it computes as registers of their names, in
 /// which characters that OpenQASM's names lack become `_`, and which begin with `r_` if they were a
-/// word or a gate of OpenQASM; and all other qubits, which are zero before and after, as `work`. `words` are the contents of its classical parameters, `comments` as
-/// in [`Export::write`].
+/// word or a gate of OpenQASM; and all other qubits, which are zero before and after, as `work`.
+/// `words` are the contents of its classical parameters, `comments` as in [`Export::write`].
 ///
 /// # Errors
 /// An error of `out`, and a parameter without a word.

@@ -195,7 +195,7 @@ codes! {
     MAP_LEAVES_OUT = "QRT0421", "a map that leaves out directions that the value reflects to",
         "Let it reach all of them, once; or make the value zero where it does not go";
     NOT_RECIPROCAL = "QRT0422", "a BSDF that is not the same in both directions",
-        "Write a value that keeps when cos_i and cos_o are exchanged: it is a warning";
+        "Write a value that stays the same when cos_i and cos_o are exchanged; it is only a warning";
     NO_DEPTH = "QRT0501", "a path without rays",
         "Give `depths` at least one entry";
     PATH_BITS_SUM = "QRT0502", "path_bits that is not the sum of the lattice's bits",

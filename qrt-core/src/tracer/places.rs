@@ -5,6 +5,9 @@
 //! meets no face that lies in or behind this plane, nor a side of a face that looks away from the
 //! place it left: the top of a box is not met from the floor. Where there are many faces, or where
 //! no lamp is sampled, a place is all that is of one surface, and each may be met from each.
+//!
+//! This is so of the faces as they are written. A ray that slips through between two faces, within
+//! the tolerance of their edges, may carry more than the bound; the comparator counts it as the bound.
 
 use super::geometry::Geometry;
 use crate::lights::strongest_form;
