@@ -44,6 +44,7 @@ fn estimates(criterion: &mut Criterion) {
                 window: Window::Sine,
                 estimator: name,
                 strata: None,
+                error: None,
             };
             let mut stream = Stream::new(1, 0, 0, 0);
             let label = format!("t={phase_bits} B={repetitions}");
@@ -67,6 +68,7 @@ fn pictures(criterion: &mut Criterion) {
                 window: Window::Sine,
                 estimator: name,
                 strata: None,
+                error: None,
             };
             let label = format!("t={phase_bits} B={repetitions}");
             group.bench_function(BenchmarkId::new(format!("{name:?}"), label), |b| {

@@ -54,6 +54,7 @@ impl Case {
             window: Window::Sine,
             estimator: self.name,
             strata: None,
+            error: None,
         };
         let known_noise = if self.known { self.noise } else { Noise::NONE };
         Settings {

@@ -18,5 +18,6 @@ mod pictures {
     mod references;
     mod same_picture;
     mod searched_pictures;
+    mod stopping;
     mod strata_of_thresholds;
 }

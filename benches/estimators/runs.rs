@@ -43,6 +43,7 @@ impl Run {
             window: Window::Sine,
             estimator: self.name,
             strata: None,
+            error: None,
         };
         Settings::of(&counting).unwrap()
     }

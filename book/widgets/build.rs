@@ -264,12 +264,13 @@ fn picture() -> Result<String, Box<dyn Error>> {
     writeln!(
         out,
         "counting: Counting {{ phase_bits: {}, repetitions: {}, window: Window::{:?}, estimator: \
-         Estimator::{:?}, strata: {:?} }},",
+         Estimator::{:?}, strata: {:?}, error: {:?} }},",
         counting.phase_bits,
         counting.repetitions,
         counting.window,
         counting.estimator,
-        counting.strata
+        counting.strata,
+        counting.error
     )?;
     writeln!(
         out,

@@ -37,6 +37,7 @@ pub(crate) fn json(figures: &Figures) -> Value {
         "estimator": figures.estimator.name(),
         "phase_bits": figures.phase_bits,
         "repetitions": figures.repetitions,
+        "counting_error": figures.error,
         "within": figures.within,
         "errors": {
             "paths": parts.paths,

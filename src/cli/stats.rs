@@ -50,6 +50,7 @@ fn stats(scene: &ValidScene, rendered: &Rendered, clipped: u64) -> Value {
             "phase_bits": rendered.parameters.counting.phase_bits,
             "repetitions": rendered.parameters.counting.repetitions,
             "strata": rendered.parameters.counting.strata,
+            "counting_error": rendered.parameters.counting.error,
         },
         "strata_used": strata_used(rendered),
         "plan": rendered.plan.as_ref().map(super::plan::json),

@@ -60,10 +60,17 @@ fn scene(numbers: &mut Numbers) -> String {
         "precision: {{ fraction: {bits} }}\ncomparator: {{ bits: {comparator} }}"
     );
     let second = numbers.below(3);
+    // Half of them sample their lamps, in every way.
+    let lights = ["none", "none", "none", "auto", "mis", "next-event"][numbers.below(6)];
+    let light = if lights == "none" {
+        ""
+    } else {
+        ", light: [1, 2]"
+    };
     let _ = writeln!(
         text,
-        "sampling: {{ path_bits: 5, depths: [{{ bits: [2, 3] }}{}] }}",
-        ", { bits: [2, 2] }".repeat(second)
+        "sampling: {{ path_bits: 5, lights: {lights}, depths: [{{ bits: [2, 3] }}{}] }}",
+        format!(", {{ bits: [2, 2]{light} }}").repeat(second)
     );
     if numbers.below(4) == 0 {
         text += "circuit: { uncompute: scoped }\n";

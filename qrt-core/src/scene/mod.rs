@@ -382,7 +382,7 @@ keyword! {
 
 record! {
     /// How the good ids are counted.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Counting = "counting";
     /// T = 2^phase_bits; default 8. A run of the counting circuit takes T - 1 queries; estimators
     /// without a phase register may spend as many as B runs.
@@ -399,6 +399,10 @@ record! {
     /// each channel of each pixel from what it measures first. Only `adaptive-bayes` and
     /// `random-depth` count by strata; under all others `auto` is 1.
     pub strata: Option<u32> = AutoOr(whole::<u32>(1, 31)), or None;
+    /// Half the width of the interval, in radiance, at which a channel of a pixel is done though
+    /// queries are left; of the luminance where one run gives the colour. Without it, the default,
+    /// all queries are used. Estimators with a phase register have no interval to look at in between.
+    pub error: Option<f64> = Maybe(LENGTH), or None;
 }
 
 impl Counting {
@@ -421,6 +425,11 @@ impl Estimator {
             self,
             Self::Paper | Self::PosteriorMean | Self::Sine | Self::Qss
         )
+    }
+
+    /// Whether it looks at what is known after every shot, and may end: `exact` makes none.
+    pub const fn stops_itself(self) -> bool {
+        !self.has_register() && !matches!(self, Self::Exact)
     }
 
     /// The window in which the phase register is prepared: that of `paper`, `qss` and `sine`, which

@@ -218,6 +218,8 @@ codes! {
         "Write `mis`, or `auto`";
     LIGHT_UNUSED = "QRT0511", "the sampling of lamps where there is nothing to sample",
         "Remove it: it is a warning, and costs nothing";
+    NEVER_STOPS = "QRT0512", "an error to stop at, and an estimator that does not stop",
+        "Leave `counting.error` out, or use an estimator that decides itself what it measures";
     BUDGET_QUBITS = "QRT0601", "a circuit with more qubits than the budget allows",
         "Uncompute earlier, or use fewer path bits, depths or fraction bits; or raise the limit";
     BUDGET_TOFFOLI = "QRT0602", "a circuit with more Toffoli gates than the budget allows",

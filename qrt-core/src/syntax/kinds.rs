@@ -452,6 +452,9 @@ problems! {
         TooManyStrata { strata: u32, bits: u32, most: u32 } = STRATA
             "{strata} strata, and a comparator of {bits} bits has at most {most}"
             help "use fewer, or more `comparator.bits`" also "these bits";
+        NeverStops { estimator: &'static str, stopping: &'static str } = NEVER_STOPS
+            "an error to stop at, and the estimator `{estimator}` does not stop by itself"
+            help "leave `error` out, or use `estimator: {stopping}`" also "this estimator";
         Impossible { why: String } = TOO_MANY_IDS "{why}";
     }
 

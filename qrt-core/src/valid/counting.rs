@@ -1,4 +1,5 @@
-//! Strata of the comparator need an estimator that counts them, and a comparator that has them.
+//! Strata of the comparator need an estimator that counts them, and a comparator that has them; an
+//! error to stop at needs one that stops.
 
 use crate::scene::{Estimator, Scene};
 use crate::syntax::{Path, Problem, Problems, Sampling as Fault};
@@ -9,6 +10,19 @@ pub const fn most_strata(comparator_bits: u32) -> u32 {
 }
 
 pub(super) fn check(scene: &Scene, problems: &mut Problems) {
+    check_strata(scene, problems);
+    let estimator = scene.counting.estimator;
+    if scene.counting.error.is_some() && !estimator.stops_itself() {
+        let counting = Path::root().key("counting");
+        let what = Fault::NeverStops {
+            estimator: estimator.name(),
+            stopping: Estimator::AdaptiveBayes.name(),
+        };
+        problems.push(Problem::new(counting.key("error"), what).also(counting.key("estimator")));
+    }
+}
+
+fn check_strata(scene: &Scene, problems: &mut Problems) {
     let Some(strata @ 2..) = scene.counting.strata else {
         return;
     };

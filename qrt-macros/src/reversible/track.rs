@@ -3,8 +3,8 @@
 //!
 //! A register's content is named by the list of changes that made it. A statement that is the
 //! inverse of the last of them, and reads what that read, takes it off the list again; neighbouring
-//! additions may be undone in any order, and so may neighbouring exclusive ors. What is left at the end of a scratch
-//! register's scope has never been uncomputed.
+//! additions may be undone in any order, and so may neighbouring exclusive ors. What is left at the
+//! end of a scratch register's scope has never been uncomputed.
 
 use super::dim::Linear;
 use super::ir::{Bit, Register, Statement, StatementKind as K, Term, Update};

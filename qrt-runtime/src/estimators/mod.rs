@@ -136,7 +136,7 @@ pub fn estimator(
 }
 
 /// One run of the estimator of that name on a device without noise, under a scene's counting
-/// block: see [`Settings::of`].
+/// block, whose error is one of the amplitude: see [`Settings::of_channel`].
 ///
 /// # Errors
 ///
@@ -147,7 +147,7 @@ pub fn estimator(
 /// use qrt_runtime::{estimators::{Problem, estimate}, random::Stream};
 /// let counting = Counting {
 ///     phase_bits: 8, repetitions: 3, window: Window::Rect, estimator: Estimator::Paper,
-///     strata: None,
+///     strata: None, error: None,
 /// };
 /// let problem = Problem { good: 300, total: 1000 };
 /// let found = estimate(Estimator::Paper, &counting, problem, &mut Stream::new(1, 0, 0, 0))?;
@@ -162,5 +162,5 @@ pub fn estimate(
     stream: &mut Stream,
 ) -> Result<Estimate, EstimatorError> {
     let mut device = Device::new(problem, Noise::NONE, stream)?;
-    estimator(name, &Settings::of(counting)?)?.estimate(&mut device)
+    estimator(name, &Settings::of_channel(counting, 1.0)?)?.estimate(&mut device)
 }

@@ -16,6 +16,7 @@ fn settings(phase_bits: u32) -> Settings {
         window: Window::Rect,
         estimator: Estimator::Qss,
         strata: None,
+        error: None,
     };
     Settings::of(&counting).unwrap()
 }

@@ -33,8 +33,8 @@ pub struct Settings {
 }
 
 impl Settings {
-    /// The settings of a scene's counting block: `queries` is what B runs of its counting circuit
-    /// take.
+    /// The settings of a scene's counting block, but for its error: `queries` is what B runs of its
+    /// counting circuit take.
     ///
     /// # Errors
     /// A register or repetitions out of range.
@@ -50,6 +50,21 @@ impl Settings {
             confidence: DEFAULT_CONFIDENCE,
             strata: counting.strata,
             known_noise: Noise::NONE,
+        })
+    }
+
+    /// The same for a channel whose colours are `scale`, above 0, times an amplitude: its
+    /// `counting.error` is in radiance.
+    ///
+    /// # Errors
+    /// A register or repetitions out of range.
+    pub fn of_channel(counting: &Counting, scale: f64) -> Result<Self, EstimatorError> {
+        // Every interval is that narrow.
+        const ANY: f64 = 0.499;
+        let error = counting.error.map(|error| (error / scale).min(ANY));
+        Ok(Self {
+            error,
+            ..Self::of(counting)?
         })
     }
 

@@ -12,6 +12,7 @@ fn counting(phase_bits: u32, repetitions: u32) -> Counting {
         window: Window::Sine,
         estimator: Estimator::Paper,
         strata: None,
+        error: None,
     }
 }
 

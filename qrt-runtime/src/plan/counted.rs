@@ -3,7 +3,6 @@
 use super::PlanError;
 use super::pilot::{COMPARED, Pilot, Runs, SHIFTS};
 use crate::counting::Octaves;
-use crate::estimators::{Settings, estimator};
 use crate::sample::{Countable, Drawn, Draws};
 use qrt_core::scene::{Counting, Estimator};
 use std::sync::PoisonError;
@@ -11,7 +10,8 @@ use std::sync::PoisonError;
 impl Pilot<'_> {
     /// What the estimator is off by, run by run and channel by channel, and its queries of a pixel.
     pub(super) fn counted(&self, counting: &Counting) -> Result<Runs, PlanError> {
-        let key = (counting.phase_bits, counting.repetitions);
+        let error = counting.error.map(f64::to_bits);
+        let key = (counting.phase_bits, counting.repetitions, error);
         let known = || self.counted.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(runs) = known().get(&key) {
             return Ok(runs.clone());
@@ -43,11 +43,11 @@ impl Pilot<'_> {
             self.octaves.iter().map(good).collect()
         };
         let draws = Draws {
-            estimator: &*estimator(self.estimator, &Settings::of(counting)?)?,
+            counting,
+            scales: &self.bounds,
             noise: self.noise,
             seed: SHIFTS[2],
             count: self.draws,
-            counted: std::array::from_fn(|c| self.bounds.iter().any(|bound| bound[c] > 0.0)),
             total,
         };
         let countable = if self.octaves.is_empty() {

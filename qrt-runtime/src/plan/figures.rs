@@ -45,6 +45,9 @@ pub struct Figures {
     pub phase_bits: u32,
     /// Chosen: B, the runs of the counting circuit.
     pub repetitions: u32,
+    /// Chosen: half the width of the interval, in radiance, at which a channel is done; none where
+    /// all queries are used.
+    pub error: Option<f64>,
     /// The fraction of channels that is expected to be within the asked error.
     pub within: f64,
     /// The errors behind it, in units of the mean radiance.
@@ -75,11 +78,15 @@ impl fmt::Display for Figures {
             Some(fraction) => write!(f, "{fraction}")?,
             None => write!(f, "auto")?,
         }
-        writeln!(
+        write!(
             f,
             ", comparator.bits {}, counting.phase_bits {}, repetitions {}, estimator {}",
             self.comparator_bits, self.phase_bits, self.repetitions, self.estimator
         )?;
+        match self.error {
+            Some(error) => writeln!(f, ", error {error:.3e}")?,
+            None => writeln!(f)?,
+        }
         let ErrorParts {
             paths,
             comparators,

@@ -63,10 +63,10 @@ pub(super) struct Pilot<'a> {
     pub(super) octaves: Vec<[Octaves; 3]>,
     /// By path bits, from [`FEWEST`] on; of a lattice the only one.
     nets: Vec<Errors>,
-    /// What estimators were off by, by phase bits and repetitions. Counting is tried only where
+    /// What estimators were off by, by phase bits, repetitions and the error to stop at. Counting is tried only where
     /// paths alone keep the asked error, and so [`Self::values`] do: what more paths change of them
     /// hardly changes this.
-    pub(super) counted: Mutex<BTreeMap<(u32, u32), Runs>>,
+    pub(super) counted: Mutex<BTreeMap<(u32, u32, Option<u64>), Runs>>,
     workers: Workers<'a>,
 }
 

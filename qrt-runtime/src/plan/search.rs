@@ -16,6 +16,12 @@ const AHEAD: u32 = 3;
 const START: u32 = 6;
 /// The largest phase register.
 const MOST_PHASE: u32 = 40;
+/// How often the queries of a register that is large enough for all channels alike may double, where
+/// each stops by itself: for those that need more than most.
+const SPARE: u32 = 2;
+/// Errors at which estimators may stop lie between these, in steps of 2^(1/STEPS) of the asked one.
+const WIDTHS: [i32; 2] = [-32, 64];
+const STEPS: f64 = 32.0;
 /// Fraction bits that are tried.
 const FRACTIONS: std::ops::RangeInclusive<u32> = 8..=30;
 /// Polygons beyond which building a circuit takes long, so that fewer are tried.
@@ -159,8 +165,9 @@ fn choose_width(
 }
 
 /// The counting block with the fewest queries that will do beside the errors of so many paths, of
-/// comparators and of `width`: the smallest register, or a smaller one repeated. The search begins
-/// with a register of `start` bits.
+/// comparators and of `width`: the smallest register or a smaller one repeated; of estimators that
+/// stop by themselves the largest error to stop at. The search begins with a register of `start`
+/// bits.
 fn cheapest(
     pilot: &mut Pilot<'_>,
     path_bits: u32,
@@ -169,11 +176,12 @@ fn cheapest(
 ) -> Result<Option<Counted>, PlanError> {
     let (paths, _) = pilot.paths(path_bits)?;
     let pilot = &*pilot;
-    let attempt = |phase_bits: u32, repetitions: u32| {
+    let attempt = |phase_bits: u32, repetitions: u32, error: Option<f64>| {
         let counting = Counting {
             phase_bits,
             repetitions,
             estimator: pilot.estimator,
+            error,
             ..Counting::default()
         };
         let (errors, queries) = pilot.counted(&counting)?;
@@ -188,32 +196,54 @@ fn cheapest(
     };
     if pilot.estimator == Estimator::Exact {
         let counting = Counting::default();
-        return attempt(counting.phase_bits, counting.repetitions);
+        return attempt(counting.phase_bits, counting.repetitions, None);
     }
     // Nothing is gained by counting where everything else is too wrong already.
     if !will_do(pilot, &[&paths, &pilot.comparator_errors, width], None) {
         return Ok(None);
     }
     // From where a like search ended, down as long as it will do, or up until it does.
-    let mut found = attempt(start, 1)?;
+    let mut found = attempt(start, 1, None)?;
     let mut phase_bits = start;
     if found.is_some() {
         while phase_bits > 1
-            && let Some(smaller) = attempt(phase_bits - 1, 1)?
+            && let Some(smaller) = attempt(phase_bits - 1, 1, None)?
         {
             (found, phase_bits) = (Some(smaller), phase_bits - 1);
         }
     }
     while found.is_none() && phase_bits < MOST_PHASE {
         phase_bits += 1;
-        found = attempt(phase_bits, 1)?;
+        found = attempt(phase_bits, 1, None)?;
     }
     let Some(mut best) = found else {
         return Ok(None);
     };
-    if phase_bits > 4 {
-        for repetitions in [7, 6, 5] {
-            match attempt(phase_bits - 3, repetitions)? {
+    if pilot.estimator.stops_itself() {
+        // Channels differ in what they need: each stops when its interval is narrow enough.
+        let most = (phase_bits + SPARE).min(MOST_PHASE);
+        let error = |step: i32| {
+            let asked = pilot.accuracy.error * pilot.mean;
+            Some(asked * libm::exp2(f64::from(step) / STEPS))
+        };
+        let [mut enough, mut too_wide] = WIDTHS;
+        while too_wide - enough > 1 {
+            let middle = i32::midpoint(enough, too_wide);
+            match attempt(most, 1, error(middle))? {
+                Some(found) => {
+                    enough = middle;
+                    if found.queries < best.queries {
+                        best = found;
+                    }
+                }
+                None => too_wide = middle,
+            }
+        }
+    } else {
+        // A smaller register, repeated.
+        let repeated: &[u32] = if phase_bits > 4 { &[7, 6, 5] } else { &[] };
+        for &repetitions in repeated {
+            match attempt(phase_bits - 3, repetitions, None)? {
                 Some(found) if found.queries < best.queries => best = found,
                 _ => break,
             }
@@ -242,7 +272,7 @@ fn finish(
     let width_errors = width.as_ref().map_or(&none, |(_, errors, _)| errors);
     let mut totals = Vec::new();
     let others = [&paths, &pilot.comparator_errors, width_errors];
-    each_total(pilot, &others, Some(errors), |total| totals.push(total));
+    each_total(pilot, &others, Some(errors), |_, total| totals.push(total));
     let confidence = pilot.accuracy.confidence;
     let parts = ErrorParts {
         paths: quantile(&paths, confidence),
@@ -281,6 +311,7 @@ fn finish(
             estimator: pilot.estimator,
             phase_bits: counting.phase_bits,
             repetitions: counting.repetitions,
+            error: counting.error,
             within: 1.0 - failing,
             parts,
             queries: counted.map_or(0.0, |c| c.queries),

@@ -8,47 +8,67 @@ const MARGIN: f64 = 1.645;
 /// Whether channels are within the asked error as often as was asked, with what may be bad luck.
 pub(super) fn will_do(pilot: &Pilot<'_>, others: &[&Errors], counted: Option<&[Errors]>) -> bool {
     let (failing, deviation) = failing(pilot, others, counted);
-    let pixels = pilot.pixels.len() as f64;
-    failing + MARGIN * deviation / pixels.sqrt() <= 1.0 - pilot.accuracy.confidence
+    failing + MARGIN * deviation <= 1.0 - pilot.accuracy.confidence
 }
 
-/// The fraction of channels beyond the asked error, and how it varies from pixel to pixel.
+/// The fraction of channels that is expected beyond the asked error, and the standard deviation of
+/// what a picture's own fraction differs by.
+///
+/// Of N pixels n were tried, k times each. With v for the variance of a pixel's fraction from try to
+/// try, and V of its mean from pixel to pixel, in which v/k is, the difference has
+/// `V (1/n - 1/N)` for the pixels that were not tried, and `(v + v/k)/N` for the picture's own try
+/// and those that stand for it.
 pub(super) fn failing(
     pilot: &Pilot<'_>,
     others: &[&Errors],
     counted: Option<&[Errors]>,
 ) -> (f64, f64) {
     let error = pilot.accuracy.error;
-    let (mut sum, mut squares, mut count) = (0.0, 0.0, 0.0);
-    each_total(pilot, others, counted, |total| {
+    let mut sums = vec![[0.0; 2]; pilot.pixels.len()];
+    let mut tries = 0_u64;
+    each_total(pilot, others, counted, |pixel, total| {
         let fraction = total.iter().filter(|e| e.abs() > error).count() as f64 / 3.0;
-        sum += fraction;
-        squares += fraction * fraction;
-        count += 1.0;
+        let [sum, squares] = &mut sums[pixel];
+        *sum += fraction;
+        *squares += fraction * fraction;
+        tries += 1;
     });
-    let mean: f64 = sum / count;
-    (mean, (squares / count - mean * mean).max(0.0).sqrt())
+    let tried = sums.len() as f64;
+    let tries = tries as f64 / tried;
+    let film = pilot.scene.scene().film;
+    let all = f64::from(film.width) * f64::from(film.height);
+    let (mut mean, mut between, mut within) = (0.0, 0.0, 0.0);
+    for [sum, squares] in sums {
+        let fraction: f64 = sum / tries;
+        mean += fraction / tried;
+        between += fraction * fraction / tried;
+        within += (squares / tries - fraction * fraction).max(0.0) / tried;
+    }
+    let between = (between - mean * mean).max(0.0);
+    let variance = between * (1.0 / tried - 1.0 / all) + within * (1.0 + 1.0 / tries) / all;
+    (mean, variance.max(0.0).sqrt())
 }
 
-/// All errors of a pixel together, run by run. The first of `others`, the difference of two nets,
+/// All errors of a pixel together, pixel by pixel and run by run. The first of `others`, the difference of two nets,
 /// has either sign.
 pub(super) fn each_total(
     pilot: &Pilot<'_>,
     others: &[&Errors],
     counted: Option<&[Errors]>,
-    mut take: impl FnMut([f64; 3]),
+    mut take: impl FnMut(usize, [f64; 3]),
 ) {
     let none = [vec![[0.0; 3]; pilot.pixels.len()]];
     for errors in counted.unwrap_or(&none) {
         for (pixel, counted) in errors.iter().enumerate() {
             for sign in [1.0, -1.0] {
-                take(std::array::from_fn(|c| {
+                let total = std::array::from_fn(|c| {
                     let mut total = counted[c];
                     for (number, other) in others.iter().enumerate() {
                         total += if number == 0 { sign } else { 1.0 } * other[pixel][c];
                     }
                     total
-                }));
+                });
+                take(pixel, total);
             }
         }
     }

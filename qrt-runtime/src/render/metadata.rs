@@ -47,6 +47,9 @@ impl Rendered {
                     .collect();
                 metadata.set("strata_used", used.join(" "))?;
             }
+            if let Some(error) = counting.error.filter(|_| self.estimator.stops_itself()) {
+                metadata.set("counting_error", error.to_string())?;
+            }
             metadata.set("colour", self.colour.name())?;
             metadata.set("noise", self.noise.to_string())?;
         }

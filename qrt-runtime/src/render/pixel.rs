@@ -11,6 +11,7 @@ use crate::machines::{Defect, OracleMachine, PathBlock, Real};
 use crate::random::Stream;
 use crate::sample::Sum;
 use crate::workers::{Progress, Workers};
+use qrt_core::oracle::luminance;
 use qrt_core::scene::{Estimator, Scene};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -84,7 +85,8 @@ pub(super) struct Pixels {
 /// Counts good indices: pairs of a path and a comparator that its colour exceeds.
 struct Counter {
     comparators: [Comparators; 3],
-    estimator: Box<dyn AmplitudeEstimator + Send + Sync>,
+    /// Of each channel; of the luminance alone where that is counted.
+    estimators: Vec<Box<dyn AmplitudeEstimator + Send + Sync>>,
     /// Whether strata may be counted one by one.
     by_strata: bool,
     noise: Noise,
@@ -139,9 +141,19 @@ impl Pixels {
         let counter = if estimate == Estimator::Exact {
             None
         } else {
+            let scales = match one_run {
+                None => bound.to_vec(),
+                Some(_) => vec![luminance(&bound)],
+            };
+            // What has the scale 0 is not counted.
+            let settings = scales.iter().map(|&scale| match scale {
+                0.0 => Settings::of(&scene.counting),
+                scale => Settings::of_channel(&scene.counting, scale),
+            });
+            let estimators = settings.map(|settings| estimator(estimate, &settings?));
             Some(Counter {
                 comparators: Comparators::rgb(bound, scene.comparator)?,
-                estimator: estimator(estimate, &Settings::of(&scene.counting)?)?,
+                estimators: estimators.collect::<Result<_, _>>()?,
                 by_strata,
                 noise: options.noise,
                 one_run,
@@ -376,7 +388,7 @@ impl Pixels {
             return Ok(finished);
         };
         if let Some(one_run) = &counter.one_run {
-            let estimator: &dyn AmplitudeEstimator = &*counter.estimator;
+            let estimator: &dyn AmplitudeEstimator = &*counter.estimators[0];
             let device = (estimator, counter.noise);
             let segments = &totals.segments;
             let found = one_run.finish(self, device, pixel, segments, workers)?;
@@ -443,7 +455,7 @@ impl Pixels {
             };
             Device::new(problem, counter.noise, &mut stream)?
         };
-        counter.estimator.estimate(&mut device)
+        counter.estimators[channel].estimate(&mut device)
     }
 }
 

@@ -1,23 +1,32 @@
 //! What an estimator says of pixels, drawn several times.
 
 use crate::counting::Octaves;
-use crate::estimators::{AmplitudeEstimator, Device, EstimatorError, Noise, Problem};
+use crate::estimators::{
+    AmplitudeEstimator, Device, EstimatorError, Noise, Problem, Settings, estimator,
+};
 use crate::random::Stream;
+use qrt_core::scene::Counting;
 use rayon::prelude::*;
+use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 
 /// Runs of an estimator on the channels of pixels.
 pub(crate) struct Draws<'a> {
-    pub(crate) estimator: &'a (dyn AmplitudeEstimator + Send + Sync),
+    pub(crate) counting: &'a Counting,
+    /// By pixel and channel, the scale of colours; where it is 0 nothing is counted, and the
+    /// amplitude is 0.
+    pub(crate) scales: &'a [[f64; 3]],
     pub(crate) noise: Noise,
     /// Keys the first draw; the others have keys that follow from it.
     pub(crate) seed: u64,
     /// Draws of each channel.
     pub(crate) count: u64,
-    /// By channel, whether anything is to be counted: its amplitude is 0 if not.
-    pub(crate) counted: [bool; 3],
     /// N, the number of indices of a channel.
     pub(crate) total: u64,
 }
+
+/// One for each scale that there is: few, for channels have one in each class of pixels.
+type Estimators = BTreeMap<u64, Box<dyn AmplitudeEstimator + Send + Sync>>;
 
 /// What there is to be counted of pixels, by channel.
 pub(crate) enum Countable<'a> {
@@ -51,9 +60,17 @@ impl Draws<'_> {
         pixels: &[[u32; 2]],
         good: &Countable<'_>,
     ) -> Result<Vec<Drawn>, EstimatorError> {
+        let mut estimators = Estimators::new();
+        let counted = self.scales.iter().flatten().filter(|&&scale| scale > 0.0);
+        for &scale in counted {
+            if let Entry::Vacant(entry) = estimators.entry(scale.to_bits()) {
+                let settings = Settings::of_channel(self.counting, scale)?;
+                entry.insert(estimator(self.counting.estimator, &settings)?);
+            }
+        }
         let pairs = pixels.par_iter().zip(0..good.len());
         pairs
-            .map(|(pixel, place)| self.pixel(*pixel, good, place))
+            .map(|(pixel, place)| self.pixel(*pixel, good, place, &estimators))
             .collect()
     }
 
@@ -62,12 +79,18 @@ impl Draws<'_> {
         [x, y]: [u32; 2],
         good: &Countable<'_>,
         place: usize,
+        estimators: &Estimators,
     ) -> Result<Drawn, EstimatorError> {
+        let scales = self.scales[place].map(f64::to_bits);
+        let estimators = scales.map(|scale| estimators.get(&scale));
         let mut amplitudes = vec![[0.0; 3]; self.count as usize];
         let mut queries = 0;
         for (draw, amplitudes) in (0_u64..).zip(&mut amplitudes) {
             let seed = self.seed ^ draw.wrapping_mul(0x9E37_79B9_7F4A_7C15);
-            for channel in (0..3).filter(|&c| self.counted[c]) {
+            for (channel, estimator) in estimators.into_iter().enumerate() {
+                let Some(estimator) = estimator else {
+                    continue;
+                };
                 let mut stream = Stream::new(seed, x, y, channel as u8);
                 let mut device = match good {
                     Countable::Whole(good) => {
@@ -81,7 +104,7 @@ impl Draws<'_> {
                         Device::of_octaves(&octaves[place][channel], self.noise, &mut stream)?
                     }
                 };
-                let estimate = self.estimator.estimate(&mut device)?;
+                let estimate = estimator.estimate(&mut device)?;
                 amplitudes[channel] = estimate.amplitude;
                 queries += estimate.queries;
             }

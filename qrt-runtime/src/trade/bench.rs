@@ -5,7 +5,7 @@ use super::error::{TradeError, first};
 use super::setting::Setting;
 use super::table::Row;
 use crate::counting::{Comparators, Octaves};
-use crate::estimators::{Noise, Settings, estimator};
+use crate::estimators::Noise;
 use crate::machines::{OracleMachine, Real};
 use crate::render::Model;
 use crate::sample::{
@@ -276,15 +276,14 @@ impl<'a> Bench<'a> {
         total: u64,
     ) -> Result<Estimated, TradeError> {
         let start = Instant::now();
-        let settings = Settings::of(&parameters.counting)?;
         let by_strata = parameters.counting.may_count_strata();
         let draws = Draws {
-            estimator: &*estimator(parameters.counting.estimator, &settings)?,
+            counting: &parameters.counting,
+            scales: bounds,
             noise: Noise::NONE,
             // The first draw is the picture's own.
             seed: self.seed,
             count: self.effort.draws,
-            counted: std::array::from_fn(|c| bounds.iter().any(|bound| bound[c] > 0.0)),
             total,
         };
         let countable = if by_strata {

@@ -161,6 +161,8 @@ impl Setting {
             repetitions: self.repetitions,
             estimator: self.estimator,
             strata: self.strata(),
+            // All others use their queries.
+            error: (scene.counting.error).filter(|_| self.sweep == Sweep::Scene),
             ..scene.counting
         };
         parameters.circuit.uncompute = self.uncompute;

@@ -14,6 +14,7 @@ fn run(name: Estimator, problem: Problem, bits: u32, repetitions: u32, seed: u64
         window: Window::Sine,
         estimator: name,
         strata: None,
+        error: None,
     };
     let mut stream = Stream::new(seed, bits, repetitions, 0);
     let found = estimate(name, &counting, problem, &mut stream).unwrap();

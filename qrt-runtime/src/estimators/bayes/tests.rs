@@ -14,6 +14,7 @@ fn settings(queries: u64) -> Settings {
         window: Window::Sine,
         estimator: Estimator::AdaptiveBayes,
         strata: None,
+        error: None,
     };
     Settings {
         queries,
