@@ -69,12 +69,15 @@ pub mod prelude {
     pub use qrt_circuit::{Bit, Machine, Operand, Program, Recorder, Style, When, Word};
     pub use qrt_core::front::{Loaded, load, parse};
     pub use qrt_core::oracle::compiled::CompiledOracle;
+    pub use qrt_core::oracle::paths::PathScene;
+    pub use qrt_core::oracle::{Marks, Predicate};
     pub use qrt_core::scene::{Estimator, Scene};
     pub use qrt_core::syntax::Report;
     pub use qrt_core::valid::{ValidScene, validate};
     pub use qrt_macros::{qrt, reversible};
     pub use qrt_runtime::image::{Encoding, Image, ImageError, Metadata, save, write_counts};
     pub use qrt_runtime::machines::{NativeOracle, State, run};
+    pub use qrt_runtime::predicates::{count_where, render_where, trace_path};
     pub use qrt_runtime::render::{
         CompiledError, Model, Options, RenderError, Rendered, render, render_compiled,
     };

@@ -6,5 +6,6 @@ mod macros {
     mod bsdf_terms;
     mod compiled_scenes;
     mod macro_scene;
+    mod predicates;
     mod reversible;
 }

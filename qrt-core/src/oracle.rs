@@ -22,13 +22,16 @@ mod budget;
 pub mod compiled;
 mod layouts;
 mod nearest;
+pub mod paths;
 mod phase;
+mod predicate;
 mod recording;
 
 pub use budget::{CallCost, call_cost, check_budget};
 pub use layouts::Layout;
 pub use nearest::{MOST_FACES, NearestOracle};
 pub use phase::MOST_BITS;
+pub use predicate::{Marks, Predicate, PredicateError};
 
 use crate::compile::{
     BuildError, Builder, Label, NamedPlace, Passes, PixelWord, Real, StageName, Strategy,
@@ -46,6 +49,9 @@ pub const DEFAULT_FRACTION: u32 = 16;
 
 /// The number of the channel that holds the luminance.
 pub const LUMINANCE_CHANNEL: usize = 3;
+
+/// The number of the channel that counts paths on which a predicate holds.
+pub const PREDICATE_CHANNEL: usize = 4;
 
 /// Weights of red, green and blue in the luminance, of the primaries of sRGB (ITU-R BT.709).
 pub const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
@@ -137,7 +143,8 @@ impl From<SamplingError> for OracleError {
 /// A channel's part of an oracle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Channel {
-    /// 0 red, 1 green, 2 blue, [`LUMINANCE_CHANNEL`] their luminance.
+    /// 0 red, 1 green, 2 blue, [`LUMINANCE_CHANNEL`] their luminance, [`PREDICATE_CHANNEL`] paths
+    /// on which a predicate holds.
     pub number: usize,
     /// The colour, in units of `scale 2^-fraction`.
     pub colour: Operand,
@@ -286,6 +293,19 @@ impl Oracle {
         };
         program.blocks.push(label.block(Some(BlockId::ROOT)));
         let first = program.ops.len() as u32;
+        let count = self.channels[channel].count;
+        if let (0, Operand::Word(word)) = (self.comparator_bits(), count) {
+            // Without comparators the count is one bit, whose phase is flipped as it stands.
+            let bit = Bit::at(word.register, word.offset);
+            program.ops.push(Op::Phase { bit });
+            program.instructions = vec![Instruction {
+                op: first,
+                inverse: false,
+                block,
+            }];
+            program.inputs = self.program.outputs();
+            return program;
+        }
         let comparator = Word {
             register: self.comparator,
             offset: 0,
@@ -295,7 +315,7 @@ impl Oracle {
         };
         program.ops.push(Op::Less {
             a: Operand::Word(comparator),
-            b: self.channels[channel].count,
+            b: count,
             target: self.flag,
         });
         program.ops.push(Op::Phase {

@@ -72,6 +72,33 @@ fn a_polynomial() {
     );
 }
 
+/// out += x - y + 3, by additions that are taken back in another order than they were made in.
+#[reversible]
+fn in_any_order(x: &UInt<3>, y: &UInt<3>, out: &mut UInt<4>) {
+    let mut t: UInt<4> = 0;
+    t += x;
+    t -= y;
+    t += 3;
+    out += t;
+    t -= x;
+    t -= 3;
+    t += y;
+}
+
+#[reversible]
+fn back_in_any_order(x: &UInt<3>, y: &UInt<3>, out: &mut UInt<4>) {
+    in_any_order_inverse(&x, &y, &mut out);
+}
+
+#[test]
+fn additions_are_taken_back_in_any_order() {
+    check(
+        [in_any_order_program, back_in_any_order_program],
+        &all(&[3, 3, 4]),
+        |s| vec![s[0], s[1], (s[2] + s[0] + 19 - s[1]) % 16],
+    );
+}
+
 #[reversible]
 fn add<const W: u32>(a: &UInt<W>, b: &mut UInt<W>) {
     b += a;

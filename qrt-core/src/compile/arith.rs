@@ -4,7 +4,7 @@ use super::names::Nameable;
 use super::value::{Affine, Bool, Index, Real, Value, bits_of};
 use super::{Builder, MAX_ADDRESS, StageName, negative_range};
 use crate::expr::Function;
-use crate::tracer::{Arith, Coordinate, Named, Part, Sampled};
+use crate::tracer::{Arith, Coordinate, Named, Part, Sampled, Segment};
 use qrt_circuit::{Op, Operand, Word};
 
 impl Arith for Builder<'_> {
@@ -100,6 +100,13 @@ impl Arith for Builder<'_> {
     }
     fn named_index(&mut self, name: Named, a: Index) {
         self.name(name, [Nameable::Index(a)]);
+    }
+
+    fn traced(&mut self, depth: usize, segment: Segment<Self>) {
+        // Rays come in their order, each once.
+        if self.segments.len() == depth {
+            self.segments.push(segment);
+        }
     }
 
     fn truth(&mut self, value: bool) -> Bool {

@@ -108,6 +108,8 @@ pub enum StageName {
     Compare,
     /// The phase flip.
     Flip,
+    /// What a predicate reads of a path, and the predicate.
+    Predicate,
 }
 
 impl StageName {
@@ -133,6 +135,7 @@ impl StageName {
             Self::Frame => "frame",
             Self::Compare => "compare",
             Self::Flip => "flip",
+            Self::Predicate => "predicate",
         }
     }
 }
@@ -160,7 +163,7 @@ pub struct Label {
 
 impl Label {
     /// The stages without a number that blocks can be, by their number in a tag.
-    const PLAIN: [StageName; 12] = [
+    const PLAIN: [StageName; 13] = [
         StageName::Oracle,
         StageName::GenerateRay,
         StageName::FindIntersection,
@@ -173,6 +176,7 @@ impl Label {
         StageName::Flip,
         StageName::SampleLight,
         StageName::Shadow,
+        StageName::Predicate,
     ];
 
     /// A block's label. Blocks without a tag are whole programs.

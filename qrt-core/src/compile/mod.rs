@@ -26,6 +26,7 @@ mod choice;
 mod divide;
 mod function;
 mod given;
+mod held;
 mod label;
 mod names;
 mod number;
@@ -46,7 +47,7 @@ pub use value::{Bool, Index, Real};
 
 use crate::sampling::PathPoints;
 use crate::syntax::{Circuit, What};
-use crate::tracer::{Coordinate, Named};
+use crate::tracer::{Coordinate, Named, Segment};
 use names::Nameable;
 use passes::Draft;
 use qrt_circuit::{Bit, Block, BlockId, Op, Operand, Register, RegisterId, Type, Word};
@@ -176,6 +177,8 @@ pub struct Builder<'a> {
     known: HashMap<Op<RegisterId, u32>, usize>,
     coordinates: HashMap<Coordinate, Index>,
     names: Vec<(Named, usize, Nameable)>,
+    /// By ray: what it starts with and what it meets, as the tracer told.
+    segments: Vec<Segment<Self>>,
     asked: u64,
     shared: u64,
 }
@@ -216,6 +219,7 @@ impl<'a> Builder<'a> {
             known: HashMap::new(),
             coordinates: HashMap::new(),
             names: Vec::new(),
+            segments: Vec::new(),
             asked: 0,
             shared: 0,
         };
@@ -335,6 +339,12 @@ impl<'a> Builder<'a> {
                 self.fail(BuildError::TooWide { what, bits });
             }
         }
+        self.known.insert(key, self.ops.len());
+        self.emit_anew(op)
+    }
+
+    /// The targets of an operation, whether or not there is an equal one.
+    fn emit_anew(&mut self, op: Op<RegisterId, Shape>) -> Vec<RegisterId> {
         let name = op.name();
         let op = op.map(
             |read| read,
@@ -346,7 +356,6 @@ impl<'a> Builder<'a> {
                 self.register(name, ty, role, width.min(MAX_BITS))
             },
         );
-        self.known.insert(key, self.ops.len());
         let targets = op.targets();
         let block = self.block();
         self.ops.push((op, block));

@@ -16,7 +16,7 @@ use qrt_circuit::{Operand, Program, RegisterId, Type, Word};
 use std::collections::HashSet;
 
 /// Channels by number.
-const CHANNELS: [&str; 4] = ["r", "g", "b", "luminance"];
+const CHANNELS: [&str; 5] = ["r", "g", "b", "luminance", "predicate"];
 
 /// How the first ray's hit comes about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,7 +47,7 @@ pub(super) fn target<'a, const C: usize>(
 }
 
 /// The colours of a path, and the register of its primary hit if that is given.
-fn record<'a, N: tracer::Nearest<Builder<'a>>, const C: usize>(
+pub(super) fn record<'a, N: tracer::Nearest<Builder<'a>>, const C: usize>(
     builder: &mut Builder<'a>,
     stage: &Stage<C>,
     nearest: &N,

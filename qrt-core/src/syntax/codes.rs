@@ -288,6 +288,8 @@ codes! {
         "Give the register a wider format, or a signed one";
     TERM_LENGTH = "QRT0729", "a term that is too long for an expression",
         "Write fewer statements or passes of loops";
+    MACRO_SCENE_TWICE = "QRT0730", "two scenes of one name in one `qrt!`",
+        "Rename one of the two";
     REV_ASSIGNMENT = "QRT0801", "an assignment, which forgets what was there",
         "Write `+=`, `-=` or `^=`, which can be undone";
     REV_ALIAS = "QRT0802", "a statement that reads what it changes",

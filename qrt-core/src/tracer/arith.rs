@@ -1,6 +1,6 @@
 //! What the tracer computes with.
 
-use super::Sampled;
+use super::{Sampled, Segment};
 use crate::expr::Function;
 pub use crate::sampling::{Axis, Coordinate};
 
@@ -189,6 +189,10 @@ pub trait Arith: Sized {
     /// What `a` is, in the layout of registers.
     #[inline(always)]
     fn named_index(&mut self, _name: Named, _a: Self::Index) {}
+    /// A ray of the path, and what it meets: for machines that are asked about paths, not about
+    /// colours alone.
+    #[inline(always)]
+    fn traced(&mut self, _depth: usize, _segment: Segment<Self>) {}
     /// Does `work`. A machine may do it in a function of its own: the tracer is one function, and
     /// takes a compiler the longer the larger it is.
     #[inline(always)]

@@ -2,7 +2,7 @@
 
 use super::bsdf::Vertex;
 use super::lights::{Departure, Leaves, LightStage, Lighting};
-use super::ray::{Nearest, Ray, Start};
+use super::ray::{Nearest, Ray, Segment, Start};
 use super::vector::{self, Vector};
 use super::{Arith, Named, Part, Quantity, Stage};
 
@@ -46,12 +46,26 @@ pub fn trace<A: Arith, N: Nearest<A>, const C: usize>(
             }
         };
         cx.enter(Part::FindIntersection(depth));
-        let hit = match scatter {
-            Some(_) => nearest.nearest(cx, &ray, alive),
-            None => nearest.emitter(cx, &ray, alive),
+        let hit = if scatter.is_some() || stage.every_hit {
+            nearest.nearest(cx, &ray, alive)
+        } else {
+            nearest.emitter(cx, &ray, alive)
         };
         cx.leave();
+        let goes = alive;
         alive = cx.and(alive, hit.found);
+        cx.traced(
+            depth,
+            Segment {
+                origin: ray.origin,
+                direction: ray.direction,
+                goes,
+                found: alive,
+                distance: hit.distance,
+                face: hit.face,
+                front: hit.front,
+            },
+        );
         cx.named_truth(named(Quantity::Found), alive);
         cx.named(named(Quantity::Distance), &[hit.distance]);
         cx.named_index(named(Quantity::Face), hit.face);

@@ -54,7 +54,7 @@ pub use frame::trace;
 pub use geometry::{EdgeTest, Face, Frame, Geometry, INWARD, NO_FACE, NO_PLANE, Plane, TOLERANCE};
 pub use paper::Records;
 pub use pixel_class::{PixelClass, PixelClasses};
-pub use ray::{Hit, Nearest, Ray, Start};
+pub use ray::{Hit, Nearest, Ray, Segment, Start};
 pub use sampled::Sampled;
 pub(crate) use search::Search;
 pub use stage::Stage;

@@ -61,6 +61,31 @@ impl<A: Arith> Hit<A> {
     }
 }
 
+/// A ray of a path and what it meets: see [`Arith::traced`].
+pub struct Segment<A: Arith> {
+    /// Where the ray starts, in stage units.
+    pub origin: Vector<A>,
+    /// Where the ray goes.
+    pub direction: Vector<A>,
+    /// Whether the path has not ended before the ray.
+    pub goes: A::Bool,
+    /// Whether it goes on and the ray meets a face.
+    pub found: A::Bool,
+    /// As [`Hit::distance`].
+    pub distance: A::Real,
+    /// As [`Hit::face`].
+    pub face: A::Index,
+    /// As [`Hit::front`].
+    pub front: Option<A::Bool>,
+}
+
+impl<A: Arith> Clone for Segment<A> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+impl<A: Arith> Copy for Segment<A> {}
+
 /// What finds the nearest intersection.
 pub trait Nearest<A: Arith> {
     /// The nearest intersection of `ray`, wanted only where `wanted`.

@@ -36,6 +36,8 @@ pub struct Stage<const C: usize> {
     pub(crate) transmits: Vec<bool>,
     /// Whether emission counts where the primary ray meets it.
     pub(crate) direct: bool,
+    /// Whether the last ray is searched for all that it may meet, and not for emitters alone.
+    pub(crate) every_hit: bool,
     bound: [f64; C],
 }
 
@@ -133,6 +135,7 @@ impl<const C: usize> Stage<C> {
             starts,
             transmits,
             direct,
+            every_hit: false,
             bound,
             reach: 2.0 * geometry.radius(),
             geometry,
@@ -148,6 +151,27 @@ impl<const C: usize> Stage<C> {
             }
         }
         self
+    }
+
+    /// The same stage, whose last rays are searched for all that they meet: it makes no difference
+    /// to colours.
+    pub fn with_every_hit(mut self) -> Self {
+        self.every_hit = true;
+        self
+    }
+
+    /// The same stage, whose primary rays have directions of unit length.
+    pub fn with_unit_directions(mut self) -> Self {
+        self.camera.unit = self.camera.perspective;
+        self
+    }
+
+    /// How many rays of a path are traced: all, but for the last one where lamps are sampled and
+    /// rays that meet them count nothing.
+    pub fn traced_rays(&self) -> usize {
+        let last = self.scatters.last();
+        let lights = last.and_then(|scatter| scatter.lights.as_ref());
+        self.depths() - usize::from(lights.is_some_and(|lights| !lights.rays_count()))
     }
 
     /// D, the number of rays on a path: one more than the bounces.
@@ -178,6 +202,11 @@ impl<const C: usize> Stage<C> {
         let scatter = self.scatters.get(depth.checked_sub(1)?)?;
         let surface = self.surface_of[face as usize];
         scatter.density(cx, surface, outgoing, incoming)
+    }
+
+    /// The unit normal of a face's front, by the face's label.
+    pub fn normal(&self, face: usize) -> [f64; 3] {
+        self.normals[face]
     }
 
     /// The polygons, made ready for intersection.

@@ -24,6 +24,8 @@ const PLANAR: f64 = 1e-9;
 /// What a scene's primitives and meshes come to.
 pub(super) struct Shapes {
     pub(super) polygons: Vec<Polygon>,
+    /// By primitive: its first polygon.
+    pub(super) firsts: Vec<usize>,
     /// The files that were read for them, each once.
     pub(super) files: Vec<PathBuf>,
 }
@@ -51,7 +53,9 @@ pub(super) fn polygons(
         build.names.entry(name.as_str()).or_insert(index as u32);
     }
     let geometry = Path::root().key("geometry");
+    let mut firsts = Vec::with_capacity(scene.geometry.len());
     for (index, primitive) in scene.geometry.iter().enumerate() {
+        firsts.push(build.out.len());
         let path = geometry.item(index).key(primitive.kind());
         match primitive {
             Geometry::Quad(quad) => {
@@ -67,6 +71,7 @@ pub(super) fn polygons(
     }
     Shapes {
         polygons: build.out,
+        firsts,
         files: build.files.into_iter().collect(),
     }
 }

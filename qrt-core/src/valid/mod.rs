@@ -31,6 +31,8 @@ pub struct ValidScene {
     pub(crate) scene: Scene,
     pub(crate) materials: Vec<Surface>,
     pub(crate) polygons: Vec<Polygon>,
+    /// By primitive: its first polygon.
+    pub(crate) firsts: Vec<usize>,
     pub(crate) files: Vec<PathBuf>,
     pub(crate) warnings: Vec<Problem>,
 }
@@ -121,6 +123,13 @@ impl ValidScene {
     /// All polygons of the scene, those of meshes included.
     pub fn polygons(&self) -> &[Polygon] {
         &self.polygons
+    }
+    /// The polygons of a primitive, as a range of [`ValidScene::polygons`]: one, or two of a quad
+    /// that is not planar, or all of a mesh. Empty where there is no such primitive.
+    pub fn polygons_of(&self, primitive: usize) -> std::ops::Range<usize> {
+        let end = self.polygons.len();
+        let first = |primitive: usize| self.firsts.get(primitive).copied().unwrap_or(end);
+        first(primitive)..first(primitive + 1)
     }
     /// The mesh files and material libraries that were read, each once, as errors call them.
     pub fn files(&self) -> &[PathBuf] {
@@ -220,11 +229,16 @@ pub(crate) fn check(
     let mut warnings = Vec::new();
     let mut materials = surfaces(&scene, &mut problems, &mut warnings);
     let shapes = geometry::polygons(&scene, meshes, &mut materials, &mut problems);
-    let geometry::Shapes { polygons, files } = shapes;
+    let geometry::Shapes {
+        polygons,
+        firsts,
+        files,
+    } = shapes;
     let mut valid = ValidScene {
         scene,
         materials,
         polygons,
+        firsts,
         files,
         warnings,
     };

@@ -10,6 +10,7 @@ mod fields;
 mod lines;
 mod names;
 mod native;
+mod paths;
 mod stub;
 #[cfg(test)]
 mod tests;
@@ -37,7 +38,10 @@ pub(crate) fn scene(parsed: &Parsed, valid: &ValidScene) -> Result<TokenStream, 
     let name = parsed.header.name.to_string();
     let public = parsed.header.visibility.to_token_stream().to_string();
     let conditions = parsed.header.conditions().to_string();
-    Ok(parsed_text(&text(&name, &public, &conditions, valid)?))
+    let labels = parsed.primitives.iter();
+    let labels: Vec<Option<String>> = labels.map(|origin| origin.label.clone()).collect();
+    let text = text(&name, &public, &conditions, (&labels, valid))?;
+    Ok(parsed_text(&text))
 }
 
 /// The tokens of text that this module wrote.
@@ -57,13 +61,15 @@ fn text(
     scene: &str,
     public: &str,
     conditions: &str,
-    valid: &ValidScene,
+    (labels, valid): (&[Option<String>], &ValidScene),
 ) -> Result<String, Vec<Problem>> {
     let (channels, oracle) = Oracle::all(valid).map_err(|error| vec![error.problem()])?;
     let cost = call_cost(&channels);
     check_budget(valid, cost)?;
     let mut out = format!("{conditions}\n");
     out.push_str(&figures(scene, public, valid, &oracle, cost));
+    paths::write(&mut out, scene, public, conditions, valid);
+    paths::numbers(&mut out, scene, public, conditions, (labels, valid));
     if oracle.program.ops.len() <= MOST {
         let names = Names::new(&oracle);
         let layout = fields::write(&mut out, scene, public, conditions, &oracle);

@@ -31,3 +31,81 @@ impl Names {
         &self.0[register.index()]
     }
 }
+
+/// Names of fields for an author's names, in their order, all different: what is no letter, digit
+/// or `_` becomes `_`, and a name that is there already gets a number.
+pub(super) fn identifiers<'a>(names: impl Iterator<Item = &'a str>) -> Vec<String> {
+    let mut taken: HashSet<String> = HashSet::new();
+    let own = |name: &str| {
+        let plain = |c: char| {
+            if c == '_' || c.is_alphanumeric() {
+                c
+            } else {
+                '_'
+            }
+        };
+        let mut name: String = name.chars().map(plain).collect();
+        if name.trim_matches('_').is_empty() {
+            name.insert_str(0, "unnamed");
+        } else if name.starts_with(char::is_numeric) {
+            name.insert(0, '_');
+        }
+        // `self` and its like cannot be raw.
+        match syn::parse_str::<proc_macro2::Ident>(&name) {
+            Ok(_) => name,
+            Err(_) => syn::parse_str::<proc_macro2::Ident>(&format!("r#{name}"))
+                .map_or_else(|_| format!("{name}_"), |raw| raw.to_string()),
+        }
+    };
+    let names = names.map(|name| {
+        let name = own(name);
+        let mut free = name.clone();
+        let mut number = 2;
+        while !taken.insert(free.clone()) {
+            free = format!("{name}_{number}");
+            number += 1;
+        }
+        free
+    });
+    names.collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::identifiers;
+
+    #[test]
+    fn an_authors_names_are_fields() {
+        let names = [
+            "red",
+            "warm lamp",
+            "warm-lamp",
+            "type",
+            "self",
+            "2nd",
+            "",
+            "_",
+            "red",
+            "red_2",
+            "Ölfarbe",
+        ];
+        let fields = [
+            "red",
+            "warm_lamp",
+            "warm_lamp_2",
+            "r#type",
+            "self_",
+            "_2nd",
+            "unnamed",
+            "unnamed_",
+            "red_2",
+            "red_2_2",
+            "Ölfarbe",
+        ];
+        let made = identifiers(names.into_iter());
+        assert_eq!(made, fields);
+        for name in &made {
+            assert!(syn::parse_str::<proc_macro2::Ident>(name).is_ok(), "{name}");
+        }
+    }
+}

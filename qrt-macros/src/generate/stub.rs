@@ -60,6 +60,12 @@ pub(crate) fn stub(name: &str, visibility: &str, conditions: &str) -> TokenStrea
         });
         rays.collect::<Vec<_>>().join(", ")
     };
+    let path: String = (0..RAYS)
+        .map(|ray| {
+            let ty = "::qrt::core::oracle::paths::RayRegisters";
+            format!("pub ray{ray}: {ty}<{bool}, {bool}, {bool}, {bool}, {bool}>, ")
+        })
+        .collect();
     let (all, each_is) = (rays(&format!("{name}Ray")), rays("RAY"));
     let text = format!(
         "{conditions}
@@ -86,6 +92,18 @@ pub(crate) fn stub(name: &str, visibility: &str, conditions: &str) -> TokenStrea
                 const RAY: {name}Ray = {name}Ray {{ {places} }};
                 {name}Layout {{ {each_is} }}
             }};
+        }}
+        {conditions}
+        #[allow(missing_docs, dead_code)]
+        #[derive(Debug)]
+        {visibility} struct {name}Path {{ {path}
+            pub colour: ::qrt::core::oracle::paths::ColourRegisters<{bool}>,
+        }}
+        {conditions}
+        impl ::qrt::core::oracle::paths::PathScene for {name} {{
+            type Path = {name}Path;
+            fn scene() -> &'static ::qrt::core::valid::ValidScene {{ {never} }}
+            fn path(_: &mut ::qrt::core::oracle::paths::PathInputs<'_>) -> {name}Path {{ {never} }}
         }}
         {conditions}
         impl ::qrt::core::oracle::compiled::CompiledOracle for {name} {{

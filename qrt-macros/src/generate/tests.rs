@@ -21,6 +21,11 @@ comparator: { bits: 2 }
 circuit: { uncompute: scoped }
 ";
 
+/// As if the macro had named its primitives.
+fn labels() -> [Option<String>; 2] {
+    ["ground", "sky"].map(|label| Some(label.to_owned()))
+}
+
 fn small(more: &str) -> ValidScene {
     parsed(&format!("{SMALL}{more}"))
 }
@@ -55,7 +60,7 @@ fn formatted(text: &str) -> String {
 /// After a deliberate change, `QRT_BLESS=1 cargo test -p qrt-macros` writes the text anew.
 #[test]
 fn the_code_of_a_small_scene_is_as_it_was() {
-    let code = formatted(&text("Lamp", "pub", "", &small("")).unwrap());
+    let code = formatted(&text("Lamp", "pub", "", (&labels(), &small(""))).unwrap());
     let path = concat!(
         env!("CARGO_MANIFEST_DIR"),
         "/src/generate/snapshots/small.rs"
@@ -80,7 +85,7 @@ fn directions_and_origins_in_registers_are_vectors_of_signed_places_with_offsets
         )
         .replace("{ bits: [2, 1] }", "{ bits: [2, 2] }")
         .replace("scoped", "keep");
-    let code = formatted(&text("Lamp", "pub", "", &parsed(&wide)).unwrap());
+    let code = formatted(&text("Lamp", "pub", "", (&labels(), &parsed(&wide))).unwrap());
     for kind in [
         "direction: Vector {",
         ".negated()",
@@ -97,7 +102,7 @@ fn a_budget_is_held_when_the_scene_is_compiled() {
         "Lamp",
         "pub",
         "",
-        &small("budget: { toffoli: 10, qubits: 5 }"),
+        (&labels(), &small("budget: { toffoli: 10, qubits: 5 }")),
     );
     let problems = problems.unwrap_err();
     let codes: Vec<_> = problems

@@ -1,11 +1,12 @@
 //! Expressions that are true or false.
 
 use super::dim::Linear;
-use super::ir::{Bit, Kind, Number, NumberKind, Place};
+use super::ir::{Bit, Kind, Number, NumberKind, Place, Size};
 use super::scope::Scope;
+use proc_macro2::TokenStream;
 use qrt_core::syntax::codes;
 use std::rc::Rc;
-use syn::{BinOp, Expr, Lit, UnOp};
+use syn::{BinOp, Expr, Ident, Lit, UnOp};
 
 impl Scope {
     /// Whether an expression is true or false, by its form, and not a number.
@@ -111,8 +112,23 @@ impl Scope {
         Some((Box::new(a?), Box::new(b?)))
     }
 
+    /// One side of a comparison: a number, or a constant that the routine is generic over.
+    fn side(&mut self, expression: &Expr) -> Option<Number> {
+        match expression {
+            Expr::Paren(inner) => self.side(&inner.expr),
+            Expr::Group(inner) => self.side(&inner.expr),
+            Expr::Path(path) => match path.path.get_ident() {
+                Some(name) if self.constants.contains(name) => {
+                    Some(given(name, quote::quote!(#expression)))
+                }
+                _ => self.number(expression),
+            },
+            _ => self.number(expression),
+        }
+    }
+
     fn compared(&mut self, binary: &syn::ExprBinary) -> Option<(Box<Number>, Box<Number>)> {
-        let (a, b) = (self.number(&binary.left), self.number(&binary.right));
+        let (a, b) = (self.side(&binary.left), self.side(&binary.right));
         let (a, b) = (a?, b?);
         let source = quote::quote!(#binary);
         // They meet at the fraction that their sum would have.
@@ -120,6 +136,22 @@ impl Scope {
         self.check_bits(&sum.width, &source)?;
         Some((Box::new(a), Box::new(b)))
     }
+}
+
+/// How many bits a constant has that a routine is generic over: those of a `u32`.
+const GIVEN: i64 = 32;
+
+/// A constant that the routine is generic over, as one side of a comparison.
+fn given(name: &Ident, source: TokenStream) -> Number {
+    let size = Size {
+        width: GIVEN.into(),
+        signed: false,
+        fraction: 0.into(),
+        fixed: false,
+        floors: false,
+    };
+    let kind = NumberKind::Given(name.clone());
+    Number { kind, size, source }
 }
 
 pub(super) fn not(bit: Bit) -> Bit {
@@ -157,7 +189,7 @@ impl Number {
     /// Calls `visit` with every place that it reads.
     pub(super) fn reads(&self, visit: &mut impl FnMut(Place)) {
         match &self.kind {
-            NumberKind::Constant(_) => {}
+            NumberKind::Constant(_) | NumberKind::Given(_) => {}
             NumberKind::Word(register, first) => {
                 let width = self.size.width.parts().first().cloned();
                 let whole = first.is_zero() && width.as_ref() == Some(&register.format.width);

@@ -93,6 +93,8 @@ pub(super) struct Size {
 pub(super) enum NumberKind {
     /// A constant, in units of the lowest fraction bit.
     Constant(i64),
+    /// A constant that the routine is generic over, which is a `u32`.
+    Given(Ident),
     /// Bits of a register from the first on, as many as the number has.
     Word(Rc<Register>, Linear),
     Truth(Box<Bit>),

@@ -43,7 +43,10 @@ impl Scope {
         let help;
         if self.is_number(name) {
             message = format!("`{name}` is a constant, not a register");
-            help = "constants stand in bounds, places of bits and shifts, as in `1 << i`".into();
+            help =
+                "constants stand in bounds, places of bits and shifts, as in `1 << i`; those of \
+                    the function's generics in comparisons, too"
+                    .into();
         } else {
             message = format!("no register `{name}` is known here");
             let known: Vec<String> = self.registers.iter().map(|r| r.name.to_string()).collect();

@@ -105,6 +105,77 @@ fn what_a_register_reads_of_itself_is_undone_in_order() {
     assert_eq!(order(quote!(t[0] ^= x[0]; t[1] ^= t[0];)), [""; 0]);
 }
 
+/// `+=` and `-=` that follow each other may be taken back in any order, and so may `^=`; what
+/// stands between the two kinds, and a branch or a loop, has its place in the order.
+#[test]
+fn neighbouring_additions_are_taken_back_in_any_order_and_nothing_else_is() {
+    let undone = |done: TokenStream, last: TokenStream| {
+        codes(quote! {
+            fn f(x: &UInt<4>, y: &UInt<4>, z: &Bool, out: &mut UInt<4>) {
+                let mut t: UInt<4> = 0;
+                #done
+                out += t;
+                #last
+            }
+        })
+    };
+    let sums = quote!(t += x; t -= y; t += 3;);
+    for last in [
+        quote!(t -= x; t += y; t -= 3;),
+        quote!(t -= x; t -= 3; t += y;),
+        quote!(t += y; t -= x; t -= 3;),
+        quote!(t += y; t -= 3; t -= x;),
+        quote!(t -= 3; t -= x; t += y;),
+        quote!(t -= 3; t += y; t -= x;),
+    ] {
+        assert_eq!(undone(sums.clone(), last.clone()), [""; 0], "{last}");
+    }
+    // Twice what was done once, and once what was done twice.
+    assert_eq!(undone(sums.clone(), quote!(t -= x; t += y;)), ["QRT0804"]);
+    assert_eq!(
+        undone(quote!(t += x; t += x;), quote!(t -= x;)),
+        ["QRT0804"]
+    );
+    assert_eq!(
+        undone(quote!(t += x; t += x;), quote!(t -= x; t -= x;)),
+        [""; 0]
+    );
+    assert_eq!(undone(sums, quote!(t -= x; t += y; t += 3;)), ["QRT0804"]);
+
+    let ors = quote!(t ^= x; t[2] ^= z;);
+    assert_eq!(undone(ors.clone(), quote!(t ^= x; t[2] ^= z;)), [""; 0]);
+    assert_eq!(undone(ors, quote!(t[2] ^= z; t ^= x;)), [""; 0]);
+
+    // (0 + x) ^ y is not (0 ^ y) + x.
+    let mixed = quote!(t += x; t ^= y;);
+    assert_eq!(undone(mixed.clone(), quote!(t -= x; t ^= y;)), ["QRT0804"]);
+    assert_eq!(undone(mixed, quote!(t ^= y; t -= x;)), [""; 0]);
+    let apart = quote!(t += x; t ^= y; t += x;);
+    assert_eq!(undone(apart, quote!(t -= x; t -= x; t ^= y;)), ["QRT0804"]);
+
+    // A branch and a loop stand where they stand, whatever is in them.
+    for inner in [
+        quote!(if z {
+            t += y;
+        }),
+        quote!(for _ in 0..2 {
+            t += y;
+        }),
+    ] {
+        let undo = match inner.clone().into_iter().next() {
+            Some(first) if first.to_string() == "if" => quote!(if z {
+                t -= y;
+            }),
+            _ => quote!(for _ in 0..2 {
+                t -= y;
+            }),
+        };
+        let done = quote!(t += x; #inner);
+        assert_eq!(undone(done.clone(), quote!(#undo t -= x;)), [""; 0]);
+        assert_eq!(undone(done, quote!(t -= x; #undo)), ["QRT0804"]);
+    }
+}
+
 #[test]
 fn what_was_read_must_be_there_again() {
     let between = |between: TokenStream| {

@@ -158,6 +158,7 @@ impl Temporaries {
                 let units = Literal::i64_unsuffixed(*units);
                 Value::Constant(quote!(#units))
             }
+            NumberKind::Given(name) => Value::Constant(quote!(::core::primitive::i64::from(#name))),
             NumberKind::Word(register, first) => Value::Word(self.read(register, first, number)),
             NumberKind::Truth(bit) => {
                 let when = self.bit(bit);
@@ -369,7 +370,7 @@ impl Temporaries {
 
 impl Number {
     fn is_constant(&self) -> bool {
-        matches!(self.kind, NumberKind::Constant(_))
+        matches!(self.kind, NumberKind::Constant(_) | NumberKind::Given(_))
     }
 }
 

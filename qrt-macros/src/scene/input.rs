@@ -73,6 +73,7 @@ pub(crate) fn read(
         at: 0,
         terms,
         faults,
+        names: Vec::new(),
     };
     let mut scenes = Vec::new();
     while input.at < tokens.len() || scenes.is_empty() {
@@ -110,6 +111,9 @@ struct Input<'t> {
     at: usize,
     terms: &'t Terms,
     faults: &'t mut Faults,
+    /// The scenes so far: their names, the conditions that they are compiled under, and their
+    /// places.
+    names: Vec<(String, String, Span)>,
 }
 
 impl<'t> Input<'t> {
@@ -185,6 +189,9 @@ impl<'t> Input<'t> {
                 _ => None,
             },
         };
+        if self.is_taken(&header, place) {
+            return None;
+        }
         let (parsed, valid) = match rest {
             None => (Parsed::nothing(header), None),
             Some(Rest::Body(tokens)) => {
@@ -209,6 +216,27 @@ impl<'t> Input<'t> {
         };
         let is_sound = self.faults.count() == known;
         Some((parsed, valid.filter(|_| is_sound)))
+    }
+
+    /// Reports a name that an earlier scene has, which is compiled under the same conditions.
+    fn is_taken(&mut self, header: &Header, place: Span) -> bool {
+        let name = header.name.to_string();
+        let conditions = header.conditions().to_string();
+        let mut known = self.names.iter();
+        let known = known.find(|(known, under, _)| *known == name && *under == conditions);
+        if let Some((.., first)) = known {
+            self.faults
+                .add(
+                    codes::MACRO_SCENE_TWICE,
+                    place,
+                    format!("a scene is called `{name}` already"),
+                )
+                .also(*first, "the first is")
+                .help("rename one of the two");
+            return true;
+        }
+        self.names.push((name, conditions, place));
+        false
     }
 
     /// Reads the scene of a file.

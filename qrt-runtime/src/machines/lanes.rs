@@ -8,7 +8,8 @@ use super::masks::bits;
 use pulp::bytemuck;
 use qrt_core::expr::Function;
 use qrt_core::sampling::cell_centre;
-use qrt_core::tracer::{Arith, Coordinate, Sampled, Work};
+use qrt_core::tracer::{Arith, Coordinate, Sampled, Segment, Work};
+use std::cell::RefCell;
 
 /// Paths traced between two hand-overs of sample indices.
 pub(crate) const BLOCK: usize = 256;
@@ -18,6 +19,35 @@ pub(crate) struct Inputs {
     pub(crate) indices: Vec<[u32; BLOCK]>,
     pub(crate) column: [f64; BLOCK],
     pub(crate) row: [f64; BLOCK],
+    /// Where rays and what they meet are noted, if that is wanted.
+    pub(crate) watched: Option<RefCell<Vec<Watched>>>,
+}
+
+/// A ray of each path of a block, and what it meets, in stage units: see [`Segment`].
+#[derive(Clone, Debug)]
+pub(crate) struct Watched {
+    pub(crate) origin: [[f64; BLOCK]; 3],
+    pub(crate) direction: [[f64; BLOCK]; 3],
+    pub(crate) distance: [f64; BLOCK],
+    pub(crate) face: [u64; BLOCK],
+    /// 1 where it holds and 0 elsewhere.
+    pub(crate) goes: [f64; BLOCK],
+    pub(crate) found: [f64; BLOCK],
+    /// The same; -1 where the search does not tell.
+    pub(crate) front: [f64; BLOCK],
+}
+
+impl Watched {
+    /// A ray that no path has.
+    pub(crate) const NONE: Self = Self {
+        origin: [[0.0; BLOCK]; 3],
+        direction: [[0.0; BLOCK]; 3],
+        distance: [0.0; BLOCK],
+        face: [0; BLOCK],
+        goes: [0.0; BLOCK],
+        found: [0.0; BLOCK],
+        front: [-1.0; BLOCK],
+    };
 }
 
 /// Lanes of one instruction set, `W` registers a value, standing at `first` in a block.
@@ -159,6 +189,35 @@ impl<'a, S: pulp::Simd, const W: usize> Lanes<'a, S, W> {
         }
     }
 
+    /// Notes a ray of the paths that are traced.
+    #[cold]
+    #[inline(never)]
+    fn watch(&self, watched: &RefCell<Vec<Watched>>, depth: usize, segment: &Segment<Self>) {
+        let mut watched = watched.borrow_mut();
+        let Some(ray) = watched.get_mut(depth) else {
+            return;
+        };
+        let range = self.first..self.first + Self::COUNT;
+        let mut cx = *self;
+        let (one, zero, minus) = (cx.real(1.0), cx.real(0.0), cx.real(-1.0));
+        let mut truth = |holds| cx.select(holds, one, zero);
+        let goes = truth(segment.goes);
+        let found = truth(segment.found);
+        let front = segment.front.map_or(minus, truth);
+        let note = |out: &mut [f64; BLOCK], value: &[S::f64s; W]| {
+            out[range.clone()].copy_from_slice(lanes(value));
+        };
+        for axis in 0..3 {
+            note(&mut ray.origin[axis], &segment.origin[axis]);
+            note(&mut ray.direction[axis], &segment.direction[axis]);
+        }
+        note(&mut ray.distance, &segment.distance);
+        note(&mut ray.goes, &goes);
+        note(&mut ray.found, &found);
+        note(&mut ray.front, &front);
+        ray.face[range].copy_from_slice(lanes(&segment.face));
+    }
+
     /// Paths in a value.
     pub(crate) const COUNT: usize = W * S::F64_LANES;
 }
@@ -295,6 +354,12 @@ impl<S: pulp::Simd, const W: usize> Arith for Lanes<'_, S, W> {
         entries
     }
 
+    #[inline(always)]
+    fn traced(&mut self, depth: usize, segment: Segment<Self>) {
+        if let Some(watched) = &self.inputs.watched {
+            self.watch(watched, depth, &segment);
+        }
+    }
     #[inline(always)]
     fn apart<T: Work<Self>>(&mut self, work: T) -> T::Output {
         let mut output = None;

@@ -16,6 +16,7 @@ pub mod native;
 mod nearest;
 mod oracle;
 mod pool;
+mod predicate;
 mod rays;
 mod real;
 pub mod run;

@@ -70,7 +70,8 @@ pub struct Finished<'a> {
     pub pixel: usize,
     /// The path index of the first path.
     pub first_id: u64,
-    /// By channel: how many thresholds each path's colour exceeds, at most `2^c`.
+    /// By channel: how many thresholds each path's colour exceeds, at most `2^c`. Of an oracle of
+    /// one channel, all but the first are empty: of a predicate's, it is 1 for each good path.
     pub good: [&'a [i64]; 3],
     /// The same of the luminance; empty unless the oracle has it.
     pub luminance: &'a [i64],
@@ -260,6 +261,38 @@ impl OracleMachine {
         Ok(())
     }
 
+    /// What one path's registers hold, after compute: the numbers that `words` read. The machine
+    /// then hands over no counts.
+    ///
+    /// # Errors
+    /// The first defect that shows.
+    pub(crate) fn read(
+        mut self,
+        words: &[Word],
+        pixel: [u32; 2],
+        id: u64,
+    ) -> Result<Vec<i64>, Defect> {
+        self.outputs = words.iter().copied().map(Operand::Word).collect();
+        if let Machine::Fixed { fixed, lanes } = &mut self.machine {
+            **fixed = Fixed::new(&self.oracle.program, words);
+            *lanes = Pool::new();
+        }
+        let paths = PathRun {
+            pixel,
+            first: id,
+            count: 1,
+        };
+        let mut block = OracleBlock {
+            ids: vec![id],
+            runs: vec![PixelRun { pixel: 0, paths }],
+            hits: Vec::new(),
+            queries: Vec::new(),
+            values: vec![vec![0]; words.len()],
+        };
+        self.run(&mut block, &[self.words(pixel)])?;
+        Ok(block.values.iter().map(|values| values[0]).collect())
+    }
+
     /// The classical parameters of a pixel.
     fn words(&self, pixel: [u32; 2]) -> Vec<u64> {
         self.oracle.words(self.seed, pixel)
@@ -272,19 +305,25 @@ impl OracleMachine {
         there.then(|| self.outputs.len() - 1)
     }
 
+    /// How many outputs are counts of channels, the luminance's apart: the first ones.
+    fn counts(&self) -> usize {
+        self.oracle.channels.len() - usize::from(self.luminance().is_some())
+    }
+
     fn hand_over(&self, block: &OracleBlock, finished: &mut impl FnMut(Finished<'_>)) {
         let luminance = self.luminance();
-        let colours = self.outputs.len() - usize::from(luminance.is_some()) > 3;
+        let colours = self.outputs.len() - usize::from(luminance.is_some()) > self.counts();
         let mut start = 0;
         for (run, &queries) in block.runs.iter().zip(&block.queries) {
             let range = start..start + run.paths.count;
             let column = |k: usize| &block.values[k][range.clone()];
+            let count = |k: usize| if k < self.counts() { column(k) } else { &[] };
             let colour = |k: usize| if colours { column(k) } else { &[] };
             finished(Finished {
                 pixel: run.pixel,
                 first_id: run.paths.first,
                 queries,
-                good: [column(0), column(1), column(2)],
+                good: [count(0), count(1), count(2)],
                 luminance: luminance.map_or(&[], column),
                 colours: [colour(3), colour(4), colour(5)],
             });
@@ -375,7 +414,7 @@ impl OracleMachine {
             }
         }
         let most = 1 << self.oracle.comparator_bits();
-        let counts = (0..3).chain(self.luminance());
+        let counts = (0..self.counts()).chain(self.luminance());
         for column in counts {
             for value in &mut block.values[column][..count] {
                 *value = (*value).clamp(0, most);

@@ -35,6 +35,7 @@ impl Real {
             indices: Vec::new(),
             column: [0.0; BLOCK],
             row: [0.0; BLOCK],
+            watched: None,
         };
         self.dispatch(NearestOf {
             real: self,

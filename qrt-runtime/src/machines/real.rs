@@ -3,15 +3,20 @@
 use super::bvh::{Bvh, FEW_FACES, Faces, Indexed};
 #[cfg(not(any(test, target_arch = "wasm32")))]
 use super::instructions::InstructionSet;
-use super::lanes::{BLOCK, Inputs, Lanes, lanes};
+use super::lanes::{BLOCK, Inputs, Lanes, Watched, lanes};
+use super::predicate::{Asked, PathNumbers};
 
 /// Registers per value: two give the processor independent work while a division is under way.
 pub(super) const WIDTH: usize = 2;
 
 use pulp::WithSimd;
+use qrt_core::oracle::paths::{PathFormats, PathNumber};
+use qrt_core::oracle::{Marks, Predicate};
 use qrt_core::sampling::{Coordinate, PathPoints};
 use qrt_core::tracer::{PixelClass, Stage, trace};
 use qrt_core::valid::ValidScene;
+use std::cell::RefCell;
+use std::ops::Range;
 
 /// Which lanes to use. All give the same bits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -112,6 +117,8 @@ pub struct Real {
     points: Points,
     seed: u64,
     simd: Simd,
+    /// Which paths count, if not all do.
+    asked: Option<Box<Asked>>,
 }
 
 impl Real {
@@ -141,7 +148,50 @@ impl Real {
             points,
             seed,
             simd: Simd::default(),
+            asked: None,
         })
+    }
+
+    /// A machine of a predicate, for the pixels of one class. It hands over, in place of paths'
+    /// colours, 1 for each good path and 0 for others under [`Marks::Paths`], and the colour of
+    /// each good path and black for others under [`Marks::Light`].
+    ///
+    /// # Errors
+    /// As [`Real::new`].
+    pub fn of_predicate(
+        predicate: &Predicate,
+        marks: Marks,
+        seed: u64,
+        class: PixelClass,
+    ) -> Result<Self, qrt_core::sampling::SamplingError> {
+        let scene = predicate.scene();
+        let mut real = Self::of_class(scene, seed, class)?;
+        real.stage = predicate.formats().stage(scene, predicate.numbers(), class);
+        real.asked = Some(Box::new(Asked::new(predicate, marks)));
+        Ok(real)
+    }
+
+    /// The numbers of one path, in the scene and in their order: see [`qrt_core::oracle::paths`].
+    ///
+    /// # Errors
+    /// As [`Real::new`].
+    pub fn path(
+        scene: &ValidScene,
+        formats: &PathFormats,
+        numbers: &[PathNumber],
+        (seed, pixel, id): (u64, [u32; 2], u64),
+    ) -> Result<Vec<f64>, qrt_core::sampling::SamplingError> {
+        let mut real = Self::new(scene, seed)?;
+        real.stage = formats.stage(scene, numbers, PixelClass::default());
+        let numbers = PathNumbers::new(scene, formats, numbers);
+        let mut inputs = real.inputs(Some(numbers.watched()));
+        let mut colours = [[0.0; BLOCK]; 3];
+        real.fill(&mut inputs, pixel, id, 0..1);
+        real.run(&inputs, 1, &mut colours);
+        let Some(watched) = &inputs.watched else {
+            return Ok(Vec::new());
+        };
+        Ok(numbers.values(&real.stage, (&watched.borrow(), &colours), 0))
     }
 
     /// The same machine with other vector instructions.
@@ -184,34 +234,30 @@ impl Real {
     pub fn trace_range(
         &self,
         pixels: &[[u32; 2]],
-        ids: std::ops::Range<u64>,
+        ids: Range<u64>,
         mut finished: impl FnMut(PathBlock<'_>),
     ) {
-        let mut inputs = Inputs {
-            indices: vec![[0; BLOCK]; 4 * self.points.sequence().depths()],
-            column: [0.0; BLOCK],
-            row: [0.0; BLOCK],
-        };
+        let asked = self.asked.as_ref();
+        let mut inputs = self.inputs(asked.map(|asked| asked.numbers.watched()));
+        let mut lanes = asked.map(|asked| asked.lanes());
         let mut colours = [[0.0; BLOCK]; 3];
         // A block holds a run of one pixel's path indices, or all those of several pixels.
         let mut filled = 0;
-        let mut runs: Vec<(usize, std::ops::Range<usize>)> = Vec::new();
+        let mut runs: Vec<(usize, Range<usize>)> = Vec::new();
         for (number, &pixel) in pixels.iter().enumerate() {
             let mut first = ids.start;
             while first < ids.end {
                 let count = (ids.end - first).min((BLOCK - filled) as u64) as usize;
                 let range = filled..filled + count;
-                for coordinate in self.points.sequence().coordinates() {
-                    let out = &mut inputs.indices[coordinate.slot()][range.clone()];
-                    self.points.fill(self.seed, pixel, coordinate, first, out);
-                }
-                inputs.column[range.clone()].fill(f64::from(pixel[0]));
-                inputs.row[range.clone()].fill(f64::from(pixel[1]));
+                self.fill(&mut inputs, pixel, first, range.clone());
                 runs.push((number, range));
                 first += count as u64;
                 filled += count;
                 if filled == BLOCK || (number + 1 == pixels.len() && first == ids.end) {
                     self.run(&inputs, filled, &mut colours);
+                    if let (Some(asked), Some(lanes)) = (asked, &mut lanes) {
+                        asked.mark(&self.stage, lanes, (&inputs, filled), &mut colours);
+                    }
                     for (pixel, range) in runs.drain(..) {
                         let colours = [0, 1, 2].map(|c: usize| &colours[c][range.clone()]);
                         finished(PathBlock { pixel, colours });
@@ -220,6 +266,26 @@ impl Real {
                 }
             }
         }
+    }
+
+    /// What a block of paths reads, of no paths yet.
+    fn inputs(&self, watched: Option<RefCell<Vec<Watched>>>) -> Inputs {
+        Inputs {
+            indices: vec![[0; BLOCK]; 4 * self.points.sequence().depths()],
+            column: [0.0; BLOCK],
+            row: [0.0; BLOCK],
+            watched,
+        }
+    }
+
+    /// Puts paths of one pixel, from index `first` on, into a range of a block.
+    fn fill(&self, inputs: &mut Inputs, pixel: [u32; 2], first: u64, range: Range<usize>) {
+        for coordinate in self.points.sequence().coordinates() {
+            let out = &mut inputs.indices[coordinate.slot()][range.clone()];
+            self.points.fill(self.seed, pixel, coordinate, first, out);
+        }
+        inputs.column[range.clone()].fill(f64::from(pixel[0]));
+        inputs.row[range].fill(f64::from(pixel[1]));
     }
 
     /// The sums over all paths of `pixels`.

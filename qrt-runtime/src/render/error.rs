@@ -5,9 +5,10 @@ use crate::counting::CountingError;
 use crate::estimators::EstimatorError;
 use crate::machines::Defect;
 use crate::plan::PlanError;
+use crate::predicates::PredicateRefusal;
 use crate::search::RoundsError;
 use crate::workers::ThreadsError;
-use qrt_core::oracle::OracleError;
+use qrt_core::oracle::{OracleError, PredicateError};
 use qrt_core::sampling::SamplingError;
 use qrt_core::scene::Estimator;
 use std::path::{Path, PathBuf};
@@ -77,6 +78,30 @@ pub enum RenderError {
     /// A circuit that was compiled does not do what is asked.
     #[error(transparent)]
     Compiled(#[from] CompiledError),
+    /// Code that is no predicate of the scene's paths.
+    #[error(transparent)]
+    Predicate(#[from] PredicateError),
+    /// What predicates are not asked with.
+    #[error(transparent)]
+    PredicateRefusal(#[from] PredicateRefusal),
+    /// A path index beyond the last.
+    #[error("there is no path {id}: a pixel has 2^{path_bits} paths, from 0 on")]
+    PathIndex {
+        /// The index.
+        id: u64,
+        /// Paths of a pixel, as a power of two.
+        path_bits: u32,
+    },
+    /// A path has a number that the register cannot hold in which a predicate reads it.
+    #[error(
+        "a path of pixel ({}, {}) has a number beyond its register; this is a defect of qrt, please \
+         report it with the scene",
+        .pixel[0], .pixel[1]
+    )]
+    Unheld {
+        /// Column and row on the film.
+        pixel: [u32; 2],
+    },
     /// A model that has no oracle, and so nothing to search with.
     #[error(
         "primary hits are searched for by a circuit, which the model `real` does not have: use \
@@ -184,6 +209,7 @@ impl RenderError {
             Self::Memory { .. }
             | Self::Threads(_)
             | Self::Defect(_)
+            | Self::Unheld { .. }
             | Self::OutOfBounds { .. }
             | Self::Interrupted { .. } => false,
             _ => true,

@@ -49,6 +49,7 @@ impl<'a> Job<'a> {
             estimator,
             area,
             paths,
+            ..
         } = self.request;
         let resumed = self.resumed.iter().filter(|&&pixel| pixel).count() as u64;
         let parts = self.kept.values().map(|part| part.paths);

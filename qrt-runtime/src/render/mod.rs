@@ -73,7 +73,7 @@ use crate::workers::Workers;
 use classes::Classes;
 use job::Job;
 use pixel::{Pixels, Source};
-use qrt_core::oracle::{self, Oracle, OracleError};
+use qrt_core::oracle::{self, Marks, Oracle, OracleError, Predicate};
 use qrt_core::scene::Estimator;
 use qrt_core::tracer::PixelClass;
 use qrt_core::valid::{Parameters, ValidScene};
@@ -266,7 +266,7 @@ pub fn render_keeping(
     scene: &ValidScene,
     options: &Options<'_>,
 ) -> Result<(Rendered, Option<Checkpoint>), RenderError> {
-    let crop = crop(scene, options)?;
+    let crop = crop_of(scene, options)?;
     let planned;
     let chosen = match (scene.scene().accuracy, options.plan) {
         (None, _) => None,
@@ -305,7 +305,7 @@ pub fn render_compiled<C: NativeOracle>(options: &Options<'_>) -> Result<Rendere
     if options.visibility != Visibility::Classical {
         return Err(CompiledError::Visibility.into());
     }
-    let request = Request::new(scene, options, crop(scene, options)?)?;
+    let request = Request::new(scene, options, crop_of(scene, options)?)?;
     let oracle = C::oracle().map_err(OracleError::from)?.into();
     let machine = match options.model {
         Model::Real => return Err(CompiledError::Model.into()),
@@ -325,6 +325,20 @@ fn without_checkpoint((rendered, checkpoint): (Rendered, Option<Checkpoint>)) ->
     rendered
 }
 
+/// Renders the light of the paths on which a predicate holds.
+pub(crate) fn render_predicate(
+    predicate: &Predicate,
+    options: &Options<'_>,
+) -> Result<Rendered, RenderError> {
+    let scene = predicate.scene();
+    let request = Request {
+        predicate: Some(predicate),
+        ..Request::new(scene, options, crop_of(scene, options)?)?
+    };
+    let (classes, _) = Classes::new(&request)?;
+    Job::new(request, classes)?.run().map(without_checkpoint)
+}
+
 /// A picture that can be rendered: its parameters are chosen, and its crop lies on the film.
 struct Request<'a> {
     scene: &'a ValidScene,
@@ -336,6 +350,8 @@ struct Request<'a> {
     area: u64,
     /// R, the paths of a pixel.
     paths: u64,
+    /// Which paths count, if not all do.
+    predicate: Option<&'a Predicate>,
 }
 
 impl<'a> Request<'a> {
@@ -352,6 +368,7 @@ impl<'a> Request<'a> {
             estimator: options.visibility.estimator(options, scene.scene())?,
             area: u64::from(crop[2]) * u64::from(crop[3]),
             paths: 1 << path_bits,
+            predicate: None,
         };
         match request.area.checked_mul(request.paths) {
             Some(_) => Ok(request),
@@ -376,14 +393,19 @@ impl<'a> Request<'a> {
             return Ok((Source::Oracle(machine), searched));
         }
         if model == Model::Real {
-            let real = Real::of_class(self.scene, seed, class)?.with_simd(self.options.simd);
+            let real = match self.predicate {
+                Some(predicate) => Real::of_predicate(predicate, Marks::Light, seed, class)?,
+                None => Real::of_class(self.scene, seed, class)?,
+            };
+            let real = real.with_simd(self.options.simd);
             return Ok((Source::Real(Box::new(real)), None));
         }
         let one_run = self.options.colour == Colour::OneRun;
-        let oracle = if one_run {
-            Oracle::rgb_and_luminance(self.scene, oracle::Options::of_class(class))?
-        } else {
-            Oracle::rgb(self.scene, oracle::Options::of_class(class))?
+        let of_class = oracle::Options::of_class(class);
+        let oracle = match self.predicate {
+            Some(predicate) => predicate.oracle(Marks::Light, of_class)?,
+            None if one_run => Oracle::rgb_and_luminance(self.scene, of_class)?,
+            None => Oracle::rgb(self.scene, of_class)?,
         };
         // The paths that one run measures give it the colours.
         let machine = if model == Model::Gates {
@@ -396,7 +418,7 @@ impl<'a> Request<'a> {
 }
 
 /// The part of the film that is rendered: x, y, width and height.
-fn crop(scene: &ValidScene, options: &Options<'_>) -> Result<[u32; 4], RenderError> {
+pub(crate) fn crop_of(scene: &ValidScene, options: &Options<'_>) -> Result<[u32; 4], RenderError> {
     let film = [scene.scene().film.width, scene.scene().film.height];
     let crop = options.crop.unwrap_or([0, 0, film[0], film[1]]);
     let [x, y, width, height] = crop;

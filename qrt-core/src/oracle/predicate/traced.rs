@@ -1,0 +1,205 @@
+//! The oracle that computes the numbers of a path, each in a register of its format.
+
+use super::Marks;
+use crate::compile::{self, Bool, Builder, Real, Role};
+use crate::oracle::paths::{PathFormats, PathNumber, RayNumber as Of};
+use crate::oracle::recording::{PrimaryHit, record, target};
+use crate::oracle::{Channel, Options, Oracle, OracleError, register_of};
+use crate::sampling::PathPoints;
+use crate::scene::Nearest;
+use crate::tracer::{Arith, Records, Search, Segment, Stage, vector};
+use crate::valid::ValidScene;
+use qrt_circuit::{RegisterId, Type};
+
+/// The oracle of a path's numbers, and the registers that hold them.
+pub(super) fn traced(
+    scene: &ValidScene,
+    formats: &PathFormats,
+    numbers: &[PathNumber],
+    marks: Marks,
+    options: Options,
+) -> Result<(Oracle, Vec<RegisterId>), OracleError> {
+    let written = scene.scene();
+    let stage = formats.stage(scene, numbers, options.class).relative();
+    let points = PathPoints::new(&written.sampling)?;
+    let strategy = options.strategy(scene)?;
+    let target = target(scene, &stage, &points, strategy, options.passes);
+    let (film, fraction) = (target.film, target.fraction);
+    let mut builder = Builder::new(target);
+    let bits = match marks {
+        Marks::Paths => 0,
+        Marks::Light => written.comparator.bits,
+    };
+    let comparator = builder.outside("comparator", Type::UInt, Role::Comparator, bits);
+    let flag = builder.outside("flag", Type::Bool, Role::Flag, 1);
+    let (colours, _) = match written.circuit.nearest {
+        Nearest::Running => {
+            let search = Search::new(&stage, 1.0 / (1_u64 << fraction) as f64);
+            record(&mut builder, &stage, &search, PrimaryHit::Traced)?
+        }
+        Nearest::Paper => record(&mut builder, &stage, &Records(&stage), PrimaryHit::Traced)?,
+    };
+    let bounds = stage.bound();
+    let mut channels = Vec::new();
+    if marks == Marks::Light {
+        for (number, colour) in colours.into_iter().enumerate() {
+            let (colour, count) = builder.counted(colour, bits, written.comparator.at);
+            channels.push(Channel {
+                number,
+                colour,
+                count,
+                scale: bounds[number],
+            });
+        }
+    }
+    builder.enter_predicate();
+    let reader = Reader {
+        formats,
+        stage: &stage,
+        face_numbers: (1..=stage.surface_of.len() as u32).collect(),
+        material_numbers: scene.polygons().iter().map(|p| p.surface + 1).collect(),
+        colours,
+    };
+    let names: Vec<String> = numbers.iter().map(ToString::to_string).collect();
+    let numbers = numbers.iter();
+    let registers: Vec<RegisterId> = numbers
+        .map(|&number| reader.register(&mut builder, number))
+        .collect();
+    builder.leave();
+    let id = builder.id();
+    let sharing = builder.sharing();
+    let recorded = builder.finish()?;
+    let parameters = recorded.parameters.clone();
+    let counts = channels
+        .iter()
+        .flat_map(|channel| [channel.colour, channel.count]);
+    let mut roots = registers.clone();
+    roots.extend(counts.filter_map(register_of));
+    let (mut program, renamed) = compile::assemble(
+        recorded,
+        &roots,
+        options.passes,
+        strategy,
+        &[id, comparator],
+        &mut compile::Known::default(),
+    );
+    let rename = |register: RegisterId| *renamed.get(&register).unwrap_or(&register);
+    for channel in &mut channels {
+        channel.colour = channel.colour.of(rename);
+        channel.count = channel.count.of(rename);
+    }
+    let registers: Vec<RegisterId> = registers.into_iter().map(rename).collect();
+    for (number, register) in names.into_iter().zip(&registers) {
+        program.registers[register.index()].name = number;
+    }
+    let oracle = Oracle {
+        program,
+        parameters,
+        channels,
+        id,
+        comparator,
+        nearest: None,
+        flag,
+        fraction,
+        points,
+        film,
+        places: Vec::new(),
+        sharing,
+    };
+    Ok((oracle, registers))
+}
+
+/// What the numbers of a path are, as the builder has them.
+struct Reader<'a> {
+    formats: &'a PathFormats,
+    stage: &'a Stage<3>,
+    /// By face: its number in registers, and its material's.
+    face_numbers: Vec<u32>,
+    material_numbers: Vec<u32>,
+    /// By channel, in units of its bound.
+    colours: [Real; 3],
+}
+
+impl Reader<'_> {
+    /// The register of a number, in its format.
+    fn register(&self, cx: &mut Builder<'_>, number: PathNumber) -> RegisterId {
+        let format = self.formats.format(number);
+        let shape = (format.ty, format.width);
+        let (depth, of) = match number {
+            PathNumber::Ray(depth, of) => (depth, of),
+            PathNumber::Colour(channel) => {
+                let share = self.stage.bound()[channel] / self.formats.colour_unit;
+                let colour = cx.scale(self.colours[channel], share);
+                return cx.number_in(colour, shape, format.shift);
+            }
+        };
+        let Some(segment) = cx.segment(depth) else {
+            // No path goes so far.
+            let zero = cx.real(0.0);
+            return cx.number_in(zero, shape, 0);
+        };
+        match of {
+            Of::Found => cx.truth_in(segment.found),
+            Of::Front => {
+                let front = self.front(cx, &segment);
+                let front = cx.and(segment.found, front);
+                cx.truth_in(front)
+            }
+            Of::Face => self.index(cx, &segment, &self.face_numbers, format.width),
+            Of::Material => self.index(cx, &segment, &self.material_numbers, format.width),
+            Of::Origin(axis) => {
+                let centre = self.formats.centre[axis] * self.formats.scale;
+                let centre = cx.real(centre);
+                let point = cx.add(segment.origin[axis], centre);
+                number_where(cx, segment.goes, point, shape, format.shift)
+            }
+            Of::Direction(axis) => {
+                let direction = segment.direction[axis];
+                number_where(cx, segment.goes, direction, shape, format.shift)
+            }
+            Of::Distance => number_where(cx, segment.found, segment.distance, shape, format.shift),
+            Of::Normal(axis) => {
+                let normal = cx.rows(&self.stage.normals, segment.face)[axis];
+                number_where(cx, segment.found, normal, shape, format.shift)
+            }
+        }
+    }
+
+    /// Whether the face is met on its front; anything where none is.
+    fn front<'a>(&self, cx: &mut Builder<'a>, segment: &Segment<Builder<'a>>) -> Bool {
+        if let Some(front) = segment.front {
+            return front;
+        }
+        let normal = cx.rows(&self.stage.normals, segment.face);
+        let cos_theta = vector::dot(cx, &segment.direction, &normal);
+        let zero = cx.real(0.0);
+        cx.less(cos_theta, zero)
+    }
+
+    /// The entry of the face that is met; 0 where none is.
+    fn index<'a>(
+        &self,
+        cx: &mut Builder<'a>,
+        segment: &Segment<Builder<'a>>,
+        entries: &[u32],
+        width: u32,
+    ) -> RegisterId {
+        let entry = cx.entry(entries, segment.face);
+        let none = cx.index(0);
+        let entry = cx.select_index(segment.found, entry, none);
+        cx.index_in(entry, width)
+    }
+}
+
+/// A number where `when` holds, and 0 elsewhere.
+fn number_where(
+    cx: &mut Builder<'_>,
+    when: Bool,
+    number: Real,
+    shape: (Type, u32),
+    shift: i32,
+) -> RegisterId {
+    let zero = cx.real(0.0);
+    let number = cx.select(when, number, zero);
+    cx.number_in(number, shape, shift)
+}

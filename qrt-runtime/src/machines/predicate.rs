@@ -1,0 +1,175 @@
+//! Predicates on the real machine: the tracer's numbers in 64-bit floating point, each rounded to
+//! the nearest of its register's format, and the predicate's program on these.
+
+use super::fixed::{self, Fixed};
+use super::lanes::{BLOCK, Inputs, Watched};
+use super::span::Span;
+use qrt_core::oracle::paths::{PathFormats, PathNumber, RayNumber};
+use qrt_core::oracle::{Marks, Predicate};
+use qrt_core::tracer::Stage;
+use std::cell::RefCell;
+use std::sync::Arc;
+
+/// What is asked about paths beside their colours.
+#[derive(Clone, Debug)]
+pub(super) struct Asked {
+    pub(super) numbers: PathNumbers,
+    program: Fixed,
+    marks: Marks,
+}
+
+/// How numbers of a path are read of what the tracer notes.
+#[derive(Clone, Debug)]
+pub(super) struct PathNumbers {
+    formats: PathFormats,
+    numbers: Arc<[PathNumber]>,
+    /// By face: its material, from 1 on.
+    materials: Arc<[u32]>,
+}
+
+impl PathNumbers {
+    pub(super) fn new(
+        scene: &qrt_core::valid::ValidScene,
+        formats: &PathFormats,
+        numbers: &[PathNumber],
+    ) -> Self {
+        let polygons = scene.polygons().iter();
+        Self {
+            formats: formats.clone(),
+            numbers: numbers.into(),
+            materials: polygons.map(|polygon| polygon.surface + 1).collect(),
+        }
+    }
+
+    /// What the tracer is to note.
+    pub(super) fn watched(&self) -> RefCell<Vec<Watched>> {
+        RefCell::new(vec![Watched::NONE; self.formats.rays])
+    }
+
+    /// A number of path `lane` of a block, in the scene.
+    fn value(
+        &self,
+        stage: &Stage<3>,
+        (rays, colours): (&[Watched], &[[f64; BLOCK]; 3]),
+        number: PathNumber,
+        lane: usize,
+    ) -> f64 {
+        let (depth, number) = match number {
+            PathNumber::Colour(channel) => return colours[channel][lane],
+            PathNumber::Ray(depth, number) => (depth, number),
+        };
+        let Some(ray) = rays.get(depth) else {
+            return 0.0;
+        };
+        let of_hit = !matches!(number, RayNumber::Origin(_) | RayNumber::Direction(_));
+        let there = if of_hit {
+            ray.found[lane]
+        } else {
+            ray.goes[lane]
+        };
+        if there == 0.0 {
+            return 0.0;
+        }
+        let face = ray.face[lane] as usize;
+        match number {
+            RayNumber::Origin(axis) => {
+                let point = [0, 1, 2].map(|k: usize| ray.origin[k][lane]);
+                self.formats.point(point)[axis]
+            }
+            RayNumber::Direction(axis) => ray.direction[axis][lane],
+            RayNumber::Found => 1.0,
+            RayNumber::Distance => self.formats.distance(ray.distance[lane]),
+            RayNumber::Face => (face + 1) as f64,
+            RayNumber::Material => f64::from(self.materials[face]),
+            RayNumber::Normal(axis) => stage.normal(face)[axis],
+            RayNumber::Front => {
+                let told = ray.front[lane];
+                let normal = stage.normal(face);
+                let terms = (0..3).map(|k| ray.direction[k][lane] * normal[k]);
+                let cos_theta: f64 = terms.sum();
+                if told < 0.0 {
+                    f64::from(cos_theta < 0.0)
+                } else {
+                    told
+                }
+            }
+        }
+    }
+
+    /// All numbers of path `lane` of a block, in the scene.
+    pub(super) fn values(
+        &self,
+        stage: &Stage<3>,
+        block: (&[Watched], &[[f64; BLOCK]; 3]),
+        lane: usize,
+    ) -> Vec<f64> {
+        let numbers = self.numbers.iter();
+        numbers
+            .map(|&number| self.value(stage, block, number, lane))
+            .collect()
+    }
+}
+
+impl Asked {
+    pub(super) fn new(predicate: &Predicate, marks: Marks) -> Self {
+        Self {
+            numbers: PathNumbers::new(predicate.scene(), predicate.formats(), predicate.numbers()),
+            program: Fixed::new(predicate.program(), &[predicate.good()]),
+            marks,
+        }
+    }
+
+    pub(super) fn lanes(&self) -> fixed::Lanes {
+        self.program.lanes()
+    }
+
+    /// Puts in place of the colours of the first `count` paths of a block what is counted: of
+    /// paths, 1 where the predicate holds and 0 elsewhere; of light, the colour where it holds. It
+    /// is not a number where a number of the path does not fit its register, which is a defect.
+    pub(super) fn mark(
+        &self,
+        stage: &Stage<3>,
+        lanes: &mut fixed::Lanes,
+        (inputs, count): (&Inputs, usize),
+        colours: &mut [[f64; BLOCK]; 3],
+    ) {
+        let Some(watched) = &inputs.watched else {
+            return;
+        };
+        let rays = watched.borrow();
+        let mut unheld = [false; BLOCK];
+        let mut columns = Vec::new();
+        for &number in &*self.numbers.numbers {
+            let format = self.numbers.formats.format(number);
+            let column = (0..count).map(|lane| {
+                let value = self.numbers.value(stage, (&rays, colours), number, lane);
+                let bits = format.bits(value);
+                unheld[lane] |= bits.is_none();
+                bits.unwrap_or(0)
+            });
+            columns.push(column.collect::<Vec<u64>>());
+        }
+        let columns: Vec<&[u64]> = columns.iter().map(Vec::as_slice).collect();
+        let span = Span {
+            lanes: count,
+            parameters: &[],
+        };
+        let mut good = [0_i64; BLOCK];
+        let outputs = &mut [&mut good[..count]];
+        self.program.run(lanes, &columns, &[span], outputs);
+        for (lane, good) in good[..count].iter().enumerate() {
+            for colour in &mut *colours {
+                colour[lane] = match (self.marks, good) {
+                    _ if unheld[lane] => f64::NAN,
+                    (_, 0) => 0.0,
+                    (Marks::Paths, _) => 1.0,
+                    (Marks::Light, _) => colour[lane],
+                };
+            }
+        }
+        drop(rays);
+        watched.borrow_mut().fill(Watched::NONE);
+    }
+}
+
+const _: () = assert!(BLOCK <= Fixed::LANES);

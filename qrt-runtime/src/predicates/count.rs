@@ -1,0 +1,287 @@
+//! The fraction of paths on which a predicate holds.
+
+use super::check;
+use crate::estimators::{Device, Estimate, Noise, Problem, Settings, estimator};
+use crate::image::{Image, Window};
+use crate::machines::{OracleMachine, Real};
+use crate::random::Stream;
+use crate::render::{Model, Options, RenderError, crop_of};
+use crate::workers::Progress;
+use qrt_circuit::format::{Bool, Reg};
+use qrt_circuit::{Recorded, Recorder};
+use qrt_core::oracle::paths::PathScene;
+use qrt_core::oracle::{self, Marks, PREDICATE_CHANNEL, Predicate};
+use qrt_core::scene::Estimator;
+use qrt_core::tracer::PixelClass;
+use rayon::prelude::*;
+use std::ops::Range;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// Paths that are traced without looking up.
+const RUN: u64 = 1 << 16;
+
+/// What one query of a predicate's oracle costs: compute, predicate, flip, uncompute.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct QueryCost {
+    /// Toffoli gates.
+    pub toffoli: u64,
+    /// The most qubits in use at any time.
+    pub qubits: u32,
+}
+
+/// The good paths of a pixel, counted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PixelCount {
+    /// Column and row on the film.
+    pub pixel: [u32; 2],
+    /// S, the number of good paths: what the device knows, and the estimator does not.
+    pub good: u64,
+    /// The estimate of S/R, its interval, and the queries that it took.
+    pub estimate: Estimate,
+}
+
+/// The paths on which a predicate holds, counted.
+#[derive(Clone, Debug)]
+pub struct Counted {
+    /// x, y, width and height on the film, in pixels.
+    pub crop: [u32; 4],
+    /// The film's width and height, in pixels.
+    pub film: [u32; 2],
+    /// The pixels, row by row from the crop's top left corner.
+    pub pixels: Vec<PixelCount>,
+    /// R, the paths of a pixel.
+    pub paths: u64,
+    /// What traced the paths.
+    pub model: Model,
+    /// What estimated the fractions.
+    pub estimator: Estimator,
+    /// What a query costs; none under [`Model::Real`], which has no circuit.
+    pub cost: Option<QueryCost>,
+}
+
+impl Counted {
+    /// The estimated fraction of good paths, of all pixels together: in [0, 1].
+    pub fn fraction(&self) -> f64 {
+        self.mean(|estimate| estimate.amplitude)
+    }
+
+    /// An interval that contains the fraction wherever all pixels' intervals contain theirs. Of one
+    /// pixel it is that pixel's, with its confidence.
+    pub fn interval(&self) -> (f64, f64) {
+        let low = self.mean(|estimate| estimate.interval.0);
+        (low, self.mean(|estimate| estimate.interval.1))
+    }
+
+    /// Queries of the oracle, of all pixels together.
+    pub fn queries(&self) -> u128 {
+        let queries = self
+            .pixels
+            .iter()
+            .map(|pixel| u128::from(pixel.estimate.queries));
+        queries.sum()
+    }
+
+    /// S of all pixels together.
+    pub fn good(&self) -> u128 {
+        self.pixels.iter().map(|pixel| u128::from(pixel.good)).sum()
+    }
+
+    /// The pixel in this column and row of the film, if it is within the crop.
+    pub fn at(&self, [column, row]: [u32; 2]) -> Option<&PixelCount> {
+        let [x, y, width, height] = self.crop;
+        let (column, row) = (column.checked_sub(x)?, row.checked_sub(y)?);
+        if column >= width || row >= height {
+            return None;
+        }
+        self.pixels
+            .get(row as usize * width as usize + column as usize)
+    }
+
+    /// The estimated fractions as a picture in grey, of the crop's size.
+    pub fn image(&self) -> Image {
+        let pixels = self.pixels.iter();
+        let [x, y, width, height] = self.crop;
+        let window = Window {
+            origin: [x, y],
+            film: self.film,
+        };
+        Image {
+            width,
+            height,
+            pixels: pixels.map(|pixel| [pixel.estimate.amplitude; 3]).collect(),
+            window: (self.film != [width, height]).then_some(window),
+        }
+    }
+
+    fn mean(&self, of: impl Fn(&Estimate) -> f64) -> f64 {
+        let pixels = self.pixels.iter().map(|pixel| of(&pixel.estimate));
+        pixels.sum::<f64>() / self.pixels.len() as f64
+    }
+}
+
+/// What traces the paths, and tells which of them are good.
+enum Machine {
+    Real(Box<Real>),
+    Oracle(OracleMachine),
+}
+
+impl Machine {
+    /// Adds the good paths among `ids` of each pixel to its sum.
+    fn add(
+        &self,
+        pixels: &[[u32; 2]],
+        ids: Range<u64>,
+        sums: &mut [u64],
+    ) -> Result<(), RenderError> {
+        match self {
+            Self::Real(real) => {
+                let mut unheld = None;
+                real.trace_range(pixels, ids, |block| {
+                    let good = block.colours[0].iter().sum::<f64>();
+                    if good.is_nan() {
+                        unheld.get_or_insert(pixels[block.pixel]);
+                    }
+                    sums[block.pixel] += good as u64;
+                });
+                unheld.map_or(Ok(()), |pixel| Err(RenderError::Unheld { pixel }))
+            }
+            Self::Oracle(machine) => {
+                machine.trace(pixels, ids, |finished| {
+                    let good = finished.good[0].iter().sum::<i64>();
+                    sums[finished.pixel] += good.cast_unsigned();
+                })?;
+                Ok(())
+            }
+        }
+    }
+}
+
+/// Counts the paths of a scene of `qrt!` on which a predicate holds, pixel by pixel, as quantum
+/// counting over its oracle would: the estimator learns of the number S of good paths among R only
+/// what its measurements tell.
+///
+/// The predicate flips the bit that it is given, which is 0, on good paths. It runs on a
+/// [`Recorder`], once. Of `options` count `seed`, `crop` (a pixel, a part of the film, or all of
+/// it), `model`, `estimator`, `noise` and `workers`. Under the estimator `exact` all R paths are
+/// asked for, one query each.
+///
+/// # Errors
+/// As [`crate::render::render`]; a [`qrt_core::oracle::PredicateError`] if the code is no
+/// predicate, and a [`super::PredicateRefusal`] for options that none is asked with.
+pub fn count_where<S: PathScene>(
+    options: &Options<'_>,
+    predicate: impl FnOnce(&mut Recorder, &S::Path, &mut Reg<Recorded, Bool>),
+) -> Result<Counted, RenderError> {
+    let predicate = Predicate::of::<S>(predicate)?;
+    check(&predicate, options)?;
+    let scene = predicate.scene();
+    let name = options
+        .estimator
+        .unwrap_or(scene.scene().counting.estimator);
+    if name == Estimator::Exact && options.noise != Noise::NONE {
+        return Err(RenderError::NothingNoisy);
+    }
+    let crop = crop_of(scene, options)?;
+    let [x, y, width, height] = crop;
+    let rows = (y..y + height).flat_map(|row| (x..x + width).map(move |column| [column, row]));
+    let pixels: Vec<[u32; 2]> = rows.collect();
+    let path_bits = scene.scene().sampling.path_bits;
+    let (paths, area) = (1_u64 << path_bits, pixels.len() as u64);
+    let Some(total) = area.checked_mul(paths) else {
+        return Err(RenderError::TooManyPaths {
+            pixels: area,
+            path_bits,
+        });
+    };
+    let (machine, cost) = machine(&predicate, options)?;
+    // Several small pixels at once, or a large one in parts.
+    let together = (RUN / paths).max(1) as usize;
+    let chunks: Vec<&[[u32; 2]]> = pixels.chunks(together).collect();
+    let runs = paths.div_ceil(RUN);
+    let finished = AtomicU64::new(0);
+    let progress = |done: u64| {
+        finished.fetch_add(done, Ordering::Relaxed);
+        options.workers.report(Progress::Finished(done));
+    };
+    options
+        .workers
+        .report(Progress::Started { total, resumed: 0 });
+    let counted = options.workers.run(|| {
+        let jobs = (0..chunks.len() as u64 * runs).into_par_iter();
+        let counted = jobs.map(|job| {
+            if options.workers.cancelled() {
+                return Err(RenderError::Interrupted {
+                    finished: finished.load(Ordering::Relaxed) / paths,
+                    pixels: area,
+                    checkpoint: None,
+                });
+            }
+            let (pixels, first) = (chunks[(job / runs) as usize], job % runs * RUN);
+            let ids = first..(first + RUN).min(paths);
+            let mut sums = vec![0; pixels.len()];
+            let done = (ids.end - ids.start) * pixels.len() as u64;
+            machine.add(pixels, ids, &mut sums)?;
+            progress(done);
+            Ok(sums)
+        });
+        counted.collect::<Result<Vec<Vec<u64>>, RenderError>>()
+    })??;
+    let mut good = vec![0; pixels.len()];
+    for (job, sums) in counted.into_iter().enumerate() {
+        let first = job / runs as usize * together;
+        for (good, sum) in good[first..].iter_mut().zip(sums) {
+            *good += sum;
+        }
+    }
+    let settings = Settings {
+        // There are no comparators, and so no strata of them.
+        strata: None,
+        ..Settings::of(&scene.scene().counting)?
+    };
+    let estimator = estimator(name, &settings)?;
+    let estimated = pixels.into_iter().zip(good).map(|(pixel, good)| {
+        let channel = PREDICATE_CHANNEL as u8;
+        let mut stream = Stream::new(options.seed, pixel[0], pixel[1], channel);
+        let problem = Problem { good, total: paths };
+        let mut device = Device::new(problem, options.noise, &mut stream)?;
+        Ok(PixelCount {
+            pixel,
+            good,
+            estimate: estimator.estimate(&mut device)?,
+        })
+    });
+    let film = scene.scene().film;
+    Ok(Counted {
+        crop,
+        film: [film.width, film.height],
+        pixels: estimated.collect::<Result<_, RenderError>>()?,
+        paths,
+        model: options.model,
+        estimator: name,
+        cost,
+    })
+}
+
+/// What traces the paths, and what a query of its circuit costs.
+fn machine(
+    predicate: &Predicate,
+    options: &Options<'_>,
+) -> Result<(Machine, Option<QueryCost>), RenderError> {
+    let seed = options.seed;
+    if options.model == Model::Real {
+        let class = PixelClass::default();
+        let real = Real::of_predicate(predicate, Marks::Paths, seed, class)?;
+        return Ok((Machine::Real(Box::new(real.with_simd(options.simd))), None));
+    }
+    let oracle = predicate.oracle(Marks::Paths, oracle::Options::default())?;
+    let (cost, qubits) = oracle.cost(0);
+    let cost = QueryCost {
+        toffoli: cost.toffoli,
+        qubits,
+    };
+    let machine = match options.model {
+        Model::Gates => OracleMachine::gates(oracle.into(), seed, false)?,
+        _ => OracleMachine::fixed(oracle.into(), seed, false),
+    };
+    Ok((Machine::Oracle(machine), Some(cost)))
+}

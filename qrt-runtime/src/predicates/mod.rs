@@ -1,0 +1,88 @@
+//! Paths on which a predicate of one's own holds: counted, rendered, and looked at one by one.
+//!
+//! A predicate is reversible code over the registers of a path: see
+//! [`qrt_core::oracle::paths`] for what they hold. It becomes a part of the oracle, between
+//! compute and uncompute: see [`Predicate`]. So the machines run it as they run a scene's colours:
+//!
+//! | model | the path | the predicate |
+//! |---|---|---|
+//! | `real` | the tracer in `f64`, each number rounded to the nearest of its register | its program, on integers |
+//! | `fixed` | the oracle's program, on integers | as a part of it |
+//! | `gates` | the oracle's circuit, gate by gate | as a part of it, with every ancilla looked at |
+//!
+//! The crate `qrt` shows predicates at work, since `qrt!` makes the types of their registers.
+
+mod count;
+mod path;
+
+pub use count::{Counted, PixelCount, QueryCost, count_where};
+pub use path::{TracedHit, TracedPath, TracedRay, trace_path};
+
+use crate::render::{Colour, render_predicate};
+use crate::render::{Options, RenderError, Rendered, Visibility};
+use qrt_circuit::format::{Bool, Reg};
+use qrt_circuit::{Recorded, Recorder};
+use qrt_core::oracle::Predicate;
+use qrt_core::oracle::paths::PathScene;
+
+/// What predicates are not asked with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum PredicateRefusal {
+    /// The scene's parameters are chosen for the error of its picture.
+    #[error(
+        "the scene asks for an `accuracy`, which is that of its picture: write the parameters into \
+         the scene that a predicate is counted with"
+    )]
+    Accuracy,
+    /// One run for all channels.
+    #[error(
+        "colour from one run takes the colours of all paths that are measured, whether or not a \
+         predicate holds: choose three runs"
+    )]
+    OneRun,
+    /// Primary hits that are searched for.
+    #[error(
+        "a predicate is a part of the circuit that finds primary hits itself: find primary hits \
+         classically"
+    )]
+    Visibility,
+    /// A checkpoint, which does not know whose paths it keeps.
+    #[error("a checkpoint keeps pictures of all paths, and none of a predicate: ask for none")]
+    Checkpoint,
+}
+
+/// Refuses what is not asked with a predicate.
+pub(crate) fn check(predicate: &Predicate, options: &Options<'_>) -> Result<(), PredicateRefusal> {
+    if predicate.scene().scene().accuracy.is_some() {
+        return Err(PredicateRefusal::Accuracy);
+    }
+    if options.colour == Colour::OneRun {
+        return Err(PredicateRefusal::OneRun);
+    }
+    if options.visibility != Visibility::Classical {
+        return Err(PredicateRefusal::Visibility);
+    }
+    if options.checkpoint.is_some() {
+        return Err(PredicateRefusal::Checkpoint);
+    }
+    Ok(())
+}
+
+/// Renders the light that arrives on the paths of a scene of `qrt!` on which a predicate holds: as
+/// [`crate::render::render`] does, with all other paths black.
+///
+/// The predicate flips the bit that it is given, which is 0, on good paths. It runs on a
+/// [`Recorder`], once.
+///
+/// # Errors
+/// As [`crate::render::render`]; a [`qrt_core::oracle::PredicateError`] if the code is no
+/// predicate, and a [`PredicateRefusal`] for options that none is asked with.
+pub fn render_where<S: PathScene>(
+    options: &Options<'_>,
+    predicate: impl FnOnce(&mut Recorder, &S::Path, &mut Reg<Recorded, Bool>),
+) -> Result<Rendered, RenderError> {
+    let predicate = Predicate::of::<S>(predicate)?;
+    check(&predicate, options)?;
+    render_predicate(&predicate, options)
+}

@@ -1,0 +1,143 @@
+//! One path of a scene, in the scene's units.
+
+use crate::machines::{OracleMachine, Real};
+use crate::render::{Model, RenderError};
+use qrt_circuit::Word;
+use qrt_core::oracle::paths::{PathFormats, PathNumber, PathScene, RayNumber};
+use qrt_core::oracle::{Oracle, PredicateError};
+use qrt_core::valid::ValidScene;
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// A path, as a machine traces it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TracedPath {
+    /// The rays that the path has: the last one may meet something or nothing.
+    pub rays: Vec<TracedRay>,
+    /// The path's colour, in radiance: red, green, blue.
+    pub colour: [f64; 3],
+}
+
+/// A ray of a path.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TracedRay {
+    /// Where it starts, a point of the scene.
+    pub origin: [f64; 3],
+    /// Where it goes: of length 1, up to rounding.
+    pub direction: [f64; 3],
+    /// What it meets, if anything.
+    pub hit: Option<TracedHit>,
+}
+
+/// What a ray meets.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TracedHit {
+    /// How far away it is, in units of the scene.
+    pub distance: f64,
+    /// The number of the face, from 1 on, in the order of the scene's polygons.
+    pub face: u32,
+    /// The number of the face's material, from 1 on.
+    pub material: u32,
+    /// The material's name.
+    pub name: &'static str,
+    /// Whether the face is met on its front.
+    pub front: bool,
+    /// The unit normal of the face's front.
+    pub normal: [f64; 3],
+}
+
+/// Traces path `id` of pixel (column, row) of a scene of `qrt!`, and reads every number of it that
+/// predicates read, in the scene's units. `seed` keys the shifts of the digital net, as in
+/// [`crate::render::Options`].
+///
+/// Under [`Model::Fixed`] and [`Model::Gates`] the numbers are what the registers hold that
+/// predicates read; under [`Model::Real`] they are the tracer's, before they are rounded to these.
+///
+/// # Errors
+/// A pixel beyond the film, a path index beyond the scene's, a scene without a circuit.
+pub fn trace_path<S: PathScene>(
+    model: Model,
+    seed: u64,
+    pixel: [u32; 2],
+    id: u64,
+) -> Result<TracedPath, RenderError> {
+    let scene = S::scene();
+    let film = scene.scene().film;
+    if pixel[0] >= film.width || pixel[1] >= film.height {
+        return Err(RenderError::Crop {
+            crop: [pixel[0], pixel[1], 1, 1],
+            film: [film.width, film.height],
+        });
+    }
+    let path_bits = scene.scene().sampling.path_bits;
+    if id >> path_bits != 0 {
+        return Err(RenderError::PathIndex { id, path_bits });
+    }
+    let formats = PathFormats::new(scene).ok_or(PredicateError::TooLarge)?;
+    let numbers = formats.numbers();
+    let values = if model == Model::Real {
+        Real::path(scene, &formats, &numbers, (seed, pixel, id))?
+    } else {
+        let (oracle, registers) = Oracle::of_numbers(scene, &formats, &numbers)?;
+        let words: Vec<Word> = registers
+            .iter()
+            .map(|&register| Word::unsigned(register, 0, oracle.program.width(register)))
+            .collect();
+        let oracle = Arc::new(oracle);
+        let machine = if model == Model::Gates {
+            OracleMachine::gates(oracle, seed, false)?
+        } else {
+            OracleMachine::fixed(oracle, seed, false)
+        };
+        let read = machine.read(&words, pixel, id)?.into_iter();
+        let of = numbers.iter().map(|&number| formats.format(number));
+        of.zip(read)
+            .map(|(format, bits)| format.value(bits.cast_unsigned()))
+            .collect()
+    };
+    Ok(path(
+        scene,
+        &formats,
+        numbers.into_iter().zip(values).collect(),
+    ))
+}
+
+fn path(
+    scene: &'static ValidScene,
+    formats: &PathFormats,
+    values: HashMap<PathNumber, f64>,
+) -> TracedPath {
+    let value = |number: PathNumber| values.get(&number).copied().unwrap_or(0.0);
+    let mut rays = Vec::new();
+    for depth in 0..formats.rays {
+        let of = |number| value(PathNumber::Ray(depth, number));
+        let vector = |number: fn(usize) -> RayNumber| [0, 1, 2].map(|axis| of(number(axis)));
+        // A ray of length 1 goes somewhere.
+        let direction = vector(RayNumber::Direction);
+        if direction == [0.0; 3] {
+            break;
+        }
+        let hit = (of(RayNumber::Found) == 1.0).then(|| {
+            let material = of(RayNumber::Material) as u32;
+            let surface = scene.surfaces().get(material.wrapping_sub(1) as usize);
+            TracedHit {
+                distance: of(RayNumber::Distance),
+                face: of(RayNumber::Face) as u32,
+                material,
+                name: surface.map_or("", |surface| surface.name.as_str()),
+                front: of(RayNumber::Front) == 1.0,
+                normal: vector(RayNumber::Normal),
+            }
+        });
+        let origin = vector(RayNumber::Origin);
+        rays.push(TracedRay {
+            origin,
+            direction,
+            hit,
+        });
+    }
+    TracedPath {
+        rays,
+        colour: [0, 1, 2].map(|channel| value(PathNumber::Colour(channel))),
+    }
+}
