@@ -42,6 +42,7 @@ const MODULES: &[(&str, &[&str])] = &[
             "sample",
             "plan",
             "render",
+            "predicates",
             "draw",
             "layouts",
             "physical",

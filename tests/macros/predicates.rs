@@ -137,8 +137,10 @@ fn at(model: Model, crop: Option<[u32; 4]>) -> Options<'static> {
 type Path = <Corner as PathScene>::Path;
 type Code = fn(&mut Recorder, &Path, &mut Reg<qrt::circuit::Recorded, Bool>);
 
+type Plain = fn(&TracedPath) -> bool;
+
 /// A predicate as circuits have it, and as one says it of a path in floating point.
-const PREDICATES: [(Code, fn(&TracedPath) -> bool); 4] = [
+const PREDICATES: [(Code, Plain); 4] = [
     (
         |m, path, good| on::<RED, _>(m, &path.ray1.material, good),
         |path| meets(path, 1) == Some("red"),

@@ -37,6 +37,7 @@ pages! {
     yaml = "yaml.md",
     format = "format.md",
     macros = "macros.md",
+    predicates = "predicates.md",
     cli = "cli.md",
     error_codes = "error-codes.md",
     internals = "internals.md",

@@ -109,6 +109,10 @@ impl Arith for Builder<'_> {
         }
     }
 
+    fn of_surface(&mut self, surface: Option<u32>) {
+        self.surface = surface;
+    }
+
     fn truth(&mut self, value: bool) -> Bool {
         Bool::Constant(value)
     }

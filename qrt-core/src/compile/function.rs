@@ -6,7 +6,7 @@
 //! `2^MOST_PIECES` of them.
 
 use super::value::{Real, Tabulated};
-use super::{BuildError, Builder, MAX_BITS};
+use super::{Builder, MAX_BITS};
 use qrt_circuit::{Operand, Word};
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -63,7 +63,7 @@ impl Builder<'_> {
         let bits = word.width;
         if bits > MAX_BITS {
             let what = "a function's operand";
-            self.fail(BuildError::TooWide { what, bits });
+            self.too_many_bits(what, bits);
             return Real::constant(0.0);
         }
         let sign = word.signed;

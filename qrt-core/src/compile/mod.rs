@@ -47,7 +47,7 @@ pub use value::{Bool, Index, Real};
 
 use crate::sampling::PathPoints;
 use crate::syntax::{Circuit, What};
-use crate::tracer::{Coordinate, Named, Segment};
+use crate::tracer::{Coordinate, Named, Segment, WideValue};
 use names::Nameable;
 use passes::Draft;
 use qrt_circuit::{Bit, Block, BlockId, Op, Operand, Register, RegisterId, Type, Word};
@@ -83,18 +83,32 @@ pub enum BuildError {
         what: &'static str,
         /// How many bits it needs.
         bits: u32,
+        /// How many fraction bits every number has.
+        fraction: u32,
+        /// What of a material it is on the way to, if it is of one.
+        value: Option<WideValue>,
     },
 }
 
 impl BuildError {
     /// What this says of the scene.
     pub(crate) fn problem(&self) -> Circuit {
-        match *self {
+        match self {
             Self::UnboundedQuotient => Circuit::UnboundedQuotient,
-            Self::TooWide { what, bits } => {
-                let most = MAX_BITS;
-                Circuit::TooWide { what, bits, most }
-            }
+            Self::TooWide {
+                what,
+                bits,
+                fraction,
+                value,
+            } => Circuit::TooWide {
+                what,
+                bits: *bits,
+                most: MAX_BITS,
+                whole: MAX_BITS.saturating_sub(*fraction),
+                value: value
+                    .as_ref()
+                    .map(|value| (value.key, value.material.clone())),
+            },
         }
     }
 }
@@ -179,6 +193,9 @@ pub struct Builder<'a> {
     names: Vec<(Named, usize, Nameable)>,
     /// By ray: what it starts with and what it meets, as the tracer told.
     segments: Vec<Segment<Self>>,
+    /// The surface whose weight is being computed, and of what the surfaces' weights are made.
+    surface: Option<u32>,
+    wide_values: Vec<Option<WideValue>>,
     asked: u64,
     shared: u64,
 }
@@ -220,6 +237,8 @@ impl<'a> Builder<'a> {
             coordinates: HashMap::new(),
             names: Vec::new(),
             segments: Vec::new(),
+            surface: None,
+            wide_values: Vec::new(),
             asked: 0,
             shared: 0,
         };
@@ -301,6 +320,24 @@ impl<'a> Builder<'a> {
         }
     }
 
+    /// What the surfaces' weights are computed from, by their numbers.
+    pub(crate) fn with_values(mut self, values: Vec<Option<WideValue>>) -> Self {
+        self.wide_values = values;
+        self
+    }
+
+    /// Reports a number that no register holds.
+    fn too_many_bits(&mut self, what: &'static str, bits: u32) {
+        let surface = self.surface.map(|surface| surface as usize);
+        let value = surface.and_then(|surface| self.wide_values.get(surface).cloned());
+        self.fail(BuildError::TooWide {
+            what,
+            bits,
+            fraction: self.target.fraction,
+            value: value.flatten(),
+        });
+    }
+
     fn fail(&mut self, error: BuildError) {
         self.error.get_or_insert(error);
     }
@@ -336,7 +373,7 @@ impl<'a> Builder<'a> {
         for (_, bits) in op.targets() {
             if bits > MAX_BITS {
                 let what = "a value of the tracer";
-                self.fail(BuildError::TooWide { what, bits });
+                self.too_many_bits(what, bits);
             }
         }
         self.known.insert(key, self.ops.len());

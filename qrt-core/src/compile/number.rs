@@ -14,7 +14,7 @@ pub(super) struct Plain {
 }
 
 pub(super) fn negative([low, high]: [i64; 2]) -> [i64; 2] {
-    [-high, -low]
+    [high, low].map(i64::saturating_neg)
 }
 
 impl Builder<'_> {
@@ -49,7 +49,7 @@ impl Builder<'_> {
             .log2()
             .ceil()
             .clamp(f64::from(MAX_BITS) + 1.0, 9999.0) as u32;
-        self.fail(super::BuildError::TooWide { what, bits });
+        self.too_many_bits(what, bits);
     }
 
     pub(super) fn value(&mut self, value: Value) -> Real {
@@ -146,7 +146,7 @@ impl Builder<'_> {
             return whole(Operand::Word(word), range);
         }
         let signed = if a.negated { negative(range) } else { range };
-        let range = [signed[0] + extent[0], signed[1] + extent[1]];
+        let range = [0, 1].map(|end| signed[end].saturating_add(extent[end]));
         let word = self.sum(offset, Operand::Word(word), a.negated, range);
         whole(Operand::Word(word), range)
     }
@@ -238,7 +238,7 @@ impl Builder<'_> {
             self.values[second as usize].range,
         );
         let sr = if subtract { negative(sr) } else { sr };
-        let range = [fr[0] + sr[0], fr[1] + sr[1]];
+        let range = [0, 1].map(|end| fr[end].saturating_add(sr[end]));
         let word = self.sum(Operand::Word(f), Operand::Word(s), subtract, range);
         let sum = self.computed(word, range);
         let sum = if a.negated && b.negated {

@@ -1,6 +1,7 @@
 //! Signs, the greater and the lesser, and what is known of a number's bounds.
 
 use super::Builder;
+use super::number::negative;
 use super::value::{Affine, Bool, Real, bits_of};
 use qrt_circuit::{Op, Operand, Word};
 
@@ -74,12 +75,13 @@ impl Builder<'_> {
 
     /// The same number, of which a tighter interval is known.
     pub(super) fn narrowed(&mut self, a: Real, range: [i64; 2]) -> Real {
-        if a.offset != Affine::ZERO || a.negated {
+        if a.offset != Affine::ZERO {
             return a;
         }
         let Some(node) = a.node else {
             return a;
         };
+        let range = if a.negated { negative(range) } else { range };
         let old = &self.values[node as usize];
         let range = [range[0].max(old.range[0]), range[1].min(old.range[1])];
         if range == old.range || range[0] > range[1] {
@@ -90,7 +92,8 @@ impl Builder<'_> {
         if let Some(word) = value.word {
             value.word = Some(trimmed(word, range));
         }
-        self.value(value)
+        let value = self.value(value);
+        if a.negated { value.negative() } else { value }
     }
 
     /// The same number, known to lie within `low ..= high` up to rounding: read in the bits that

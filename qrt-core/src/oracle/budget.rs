@@ -91,6 +91,12 @@ impl OracleError {
             Self::Build(error) => {
                 let path = match error {
                     BuildError::UnboundedQuotient => root.key("materials"),
+                    BuildError::TooWide {
+                        value: Some(value), ..
+                    } => {
+                        let material = root.key("materials").key(&value.material);
+                        material.key(value.kind).key(value.key)
+                    }
                     BuildError::TooWide { .. } => root.key("precision").key("fraction"),
                 };
                 Problem::new(path, error.problem())
@@ -112,6 +118,7 @@ impl OracleError {
 mod tests {
     use super::*;
     use crate::front::{Loaded, parse};
+    use crate::oracle::{Options, Oracle};
     use crate::syntax::codes;
 
     fn loaded(more: &str) -> Loaded {
@@ -177,11 +184,72 @@ geometry: [quad: {{ vertices: [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], mate
         }
     }
 
+    /// A tilted floor of one material under a lamp, in 4 lines before the material's.
+    fn tilted(material: &str) -> Loaded {
+        let text = format!(
+            "\
+name: tilted
+camera: {{ perspective: {{ eye: [0, 1, 5], target: [0, 1, 0], vfov: 40 }} }}
+film: {{ width: 2, height: 2 }}
+materials:
+  steep: {{ {material} }}
+  lamp: {{ emitter: {{ radiance: [3, 2, 1] }} }}
+geometry:
+  - triangle: {{ vertices: [[-2, 0, 0], [2, 1.5, 0.4], [2, 0.7, 2]], material: steep }}
+  - quad: {{ vertices: [[-1, 2, -1], [1, 2, -1], [1, 2, 1], [-1, 2, 1]], material: lamp }}
+sampling:
+  path_bits: 4
+  depths: [{{ bits: [4, 4] }}, {{ bits: [4, 4], map: uniform-hemisphere }}, {{ bits: [4, 4], map: uniform-hemisphere }}]
+"
+        );
+        parse(&text, "tilted.yaml", &[], "".as_ref()).unwrap_or_else(|report| panic!("{report}"))
+    }
+
+    /// A cosine is at most 1, and so are its powers.
+    #[test]
+    fn a_phong_lobe_of_any_exponent_fits_under_a_uniform_map() {
+        for exponent in ["12", "40", "12.5", "2000"] {
+            let material = format!(
+                "phong: {{ diffuse: [0.2, 0.2, 0.2], specular: [0.5, 0.5, 0.5], exponent: {exponent} }}"
+            );
+            let loaded = tilted(&material);
+            let oracle = Oracle::rgb(&loaded.valid, Options::default());
+            assert!(oracle.is_ok(), "{exponent}: {:?}", oracle.err());
+        }
+    }
+
+    /// The value and its material are named, at the value, and what the advice says helps.
+    #[test]
+    fn a_value_that_takes_too_wide_a_number_is_named() {
+        let bsdf = |part: &str| {
+            let map = r#"["sqrt(1-u^2)*cos(2*pi*v)", "sqrt(1-u^2)*sin(2*pi*v)", "u"]"#;
+            tilted(&format!(
+                r#"bsdf: {{ map: {map}, jacobian: auto, value: ["0.1/pi*({part})^8/(1 + ({part})^8)"] }}"#
+            ))
+        };
+        let wide = bsdf("1e6*cos_i*cos_o");
+        let oracle = Oracle::rgb(&wide.valid, Options::default());
+        let error = oracle.err().unwrap();
+        let text = wide.report(vec![error.problem()]).to_string();
+        for expected in [
+            "error[QRT0611]: a number that `value` of the material `steep` takes on the way needs ",
+            "--> tilted.yaml:5:",
+            "help: keep every part of it below 2^46, as in `min(1 / x, 100)`",
+        ] {
+            assert!(text.contains(expected), "{text}");
+        }
+        let narrow = bsdf("min(1e6*cos_i*cos_o, 3)");
+        let oracle = Oracle::rgb(&narrow.valid, Options::default());
+        assert!(oracle.is_ok(), "{:?}", oracle.err());
+    }
+
     #[test]
     fn what_fits_no_register_is_an_error_at_its_knob() {
         let wide = OracleError::Build(BuildError::TooWide {
             what: "a constant of the scene",
             bits: 70,
+            fraction: 30,
+            value: None,
         });
         let text = loaded("precision: { fraction: 30 }").report(vec![wide.problem()]);
         let text = text.to_string();

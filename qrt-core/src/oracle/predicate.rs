@@ -91,7 +91,8 @@ pub struct Predicate {
 impl Predicate {
     /// Records a predicate: code that flips the bit that it is given where the path is good, and
     /// leaves everything else as it was. The bit is 0 before. What it reads it cannot change: it
-    /// has the path by reference.
+    /// has the path by reference. Reversible functions leave nothing in registers of their own; of
+    /// code written by hand, what it leaves in one that it frees is found by the gates machine.
     ///
     /// # Errors
     /// Code that leaves something behind or flips phases, and a scene too large for registers.

@@ -129,7 +129,7 @@ impl Recording {
         let strategy = options.strategy(scene)?;
         let target = target(scene, &stage, &points, strategy, options.passes);
         let (film, fraction) = (target.film, target.fraction);
-        let mut builder = Builder::new(target);
+        let mut builder = Builder::new(target).with_values(stage.values(scene));
         let bits = written.comparator.bits;
         let comparator = builder.outside("comparator", Type::UInt, Role::Comparator, bits);
         let flag = builder.outside("flag", Type::Bool, Role::Flag, 1);

@@ -481,9 +481,24 @@ problems! {
         UnboundedQuotient = QUOTIENT_UNBOUNDED
             "an expression of the scene divides by what may be zero, so that no register is wide enough \
              for the quotient" help "keep the divisor away from 0, as in `a / (b + 0.01)`";
-        TooWide { what: &'static str, bits: u32, most: u32 } = NUMBER_TOO_WIDE
-            "{what} needs {bits} bits and a register has at most {most}"
-            help "choose a smaller `precision.fraction`, or bring the camera nearer to the geometry";
+        TooWide { what: &'static str, bits: u32, most: u32, whole: u32,
+                  value: Option<(&'static str, String)> } = NUMBER_TOO_WIDE
+            { match value {
+                Some((key, material)) => format!(
+                    "a number that `{key}` of the material `{material}` takes on the way needs {bits} \
+                     bits and a register has at most {most}"),
+                None => format!("{what} needs {bits} bits and a register has at most {most}"),
+            } }
+            help { Some(match value {
+                Some(("exponent", _)) => format!(
+                    "lower the exponent, or keep `map: auto`, which samples the lobe and takes no power \
+                     of a cosine; numbers may go up to 2^{whole}"),
+                Some(_) => format!(
+                    "keep every part of it below 2^{whole}, as in `min(1 / x, 100)`; each bit less of \
+                     `precision.fraction` doubles that"),
+                None => "choose a smaller `precision.fraction`, or bring the camera nearer to the geometry"
+                    .to_owned(),
+            }) };
         TooManyFaces { faces: usize, most: usize } = TOO_MANY_FACES
             "the scene has {faces} faces, and tables of faces hold at most {most}"
             help "use a coarser mesh";

@@ -193,6 +193,10 @@ pub trait Arith: Sized {
     /// colours alone.
     #[inline(always)]
     fn traced(&mut self, _depth: usize, _segment: Segment<Self>) {}
+    /// What follows is what this surface alone makes of light, until it is said of none: what is
+    /// wrong there is wrong with its material.
+    #[inline(always)]
+    fn of_surface(&mut self, _surface: Option<u32>) {}
     /// Does `work`. A machine may do it in a function of its own: the tracer is one function, and
     /// takes a compiler the longer the larger it is.
     #[inline(always)]

@@ -57,4 +57,4 @@ pub use pixel_class::{PixelClass, PixelClasses};
 pub use ray::{Hit, Nearest, Ray, Segment, Start};
 pub use sampled::Sampled;
 pub(crate) use search::Search;
-pub use stage::Stage;
+pub use stage::{Stage, WideValue};

@@ -7,6 +7,7 @@ use super::lights::{Lamps, LightStage};
 use super::pixel_class::PixelClass;
 use super::places::Places;
 use super::{Arith, bound, geometry};
+use crate::scene::Material;
 use crate::valid::{Surface, ValidScene};
 use glam::DVec3;
 
@@ -17,6 +18,8 @@ pub struct Stage<const C: usize> {
     pub(crate) camera: CameraStage,
     /// Sample bits of the primary ray.
     pub(crate) film_bits: [u32; 2],
+    /// The scene's surfaces in the stage's order, by their indices in the scene.
+    order: Vec<usize>,
     /// The number of the surface of each face.
     pub(crate) surface_of: Vec<u32>,
     /// The unit normal of each face.
@@ -39,6 +42,17 @@ pub struct Stage<const C: usize> {
     /// Whether the last ray is searched for all that it may meet, and not for emitters alone.
     pub(crate) every_hit: bool,
     bound: [f64; C],
+}
+
+/// What of a material takes numbers that no register holds.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct WideValue {
+    /// The material's name.
+    pub material: String,
+    /// What kind of material it is: `bsdf`.
+    pub kind: &'static str,
+    /// Which of the material's keys: `value`.
+    pub key: &'static str,
 }
 
 impl Stage<3> {
@@ -125,6 +139,7 @@ impl<const C: usize> Stage<C> {
         let frames = geometry.frames.iter();
         Self {
             camera,
+            order,
             film_bits: depths.first().map_or([0, 0], |primary| primary.bits),
             surface_of,
             normals: frames.clone().map(|f| f.normal.to_array()).collect(),
@@ -202,6 +217,26 @@ impl<const C: usize> Stage<C> {
         let scatter = self.scatters.get(depth.checked_sub(1)?)?;
         let surface = self.surface_of[face as usize];
         scatter.density(cx, surface, outgoing, incoming)
+    }
+
+    /// By surface: the author's expression or number that its weight is computed from, if it is one
+    /// that may take numbers of any size.
+    pub(crate) fn values(&self, scene: &ValidScene) -> Vec<Option<WideValue>> {
+        let value = |&surface: &usize| {
+            let (name, material) = scene.scene().materials.get(surface)?;
+            let (kind, key) = match material {
+                Material::Phong(_) => ("phong", "exponent"),
+                Material::Bsdf(_) => ("bsdf", "value"),
+                _ => return None,
+            };
+            let material = name.clone();
+            Some(WideValue {
+                material,
+                kind,
+                key,
+            })
+        };
+        self.order.iter().map(value).collect()
     }
 
     /// The unit normal of a face's front, by the face's label.

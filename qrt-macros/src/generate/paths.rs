@@ -9,6 +9,9 @@ use std::fmt::Write as _;
 /// A label of more faces than these has no list of them: its material tells them as well.
 const MOST_FACES: usize = 1_000;
 
+/// An author's name, and the numbers that it stands for.
+type Named = (String, Vec<usize>);
+
 /// The module of what is used here.
 const PATHS: &str = "::qrt::core::oracle::paths";
 
@@ -93,9 +96,9 @@ pub(super) fn numbers(
     (labels, valid): (&[Option<String>], &ValidScene),
 ) {
     let surfaces = valid.surfaces().iter().map(|surface| surface.name.clone());
-    let materials: Vec<(String, Vec<usize>)> = surfaces.zip((1..).map(|n| vec![n])).collect();
+    let materials: Vec<Named> = surfaces.zip((1..).map(|n| vec![n])).collect();
     // By label in the order of the text: the faces of all primitives that it names.
-    let mut faces: Vec<(String, Vec<usize>)> = Vec::new();
+    let mut faces: Vec<Named> = Vec::new();
     for (primitive, label) in labels.iter().enumerate() {
         let Some(label) = label else {
             continue;
@@ -123,7 +126,7 @@ pub(super) fn numbers(
 fn table(
     out: &mut String,
     (scene, public, conditions): (&str, &str, &str),
-    (plural, constant, noun, named): (&str, &str, &str, &[(String, Vec<usize>)]),
+    (plural, constant, noun, named): (&str, &str, &str, &[Named]),
 ) {
     let names = identifiers(named.iter().map(|(name, _)| name.as_str()));
     let mut fields = String::new();

@@ -60,12 +60,11 @@ pub(crate) fn stub(name: &str, visibility: &str, conditions: &str) -> TokenStrea
         });
         rays.collect::<Vec<_>>().join(", ")
     };
-    let path: String = (0..RAYS)
-        .map(|ray| {
-            let ty = "::qrt::core::oracle::paths::RayRegisters";
-            format!("pub ray{ray}: {ty}<{bool}, {bool}, {bool}, {bool}, {bool}>, ")
-        })
-        .collect();
+    let path = (0..RAYS).map(|ray| {
+        let ty = "::qrt::core::oracle::paths::RayRegisters";
+        format!("pub ray{ray}: {ty}<{bool}, {bool}, {bool}, {bool}, {bool}>")
+    });
+    let path = path.collect::<Vec<_>>().join(", ");
     let (all, each_is) = (rays(&format!("{name}Ray")), rays("RAY"));
     let text = format!(
         "{conditions}
@@ -96,7 +95,7 @@ pub(crate) fn stub(name: &str, visibility: &str, conditions: &str) -> TokenStrea
         {conditions}
         #[allow(missing_docs, dead_code)]
         #[derive(Debug)]
-        {visibility} struct {name}Path {{ {path}
+        {visibility} struct {name}Path {{ {path},
             pub colour: ::qrt::core::oracle::paths::ColourRegisters<{bool}>,
         }}
         {conditions}

@@ -166,7 +166,7 @@ fn neighbouring_additions_are_taken_back_in_any_order_and_nothing_else_is() {
             Some(first) if first.to_string() == "if" => quote!(if z {
                 t -= y;
             }),
-            _ => quote!(for _ in 0..2 {
+            _ => quote!(for _ in (0..2).rev() {
                 t -= y;
             }),
         };

@@ -163,7 +163,8 @@ impl Machine {
 /// The predicate flips the bit that it is given, which is 0, on good paths. It runs on a
 /// [`Recorder`], once. Of `options` count `seed`, `crop` (a pixel, a part of the film, or all of
 /// it), `model`, `estimator`, `noise` and `workers`. Under the estimator `exact` all R paths are
-/// asked for, one query each.
+/// asked for, one query each. The scene's `counting.error` is a radiance, and does not count here:
+/// all queries of its counting block may be used.
 ///
 /// # Errors
 /// As [`crate::render::render`]; a [`qrt_core::oracle::PredicateError`] if the code is no

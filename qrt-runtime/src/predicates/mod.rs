@@ -18,39 +18,13 @@ mod path;
 pub use count::{Counted, PixelCount, QueryCost, count_where};
 pub use path::{TracedHit, TracedPath, TracedRay, trace_path};
 
-use crate::render::{Colour, render_predicate};
-use crate::render::{Options, RenderError, Rendered, Visibility};
+pub use crate::render::PredicateRefusal;
+
+use crate::render::{Colour, Options, RenderError, Rendered, Visibility, render_predicate};
 use qrt_circuit::format::{Bool, Reg};
 use qrt_circuit::{Recorded, Recorder};
 use qrt_core::oracle::Predicate;
 use qrt_core::oracle::paths::PathScene;
-
-/// What predicates are not asked with.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum PredicateRefusal {
-    /// The scene's parameters are chosen for the error of its picture.
-    #[error(
-        "the scene asks for an `accuracy`, which is that of its picture: write the parameters into \
-         the scene that a predicate is counted with"
-    )]
-    Accuracy,
-    /// One run for all channels.
-    #[error(
-        "colour from one run takes the colours of all paths that are measured, whether or not a \
-         predicate holds: choose three runs"
-    )]
-    OneRun,
-    /// Primary hits that are searched for.
-    #[error(
-        "a predicate is a part of the circuit that finds primary hits itself: find primary hits \
-         classically"
-    )]
-    Visibility,
-    /// A checkpoint, which does not know whose paths it keeps.
-    #[error("a checkpoint keeps pictures of all paths, and none of a predicate: ask for none")]
-    Checkpoint,
-}
 
 /// Refuses what is not asked with a predicate.
 pub(crate) fn check(predicate: &Predicate, options: &Options<'_>) -> Result<(), PredicateRefusal> {

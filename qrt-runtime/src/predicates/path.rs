@@ -95,17 +95,14 @@ pub fn trace_path<S: PathScene>(
             .map(|(format, bits)| format.value(bits.cast_unsigned()))
             .collect()
     };
-    Ok(path(
-        scene,
-        &formats,
-        numbers.into_iter().zip(values).collect(),
-    ))
+    let values = numbers.into_iter().zip(values).collect();
+    Ok(path(scene, &formats, &values))
 }
 
 fn path(
     scene: &'static ValidScene,
     formats: &PathFormats,
-    values: HashMap<PathNumber, f64>,
+    values: &HashMap<PathNumber, f64>,
 ) -> TracedPath {
     let value = |number: PathNumber| values.get(&number).copied().unwrap_or(0.0);
     let mut rays = Vec::new();

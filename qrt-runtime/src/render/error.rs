@@ -5,7 +5,6 @@ use crate::counting::CountingError;
 use crate::estimators::EstimatorError;
 use crate::machines::Defect;
 use crate::plan::PlanError;
-use crate::predicates::PredicateRefusal;
 use crate::search::RoundsError;
 use crate::workers::ThreadsError;
 use qrt_core::oracle::{OracleError, PredicateError};
@@ -238,4 +237,31 @@ fn kept(checkpoint: Option<&Path>) -> String {
     checkpoint.map_or_else(String::new, |path| {
         format!(", which `{}` keeps", path.display())
     })
+}
+
+/// What predicates are not asked with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum PredicateRefusal {
+    /// The scene's parameters are chosen for the error of its picture.
+    #[error(
+        "the scene asks for an `accuracy`, which is that of its picture: write the parameters into \
+         the scene that a predicate is counted with"
+    )]
+    Accuracy,
+    /// One run for all channels.
+    #[error(
+        "colour from one run takes the colours of all paths that are measured, whether or not a \
+         predicate holds: choose three runs"
+    )]
+    OneRun,
+    /// Primary hits that are searched for.
+    #[error(
+        "a predicate is a part of the circuit that finds primary hits itself: find primary hits \
+         classically"
+    )]
+    Visibility,
+    /// A checkpoint, which does not know whose paths it keeps.
+    #[error("a checkpoint keeps pictures of all paths, and none of a predicate: ask for none")]
+    Checkpoint,
 }

@@ -60,7 +60,7 @@ mod tiles;
 mod visibility;
 
 pub use classes::Scales;
-pub use error::{CompiledError, RenderError};
+pub use error::{CompiledError, PredicateRefusal, RenderError};
 pub use visibility::{DEFAULT_FAILURE, Searched, Visibility};
 
 use crate::checkpoint::Checkpoint;

@@ -25,7 +25,7 @@ pub(super) fn traced(
     let strategy = options.strategy(scene)?;
     let target = target(scene, &stage, &points, strategy, options.passes);
     let (film, fraction) = (target.film, target.fraction);
-    let mut builder = Builder::new(target);
+    let mut builder = Builder::new(target).with_values(stage.values(scene));
     let bits = match marks {
         Marks::Paths => 0,
         Marks::Light => written.comparator.bits,
@@ -145,8 +145,8 @@ impl Reader<'_> {
                 let front = cx.and(segment.found, front);
                 cx.truth_in(front)
             }
-            Of::Face => self.index(cx, &segment, &self.face_numbers, format.width),
-            Of::Material => self.index(cx, &segment, &self.material_numbers, format.width),
+            Of::Face => entry_in(cx, &segment, &self.face_numbers, format.width),
+            Of::Material => entry_in(cx, &segment, &self.material_numbers, format.width),
             Of::Origin(axis) => {
                 let centre = self.formats.centre[axis] * self.formats.scale;
                 let centre = cx.real(centre);
@@ -175,20 +175,19 @@ impl Reader<'_> {
         let zero = cx.real(0.0);
         cx.less(cos_theta, zero)
     }
+}
 
-    /// The entry of the face that is met; 0 where none is.
-    fn index<'a>(
-        &self,
-        cx: &mut Builder<'a>,
-        segment: &Segment<Builder<'a>>,
-        entries: &[u32],
-        width: u32,
-    ) -> RegisterId {
-        let entry = cx.entry(entries, segment.face);
-        let none = cx.index(0);
-        let entry = cx.select_index(segment.found, entry, none);
-        cx.index_in(entry, width)
-    }
+/// The register of the entry of the face that is met; 0 where none is.
+fn entry_in<'a>(
+    cx: &mut Builder<'a>,
+    segment: &Segment<Builder<'a>>,
+    entries: &[u32],
+    width: u32,
+) -> RegisterId {
+    let entry = cx.entry(entries, segment.face);
+    let none = cx.index(0);
+    let entry = cx.select_index(segment.found, entry, none);
+    cx.index_in(entry, width)
 }
 
 /// A number where `when` holds, and 0 elsewhere.

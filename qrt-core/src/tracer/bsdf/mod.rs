@@ -338,13 +338,17 @@ impl<const C: usize> ScatterStage<C> {
         let one = cx.real(1.0);
         for (surface, lobe) in phong {
             if let Some(mask) = members(cx, at, &(*surface..surface + 1)) {
+                cx.of_surface(Some(*surface));
                 let weight = lobe.light(cx, &way);
+                cx.of_surface(None);
                 choose(cx, &mut lit, mask, Lit::new(weight, one));
             }
         }
         for (surface, lobe) in custom.iter().filter(|(_, lobe)| lobe.has_density()) {
             if let Some(mask) = members(cx, at, &(*surface..surface + 1)) {
+                cx.of_surface(Some(*surface));
                 let weight = lobe.light(cx, self.square.depth, &way);
+                cx.of_surface(None);
                 choose(cx, &mut lit, mask, Lit::new(weight, one));
             }
         }
@@ -416,13 +420,17 @@ impl<const C: usize> ScatterStage<C> {
         }
         for (surface, lobe) in &self.phong {
             if let Some(mask) = members(cx, at, &(*surface..surface + 1)) {
+                cx.of_surface(Some(*surface));
                 let new = lobe.scatter(cx, &sample);
+                cx.of_surface(None);
                 choose(cx, &mut chosen, mask, new);
             }
         }
         for (surface, lobe) in &self.custom {
             if let Some(mask) = members(cx, at, &(*surface..surface + 1)) {
+                cx.of_surface(Some(*surface));
                 let new = lobe.scatter(cx, &sample);
+                cx.of_surface(None);
                 choose(cx, &mut chosen, mask, new);
             }
         }

@@ -88,10 +88,10 @@ impl<const C: usize> PhongLobe<C> {
         }
     }
 
-    /// `max(0, cos_a)^n`
+    /// `max(0, cos_a)^n`, of a cosine that is cut to 1: powers of what rounding adds would grow.
     #[inline(always)]
     fn power<A: Arith>(&self, cx: &mut A, cos_a: A::Real) -> A::Real {
-        let cos = math!(cx, max(cos_a, 0.0));
+        let cos = math!(cx, min(max(cos_a, 0.0), 1.0));
         if self.exponent.fract() == 0.0 && self.exponent <= 4096.0 {
             integer_power(cx, cos, self.exponent as u32)
         } else {

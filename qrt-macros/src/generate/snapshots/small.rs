@@ -21,6 +21,88 @@ impl Lamp {
     pub const OPERATIONS: usize = 8;
 }
 
+/// The registers of a ray of [`Lamp`]: points and distances in the scene's units, unit
+/// vectors, and the numbers of faces and materials from 1 on.
+#[allow(dead_code, reason = "an author reads some of them only")]
+pub type LampPathRay = ::qrt::core::oracle::paths::RayRegisters<
+    ::qrt::circuit::format::Fixed<7, 2>,
+    ::qrt::circuit::format::Fixed<2, 6>,
+    ::qrt::circuit::format::UFixed<6, 2>,
+    ::qrt::circuit::format::UInt<2>,
+    ::qrt::circuit::format::UInt<2>,
+>;
+
+/// The registers of a path of [`Lamp`], which predicates read.
+#[derive(Debug)]
+#[allow(dead_code, reason = "an author reads some of them only")]
+pub struct LampPath {
+    /// The primary ray, and what it meets.
+    pub ray0: LampPathRay,
+    /// Ray 1, and what it meets.
+    pub ray1: LampPathRay,
+
+    /// The path's radiance.
+    pub colour: ::qrt::core::oracle::paths::ColourRegisters<::qrt::circuit::format::UFixed<2, 5>>,
+}
+
+impl ::qrt::core::oracle::paths::PathScene for Lamp {
+    type Path = LampPath;
+
+    fn scene() -> &'static ::qrt::core::valid::ValidScene {
+        Lamp::scene()
+    }
+
+    fn path(inputs: &mut ::qrt::core::oracle::paths::PathInputs<'_>) -> LampPath {
+        LampPath {
+            ray0: inputs.ray(0),
+            ray1: inputs.ray(1),
+            colour: inputs.colour(),
+        }
+    }
+}
+
+/// The number of each material of [`Lamp`] that has a name, by name; all of them where
+/// several have one.
+#[derive(Clone, Copy, Debug)]
+#[allow(
+    dead_code,
+    non_snake_case,
+    reason = "an author's names, of which some are read"
+)]
+pub struct LampMaterials {
+    /// `floor`
+    pub floor: u32,
+    /// `lamp`
+    pub lamp: u32,
+}
+
+#[allow(dead_code, reason = "an author asks for some of them only")]
+impl Lamp {
+    /// The number that each material with a name has in the registers of a path.
+    pub const MATERIALS: LampMaterials = LampMaterials { floor: 1, lamp: 2 };
+}
+
+/// The number of each face of [`Lamp`] that has a name, by name; all of them where
+/// several have one.
+#[derive(Clone, Copy, Debug)]
+#[allow(
+    dead_code,
+    non_snake_case,
+    reason = "an author's names, of which some are read"
+)]
+pub struct LampFaces {
+    /// `ground`
+    pub ground: u32,
+    /// `sky`
+    pub sky: u32,
+}
+
+#[allow(dead_code, reason = "an author asks for some of them only")]
+impl Lamp {
+    /// The number that each face with a name has in the registers of a path.
+    pub const FACES: LampFaces = LampFaces { ground: 1, sky: 2 };
+}
+
 /// Numbers of the primary ray of [`Lamp`] that are in registers.
 #[derive(Clone, Copy, Debug)]
 #[allow(dead_code, reason = "an author reads some of them only")]

@@ -22,11 +22,8 @@ impl Meaning<'_> {
             NumberKind::Constant(units) => {
                 Value::constant(*units as f64 * 2_f64.powi(-(fraction as i32)))
             }
-            NumberKind::Given(name) => {
-                let message = format!("`{name}` is known only where the function is called");
-                let help = "write the number: a scene gives its functions no constants";
-                self.meaningless(&number.source, &message, help)
-            }
+            // A function with constants is no term, which its signature has been told.
+            NumberKind::Given(_) => None,
             NumberKind::Word(register, first) => {
                 let width = number.size.width.known();
                 let whole = first.is_zero() && width == register.format.width.known();
