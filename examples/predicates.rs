@@ -5,8 +5,8 @@
 //! ```
 //!
 //! writes `mirror.png`, the light that arrives by the mirror alone, and says how many paths see the
-//! red wall in it. A face or a material that the scene does not have is an error of the compiler, and
-//! so is a register of another width: try `MATERIALS.rde`, `path.ray9`, or `UInt<5>`.
+//! red wall in it. A face or a material that the scene does not have is an error of the compiler,
+//! and so is a register of another width: try `MATERIALS.rde`, `path.ray9`, or `UInt<5>`.
 
 use qrt::prelude::*;
 
