@@ -5,8 +5,8 @@
 //! ```
 //!
 //! writes `mirror.png`, the light that arrives by the mirror alone, and says how many paths see the
-//! red wall in it. A face or a material that the scene does not have is an error of the compiler, and
-//! so is a register of another width: try `MATERIALS.rde`, `path.ray9`, or `UInt<5>`.
+//! red wall in it. A face or a material that the scene does not have is an error of the compiler,
+//! and so is a register of another width: try `MATERIALS.rde`, `path.ray9`, or `UInt<5>`.
 
 use qrt::prelude::*;
 
@@ -62,8 +62,9 @@ const SILVER: u32 = Corner::MATERIALS.silver;
 const RED: u32 = Corner::MATERIALS.red;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    // One pixel, whose primary rays meet the mirror: how many of its paths go on to the red wall?
-    let pixel = [26, 15];
+    // One pixel, at the edge of what the mirror shows of the wall: how many of its paths go on to
+    // the red wall?
+    let pixel = [28, 12];
     let [x, y] = pixel;
     let one = Options {
         model: Model::Gates,

@@ -353,6 +353,7 @@ fn an_accuracy_takes_the_knobs_that_keep_it_and_says_which() {
     }
     assert!(plan["errors"]["total"].as_f64().unwrap() <= 0.3);
     assert!(plan["within"].as_f64().unwrap() >= 0.9);
+    assert_eq!(parameters["counting_error"], plan["counting_error"]);
     let (_, _, metadata) = read_exr(&folder.path("p.exr"));
     assert_eq!(metadata["accuracy_error"], "0.3");
     for parameter in ["path_bits", "comparator_bits", "phase_bits", "fraction"] {
@@ -386,6 +387,7 @@ fn an_accuracy_takes_the_knobs_that_keep_it_and_says_which() {
         parameter("comparator.bits", "comparator_bits"),
         parameter("counting.phase_bits", "phase_bits"),
         parameter("counting.repetitions", "repetitions"),
+        parameter("counting.error", "counting_error"),
     ];
     std::fs::write(folder.path("box.yaml"), BOX).unwrap();
     let sets = sets.iter().flat_map(|set| ["--set", set.as_str()]);

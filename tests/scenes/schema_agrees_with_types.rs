@@ -34,7 +34,7 @@ impl Judge {
 }
 
 /// Codes of what relates values to each other, or is about files: beyond a schema.
-const RELATIONS: [&str; 18] = [
+const RELATIONS: [&str; 19] = [
     codes::PRIMARY_LIGHT,
     codes::FEW_LIGHT_BITS,
     codes::LIGHT_UNBOUNDED,
@@ -53,6 +53,7 @@ const RELATIONS: [&str; 18] = [
     codes::PRIMARY_MAP,
     codes::ACCURACY_CONFLICT,
     codes::STRATA,
+    codes::NEVER_STOPS,
 ];
 
 fn is_relation(code: &str) -> bool {

@@ -1,7 +1,7 @@
-//! Predicates of one's own: which paths are good is said by reversible code over a path's registers.
+//! Predicates of one's own: reversible code over a path's registers says which paths are good.
 //!
-//! The oracle of a predicate computes the numbers of a path that the predicate reads, and no others,
-//! then the predicate, flips one phase, and undoes all of it:
+//! The oracle of a predicate computes the numbers of a path that the predicate reads, and no
+//! others, then the predicate, flips one phase, and undoes all of it:
 //!
 //! ```text
 //! compute        id -> the rays, as far as they are read; the numbers in their formats

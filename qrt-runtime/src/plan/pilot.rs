@@ -37,6 +37,9 @@ pub(super) type Errors = Vec<[f64; 3]>;
 /// Run by run, the errors of an estimator; and its queries of a pixel.
 pub(super) type Runs = (Vec<Errors>, f64);
 
+/// By phase bits, repetitions and the bits of the error to stop at.
+type Known = BTreeMap<(u32, u32, Option<u64>), Runs>;
+
 /// A sample of pixels, and what was found on it.
 pub(super) struct Pilot<'a> {
     pub(super) scene: &'a ValidScene,
@@ -63,10 +66,10 @@ pub(super) struct Pilot<'a> {
     pub(super) octaves: Vec<[Octaves; 3]>,
     /// By path bits, from [`FEWEST`] on; of a lattice the only one.
     nets: Vec<Errors>,
-    /// What estimators were off by, by phase bits, repetitions and the error to stop at. Counting is tried only where
+    /// What estimators were off by. Counting is tried only where
     /// paths alone keep the asked error, and so [`Self::values`] do: what more paths change of them
     /// hardly changes this.
-    pub(super) counted: Mutex<BTreeMap<(u32, u32, Option<u64>), Runs>>,
+    pub(super) counted: Mutex<Known>,
     workers: Workers<'a>,
 }
 

@@ -64,7 +64,7 @@ const GROUPS: [(&str, &str, &str); 14] = [
         "The form of a scene in Rust's tokens. The compiler underlines the tokens.",
     ),
     (
-        "QRT072",
+        "QRT072 QRT073",
         "`qrt!`: materials, terms and attributes",
         "More of the macro's own rules, and those of a reversible function as a BSDF's value.",
     ),

@@ -114,6 +114,8 @@ fn elsewhere() -> Vec<String> {
         OracleError::Build(BuildError::TooWide {
             what: "a number of the scene",
             bits: 70,
+            fraction: 30,
+            value: None,
         }),
         OracleError::Build(BuildError::UnboundedQuotient),
         OracleError::TooManyFaces {
