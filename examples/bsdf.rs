@@ -97,7 +97,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     };
     let rendered = render_compiled::<Draped>(&options)?;
     let file = std::path::Path::new("bsdf.png");
-    let metadata = rendered.metadata(Draped::scene())?;
+    let metadata = rendered.metadata()?;
     save(file, &rendered.image, &metadata, Encoding::of(file, None)?)?;
     println!("bsdf.png: {} queries", rendered.total_queries());
     Ok(())

@@ -120,7 +120,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         on::<SILVER, _>(m, &path.ray0.material, good);
     })?;
     let file = std::path::Path::new("mirror.png");
-    let metadata = rendered.metadata(Corner::scene())?;
+    let metadata = rendered.metadata()?;
     save(file, &rendered.image, &metadata, Encoding::of(file, None)?)?;
     println!("mirror.png: {} queries", rendered.total_queries());
     Ok(())

@@ -76,7 +76,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     };
     let rendered = render_compiled::<Steps>(&options)?;
     let file = std::path::Path::new("scene.png");
-    let metadata = rendered.metadata(Steps::scene())?;
+    let metadata = rendered.metadata()?;
     save(file, &rendered.image, &metadata, Encoding::of(file, None)?)?;
     println!("scene.png: {} queries", rendered.total_queries());
     Ok(())

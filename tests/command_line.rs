@@ -8,10 +8,13 @@ mod command_line {
     mod files_are_safe;
     mod hostile_scenes;
     mod inspect_command;
+    mod parts_of_pictures;
     mod pictures_by_circuits;
+    mod playground_command;
     mod render_command;
     mod scenes_from_strangers;
     mod search_command;
     mod small_commands;
     mod trade_command;
+    mod watching;
 }

@@ -7,21 +7,26 @@
 // theme, or if its numbers are not those of the command `qrt`.
 
 import { execFileSync } from "node:child_process";
-import { mkdtempSync, readFileSync, readdirSync, rmSync, statSync } from "node:fs";
+import { existsSync, mkdtempSync, readFileSync, readdirSync, rmSync, statSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join, relative } from "node:path";
 import { Browser } from "./browser.mjs";
+import { playground } from "./playground.mjs";
 import { serve } from "./serve.mjs";
 
 const [folder, root] = process.argv.slice(2);
-const { QRT, CHROMIUM, SCREENSHOTS } = process.env;
+const { AXE, QRT, CHROMIUM, SCREENSHOTS } = process.env;
+/** What looks for barriers in a page; none where it is not there. */
+const axe = existsSync(AXE ?? "") ? readFileSync(AXE, "utf8") : null;
+/** Pages that are parts of others. */
+const PARTS = ["toc.html"];
 
 const WIDE = [1280, 900, false];
 const PHONE = [375, 740, true];
 /** Pages that are open at the same time. */
 const TABS = 3;
-/** Bytes that the figures' WebAssembly stays below. */
-const WASM = 500_000;
+/** Bytes that WebAssembly stays below. */
+const WASM = { "qrt_figures.wasm": 500_000, "qrt_playground.wasm": 5_000_000 };
 /** Milliseconds until a figure can be used. */
 const SOON = 1000;
 /**
@@ -90,6 +95,19 @@ function overflowing() {
   return named.length ? named : [`${wide[0].tagName.toLowerCase()} is ${wide[0].scrollWidth} wide`];
 }
 
+/** What keeps readers out of the page that is open, if it is serious. */
+async function barriers(page, name) {
+  if (!axe || PARTS.includes(name)) return [];
+  await page.value(`${axe}; 0`);
+  const found = await page.call(async () => {
+    const { violations } = await window.axe.run(document, { resultTypes: ["violations"] });
+    return violations.map(({ id, impact, nodes }) => ({ id, impact, html: nodes[0].html.slice(0, 100), count: nodes.length }));
+  });
+  return found
+    .filter(({ impact }) => ["serious", "critical"].includes(impact))
+    .map(({ id, html, count }) => `a barrier: ${id}, ${count} times, such as ${html}`);
+}
+
 /** Every page, wide and narrow. Answers those with figures. */
 async function everyPage(browser, address) {
   const waiting = pages(folder).sort();
@@ -108,6 +126,7 @@ async function everyPage(browser, address) {
         for (const complaint of new Set(page.complaints)) fail(where, complaint);
         for (const out of await page.call(overflowing)) fail(where, `sticks out of the page: ${out}`);
         if (size === WIDE) {
+          for (const barrier of await barriers(page, name)) fail(where, barrier);
           sizes.push([[...page.loaded.values()].reduce((a, b) => a + b, 0), name]);
           if (await page.value("document.querySelector('figure.qrt-interactive[data-figure]') !== null")) withFigures.push(name);
         }
@@ -116,8 +135,10 @@ async function everyPage(browser, address) {
   }));
   sizes.sort((a, b) => b[0] - a[0]);
   console.log(`${count} pages, wide and narrow`);
-  const wasm = statSync(join(folder, "interactive", "qrt_figures.wasm")).size;
-  if (wasm >= WASM) fail("qrt_figures.wasm", `it has ${wasm} bytes; less than ${WASM} are allowed`);
+  for (const [wasm, most] of Object.entries(WASM)) {
+    const { size } = statSync(join(folder, "interactive", wasm));
+    if (size >= most) fail(wasm, `it has ${size} bytes; less than ${most} are allowed`);
+  }
   for (const [bytes, name] of sizes.slice(0, 5)) console.log(`  ${(bytes / 1024).toFixed(0).padStart(6)} KiB  ${name}, with all it loads at first`);
   return withFigures.sort();
 }
@@ -203,35 +224,40 @@ class Figure {
   }
 
   /** Text that is hard to read, in the theme that is on. */
-  faint(least) {
-    return this.page.call((selector, least) => {
-      const channels = (colour) => colour.match(/[\d.]+/g).map(Number);
-      const light = (colour) => {
-        const [r, g, b] = channels(colour).map((c) => (c / 255 <= 0.04045 ? c / 255 / 12.92 : ((c / 255 + 0.055) / 1.055) ** 2.4));
-        return 0.2126 * r + 0.7152 * g + 0.0722 * b;
-      };
-      const over = (top, below) => {
-        const [r, g, b, a = 1] = channels(top);
-        const under = channels(below);
-        return `rgb(${[r, g, b].map((c, k) => c * a + under[k] * (1 - a)).join(",")})`;
-      };
-      const ground = (element) => {
-        const colours = [];
-        for (let at = element; at; at = at.parentElement) colours.push(getComputedStyle(at).backgroundColor);
-        return colours.reverse().reduce((below, top) => over(top, below), "rgb(255,255,255)");
-      };
-      const found = new Set();
-      for (const element of document.querySelectorAll(`${selector} *`)) {
-        const own = [...element.childNodes].some((node) => node.nodeType === 3 && node.textContent.trim());
-        if (!own || !element.getClientRects().length) continue;
-        const style = getComputedStyle(element);
-        const [text, back] = [light(over("ownerSVGElement" in element ? style.fill : style.color, ground(element))), light(ground(element))];
-        const contrast = (Math.max(text, back) + 0.05) / (Math.min(text, back) + 0.05);
-        if (contrast < least) found.add(`"${element.textContent.trim().slice(0, 30)}" has a contrast of ${contrast.toFixed(1)}`);
-      }
-      return [...found];
-    }, this.selector, least);
+  faint() {
+    return faint(this.page, this.selector);
   }
+}
+
+/** Text below `selector` that is hard to read, in the theme that is on. */
+function faint(page, selector) {
+  return page.call((selector, least) => {
+    const channels = (colour) => colour.match(/[\d.]+/g).map(Number);
+    const light = (colour) => {
+      const [r, g, b] = channels(colour).map((c) => (c / 255 <= 0.04045 ? c / 255 / 12.92 : ((c / 255 + 0.055) / 1.055) ** 2.4));
+      return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+    };
+    const over = (top, below) => {
+      const [r, g, b, a = 1] = channels(top);
+      const under = channels(below);
+      return `rgb(${[r, g, b].map((c, k) => c * a + under[k] * (1 - a)).join(",")})`;
+    };
+    const ground = (element) => {
+      const colours = [];
+      for (let at = element; at; at = at.parentElement) colours.push(getComputedStyle(at).backgroundColor);
+      return colours.reverse().reduce((below, top) => over(top, below), "rgb(255,255,255)");
+    };
+    const found = new Set();
+    for (const element of document.querySelectorAll(`${selector} *`)) {
+      const own = [...element.childNodes].some((node) => node.nodeType === 3 && node.textContent.trim());
+      if (!own || !element.getClientRects().length) continue;
+      const style = getComputedStyle(element);
+      const [text, back] = [light(over("ownerSVGElement" in element ? style.fill : style.color, ground(element))), light(ground(element))];
+      const contrast = (Math.max(text, back) + 0.05) / (Math.min(text, back) + 0.05);
+      if (contrast < least) found.add(`"${element.textContent.trim().slice(0, 30)}" has a contrast of ${contrast.toFixed(1)}`);
+    }
+    return [...found];
+  }, selector, CONTRAST);
 }
 
 /** What each figure's numbers are held against. */
@@ -351,7 +377,7 @@ async function figures(browser, address, name) {
           new PerformanceObserver((list) => window.qrtLong.push(...list.getEntries())).observe({ type: "longtask" });`,
       });
       await page.visit(`${address}/${name}`);
-      const names = await page.value("[...document.querySelectorAll('figure.qrt-interactive[data-figure]')].map((f) => f.dataset.figure)");
+      const names = await page.value("[...document.querySelectorAll('figure.qrt-interactive[data-figure]:not([data-figure=playground])')].map((f) => f.dataset.figure)");
       for (const kind of names) {
         const where = `${name}, ${kind}, ${theme} at ${size[0]}`;
         const figure = new Figure(page, kind, where);
@@ -379,7 +405,7 @@ async function figures(browser, address, name) {
           }, figure.selector);
           await page.picture(join(SCREENSHOTS, `${kind}-${theme}-${size[0]}.png`), { ...box, scale: 1 });
         }
-        for (const faint of await figure.faint(CONTRAST)) fail(where, faint);
+        for (const faint of await figure.faint()) fail(where, faint);
         if (theme === THEMES[0]) await figure.byKeyboard();
         if (theme === THEMES[0] && size === WIDE) await NUMBERS[kind]?.(figure);
         for (const out of await page.call(overflowing)) fail(where, `sticks out of the page: ${out}`);
@@ -394,7 +420,11 @@ const { server, address } = await serve(folder);
 const browser = await Browser.start(CHROMIUM);
 try {
   const withFigures = process.env.ONLY ? [process.env.ONLY] : await everyPage(browser, address);
-  for (const name of withFigures) await figures(browser, address, name);
+  const tools = { fail, check, checkAll, qrt, root, themes: THEMES, sizes: [WIDE, PHONE], faint, overflowing, screenshots: SCREENSHOTS };
+  for (const name of withFigures) {
+    await figures(browser, address, name);
+    if (name === "playground.html") await playground(browser, address, name, tools);
+  }
   console.log(`figures on ${withFigures.length} pages`);
 } catch (error) {
   fail("the test", error.stack);

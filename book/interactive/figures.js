@@ -11,7 +11,11 @@ const FIGURES = {
   map: () => import("./map.js"),
   circuit: () => import("./circuit.js"),
   picture: () => import("./picture.js"),
+  playground: () => import("./playground.js"),
 };
+
+// Those that bring what answers them along.
+const ALONE = new Set(["playground"]);
 
 async function start(figure) {
   const name = figure.dataset.figure;
@@ -20,7 +24,7 @@ async function start(figure) {
   figure.dataset.state = "loading";
   const begun = performance.now();
   try {
-    const [figureModule, qrt] = await Promise.all([load(), instance()]);
+    const [figureModule, qrt] = await Promise.all([load(), ALONE.has(name) ? null : instance()]);
     const body = document.createElement("div");
     body.className = "qrt-body";
     body.setAttribute("role", "group");
@@ -28,7 +32,7 @@ async function start(figure) {
     // The static picture's place, before anything is drawn: sizes are measured in the page.
     for (const child of figure.children) child.hidden = true;
     figure.append(body);
-    await figureModule.start(body, qrt, figure);
+    await (qrt ? figureModule.start(body, qrt, figure) : figureModule.start(body, figure));
     figure.dataset.state = "ready";
     performance.mark("qrt-figure-ready", { detail: name });
     performance.measure(`qrt-figure:${name}`, { start: begun, end: performance.now() });

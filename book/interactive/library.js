@@ -1,5 +1,7 @@
 // qrt, compiled to WebAssembly: calls and their answers. See book/widgets/src/boundary.rs.
 
+import { decode } from "./answer.js";
+
 let compiled;
 
 /** An instance of its own for a figure: a function `call(name, arguments, text)`. */
@@ -21,14 +23,7 @@ export async function instance() {
       exports.qrt_numbers(),
       exports.qrt_numbers_length(),
     );
-    const answer = JSON.parse(new TextDecoder().decode(index));
-    for (const [key, value] of Object.entries(answer)) {
-      if (typeof value === "string") continue;
-      const [start, length] = value;
-      // A copy: the next call writes over it.
-      answer[key] = length === undefined ? numbers[start] : numbers.slice(start, start + length);
-    }
-    return answer;
+    return decode(index, numbers);
   };
 }
 

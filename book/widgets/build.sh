@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Makes book/interactive/dist/qrt_figures.wasm: qrt's own code for the book's interactive figures.
+# Makes qrt_figures.wasm and qrt_playground.wasm in book/interactive/dist: qrt's own code for the book's
+# interactive figures, small, and for its playground, quick.
 #
 #   book/widgets/build.sh           exits 0 if it is made or was new enough, 3 if there is nothing
 #                                   to make it with (one line says what is missing), 1 if it fails
@@ -14,7 +15,7 @@
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 root=$(cd "$here/../.." && pwd)
-out=$root/book/interactive/dist/qrt_figures.wasm
+dist=$root/book/interactive/dist
 build=${CARGO_TARGET_DIR:-$root/target}/figures
 tools=${QRT_WASM_TOOLCHAIN:-$root/target/wasm-toolchain}
 triple=wasm32-unknown-unknown
@@ -27,10 +28,10 @@ lacks() {
 }
 
 is_new() {
-  [ -f "$out" ] && [ -z "$(
-    find "$here" "$root/drawing" "$root/qrt-core" "$root/qrt-runtime" "$root/Cargo.toml" \
-      "$root/scenes-yaml/cornell-box.yaml" -type d -name target -prune -o \
-      -type f -newer "$out" -print -quit
+  [ -f "$dist/qrt_figures.wasm" ] && [ -f "$dist/qrt_playground.wasm" ] && [ -z "$(
+    find "$here" "$root/drawing" "$root/qrt-circuit" "$root/qrt-core" "$root/qrt-runtime" \
+      "$root/Cargo.toml" "$root/scenes-yaml" -type d -name target -prune -o \
+      -type f -newer "$dist/qrt_figures.wasm" -print -quit
   )" ]
 }
 
@@ -93,10 +94,15 @@ fi
 command -v cargo >/dev/null || lacks "cargo is not installed"
 cd "$here"
 
-# Compiles; the arguments are cargo's.
+# Compiles both; the arguments are cargo's.
 compile() {
-  cargo rustc --quiet --locked --ignore-rust-version --release --lib --crate-type cdylib \
-    --target "$triple" --target-dir "$build" "$@" 2>"$build/log"
+  local package
+  for package in qrt-figures:release qrt-playground:playground; do
+    printf 'compiling %s for browsers: some minutes of processor time, once\n' "${package%:*}" >&2
+    cargo rustc --quiet --locked --ignore-rust-version --package "${package%:*}" \
+      --profile "${package#*:}" --lib --crate-type cdylib --target "$triple" \
+      --target-dir "$build" "$@" 2>"$build/log" || return 1
+  done
 }
 
 # Compiles the standard library along, without the texts of its panics, which nobody would see.
@@ -116,7 +122,7 @@ fail() {
   exit 1
 }
 
-mkdir -p "$build" "$(dirname "$out")"
+mkdir -p "$build" "$dist"
 if has_sources || ask_rustup component add rust-src; then
   compile_all || { has_target || ask_rustup target add "$triple" && compile; } || fail
 elif has_target || ask_rustup target add "$triple"; then
@@ -130,18 +136,28 @@ else
   LD_LIBRARY_PATH=$tools/root/usr/lib/x86_64-linux-gnu${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH} \
     RUSTC=$tools/root/usr/bin/rustc compile_all || fail
 fi
-made=$build/$triple/release/qrt_figures.wasm
 
-# Also where only these libraries are there.
+# The module $1, by wasm-opt with the options from $2 on, also where only these libraries are there.
 optimise() {
-  LD_LIBRARY_PATH=$tools/root/usr/lib/x86_64-linux-gnu "$@" -Oz --strip-debug --strip-producers \
+  local module=$1
+  shift
+  LD_LIBRARY_PATH=$tools/root/usr/lib/x86_64-linux-gnu "$@" --strip-debug --strip-producers \
     --enable-bulk-memory --enable-sign-ext --enable-nontrapping-float-to-int \
     --enable-mutable-globals --enable-multivalue --enable-reference-types \
-    "$made" -o "$out.new" 2>/dev/null
+    "$module" -o "$module.small" 2>/dev/null
 }
-own=$tools/root/usr/bin/wasm-opt
-if ! optimise wasm-opt && ! { { [ -x "$own" ] || unpack binaryen; } && optimise "$own"; }; then
-  cp "$made" "$out.new"
-fi
-mv "$out.new" "$out"
-printf 'figures: %s bytes of WebAssembly\n' "$(wc -c <"$out")"
+
+# The playground first: the figures' time says whether both are new.
+for made in playground/qrt_playground:-O3 release/qrt_figures:-Oz; do
+  level=${made#*:}
+  name=$(basename "${made%:*}").wasm
+  made=$build/$triple/${made%:*}.wasm
+  own=$tools/root/usr/bin/wasm-opt
+  if ! optimise "$made" wasm-opt "$level" &&
+    ! { { [ -x "$own" ] || unpack binaryen; } && optimise "$made" "$own" "$level"; }; then
+    cp "$made" "$made.small"
+  fi
+  cp "$made.small" "$dist/$name.new"
+  mv "$dist/$name.new" "$dist/$name"
+  printf '%s: %s bytes of WebAssembly\n' "$name" "$(wc -c <"$dist/$name")"
+done

@@ -23,7 +23,8 @@ pub use error::{CheckpointError, Difference};
 
 use crate::disk::{self, DiskFile};
 use crate::replace_file::{remove_abandoned, replaced};
-use format::{MAGIC, Record};
+use format::MAGIC;
+pub(crate) use format::{Ending, Record};
 use std::collections::BTreeMap;
 use std::io::{self, ErrorKind, Read, Seek, SeekFrom, Write};
 use std::ops::Range;
@@ -227,6 +228,8 @@ impl Checkpoint {
                     checkpoint.parts.insert((part.pixel, part.number), range);
                     parts.insert((part.pixel, part.number), part);
                 }
+                // Of a finished part of a picture, which no checkpoint is.
+                Record::Ending(_) => break,
             }
             checkpoint.end = end;
         }

@@ -11,6 +11,7 @@ pub mod memory;
 mod named;
 pub mod physical;
 pub mod plan;
+pub mod playground;
 pub mod predicates;
 pub mod random;
 pub mod render;

@@ -9,8 +9,8 @@
 //! What is assumed:
 //!
 //! * An estimator with a phase register runs the whole circuit B times, T - 1 queries each. One
-//!   without runs at most (T - 1) B iterates, without a control, and measures the index at most as
-//!   often: a shot takes a query at least. Strata fix qubits of the index, which saves some of O_0
+//!   without runs as many iterates as were planned, or else at most (T - 1) B, without a control, and
+//!   measures the index at most as often: a shot takes a query at least. Strata fix qubits of the index, which saves some of O_0
 //!   and is not reckoned with.
 //! * All channels of all pixels are counted, one after another on the same qubits, but those whose
 //!   proven bound is black. The oracle is the one that serves all pixels.
@@ -63,7 +63,8 @@ pub struct ChannelCounts {
     pub oracle: Counts,
     /// All that estimates the channel in a pixel.
     pub pixel: Counts,
-    /// Queries, at most; 0 of a channel that is black in every pixel.
+    /// Queries: as planned, or else as many as may be used; 0 of a channel that is black in every
+    /// pixel.
     pub queries: u64,
 }
 
@@ -76,7 +77,7 @@ pub struct PictureCounts {
     pub pixel: Counts,
     /// All pixels, one after another.
     pub film: Counts,
-    /// Queries of a pixel, at most.
+    /// Queries of a pixel, all channels together.
     pub queries: u64,
     /// How many pixels the film has.
     pub pixels: u64,
@@ -85,10 +86,19 @@ pub struct PictureCounts {
 impl PictureCounts {
     /// The counts of a scene's picture, by the scene's estimator.
     ///
+    /// Estimators that stop by themselves use fewer queries than they may: `planned` says how many, of
+    /// a pixel on average, of red, green and blue ([`Figures::channel_queries`]). They are rounded
+    /// up. Those of an estimator with a phase register are fixed, and are not read.
+    ///
+    /// [`Figures::channel_queries`]: crate::plan::Figures::channel_queries
+    ///
     /// # Errors
     /// A scene without a circuit, an estimator that runs no iterates, and counts beyond u64.
-    pub fn of(scene: &ValidScene) -> Result<Self, PhysicalError> {
-        let run = |channel| Run::new(scene, channel)?.counts();
+    pub fn of(scene: &ValidScene, planned: Option<[f64; 3]>) -> Result<Self, PhysicalError> {
+        let run = |channel: usize| {
+            let planned = planned.map(|queries| queries[channel].ceil() as u64);
+            Run::new(scene, channel)?.counts(planned)
+        };
         let channels: [ChannelCounts; 3] = [run(0)?, run(1)?, run(2)?];
         let film = scene.scene().film;
         let pixels = u64::from(film.width) * u64::from(film.height);
@@ -163,7 +173,7 @@ impl<'a> Run<'a> {
         })
     }
 
-    fn counts(&self) -> Result<ChannelCounts, PhysicalError> {
+    fn counts(&self, planned: Option<u64>) -> Result<ChannelCounts, PhysicalError> {
         use Estimator::{AbramsWilliams, Exact, MonteCarlo, Qcoin};
         let counting = self.scene.scene().counting;
         let estimator = counting.estimator;
@@ -171,7 +181,11 @@ impl<'a> Run<'a> {
             return Err(PhysicalError::Estimator(estimator));
         }
         let settings = Settings::of(&counting)?;
-        let queries = if self.black { 0 } else { settings.queries };
+        let queries = match planned {
+            _ if self.black => 0,
+            Some(planned) if !estimator.has_register() => planned.min(settings.queries),
+            _ => settings.queries,
+        };
         let stand_in = PhaseOracle::polynomial(self.index, vec![vec![0]])?;
         let window = estimator.register_window(counting.window);
         let around = Counting::with(

@@ -5,7 +5,7 @@ use qrt_runtime::counting::CountingError;
 use qrt_runtime::estimators::EstimatorError;
 use qrt_runtime::image::ImageError;
 use qrt_runtime::plan::PlanError;
-use qrt_runtime::render::RenderError;
+use qrt_runtime::render::{MergeError, RenderError};
 use qrt_runtime::trade::TradeError;
 use qrt_runtime::verify::VerifyError;
 use std::path::Path;
@@ -72,6 +72,7 @@ macro_rules! failures {
 failures! {
     CountingError: |_| true,
     EstimatorError: |_| true,
+    MergeError: |_| false,
     PlanError: PlanError::is_refusal,
     RenderError: RenderError::is_refusal,
     TradeError: TradeError::is_refusal,

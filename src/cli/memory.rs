@@ -107,6 +107,15 @@ impl Memory {
         self.keep(&what, pixels * OF_PIXEL as f64, lower)
     }
 
+    /// That parts of so many bytes fit, and the picture that they make: it has about as many.
+    pub(crate) fn keep_parts(self, bytes: u64) -> Result<(), Failure> {
+        self.keep(
+            "merging these parts",
+            2.0 * bytes as f64,
+            "merge on another machine",
+        )
+    }
+
     /// That the circuits fit that are compiled to plan for an accuracy.
     pub(crate) fn keep_plan(self, scene: &ValidScene) -> Result<(), Failure> {
         match scene.scene().accuracy {

@@ -12,8 +12,11 @@ mod files;
 mod inspect;
 mod interrupt;
 mod memory;
+mod merge;
 mod new;
+mod picture;
 mod plan;
+mod playground;
 mod progress;
 mod render;
 mod schema;
@@ -22,6 +25,7 @@ mod terminal;
 mod time;
 mod trade;
 mod verify;
+mod watch;
 
 use clap::{Parser, Subcommand};
 use failure::Failure;
@@ -40,6 +44,7 @@ use std::process::ExitCode;
     after_help = "\
 Examples:
   qrt new box               write a first scene, box.yaml
+  qrt playground box.yaml   change it in a browser, and see the picture change
   qrt render box.yaml       render it to box.png
   qrt render --help         all about rendering
   qrt inspect box.yaml      what its circuit costs, and where
@@ -59,12 +64,14 @@ pub(crate) struct Cli {
 #[derive(Debug, Subcommand)]
 enum Command {
     Render(render::RenderArgs),
+    Merge(merge::MergeArgs),
     Inspect(inspect::InspectArgs),
     Count(count::CountArgs),
     Verify(verify::VerifyArgs),
     Trade(trade::TradeArgs),
     Export(export::ExportArgs),
     New(new::NewArgs),
+    Playground(playground::PlaygroundArgs),
     Schema(schema::SchemaArgs),
     Completions(completions::CompletionsArgs),
 }
@@ -87,12 +94,14 @@ pub(crate) fn main() -> ExitCode {
 fn run(command: Command) -> Result<(), Failure> {
     match command {
         Command::Render(args) => render::run(&args),
+        Command::Merge(args) => merge::run(&args),
         Command::Inspect(args) => inspect::run(&args),
         Command::Count(args) => count::run(&args),
         Command::Verify(args) => verify::run(&args),
         Command::Trade(args) => trade::run(&args),
         Command::Export(args) => export::run(&args),
         Command::New(args) => new::run(&args),
+        Command::Playground(args) => playground::run(&args),
         Command::Schema(_) => schema::run(),
         Command::Completions(args) => completions::run(args),
     }

@@ -47,6 +47,7 @@ pub(crate) fn json(figures: &Figures) -> Value {
             "total": parts.total,
         },
         "queries": figures.queries,
+        "channel_queries": figures.channel_queries,
         "toffoli": figures.cost.map(|cost| cost.toffoli),
         "qubits": figures.cost.map(|cost| cost.qubits),
     })

@@ -2,26 +2,30 @@
 
 use super::args::{SceneArgs, ThreadsArgs, choice, numbers};
 use super::failure::Failure;
-use super::files::{Output, keep_apart, named_after};
+use super::files::{Output, named_after};
 use super::inspect::check_circuit;
+use super::picture::{self, BesideArgs, Outputs};
 use super::progress::Bar;
-use super::{interrupt, plan, stats, terminal, time};
+use super::watch::watch;
+use super::{interrupt, plan, terminal, time};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use qrt_core::front::Loaded;
-use qrt_core::inspect::grouped;
 use qrt_core::scene::Estimator;
 use qrt_core::valid::ValidScene;
 use qrt_runtime::checkpoint::Checkpoint;
 use qrt_runtime::estimators::{Noise, NoiseError};
-use qrt_runtime::image::{self, Encoding, Metadata};
+use qrt_runtime::image::{Encoding, Metadata};
 use qrt_runtime::render::{
-    Colour, DEFAULT_FAILURE, Model, Options, RenderError, Rendered, Visibility, render_keeping,
+    Colour, DEFAULT_FAILURE, Model, Options, PicturePart, Portion, RenderError, Visibility,
+    render_keeping, render_part,
 };
-use qrt_runtime::replace_file::PARTIAL;
+use qrt_runtime::replace_file::replace_file;
 use qrt_runtime::search::Guess;
 use qrt_runtime::workers::Workers;
+use std::io::Write;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
 
 const MODELS: [(Model, &str); 3] = [
     (Model::Real, "In 64-bit floating point"),
@@ -82,6 +86,8 @@ Examples:
   qrt render box.yaml --set sampling.path_bits=16       more paths
   qrt render box.yaml --set 'film={ width: 8, height: 8 }' --counts box.csv
   qrt render box.yaml --crop 10,20,4,4 --stats box.json
+  qrt render box.yaml --watch --estimator exact         again whenever box.yaml is saved
+  qrt render box.yaml --tile 0/4 -o box.0               the first of four parts for `qrt merge`
   qrt render box.yaml --model fixed --visibility grover primary hits by quantum search")]
 pub(crate) struct RenderArgs {
     /// The picture: .png (8-bit sRGB) or .exr (linear 32-bit float) [default: SCENE's name with
@@ -122,20 +128,26 @@ pub(crate) struct RenderArgs {
     crop: Option<[u32; 4]>,
     #[command(flatten)]
     threads: ThreadsArgs,
-    /// Stops of exposure: the picture times 2^STOPS; for .png only
-    #[arg(long, value_name = "STOPS", allow_negative_numbers = true)]
-    exposure: Option<f64>,
-    /// Write time, queries, mean colour and more as JSON
-    #[arg(long, value_name = "FILE.json")]
-    stats: Option<PathBuf>,
-    /// Write every channel of every pixel as CSV: x,y,channel,value,good,total,scale
-    #[arg(long, value_name = "FILE.csv")]
-    counts: Option<PathBuf>,
+    /// Render only portion K (from 0) of N, whose pixels lie all over the picture, and write a part of
+    /// it to -o FILE, for `qrt merge`
+    #[arg(
+        long,
+        value_name = "K/N",
+        allow_hyphen_values = true,
+        requires = "output",
+        conflicts_with_all = ["exposure", "stats", "counts"]
+    )]
+    tile: Option<Portion>,
+    #[command(flatten)]
+    beside: BesideArgs,
     #[command(flatten)]
     scene: SceneArgs,
     /// Go on from what an interrupted render has left, if it has
     #[arg(long)]
     resume: bool,
+    /// Render again whenever the scene or a file that it names is saved, until Ctrl-C
+    #[arg(long, conflicts_with_all = ["resume", "tile"])]
+    watch: bool,
     /// Neither progress nor summary
     #[arg(short, long)]
     quiet: bool,
@@ -171,62 +183,71 @@ fn crop(text: &str) -> Result<[u32; 4], String> {
     numbers(text, "four whole numbers, such as 10,20,4,4")
 }
 
-/// The files that are written.
-struct Outputs {
-    picture: Output,
-    stats: Option<Output>,
-    counts: Option<Output>,
-    /// Where finished tiles are kept; none for a picture that goes to a pipe or a device, beside which
-    /// there is no place.
-    checkpoint: Option<PathBuf>,
+/// What is made of a scene.
+#[derive(Clone, Copy)]
+enum Target {
+    Picture(Encoding),
+    Part(Portion),
 }
 
-impl Outputs {
-    fn new(args: &RenderArgs, picture: &Path) -> Result<Self, Failure> {
-        let output = |path: &PathBuf| Output::new(path);
-        let asked = Output::new(picture)?;
-        let mut partial = picture.as_os_str().to_owned();
-        partial.push(PARTIAL);
-        let outputs = Self {
-            stats: args.stats.as_ref().map(output).transpose()?,
-            counts: args.counts.as_ref().map(output).transpose()?,
-            checkpoint: (!asked.is_device()).then_some(partial.into()),
-            picture: asked,
+impl Target {
+    fn of(args: &RenderArgs, output: &Path) -> Result<Self, Failure> {
+        let Some(portion) = args.tile else {
+            return Ok(Self::Picture(Encoding::of(output, args.beside.exposure)?));
         };
-        outputs.keep_off([&*args.scene.scene])?;
-        Ok(outputs)
+        if Encoding::of(output, None).is_ok() {
+            return Err(Failure::Usage(format!(
+                "`{}` would be a picture, and part {portion} of one is none: give it another ending, \
+                 and `qrt merge` makes the picture",
+                output.display()
+            )));
+        }
+        Ok(Self::Part(portion))
     }
 
-    /// The files that were asked for.
-    fn asked(&self) -> impl Iterator<Item = &Output> {
-        let others = self.stats.iter().chain(&self.counts);
-        std::iter::once(&self.picture).chain(others)
-    }
-
-    /// That none is one of `inputs`, or another of these.
-    fn keep_off<'a>(&self, inputs: impl IntoIterator<Item = &'a Path>) -> Result<(), Failure> {
-        let checkpoint = self.checkpoint.as_deref().map(Output::new).transpose()?;
-        let all: Vec<&Output> = self.asked().chain(&checkpoint).collect();
-        keep_apart(inputs, &all)
+    /// How many portions of the picture there are.
+    fn portions(self) -> u32 {
+        match self {
+            Self::Picture(_) => 1,
+            Self::Part(portion) => portion.count(),
+        }
     }
 }
 
 pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
+    let cancel = interrupt::cancel_on_interrupt()?;
+    if !args.watch {
+        return render(args, &cancel, &mut Vec::new());
+    }
+    // There is nothing to finish, and always something to end.
+    interrupt::begun();
+    watch(&args.scene.scene, &cancel, |outdated, files| {
+        render(args, outdated, files)
+    })
+}
+
+/// Renders until `cancel` says otherwise; the files that the scene names are added to `files`.
+fn render(args: &RenderArgs, cancel: &AtomicBool, files: &mut Vec<PathBuf>) -> Result<(), Failure> {
     let visibility = args.visibility()?;
     let output = args
         .output
         .clone()
         .unwrap_or_else(|| named_after(&args.scene.scene, "png"));
-    let encoding = Encoding::of(&output, args.exposure)?;
-    let outputs = Outputs::new(args, &output)?;
+    let target = Target::of(args, &output)?;
+    let mut outputs = Outputs::new(&output, &args.beside)?;
+    if args.watch {
+        // What is out of date is not gone on with.
+        outputs.checkpoint = None;
+    }
+    outputs.keep_off([&*args.scene.scene])?;
     let loaded = args.scene.load()?;
     let scene = &loaded.valid;
+    files.extend(scene.files().iter().cloned());
     // Known before the work, not after it.
     outputs.keep_off(scene.files().iter().map(PathBuf::as_path))?;
     outputs.asked().try_for_each(Output::try_writing)?;
     Metadata::new().set("scene", scene.scene().name.as_str())?;
     args.scene.memory().keep_picture(scene, args.crop)?;
-    let cancel = interrupt::cancel_on_interrupt()?;
     let bar = Bar::paths(!args.quiet);
     let show = |progress| bar.show(progress);
     let mut options = Options {
@@ -239,7 +260,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
         visibility,
         workers: Workers {
             threads: args.threads.count(),
-            cancel: Some(&cancel),
+            cancel: Some(cancel),
             progress: Some(&show),
         },
         checkpoint: outputs.checkpoint.clone(),
@@ -264,14 +285,29 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
         ));
     }
     if !args.quiet {
-        tell_of_time(planned.as_ref().map_or(scene, |plan| &plan.scene), args);
+        let traced = planned.as_ref().map_or(scene, |plan| &plan.scene);
+        tell_of_time(traced, args, target.portions());
     }
     bar.set_up();
-    let rendered = render_keeping(scene, &options);
-    bar.clear();
-    let (rendered, checkpoint) = rendered.map_err(|error| failure(error, &loaded))?;
-    let clipped = match write(&outputs, encoding, scene, &rendered) {
-        Ok(clipped) => clipped,
+    let (made, checkpoint) = match target {
+        Target::Picture(encoding) => {
+            let rendered = render_keeping(scene, &options);
+            bar.clear();
+            let (rendered, checkpoint) = rendered.map_err(|error| failure(error, &loaded))?;
+            let clipped = picture::write(&outputs, encoding, &rendered);
+            let told = |clipped| picture::summary(&output, &rendered, clipped);
+            (clipped.map(told), checkpoint)
+        }
+        Target::Part(portion) => {
+            let rendered = render_part(scene, portion, &options);
+            bar.clear();
+            let (part, checkpoint) = rendered.map_err(|error| failure(error, &loaded))?;
+            let written = write_part(&outputs.picture, &part);
+            (written.map(|()| part_summary(&output, &part)), checkpoint)
+        }
+    };
+    let told = match made {
+        Ok(told) => told,
         Err(error) => return Err(kept(error, checkpoint, &outputs)),
     };
     // Only now is everything safe. Until here nobody else could begin with the checkpoint.
@@ -281,7 +317,24 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     if args.quiet {
         return Ok(());
     }
-    terminal::print(&summary(&output, &rendered, clipped))
+    terminal::print(&told)
+}
+
+fn write_part(output: &Output, part: &PicturePart) -> Result<(), Failure> {
+    let path = output.path()?;
+    let bytes = part.encode();
+    replace_file(path, |out| out.write_all(&bytes)).map_err(|error| Failure::file(path, &error))
+}
+
+fn part_summary(output: &Path, part: &PicturePart) -> String {
+    format!(
+        "{}: part {} of the picture, {} pixels, {} paths in {:.2} s\n",
+        output.display(),
+        part.portion(),
+        part.pixels(),
+        part.paths(),
+        part.seconds(),
+    )
 }
 
 /// What was rendered can't be written: says where it is kept.
@@ -298,10 +351,10 @@ fn kept(error: Failure, checkpoint: Option<Checkpoint>, outputs: &Outputs) -> Fa
 }
 
 /// Tells of what nobody would wait for: it may be meant, but hardly is.
-fn tell_of_time(scene: &ValidScene, args: &RenderArgs) {
+fn tell_of_time(scene: &ValidScene, args: &RenderArgs, portions: u32) {
     let film = scene.scene().film;
     let [_, _, width, height] = args.crop.unwrap_or([0, 0, film.width, film.height]);
-    let pixels = f64::from(width) * f64::from(height);
+    let pixels = f64::from(width) * f64::from(height) / f64::from(portions);
     time::tell_of_paths(scene, pixels, 1.0, &[args.model], args.threads.or_cores());
 }
 
@@ -317,73 +370,4 @@ fn failure(error: RenderError, loaded: &Loaded) -> Failure {
         )),
         error => error.into(),
     }
-}
-
-/// Writes the picture and what is asked beside it; how many pixels were clipped.
-fn write(
-    outputs: &Outputs,
-    encoding: Encoding,
-    scene: &ValidScene,
-    rendered: &Rendered,
-) -> Result<u64, Failure> {
-    let mut metadata = rendered.metadata(scene)?;
-    if let Encoding::Png { exposure } = encoding {
-        metadata.set("exposure", exposure.to_string())?;
-    }
-    let picture = outputs.picture.path()?;
-    let clipped = image::save(picture, &rendered.image, &metadata, encoding)?;
-    if let Some(output) = &outputs.counts {
-        image::write_counts(output.path()?, rendered.counts())?;
-    }
-    if let Some(output) = &outputs.stats {
-        stats::write(output.path()?, scene, rendered, clipped)?;
-    }
-    Ok(clipped)
-}
-
-fn summary(output: &Path, rendered: &Rendered, clipped: u64) -> String {
-    let Rendered { image, paths, .. } = rendered;
-    let clipped = match clipped {
-        0 => String::new(),
-        _ => format!(
-            "{clipped} of {} pixels are clipped: lower --exposure, or write .exr\n",
-            image.pixels.len()
-        ),
-    };
-    format!(
-        "{}: {} x {} pixels, {paths} paths in {:.2} s ({:.2} Mpaths/s), model {}, estimator {}, {} \
-         queries\n\
-         {clipped}",
-        output.display(),
-        image.width,
-        image.height,
-        rendered.seconds,
-        stats::paths_per_second(rendered) / 1e6,
-        rendered.model.name(),
-        rendered.estimator,
-        rendered.total_queries(),
-    ) + &search_summary(rendered)
-}
-
-/// What the search for primary hits took; nothing if there was none.
-fn search_summary(rendered: &Rendered) -> String {
-    let Some(searched) = rendered.searched else {
-        return String::new();
-    };
-    let root = libm::sqrt(searched.faces as f64);
-    let mean = rendered.total_queries() as f64 / rendered.paths as f64;
-    let promise = match searched.failure {
-        0.0 => String::new(),
-        failure => format!(", a miss at most {failure:.1e} likely"),
-    };
-    format!(
-        "primary hits by {}: P = {} faces, {mean:.2} queries a ray = {:.2} sqrt(P) = {:.3} P, each of \
-         {} Toffolis on {} qubits{promise}\n",
-        rendered.visibility.name(),
-        searched.faces,
-        mean / root,
-        mean / searched.faces as f64,
-        grouped(searched.toffoli),
-        grouped(searched.qubits),
-    )
 }

@@ -1,7 +1,6 @@
 //! What `--stats` writes.
 
 use super::failure::Failure;
-use qrt_core::valid::ValidScene;
 use qrt_runtime::memory::peak_resident_bytes;
 use qrt_runtime::render::{Rendered, Visibility};
 use qrt_runtime::replace_file::replace_file;
@@ -13,24 +12,19 @@ use std::path::Path;
 ///
 /// # Errors
 /// A file that cannot be written.
-pub(crate) fn write(
-    path: &Path,
-    scene: &ValidScene,
-    rendered: &Rendered,
-    clipped: u64,
-) -> Result<(), Failure> {
-    let text = format!("{:#}\n", stats(scene, rendered, clipped));
+pub(crate) fn write(path: &Path, rendered: &Rendered, clipped: u64) -> Result<(), Failure> {
+    let text = format!("{:#}\n", stats(rendered, clipped));
     replace_file(path, |out| out.write_all(text.as_bytes()))
         .map_err(|error| Failure::file(path, &error))
 }
 
-fn stats(scene: &ValidScene, rendered: &Rendered, clipped: u64) -> Value {
-    let written = scene.scene();
+fn stats(rendered: &Rendered, clipped: u64) -> Value {
+    let [width, height] = rendered.film;
     json!({
         "version": 1,
         "qrt": env!("CARGO_PKG_VERSION"),
-        "scene": written.name,
-        "scene_hash": scene.fingerprint().to_string(),
+        "scene": rendered.scene_name,
+        "scene_hash": rendered.scene_hash,
         "model": rendered.model.name(),
         "estimator": rendered.estimator.name(),
         "colour": rendered.colour.name(),
@@ -38,10 +32,10 @@ fn stats(scene: &ValidScene, rendered: &Rendered, clipped: u64) -> Value {
         "visibility": rendered.visibility.name(),
         "search": search(rendered),
         "seed": rendered.seed,
-        "width": written.film.width,
-        "height": written.film.height,
+        "width": width,
+        "height": height,
         "crop": rendered.crop,
-        "depths": written.sampling.depths.len(),
+        "depths": rendered.parameters.sampling.depths.len(),
         "path_bits": rendered.parameters.sampling.path_bits,
         "knobs": {
             "path_bits": rendered.parameters.sampling.path_bits,

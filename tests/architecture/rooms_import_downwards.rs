@@ -46,6 +46,7 @@ const MODULES: &[(&str, &[&str])] = &[
             "draw",
             "layouts",
             "physical",
+            "playground",
             "verify",
             "trade",
         ],

@@ -365,6 +365,38 @@ fn logical_counts_are_those_of_the_gates_that_export_writes() {
 }
 
 #[test]
+fn logical_counts_of_an_asked_accuracy_take_the_queries_that_are_planned() {
+    // Without what a plan chooses.
+    let scene = SCENE.replace("path_bits: 6, ", "");
+    let (scene, _) = scene.split_once("precision").unwrap();
+    let folder = Folder::with("floor.yaml", scene);
+    let asked = ["--set", "accuracy={ error: 0.2, confidence: 0.9 }"];
+    let counts = logical_counts(&folder, &asked);
+    let (plan, queries) = (&counts["plan"], &counts["queries"]);
+    let planned: [f64; 3] = serde_json::from_value(plan["channel_queries"].clone()).unwrap();
+    let sum: f64 = planned.iter().sum();
+    assert!((sum - plan["queries"].as_f64().unwrap()).abs() < 1e-9 * sum);
+    assert_eq!(number(&queries["channel"]), planned[0].ceil() as u64);
+    let pixel: f64 = planned.iter().map(|queries| queries.ceil()).sum();
+    assert_eq!(number(&queries["pixel"]), pixel as u64);
+    // Channels stop by themselves, well before they have used what they may.
+    let most = ((1_u64 << number(&plan["phase_bits"])) - 1) * number(&plan["repetitions"]);
+    assert!(
+        2.0 * planned[0] < most as f64,
+        "{planned:?}, at most {most}"
+    );
+    let index = number(&plan["path_bits"]) + number(&plan["comparator_bits"]);
+    let measured = number(&counts["unitary"]["channel"]["measurementCount"]);
+    assert_eq!(measured, number(&queries["channel"]) * index);
+    assert!(
+        counts["assumed"]["queries"]
+            .as_str()
+            .unwrap()
+            .contains("planned")
+    );
+}
+
+#[test]
 fn logical_counts_leave_out_what_is_not_counted() {
     let folder = folder();
     let one = logical_counts(

@@ -8,14 +8,16 @@ use qrt::runtime::workers::Workers;
 use std::fs;
 use std::process::Stdio;
 
-const COMMANDS: [&str; 9] = [
+const COMMANDS: [&str; 11] = [
     "render",
+    "merge",
     "inspect",
     "count",
     "verify",
     "trade",
     "export",
     "new",
+    "playground",
     "schema",
     "completions",
 ];

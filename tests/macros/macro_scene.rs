@@ -67,7 +67,7 @@ fn picture(scene: &ValidScene, name: &str) -> Vec<u8> {
     };
     let rendered = render(scene, &exact).unwrap();
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-    let metadata = rendered.metadata(scene).unwrap();
+    let metadata = rendered.metadata().unwrap();
     save(
         &path,
         &rendered.image,

@@ -137,7 +137,7 @@ fn at(model: Model, crop: Option<[u32; 4]>) -> Options<'static> {
 type Path = <Corner as PathScene>::Path;
 type Code = fn(&mut Recorder, &Path, &mut Reg<qrt::circuit::Recorded, Bool>);
 
-type Plain = fn(&TracedPath) -> bool;
+type Plain = fn(&TracedPath<'static>) -> bool;
 
 /// A predicate as circuits have it, and as one says it of a path in floating point.
 const PREDICATES: [(Code, Plain); 4] = [
@@ -191,7 +191,7 @@ const PREDICATES: [(Code, Plain); 4] = [
     ),
 ];
 
-fn meets(path: &TracedPath, ray: usize) -> Option<&'static str> {
+fn meets(path: &TracedPath<'static>, ray: usize) -> Option<&'static str> {
     Some(path.rays.get(ray)?.hit?.name)
 }
 

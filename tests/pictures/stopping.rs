@@ -107,7 +107,7 @@ fn one_run_stops_at_the_luminance() {
 fn the_error_is_told_where_it_counts() {
     let told = |estimator| {
         let found = counted(0.25, estimator, Colour::ThreeRuns);
-        let metadata = found.metadata(&scene(0.25)).unwrap();
+        let metadata = found.metadata().unwrap();
         metadata.get("counting_error").map(str::to_owned)
     };
     assert_eq!(told(Estimator::AdaptiveBayes).as_deref(), Some("0.25"));

@@ -100,7 +100,7 @@ fn queries_are_those_that_are_allowed_and_strata_are_told() {
         for queries in &found.queries {
             assert!(*queries <= 3 * 1023, "{queries}");
         }
-        let metadata = found.metadata(&scene).unwrap();
+        let metadata = found.metadata().unwrap();
         assert_eq!(metadata.get("strata"), Some(strata));
     }
 }

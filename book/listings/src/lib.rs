@@ -39,10 +39,14 @@ pages! {
     macros = "macros.md",
     predicates = "predicates.md",
     cli = "cli.md",
+    playground = "playground.md",
+    clusters = "clusters.md",
+    python = "python.md",
     error_codes = "error-codes.md",
     internals = "internals.md",
     equations = "equations.md",
     errata = "errata.md",
+    related_work = "related-work.md",
     glossary = "glossary.md",
 }
 

@@ -10,8 +10,11 @@ use std::process::{Command, Stdio};
 /// What the script that builds the WebAssembly exits with if there is nothing to build it with.
 const NO_TOOLS: i32 = 3;
 
-/// The WebAssembly's name, in `interactive/dist` and in the book.
-const WASM: &str = "qrt_figures.wasm";
+/// The WebAssembly's names, in `interactive/dist` and in the book.
+const WASM: [&str; 2] = ["qrt_figures.wasm", "qrt_playground.wasm"];
+
+/// What an editor of scenes suggests from: its folder beside the book's, and its name.
+const SCHEMA: [&str; 2] = ["../scenes-yaml", "scene.schema.json"];
 
 /// What the figures are driven by.
 const SCRIPT: &str = "figures.js";
@@ -23,9 +26,13 @@ pub(crate) fn prepare(book: &Path, src: &Path, complaints: &mut Vec<Complaint>) 
     let built = script.exists() && build("bash", &script, complaints)?;
     let mut files = BTreeMap::new();
     let folder = book.join("interactive");
-    let wasm = folder.join("dist").join(WASM);
-    if built && wasm.exists() && folder.join(SCRIPT).exists() {
-        files.insert(WASM.to_owned(), read(&wasm)?);
+    let wasm = WASM.map(|name| folder.join("dist").join(name));
+    if built && wasm.iter().all(|wasm| wasm.exists()) && folder.join(SCRIPT).exists() {
+        for (name, wasm) in WASM.into_iter().zip(&wasm) {
+            files.insert(name.to_owned(), read(wasm)?);
+        }
+        let schema = book.join(SCHEMA[0]).join(SCHEMA[1]);
+        files.insert(SCHEMA[1].to_owned(), read(&schema)?);
         let cannot = || format!("cannot read the folder {}", folder.display());
         for entry in std::fs::read_dir(&folder).with_context(cannot)? {
             let path = entry.with_context(cannot)?.path();
@@ -51,6 +58,8 @@ fn build(shell: &str, script: &Path, complaints: &mut Vec<Complaint>) -> Result<
     let output = Command::new(shell)
         .arg(script)
         .stdin(Stdio::null())
+        // What it is doing takes minutes, and it says so; standard output may be mdBook's.
+        .stderr(Stdio::inherit())
         .output();
     let output = match output {
         Err(error) if error.kind() == io::ErrorKind::NotFound => {
@@ -69,10 +78,9 @@ fn build(shell: &str, script: &Path, complaints: &mut Vec<Complaint>) -> Result<
             complaints.push(Complaint::about(
                 "book/widgets/build.sh",
                 format!(
-                    "failed ({})\n{}{}",
+                    "failed ({}): it said why above\n{}",
                     output.status,
-                    String::from_utf8_lossy(&output.stdout),
-                    String::from_utf8_lossy(&output.stderr)
+                    String::from_utf8_lossy(&output.stdout)
                 ),
             ));
             Ok(false)
@@ -97,14 +105,17 @@ mod tests {
     fn prepared(script: Option<&str>) -> (bool, usize, usize) {
         let folder = tempfile::tempdir().unwrap();
         let book = folder.path();
-        for name in ["interactive/dist", "src", "widgets"] {
+        let book = &book.join("book");
+        for name in ["interactive/dist", "src", "widgets", "../scenes-yaml"] {
             std::fs::create_dir_all(book.join(name)).unwrap();
         }
+        std::fs::write(book.join("../scenes-yaml/scene.schema.json"), "{}").unwrap();
         for name in [
             "figures.js",
             "figures.css",
             "notes.md",
             "dist/qrt_figures.wasm",
+            "dist/qrt_playground.wasm",
         ] {
             std::fs::write(book.join("interactive").join(name), name).unwrap();
         }
@@ -119,7 +130,7 @@ mod tests {
 
     #[test]
     fn figures_come_along_if_their_webassembly_can_be_built() {
-        assert_eq!(prepared(Some("exit 0")), (true, 3, 0));
+        assert_eq!(prepared(Some("exit 0")), (true, 5, 0));
         assert_eq!(prepared(Some("exit 3")), (false, 0, 0));
         assert_eq!(prepared(Some("echo no; exit 1")), (false, 0, 1));
         assert_eq!(prepared(None), (false, 0, 0));

@@ -6,13 +6,13 @@
 //!
 //! A module has one circuit and one picture: a page makes an instance of it for each figure.
 
-use crate::answer::Answer;
 use crate::circuit::{self, Stepper};
 use crate::counting::{self, Asked};
 use crate::map::{self, Chosen};
 use crate::picture::Picture;
 use qrt_core::scene::{Map, Window};
 use qrt_runtime::machines::InvalidGate;
+use qrt_runtime::playground::Answer;
 use std::cell::RefCell;
 use std::fmt::Display;
 

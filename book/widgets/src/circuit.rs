@@ -4,9 +4,9 @@
 //! operation of the program after another, forwards or backwards; the figure looks at the registers
 //! of one basis state in between, and at the signs of all of them.
 
-use crate::answer::Answer;
 use qrt_circuit::{Circuit, Gate, Qubit};
 use qrt_runtime::machines::{Gates, InvalidGate, Rows};
+use qrt_runtime::playground::Answer;
 use std::fmt::Write;
 
 /// The scene.

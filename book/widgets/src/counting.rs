@@ -2,12 +2,12 @@
 //!
 //! The same as `qrt count` with `--total 4096`, number by number.
 
-use crate::answer::Answer;
 use qrt_core::scene::Window;
 use qrt_runtime::counting::{PhaseDistribution, posterior};
 use qrt_runtime::estimators::{
     DEFAULT_CONFIDENCE, Device, EstimatorError, Noise, Problem, WindowedCounting,
 };
+use qrt_runtime::playground::Answer;
 use qrt_runtime::random::Stream;
 
 /// N, the number of ids.

@@ -28,7 +28,6 @@
     clippy::too_many_lines
 )]
 
-pub mod answer;
 pub mod boundary;
 pub mod circuit;
 pub mod counting;

@@ -2,12 +2,12 @@
 //!
 //! A map of the reader's own is read, differentiated and checked by what checks a scene's.
 
-use crate::answer::Answer;
 use qrt_core::expr::{Expr, Variables};
 use qrt_core::sampling::{ProductLattice, SamplingError, cell_centre, maps};
 use qrt_core::scene::{Bsdf, Jacobian, Map};
 use qrt_core::syntax::{Problem, Step};
 use qrt_core::valid::bsdf;
+use qrt_runtime::playground::Answer;
 use std::fmt::Write;
 
 /// The most bits of each of the two coordinates that the figure offers.

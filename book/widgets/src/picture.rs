@@ -5,7 +5,6 @@
 //! leaves the paths as they are. It is traced and counted a few pixels at a time, so
 //! that the page stays alive meanwhile.
 
-use crate::answer::Answer;
 use qrt_core::scene::meshes::Meshes;
 use qrt_core::scene::{Counting, Estimator};
 use qrt_core::valid::validate;
@@ -15,6 +14,7 @@ use qrt_runtime::estimators::{
     WindowedCounting,
 };
 use qrt_runtime::machines::Real;
+use qrt_runtime::playground::Answer;
 use qrt_runtime::random::Stream;
 use std::error::Error;
 use std::ops::Range;

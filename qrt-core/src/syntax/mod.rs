@@ -19,4 +19,4 @@ pub use number::{grouped, number};
 pub(crate) use path::Place;
 pub use path::{Path, Step};
 pub use problem::{At, Problem, Problems};
-pub use report::{MOST, Report, Source};
+pub use report::{Location, MOST, Report, Reported, Source};

@@ -61,6 +61,36 @@ pub struct Report {
     warns: bool,
 }
 
+/// One problem of a report, for those who show it themselves.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Reported<'a> {
+    /// Its code, such as `QRT0101`.
+    pub code: &'static str,
+    /// What is wrong.
+    pub message: &'a str,
+    /// What is said at the place; may be empty.
+    pub label: &'a str,
+    /// The right thing to write, if that is known.
+    pub help: Option<&'a str>,
+    /// The name of the text that it is in: a file's path, or `<--set>`.
+    pub file: &'a str,
+    /// Where it is there; none when a file cannot be read.
+    pub place: Option<Location>,
+}
+
+/// A place in a text that a report shows.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Location {
+    /// Whether it is the scene's own text, and not an override's.
+    pub in_scene: bool,
+    /// The line, from 1.
+    pub line: usize,
+    /// The column, from 1, in characters.
+    pub column: usize,
+    /// The bytes of the text, as [`Source::new`] leaves it, that are meant.
+    pub bytes: Range<usize>,
+}
+
 /// Problems that a report lists.
 pub const MOST: usize = 1000;
 
@@ -114,6 +144,46 @@ impl Report {
     /// The codes, in order.
     pub fn codes(&self) -> Vec<&'static str> {
         self.problems.iter().map(|told| told.words.code).collect()
+    }
+
+    /// The problems, in the order of their places; at most [`MOST`].
+    ///
+    /// ```
+    /// let report = qrt_core::front::parse("name: 7", "seven.yaml", &[], "".as_ref()).unwrap_err();
+    /// let last = report.problems().last().unwrap();
+    /// let place = last.place.unwrap();
+    /// assert_eq!((place.line, place.column, place.bytes), (1, 7, 6..7));
+    /// assert_eq!(last.help, Some("put it in quotes: \"7\""));
+    /// ```
+    pub fn problems(&self) -> impl Iterator<Item = Reported<'_>> {
+        let first = self.sources.first().map_or("", |source| &source.name);
+        let sources = self.sources.iter();
+        let lines: Vec<Lines<'_>> = sources.map(|source| Lines::of(&source.text)).collect();
+        self.problems.iter().map(move |told| {
+            let place = told.span.and_then(|span| {
+                let source = self.sources.get(span.source as usize)?;
+                let (line, column) = lines.get(span.source as usize)?.position(span);
+                Some(Location {
+                    in_scene: span.source == 0,
+                    line,
+                    column,
+                    bytes: visible(&source.text, span),
+                })
+            });
+            Reported {
+                code: told.words.code,
+                message: &told.words.message,
+                label: &told.words.label,
+                help: told.words.help.as_deref(),
+                file: told.span.map_or(first, |span| self.name(span)),
+                place,
+            }
+        })
+    }
+
+    /// The scene's own text, which places in it are places of.
+    pub fn text(&self) -> &str {
+        self.sources.first().map_or("", |source| &source.text)
     }
 
     /// All problems as text; with `colour`, in a terminal's escape codes.

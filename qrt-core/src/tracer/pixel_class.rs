@@ -63,6 +63,22 @@ impl PixelClasses {
         Self { outlines: None }
     }
 
+    /// The lamps' outlines on the film, as points (x, y) in pixels from its top left corner; none where
+    /// every pixel may meet one.
+    pub fn outlines(&self) -> Option<Vec<Vec<[f64; 2]>>> {
+        let points = |outline: &Vec<DVec2>| outline.iter().map(DVec2::to_array).collect();
+        let outlines = self.outlines.as_ref()?;
+        Some(outlines.iter().map(points).collect())
+    }
+
+    /// The classes that such outlines make.
+    pub fn of_outlines(outlines: Option<Vec<Vec<[f64; 2]>>>) -> Self {
+        let points = |outline: Vec<[f64; 2]>| outline.into_iter().map(DVec2::from).collect();
+        Self {
+            outlines: outlines.map(|outlines| outlines.into_iter().map(points).collect()),
+        }
+    }
+
     /// The class of pixel (column, row).
     pub fn of(&self, [x, y]: [u32; 2]) -> PixelClass {
         let Some(outlines) = &self.outlines else {

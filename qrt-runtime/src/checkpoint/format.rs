@@ -6,10 +6,12 @@
 //! header  "QRTTILES", u32 version, u32 length of the body, body, u32 CRC-32 of all before
 //! body    width, height, crop x, y, width, height (u32 each), u64 seed, scene hash, u32 count of
 //!         options, and for each its name and value; texts as u32 length and UTF-8
-//! record  a tile or a part, u32 CRC-32 of all before
+//! record  a tile, a part or an ending, u32 CRC-32 of all before
 //! tile    u32 0, x, y, width, height (u32 each), pixels (3 f64 each, rows from the top),
 //!         queries (u64 each), good ids (3 u64 each), strata (3 u8 each)
 //! part    u32 1, x, y (u32 each), u64 number, u64 paths, u32 count of words, words (u64 each)
+//! ending  u32 2, text, u32 count of words, words (u64 each); only in a part of a picture, which has no
+//!         parts of pixels, and where it is last
 //! ```
 
 use super::{CheckpointError, Difference, Header, Part, Tile};
@@ -21,12 +23,13 @@ pub(super) const VERSION: u32 = 4;
 /// What records begin with.
 const TILE: u32 = 0;
 const PART: u32 = 1;
+const ENDING: u32 = 2;
 /// Bytes of a tile's record beside its pixels, and for each pixel.
 const RECORD: u64 = 24;
 const PIXEL: u64 = 59;
 
 impl Header {
-    pub(super) fn encode(&self) -> Vec<u8> {
+    pub(crate) fn encode(&self) -> Vec<u8> {
         let mut body = Vec::new();
         for number in [self.width, self.height].iter().chain(&self.crop) {
             body.extend(number.to_le_bytes());
@@ -46,7 +49,7 @@ impl Header {
     }
 
     /// Takes a header off `bytes`.
-    pub(super) fn decode(bytes: &mut &[u8], path: &Path) -> Result<Self, CheckpointError> {
+    pub(crate) fn decode(bytes: &mut &[u8], path: &Path) -> Result<Self, CheckpointError> {
         let foreign = || CheckpointError::Foreign {
             path: path.to_path_buf(),
         };
@@ -89,7 +92,7 @@ impl Header {
         read().ok_or_else(damaged)
     }
 
-    pub(super) fn differences(&self, asked: &Self) -> Vec<Difference> {
+    pub(crate) fn differences(&self, asked: &Self) -> Vec<Difference> {
         let fields = |h: &Self| {
             [
                 ("scene", h.scene_hash.clone()),
@@ -129,7 +132,7 @@ impl Tile {
         inside.then(|| u64::from(self.width) * u64::from(self.height))
     }
 
-    pub(super) fn encode(&self) -> Vec<u8> {
+    pub(crate) fn encode(&self) -> Vec<u8> {
         let size = RECORD as usize + PIXEL as usize * self.pixels.len();
         let mut bytes = Vec::with_capacity(size);
         bytes.extend(TILE.to_le_bytes());
@@ -172,35 +175,40 @@ impl Tile {
 }
 
 /// What stands behind the header.
-pub(super) enum Record {
+pub(crate) enum Record {
     Tile(Tile),
     Part(Part),
+    Ending(Ending),
+}
+
+/// What stands behind all pixels of a part of a picture.
+pub(crate) struct Ending {
+    pub(crate) text: String,
+    pub(crate) words: Vec<u64>,
 }
 
 impl Record {
     /// Takes a record off `bytes`; `None` at the end, and if it is torn.
-    pub(super) fn decode(bytes: &mut &[u8], crop: [u32; 4]) -> Option<Self> {
+    pub(crate) fn decode(bytes: &mut &[u8], crop: [u32; 4]) -> Option<Self> {
         let all = *bytes;
         match take_u32(bytes)? {
             TILE => Tile::decode(bytes, all, crop).map(Self::Tile),
             PART => Part::decode(bytes, all, crop).map(Self::Part),
+            ENDING => Ending::decode(bytes, all).map(Self::Ending),
             _ => None,
         }
     }
 }
 
 impl Part {
-    pub(super) fn encode(&self) -> Vec<u8> {
+    pub(crate) fn encode(&self) -> Vec<u8> {
         let mut bytes = Vec::with_capacity(36 + 8 * self.totals.len());
         for number in [&[PART], &self.pixel[..]].into_iter().flatten() {
             bytes.extend(number.to_le_bytes());
         }
         bytes.extend(self.number.to_le_bytes());
         bytes.extend(self.paths.to_le_bytes());
-        bytes.extend((self.totals.len() as u32).to_le_bytes());
-        for word in &self.totals {
-            bytes.extend(word.to_le_bytes());
-        }
+        put_words(&mut bytes, &self.totals);
         seal(bytes)
     }
 
@@ -209,16 +217,31 @@ impl Part {
         let pixel = [take_u32(bytes)?, take_u32(bytes)?];
         Tile::of([pixel[0], pixel[1], 1, 1]).area_within(crop)?;
         let [number, paths] = [take_u64(bytes)?, take_u64(bytes)?];
-        let words = u64::from(take_u32(bytes)?);
-        let payload = take(bytes, 8 * words)?;
+        let totals = take_words(bytes)?;
         take_seal(bytes, all)?;
-        let words = payload.as_chunks::<8>().0.iter();
         Some(Self {
             pixel,
             number,
             paths,
-            totals: words.map(|word| u64::from_le_bytes(*word)).collect(),
+            totals,
         })
+    }
+}
+
+impl Ending {
+    pub(crate) fn encode(&self) -> Vec<u8> {
+        let mut bytes = ENDING.to_le_bytes().to_vec();
+        put_text(&mut bytes, &self.text);
+        put_words(&mut bytes, &self.words);
+        seal(bytes)
+    }
+
+    /// Takes an ending off `bytes`, behind its kind; `all` begins with that.
+    fn decode(bytes: &mut &[u8], all: &[u8]) -> Option<Self> {
+        let text = take_text(bytes)?;
+        let words = take_words(bytes)?;
+        take_seal(bytes, all)?;
+        Some(Self { text, words })
     }
 }
 
@@ -239,6 +262,13 @@ fn put_text(bytes: &mut Vec<u8>, text: &str) {
     bytes.extend(text.as_bytes());
 }
 
+fn put_words(bytes: &mut Vec<u8>, words: &[u64]) {
+    bytes.extend((words.len() as u32).to_le_bytes());
+    for word in words {
+        bytes.extend(word.to_le_bytes());
+    }
+}
+
 fn take<'a>(bytes: &mut &'a [u8], count: u64) -> Option<&'a [u8]> {
     let (taken, rest) = bytes.split_at_checked(usize::try_from(count).ok()?)?;
     *bytes = rest;
@@ -257,6 +287,12 @@ fn take_rectangle(bytes: &mut &[u8]) -> Option<[u32; 4]> {
 
 fn take_u64(bytes: &mut &[u8]) -> Option<u64> {
     Some(u64::from_le_bytes(take(bytes, 8)?.try_into().ok()?))
+}
+
+fn take_words(bytes: &mut &[u8]) -> Option<Vec<u64>> {
+    let words = u64::from(take_u32(bytes)?);
+    let words = take(bytes, 8 * words)?.as_chunks::<8>().0.iter();
+    Some(words.map(|word| u64::from_le_bytes(*word)).collect())
 }
 
 fn take_text(bytes: &mut &[u8]) -> Option<String> {

@@ -89,6 +89,8 @@ fn left(records: &[Record]) -> (Vec<Tile>, Vec<Part>) {
             Record::Part(part) => {
                 parts.insert((part.pixel, part.number), part.clone());
             }
+            // No checkpoint has one.
+            Record::Ending(_) => {}
         }
     }
     (tiles, parts.into_values().collect())
@@ -100,6 +102,7 @@ fn with_parts(path: &Path) -> Vec<u8> {
         match record {
             Record::Tile(tile) => checkpoint.append(tile).unwrap(),
             Record::Part(part) => checkpoint.append_parts(std::slice::from_ref(part)).unwrap(),
+            Record::Ending(_) => {}
         }
     }
     drop(checkpoint);
@@ -135,6 +138,7 @@ fn ends() -> Vec<usize> {
     let lengths = records.iter().map(|record| match record {
         Record::Tile(tile) => tile.encode().len(),
         Record::Part(part) => part.encode().len(),
+        Record::Ending(ending) => ending.encode().len(),
     });
     lengths
         .scan(start, |end, length| {

@@ -10,10 +10,22 @@ use qrt_core::tracer::Stage;
 use std::cell::RefCell;
 use std::sync::Arc;
 
+/// What marks the paths of blocks. Behind a trait, so that who traces colours alone does not link it.
+pub(super) trait Marker: std::fmt::Debug + Send + Sync {
+    /// What the tracer is to note.
+    fn watched(&self) -> RefCell<Vec<Watched>>;
+
+    /// What marks one block after another.
+    fn marks(&self) -> Mark<'_>;
+}
+
+/// Puts in place of the colours of the first paths of a block, so many, what is counted.
+pub(super) type Mark<'a> = Box<dyn FnMut(&Stage<3>, (&Inputs, usize), &mut [[f64; BLOCK]; 3]) + 'a>;
+
 /// What is asked about paths beside their colours.
 #[derive(Clone, Debug)]
 pub(super) struct Asked {
-    pub(super) numbers: PathNumbers,
+    numbers: PathNumbers,
     program: Fixed,
     marks: Marks,
 }
@@ -119,14 +131,10 @@ impl Asked {
         }
     }
 
-    pub(super) fn lanes(&self) -> fixed::Lanes {
-        self.program.lanes()
-    }
-
     /// Puts in place of the colours of the first `count` paths of a block what is counted: of
     /// paths, 1 where the predicate holds and 0 elsewhere; of light, the colour where it holds. It
     /// is not a number where a number of the path does not fit its register, which is a defect.
-    pub(super) fn mark(
+    fn mark(
         &self,
         stage: &Stage<3>,
         lanes: &mut fixed::Lanes,
@@ -169,6 +177,17 @@ impl Asked {
         }
         drop(rays);
         watched.borrow_mut().fill(Watched::NONE);
+    }
+}
+
+impl Marker for Asked {
+    fn watched(&self) -> RefCell<Vec<Watched>> {
+        self.numbers.watched()
+    }
+
+    fn marks(&self) -> Mark<'_> {
+        let mut lanes = self.program.lanes();
+        Box::new(move |stage, block, colours| self.mark(stage, &mut lanes, block, colours))
     }
 }
 

@@ -4,7 +4,7 @@ use super::bvh::{Bvh, FEW_FACES, Faces, Indexed};
 #[cfg(not(any(test, target_arch = "wasm32")))]
 use super::instructions::InstructionSet;
 use super::lanes::{BLOCK, Inputs, Lanes, Watched, lanes};
-use super::predicate::{Asked, PathNumbers};
+use super::predicate::{Asked, Marker, PathNumbers};
 
 /// Registers per value: two give the processor independent work while a division is under way.
 pub(super) const WIDTH: usize = 2;
@@ -17,6 +17,7 @@ use qrt_core::tracer::{PixelClass, Stage, trace};
 use qrt_core::valid::ValidScene;
 use std::cell::RefCell;
 use std::ops::Range;
+use std::sync::Arc;
 
 /// Which lanes to use. All give the same bits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -118,7 +119,7 @@ pub struct Real {
     seed: u64,
     simd: Simd,
     /// Which paths count, if not all do.
-    asked: Option<Box<Asked>>,
+    asked: Option<Arc<dyn Marker>>,
 }
 
 impl Real {
@@ -167,7 +168,7 @@ impl Real {
         let scene = predicate.scene();
         let mut real = Self::of_class(scene, seed, class)?;
         real.stage = predicate.formats().stage(scene, predicate.numbers(), class);
-        real.asked = Some(Box::new(Asked::new(predicate, marks)));
+        real.asked = Some(Arc::new(Asked::new(predicate, marks)));
         Ok(real)
     }
 
@@ -238,8 +239,8 @@ impl Real {
         mut finished: impl FnMut(PathBlock<'_>),
     ) {
         let asked = self.asked.as_ref();
-        let mut inputs = self.inputs(asked.map(|asked| asked.numbers.watched()));
-        let mut lanes = asked.map(|asked| asked.lanes());
+        let mut inputs = self.inputs(asked.map(|asked| asked.watched()));
+        let mut mark = asked.map(|asked| asked.marks());
         let mut colours = [[0.0; BLOCK]; 3];
         // A block holds a run of one pixel's path indices, or all those of several pixels.
         let mut filled = 0;
@@ -255,8 +256,8 @@ impl Real {
                 filled += count;
                 if filled == BLOCK || (number + 1 == pixels.len() && first == ids.end) {
                     self.run(&inputs, filled, &mut colours);
-                    if let (Some(asked), Some(lanes)) = (asked, &mut lanes) {
-                        asked.mark(&self.stage, lanes, (&inputs, filled), &mut colours);
+                    if let Some(mark) = &mut mark {
+                        mark(&self.stage, (&inputs, filled), &mut colours);
                     }
                     for (pixel, range) in runs.drain(..) {
                         let colours = [0, 1, 2].map(|c: usize| &colours[c][range.clone()]);

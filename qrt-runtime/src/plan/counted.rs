@@ -8,7 +8,8 @@ use qrt_core::scene::{Counting, Estimator};
 use std::sync::PoisonError;
 
 impl Pilot<'_> {
-    /// What the estimator is off by, run by run and channel by channel, and its queries of a pixel.
+    /// What the estimator is off by, run by run and channel by channel, and its queries of a pixel
+    /// by channel.
     pub(super) fn counted(&self, counting: &Counting) -> Result<Runs, PlanError> {
         let error = counting.error.map(f64::to_bits);
         let key = (counting.phase_bits, counting.repetitions, error);
@@ -24,7 +25,7 @@ impl Pilot<'_> {
     fn count(&self, counting: &Counting) -> Result<Runs, PlanError> {
         if self.estimator == Estimator::Exact {
             let none = vec![vec![[0.0; 3]; self.pixels.len()]; self.draws as usize];
-            return Ok((none, 0.0));
+            return Ok((none, [0.0; 3]));
         }
         // As many indices as the scene will have, or almost: more make no difference.
         let total = 1_u64 << (COMPARED + self.comparator_bits);
@@ -56,7 +57,6 @@ impl Pilot<'_> {
             Countable::Octaves(&self.octaves)
         };
         let found = draws.of(&self.pixels, &countable)?;
-        let queries: u64 = found.iter().map(|drawn| drawn.queries).sum();
         let by_draw = |draw: usize| {
             let pixels = found.iter().zip(&good).zip(&self.bounds);
             let off = |((drawn, good), bound): ((&Drawn, &[u64; 3]), &[f64; 3])| {
@@ -69,6 +69,10 @@ impl Pilot<'_> {
         };
         let errors = (0..self.draws as usize).map(by_draw).collect();
         let runs = self.draws as f64 * self.pixels.len() as f64;
-        Ok((errors, queries as f64 / runs))
+        let queries = std::array::from_fn(|c| {
+            let queries: u64 = found.iter().map(|drawn| drawn.queries[c]).sum();
+            queries as f64 / runs
+        });
+        Ok((errors, queries))
     }
 }

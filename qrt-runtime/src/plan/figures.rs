@@ -54,6 +54,8 @@ pub struct Figures {
     pub parts: ErrorParts,
     /// Queries of a pixel, all channels together, on average.
     pub queries: f64,
+    /// The same by channel: red, green and blue.
+    pub channel_queries: [f64; 3],
     /// The cost of one call of the most expensive channel's oracle; none where the scene has no
     /// circuit.
     pub cost: Option<CallCost>,

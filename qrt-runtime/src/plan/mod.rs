@@ -22,7 +22,7 @@
 //! Among parameters that will do, the product of queries and Toffolis is made least: queries
 //! against the width of numbers. A path bit costs a qubit and no Toffoli, but twice the time of a
 //! simulation; path bits are added as long as each, or each of up to three together, saves an
-//! eighth of the queries. Comparators are so many that they take a twentieth of the error.
+//! sixteenth of the queries. Comparators are so many that they take a twentieth of the error.
 //!
 //! The seed of a picture plays no part: a scene always gets the same parameters.
 

@@ -34,8 +34,8 @@ const COMPARATORS_SHARE: f64 = 0.05;
 /// An error of every channel that is tried, in units of the mean radiance.
 pub(super) type Errors = Vec<[f64; 3]>;
 
-/// Run by run, the errors of an estimator; and its queries of a pixel.
-pub(super) type Runs = (Vec<Errors>, f64);
+/// Run by run, the errors of an estimator; and its queries of a pixel, by channel.
+pub(super) type Runs = (Vec<Errors>, [f64; 3]);
 
 /// By phase bits, repetitions and the bits of the error to stop at.
 type Known = BTreeMap<(u32, u32, Option<u64>), Runs>;

@@ -9,7 +9,7 @@ use qrt_core::scene::{Counting, Estimator, Sequence};
 /// Path bits that may be extrapolated to.
 const MOST_PATHS: u32 = 32;
 /// What a path bit must save of the queries to be worth it.
-const WORTH: f64 = 0.125;
+const WORTH: f64 = 0.0625;
 /// Path bits that are looked ahead: registers double, so that a saving may need more than one.
 const AHEAD: u32 = 3;
 /// The phase register that a search begins with.
@@ -35,7 +35,14 @@ type Width = (u32, Errors, CallCost);
 struct Counted {
     counting: Counting,
     errors: Vec<Errors>,
-    queries: f64,
+    channel_queries: [f64; 3],
+}
+
+impl Counted {
+    /// Of a pixel, on average.
+    fn queries(&self) -> f64 {
+        self.channel_queries.iter().sum()
+    }
 }
 
 pub(super) fn search(mut pilot: Pilot<'_>) -> Result<Plan, PlanError> {
@@ -79,7 +86,7 @@ fn choose_paths(pilot: &mut Pilot<'_>) -> Result<(u32, Counted), PlanError> {
         if let Some((fewer, before)) = &chosen {
             let more = bits - fewer;
             let worth = (1.0 - WORTH).powi(more as i32);
-            if counted.queries >= worth * before.queries {
+            if counted.queries() >= worth * before.queries() {
                 if more >= AHEAD {
                     break;
                 }
@@ -141,7 +148,7 @@ fn choose_width(
         };
         has_circuit = true;
         // With no error of width at all it would cost so much: wider ones cost more.
-        let least = spent.toffoli as f64 * wide.queries.max(1.0);
+        let least = spent.toffoli as f64 * wide.queries().max(1.0);
         if best.as_ref().is_some_and(|best| best.0 <= least) {
             break;
         }
@@ -149,7 +156,7 @@ fn choose_width(
         let Some(counted) = cheapest(pilot, path_bits, &errors, start)? else {
             continue;
         };
-        let cost = spent.toffoli as f64 * counted.queries.max(1.0);
+        let cost = spent.toffoli as f64 * counted.queries().max(1.0);
         if best.as_ref().is_none_or(|best| cost < best.0) {
             best = Some((cost, (fraction, errors, spent), counted));
         }
@@ -184,12 +191,12 @@ fn cheapest(
             error,
             ..Counting::default()
         };
-        let (errors, queries) = pilot.counted(&counting)?;
+        let (errors, channel_queries) = pilot.counted(&counting)?;
         let others = [&paths, &pilot.comparator_errors, width];
         let counted = Counted {
             counting,
             errors,
-            queries,
+            channel_queries,
         };
         let good = will_do(pilot, &others, Some(&counted.errors));
         Ok::<_, PlanError>(good.then_some(counted))
@@ -232,7 +239,7 @@ fn cheapest(
             match attempt(most, 1, error(middle))? {
                 Some(found) => {
                     enough = middle;
-                    if found.queries < best.queries {
+                    if found.queries() < best.queries() {
                         best = found;
                     }
                 }
@@ -244,7 +251,7 @@ fn cheapest(
         let repeated: &[u32] = if phase_bits > 4 { &[7, 6, 5] } else { &[] };
         for &repetitions in repeated {
             match attempt(phase_bits - 3, repetitions, None)? {
-                Some(found) if found.queries < best.queries => best = found,
+                Some(found) if found.queries() < best.queries() => best = found,
                 _ => break,
             }
         }
@@ -314,7 +321,8 @@ fn finish(
             error: counting.error,
             within: 1.0 - failing,
             parts,
-            queries: counted.map_or(0.0, |c| c.queries),
+            queries: counted.as_ref().map_or(0.0, Counted::queries),
+            channel_queries: counted.map_or([0.0; 3], |c| c.channel_queries),
             cost: width.map(|(.., cost)| cost),
         },
     })

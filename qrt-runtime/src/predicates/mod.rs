@@ -16,7 +16,7 @@ mod count;
 mod path;
 
 pub use count::{Counted, PixelCount, QueryCost, count_where};
-pub use path::{TracedHit, TracedPath, TracedRay, trace_path};
+pub use path::{TracedHit, TracedPath, TracedRay, trace_path, trace_path_of};
 
 pub use crate::render::PredicateRefusal;
 

@@ -11,27 +11,27 @@ use std::sync::Arc;
 
 /// A path, as a machine traces it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct TracedPath {
+pub struct TracedPath<'a> {
     /// The rays that the path has: the last one may meet something or nothing.
-    pub rays: Vec<TracedRay>,
+    pub rays: Vec<TracedRay<'a>>,
     /// The path's colour, in radiance: red, green, blue.
     pub colour: [f64; 3],
 }
 
 /// A ray of a path.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TracedRay {
+pub struct TracedRay<'a> {
     /// Where it starts, a point of the scene.
     pub origin: [f64; 3],
     /// Where it goes: of length 1, up to rounding.
     pub direction: [f64; 3],
     /// What it meets, if anything.
-    pub hit: Option<TracedHit>,
+    pub hit: Option<TracedHit<'a>>,
 }
 
 /// What a ray meets.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TracedHit {
+pub struct TracedHit<'a> {
     /// How far away it is, in units of the scene.
     pub distance: f64,
     /// The number of the face, from 1 on, in the order of the scene's polygons.
@@ -39,7 +39,7 @@ pub struct TracedHit {
     /// The number of the face's material, from 1 on.
     pub material: u32,
     /// The material's name.
-    pub name: &'static str,
+    pub name: &'a str,
     /// Whether the face is met on its front.
     pub front: bool,
     /// The unit normal of the face's front.
@@ -60,8 +60,21 @@ pub fn trace_path<S: PathScene>(
     seed: u64,
     pixel: [u32; 2],
     id: u64,
-) -> Result<TracedPath, RenderError> {
-    let scene = S::scene();
+) -> Result<TracedPath<'static>, RenderError> {
+    trace_path_of(S::scene(), model, seed, pixel, id)
+}
+
+/// As [`trace_path`], of any scene.
+///
+/// # Errors
+/// As [`trace_path`].
+pub fn trace_path_of(
+    scene: &ValidScene,
+    model: Model,
+    seed: u64,
+    pixel: [u32; 2],
+    id: u64,
+) -> Result<TracedPath<'_>, RenderError> {
     let film = scene.scene().film;
     if pixel[0] >= film.width || pixel[1] >= film.height {
         return Err(RenderError::Crop {
@@ -99,11 +112,11 @@ pub fn trace_path<S: PathScene>(
     Ok(path(scene, &formats, &values))
 }
 
-fn path(
-    scene: &'static ValidScene,
+fn path<'a>(
+    scene: &'a ValidScene,
     formats: &PathFormats,
     values: &HashMap<PathNumber, f64>,
-) -> TracedPath {
+) -> TracedPath<'a> {
     let value = |number: PathNumber| values.get(&number).copied().unwrap_or(0.0);
     let mut rays = Vec::new();
     for depth in 0..formats.rays {

@@ -72,8 +72,8 @@ impl Classes {
 /// The proven bounds on a path's colour, by pixel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scales {
-    of: PixelClasses,
-    bounds: Vec<(PixelClass, [f64; 3])>,
+    pub(super) of: PixelClasses,
+    pub(super) bounds: Vec<(PixelClass, [f64; 3])>,
 }
 
 impl Scales {

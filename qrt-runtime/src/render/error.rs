@@ -50,6 +50,14 @@ pub enum RenderError {
         /// Paths of each, as a power of two.
         path_bits: u32,
     },
+    /// More portions than the picture has pixels.
+    #[error("a picture of {pixels} pixels can't be cut into {count} portions: ask for fewer")]
+    Portions {
+        /// How many portions.
+        count: u32,
+        /// Pixels of the picture.
+        pixels: u64,
+    },
     /// A picture that doesn't fit into memory.
     #[error("there is not enough memory for {pixels} pixels")]
     Memory {

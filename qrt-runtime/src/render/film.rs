@@ -125,7 +125,8 @@ impl Film {
         Ok(())
     }
 
-    fn paint(&mut self, tile: &Tile) {
+    /// Takes in a tile's pixels.
+    pub(super) fn paint(&mut self, tile: &Tile) {
         let width = tile.width as usize;
         for (number, row) in rows(tile, self.crop).enumerate() {
             let own = number * width..(number + 1) * width;

@@ -3,14 +3,18 @@
 use super::classes::Classes;
 use super::film::Film;
 use super::parts::{Kept, Parts};
+use super::picture_part::counts_good;
 use super::pixel::{Stop, Totals, go_on};
 use super::tiles::{self, Tiles};
-use super::{Colour, Model, RenderError, Rendered, Request};
+use super::{RenderError, Rendered, Request};
 use crate::checkpoint::{Checkpoint, CheckpointError, Header, Tile};
 use crate::workers::Progress;
 use rayon::prelude::*;
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
+
+/// The option of a checkpoint that says which portion of the picture it is of.
+pub(super) const PORTION: &str = "tile";
 
 /// A picture under way.
 pub(super) struct Job<'a> {
@@ -31,7 +35,7 @@ impl<'a> Job<'a> {
         let mut film = Film::new(request.crop, [whole.width, whole.height])?;
         let (resumed, kept) = film.open(request.options, || header(&request))?;
         Ok(Self {
-            tiles: Tiles::new(request.crop, request.options.tile, request.paths),
+            tiles: request.tiles(),
             pixels,
             resumed,
             kept,
@@ -47,10 +51,10 @@ impl<'a> Job<'a> {
             options,
             crop,
             estimator,
-            area,
             paths,
             ..
         } = self.request;
+        let area = self.tiles.area();
         let resumed = self.resumed.iter().filter(|&&pixel| pixel).count() as u64;
         let parts = self.kept.values().map(|part| part.paths);
         let resumed_paths = resumed * paths + parts.sum::<u64>();
@@ -78,11 +82,13 @@ impl<'a> Job<'a> {
         match done {
             Ok(()) => {
                 let rendered = Rendered {
+                    scene_name: scene.scene().name.clone(),
+                    scene_hash: scene.fingerprint().to_string(),
+                    film: [scene.scene().film.width, scene.scene().film.height],
                     image: film.image,
                     queries: film.queries,
                     strata: film.strata,
-                    good: (options.model != Model::Real && options.colour == Colour::ThreeRuns)
-                        .then_some(film.good),
+                    good: counts_good(options.model, options.colour).then_some(film.good),
                     model: options.model,
                     visibility: options.visibility,
                     searched: None,
@@ -177,8 +183,8 @@ fn closed(checkpoint: Option<Checkpoint>) -> Result<bool, CheckpointError> {
     checkpoint.map_or(Ok(false), Checkpoint::close)
 }
 
-/// What decides a pixel.
-fn header(request: &Request<'_>) -> Header {
+/// What decides a pixel, and which pixels are rendered.
+pub(super) fn header(request: &Request<'_>) -> Header {
     let Request { scene, options, .. } = *request;
     let decisive = [
         ("model", options.model.name().to_owned()),
@@ -194,6 +200,11 @@ fn header(request: &Request<'_>) -> Header {
         seed: options.seed,
         options: (decisive.into_iter())
             .chain(options.visibility.written())
+            .chain(
+                request
+                    .portion
+                    .map(|portion| (PORTION.to_owned(), portion.to_string())),
+            )
             .collect(),
         width: scene.scene().film.width,
         height: scene.scene().film.height,

@@ -3,21 +3,20 @@
 use super::Rendered;
 use crate::image::{ImageError, Metadata};
 use qrt_core::scene::Estimator;
-use qrt_core::valid::ValidScene;
 
 impl Rendered {
     /// How the picture was made: nothing in it changes from one run to the next.
     ///
     /// # Errors
     /// A scene whose name holds a NUL, which no picture can hold.
-    pub fn metadata(&self, scene: &ValidScene) -> Result<Metadata, ImageError> {
-        let written = scene.scene();
+    pub fn metadata(&self) -> Result<Metadata, ImageError> {
+        let [columns, rows] = self.film;
         let sampling = &self.parameters.sampling;
         let [x, y, width, height] = self.crop;
         let mut metadata = Metadata::new();
         metadata.set("version", env!("CARGO_PKG_VERSION"))?;
-        metadata.set("scene", written.name.as_str())?;
-        metadata.set("scene_hash", scene.fingerprint().to_string())?;
+        metadata.set("scene", self.scene_name.as_str())?;
+        metadata.set("scene_hash", self.scene_hash.as_str())?;
         metadata.set("model", self.model.name())?;
         for (key, value) in self.visibility.written() {
             metadata.set(&key, value)?;
@@ -27,10 +26,7 @@ impl Rendered {
         metadata.set("sequence", sampling.sequence.name())?;
         metadata.set("path_bits", sampling.path_bits.to_string())?;
         metadata.set("depths", sampling.depths.len().to_string())?;
-        metadata.set(
-            "film",
-            format!("{}x{}", written.film.width, written.film.height),
-        )?;
+        metadata.set("film", format!("{columns}x{rows}"))?;
         metadata.set("crop", format!("{x},{y},{width},{height}"))?;
         if self.estimator != Estimator::Exact {
             let (comparator, counting) = (&self.parameters.comparator, &self.parameters.counting);

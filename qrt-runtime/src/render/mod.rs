@@ -55,12 +55,16 @@ mod job;
 mod metadata;
 mod one_run;
 mod parts;
+mod picture_part;
 mod pixel;
+mod portion;
 mod tiles;
 mod visibility;
 
 pub use classes::Scales;
 pub use error::{CompiledError, PredicateRefusal, RenderError};
+pub use picture_part::{Merge, MergeError, PicturePart, render_part};
+pub use portion::{Portion, PortionError};
 pub use visibility::{DEFAULT_FAILURE, Searched, Visibility};
 
 use crate::checkpoint::Checkpoint;
@@ -79,6 +83,7 @@ use qrt_core::tracer::PixelClass;
 use qrt_core::valid::{Parameters, ValidScene};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
+use tiles::Tiles;
 
 named! {
     /// What traces the paths.
@@ -155,6 +160,12 @@ impl<'a> Options<'a> {
 /// A picture, and how it came about.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rendered {
+    /// What the scene is called.
+    pub scene_name: String,
+    /// A hash of the scene and of every file it refers to, as 32 hexadecimal digits.
+    pub scene_hash: String,
+    /// Width and height of the film in pixels.
+    pub film: [u32; 2],
     /// Linear radiance. With a crop, of the crop's size.
     pub image: Image,
     /// Queries of the oracle by pixel, as the image's pixels; all channels together. 0 under
@@ -266,6 +277,18 @@ pub fn render_keeping(
     scene: &ValidScene,
     options: &Options<'_>,
 ) -> Result<(Rendered, Option<Checkpoint>), RenderError> {
+    let rendered = render_portion(scene, options, None, |_| ());
+    rendered.map(|(rendered, (), checkpoint)| (rendered, checkpoint))
+}
+
+/// The pixels of a portion, all others black, and what is `told` of what was asked; of no portion, the
+/// whole picture.
+fn render_portion<T>(
+    scene: &ValidScene,
+    options: &Options<'_>,
+    portion: Option<Portion>,
+    told: impl FnOnce(&Request<'_>) -> T,
+) -> Result<(Rendered, T, Option<Checkpoint>), RenderError> {
     let crop = crop_of(scene, options)?;
     let planned;
     let chosen = match (scene.scene().accuracy, options.plan) {
@@ -276,15 +299,27 @@ pub fn render_keeping(
             planned.as_ref()
         }
     };
-    let request = Request::new(chosen.map_or(scene, |plan| &plan.scene), options, crop)?;
+    let traced = chosen.map_or(scene, |plan| &plan.scene);
+    let request = Request {
+        portion,
+        ..Request::new(traced, options, crop)?
+    };
+    if let Some(count) = portion.map(Portion::count)
+        && u64::from(count) > request.area
+    {
+        let pixels = request.area;
+        return Err(RenderError::Portions { count, pixels });
+    }
     let (classes, searched) = Classes::new(&request)?;
+    let told = told(&request);
     let (rendered, checkpoint) = Job::new(request, classes)?.run()?;
     let rendered = Rendered {
+        scene_hash: scene.fingerprint().to_string(),
         plan: chosen.map(|plan| plan.figures),
         searched,
         ..rendered
     };
-    Ok((rendered, checkpoint))
+    Ok((rendered, told, checkpoint))
 }
 
 /// Renders a scene of `qrt!` by the circuit that was compiled with it: the same picture as
@@ -352,6 +387,8 @@ struct Request<'a> {
     paths: u64,
     /// Which paths count, if not all do.
     predicate: Option<&'a Predicate>,
+    /// Which of its pixels are rendered, if not all are.
+    portion: Option<Portion>,
 }
 
 impl<'a> Request<'a> {
@@ -369,6 +406,7 @@ impl<'a> Request<'a> {
             area: u64::from(crop[2]) * u64::from(crop[3]),
             paths: 1 << path_bits,
             predicate: None,
+            portion: None,
         };
         match request.area.checked_mul(request.paths) {
             Some(_) => Ok(request),
@@ -377,6 +415,13 @@ impl<'a> Request<'a> {
                 path_bits,
             }),
         }
+    }
+
+    /// How the picture is cut into tiles. Portions are cut alike, whoever renders them.
+    fn tiles(&self) -> Tiles {
+        let size = self.options.tile.filter(|_| self.portion.is_none());
+        let portion = self.portion.unwrap_or(Portion::WHOLE);
+        Tiles::new(self.crop, size, self.paths, portion)
     }
 
     /// How the pixels get their colours whose paths `source` traces.

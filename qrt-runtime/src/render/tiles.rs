@@ -1,37 +1,83 @@
 //! How a picture is cut into tiles. Nothing in a picture depends on it.
 
+use super::Portion;
 use crate::checkpoint::Tile;
 
 /// Paths that a tile is cut to have about: some 10 to 100 ms of work.
 const PATHS: u64 = 1 << 17;
 /// Pixels of the largest tile: with few paths a pixel, estimating takes longer than tracing.
 const PIXELS: u64 = 256;
+/// Tiles of each portion of a picture, at least, as far as there are pixels: so many that portions take
+/// about equally long.
+const TILES: u64 = 64;
 
-/// A rectangle of the film cut into tiles, numbered row by row.
+/// A rectangle of the film cut into tiles, numbered row by row, and the portion of them that is rendered.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Tiles {
     crop: [u32; 4],
     size: [u32; 2],
+    portion: Portion,
+    /// By how many columns a row of tiles is turned against the row above it.
+    turn: u64,
 }
 
 impl Tiles {
     /// `crop` (x, y, width, height) in tiles of `size`, or of a size that suits the number of
-    /// paths a pixel.
-    pub(super) fn new(crop: [u32; 4], size: Option<[u32; 2]>, paths: u64) -> Self {
-        let size = size.unwrap_or_else(|| {
-            let bits = (PATHS / paths.max(1)).clamp(1, PIXELS).ilog2();
-            [1 << bits.div_ceil(2), 1 << (bits / 2)]
-        });
-        Self {
+    /// paths a pixel and the number of portions.
+    pub(super) fn new(
+        crop: [u32; 4],
+        size: Option<[u32; 2]>,
+        paths: u64,
+        portion: Portion,
+    ) -> Self {
+        let count = u64::from(portion.count());
+        let mut tiles = Self {
             crop,
-            size: size.map(|side| side.max(1)),
+            size: size.map_or([1, 1], |size| size.map(|side| side.max(1))),
+            portion,
+            turn: 0,
+        };
+        if size.is_none() {
+            let mut bits = (PATHS / paths.max(1)).clamp(1, PIXELS).ilog2();
+            loop {
+                tiles.size = [1 << bits.div_ceil(2), 1 << (bits / 2)];
+                if count == 1 || bits == 0 || tiles.all() >= count.saturating_mul(TILES) {
+                    break;
+                }
+                bits -= 1;
+            }
         }
+        // Seen from one row to the next, a portion's tiles move by the golden section of the portions.
+        let columns = u64::from(tiles.columns_rows()[0].max(1));
+        let step = libm::round(count as f64 * 0.382) as u64;
+        tiles.turn = (columns + count - step) % count % columns;
+        tiles
     }
 
-    /// How many there are.
-    pub(super) fn count(&self) -> u64 {
+    /// How many there are of all portions.
+    fn all(&self) -> u64 {
         let [columns, rows] = self.columns_rows();
         u64::from(columns) * u64::from(rows)
+    }
+
+    /// How many there are of the portion.
+    pub(super) fn count(&self) -> u64 {
+        let (index, count) = (self.portion.index(), self.portion.count());
+        let before = u64::from(count - 1 - index);
+        (self.all() + before) / u64::from(count)
+    }
+
+    /// Pixels of the portion.
+    pub(super) fn area(&self) -> u64 {
+        let [_, _, width, height] = self.crop;
+        if self.portion == Portion::WHOLE {
+            return u64::from(width) * u64::from(height);
+        }
+        let areas = (0..self.count()).map(|number| {
+            let [_, _, width, height] = self.rectangle(number);
+            u64::from(width) * u64::from(height)
+        });
+        areas.sum()
     }
 
     fn columns_rows(&self) -> [u32; 2] {
@@ -39,13 +85,16 @@ impl Tiles {
         [width.div_ceil(self.size[0]), height.div_ceil(self.size[1])]
     }
 
-    /// Tile `number`: x, y, width, height on the film.
+    /// Tile `number` of the portion: x, y, width, height on the film.
     pub(super) fn rectangle(&self, number: u64) -> [u32; 4] {
         let [x, y, width, height] = self.crop;
         let columns = u64::from(self.columns_rows()[0].max(1));
+        let place = number * u64::from(self.portion.count()) + u64::from(self.portion.index());
+        let row = place / columns;
+        let column = (place + row % columns * self.turn) % columns;
+        let left = column as u32 * self.size[0];
+        let top = row as u32 * self.size[1];
         // Both below the crop's sides, so that nothing is cut off.
-        let left = (number % columns) as u32 * self.size[0];
-        let top = (number / columns) as u32 * self.size[1];
         let (right, bottom) = (width - left, height - top);
         [
             x + left,
@@ -76,21 +125,30 @@ pub(super) fn rows(tile: &Tile, crop: [u32; 4]) -> impl Iterator<Item = std::ops
 mod tests {
     use super::*;
 
+    fn portions(count: u32) -> impl Iterator<Item = Portion> {
+        (0..count).map(move |index| Portion::new(index, count).unwrap())
+    }
+
     #[test]
-    fn every_pixel_is_in_one_tile() {
-        for crop in [[0, 0, 1, 1], [3, 5, 17, 9], [0, 0, 64, 64]] {
+    fn every_pixel_is_in_one_tile_of_one_portion() {
+        for crop in [[0, 0, 1, 1], [3, 5, 17, 9], [0, 0, 64, 64], [2, 0, 1, 40]] {
             for (size, paths) in [
                 (Some([1, 1]), 1),
                 (Some([5, 3]), 1),
                 (None, 1),
                 (None, 1 << 12),
             ] {
-                let tiles = Tiles::new(crop, size, paths);
-                let mut seen: Vec<[u32; 2]> = (0..tiles.count())
-                    .flat_map(|n| pixels(tiles.rectangle(n)))
-                    .collect();
-                seen.sort_unstable_by_key(|[x, y]| [*y, *x]);
-                assert_eq!(seen, pixels(crop).collect::<Vec<_>>());
+                for count in [1, 2, 3, 4, 7, 16, 153, 500] {
+                    let mut seen = Vec::new();
+                    for portion in portions(count) {
+                        let tiles = Tiles::new(crop, size, paths, portion);
+                        let before = seen.len();
+                        seen.extend((0..tiles.count()).flat_map(|n| pixels(tiles.rectangle(n))));
+                        assert_eq!((seen.len() - before) as u64, tiles.area());
+                    }
+                    seen.sort_unstable_by_key(|[x, y]| [*y, *x]);
+                    assert_eq!(seen, pixels(crop).collect::<Vec<_>>(), "{crop:?} {count}");
+                }
             }
         }
     }
@@ -98,9 +156,44 @@ mod tests {
     #[test]
     fn more_paths_make_smaller_tiles() {
         let area = |paths| {
-            let [_, _, width, height] = Tiles::new([0, 0, 99, 99], None, paths).rectangle(0);
+            let tiles = Tiles::new([0, 0, 99, 99], None, paths, Portion::WHOLE);
+            let [_, _, width, height] = tiles.rectangle(0);
             width * height
         };
         assert_eq!([1, 1 << 12, 1 << 17, 1 << 40].map(area), [256, 32, 1, 1]);
+    }
+
+    /// Where pixels cost more to one side, or only within a disc, no portion costs more than 15 % above
+    /// the mean of all.
+    #[test]
+    fn portions_cost_about_as_much_wherever_the_picture_is_costly() {
+        type Cost = fn(f64, f64) -> f64;
+        let costs: [Cost; 5] = [
+            |_, _| 1.0,
+            |x, _| x,
+            |_, y| y,
+            |x, y| f64::from(u8::from(x > 0.5)) + 0.1 * y,
+            |x, y| f64::from(u8::from((x - 0.4).hypot(y - 0.6) < 0.3)),
+        ];
+        for side in [64, 100, 128, 250] {
+            for count in [2, 3, 4, 5, 8, 13, 16, 31, 32] {
+                for cost in costs {
+                    let of = |[x, y]: [u32; 2]| {
+                        let part = |at: u32| (f64::from(at) + 0.5) / f64::from(side);
+                        cost(part(x), part(y))
+                    };
+                    let each: Vec<f64> = portions(count)
+                        .map(|portion| {
+                            let tiles = Tiles::new([0, 0, side, side], None, 1 << 12, portion);
+                            let tiles = (0..tiles.count()).map(|n| tiles.rectangle(n));
+                            tiles.flat_map(pixels).map(of).sum()
+                        })
+                        .collect();
+                    let mean = each.iter().sum::<f64>() / f64::from(count);
+                    let most = each.iter().fold(0.0, |most, &cost| f64::max(most, cost));
+                    assert!(most < 1.15 * mean, "{side} {count}: {:.3}", most / mean);
+                }
+            }
+        }
     }
 }

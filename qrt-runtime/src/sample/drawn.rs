@@ -49,8 +49,8 @@ impl Countable<'_> {
 pub(crate) struct Drawn {
     /// The estimated amplitudes, by draw and channel.
     pub(crate) amplitudes: Vec<[f64; 3]>,
-    /// The queries of all draws and channels together.
-    pub(crate) queries: u64,
+    /// The queries of all draws together, by channel.
+    pub(crate) queries: [u64; 3],
 }
 
 impl Draws<'_> {
@@ -84,7 +84,7 @@ impl Draws<'_> {
         let scales = self.scales[place].map(f64::to_bits);
         let estimators = scales.map(|scale| estimators.get(&scale));
         let mut amplitudes = vec![[0.0; 3]; self.count as usize];
-        let mut queries = 0;
+        let mut queries = [0; 3];
         for (draw, amplitudes) in (0_u64..).zip(&mut amplitudes) {
             let seed = self.seed ^ draw.wrapping_mul(0x9E37_79B9_7F4A_7C15);
             for (channel, estimator) in estimators.into_iter().enumerate() {
@@ -106,7 +106,7 @@ impl Draws<'_> {
                 };
                 let estimate = estimator.estimate(&mut device)?;
                 amplitudes[channel] = estimate.amplitude;
-                queries += estimate.queries;
+                queries[channel] += estimate.queries;
             }
         }
         Ok(Drawn {

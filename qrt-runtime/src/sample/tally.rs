@@ -22,7 +22,8 @@ pub struct Tally {
 }
 
 impl Tally {
-    fn add(&mut self, later: &Self) {
+    /// Adds what later paths of the same pixel sum to, against the same comparators.
+    pub(crate) fn add(&mut self, later: &Self) {
         for (sum, more) in self.colour.iter_mut().zip(later.colour) {
             *sum += more;
         }

@@ -293,7 +293,7 @@ impl<'a> Bench<'a> {
         };
         let found = draws.of(&self.pixels, &countable)?;
         let exact = parameters.counting.estimator == Estimator::Exact;
-        let queries: u64 = found.iter().map(|drawn| drawn.queries).sum();
+        let queries: u64 = found.iter().flat_map(|drawn| drawn.queries).sum();
         let values = |(drawn, bound): (Drawn, &[f64; 3])| {
             let value = |of: &[f64; 3]| std::array::from_fn(|c| bound[c] * of[c]);
             drawn.amplitudes.iter().map(value).collect()

@@ -20,7 +20,8 @@ pub(super) fn json(
     channel: usize,
     plan: Option<&Figures>,
 ) -> Result<Value, Failure> {
-    let picture = PictureCounts::of(scene).map_err(|error| match error {
+    let planned = plan.map(|figures| figures.channel_queries);
+    let picture = PictureCounts::of(scene, planned).map_err(|error| match error {
         PhysicalError::Oracle(error) => loaded.report(vec![error.problem()]).into(),
         PhysicalError::Estimator(_) | PhysicalError::TooMany => Failure::Usage(error.to_string()),
         other => Failure::Job(other.to_string()),
@@ -53,7 +54,11 @@ pub(super) fn json(
         "queries": { "channel": one.queries, "pixel": picture.queries, "film": film },
         "plan": plan.map(crate::cli::plan::json),
         "assumed": {
-            "queries": "as many as the scene's counting may use",
+            "queries": if plan.is_some() && !counting.estimator.has_register() {
+                "as many as are planned of a pixel on average"
+            } else {
+                "as many as the scene's counting may use"
+            },
             "circuit": if counting.estimator.has_register() {
                 "quantum counting with its phase register, repeated"
             } else {

@@ -57,6 +57,10 @@ fn check(fence: &Fence, next: Option<&Fence>) -> Result<(), String> {
             }
             _ => Err("`rust,ignore` holds one include, of `examples` or `tests/ui`".to_owned()),
         },
+        "python" => match alone {
+            Some(include) if include.path.starts_with("python/examples/") => Ok(()),
+            _ => Err("`python` holds one include, of `python/examples`".to_owned()),
+        },
         info if info.starts_with("equation ") => Ok(()),
         "console" | "yaml" | "yaml,wrong" => Ok(()),
         info if PLAIN.contains(&info) => Ok(()),

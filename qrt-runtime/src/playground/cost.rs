@@ -1,0 +1,39 @@
+//! What a scene's oracle costs.
+
+use super::{Answer, Refused};
+use crate::draw;
+use qrt_core::inspect::{CHANNELS, Inspection, Part};
+use qrt_core::oracle::Options;
+use qrt_core::valid::ValidScene;
+
+/// The costs of the dearest channel's oracle, as `qrt inspect` tells them, its stages in the order
+/// in which they are computed, and its drawing.
+pub(super) fn cost(scene: &ValidScene) -> Result<Answer, Refused> {
+    let inspection = Inspection::new(scene, None, Options::default())?;
+    let total = inspection.total();
+    let stages = inspection.stages();
+    let computed: Vec<_> = stages
+        .iter()
+        .filter(|stage| stage.part == Part::Compute)
+        .collect();
+    let names: Vec<String> = computed.iter().map(|s| s.name.to_string()).collect();
+    let depths = computed.iter().map(|stage| {
+        let depth = stage.depth.map(i64::from);
+        depth.map_or(-1.0, |depth| depth as f64)
+    });
+    let name = scene.scene().name.as_str();
+    Ok(Answer::default()
+        .text("channel", CHANNELS[inspection.channel])
+        .number("toffoli", total.toffoli as f64)
+        .number("and_measured", total.and_measured as f64)
+        .number("cnot", total.cnot as f64)
+        .number("qubits", inspection.qubits.into())
+        .number("toffoli_depth", inspection.toffoli_depth as f64)
+        .lines("stages", &names)
+        .list("depths", depths)
+        .list(
+            "toffolis",
+            computed.iter().map(|stage| stage.cost.toffoli as f64),
+        )
+        .text("svg", draw::frame(&inspection, name).svg()))
+}

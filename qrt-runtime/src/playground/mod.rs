@@ -1,0 +1,194 @@
+//! Scenes that are tried while they are written: what the playground asks and is told.
+//!
+//! A page's scripts call a [`Playground`] by name, with numbers and a text, and get an [`Answer`].
+//! In the book it runs in the page, compiled to WebAssembly; `qrt playground` runs it on the
+//! machine that serves the page. Both are one and the same code, and nothing is computed a second
+//! time in a script.
+//!
+//! | call | numbers | text | answers |
+//! |---|---|---|---|
+//! | `examples` | | | their names, a line each |
+//! | `example` | | its name | its text |
+//! | `check` | | a scene | its problems and warnings, and what it is |
+//! | `open` | model (0 real, 1 fixed), seed, part, parts | a scene | what the picture is |
+//! | `trace` | first, count, bits | | the means of the first `2^bits` paths of these pixels |
+//! | `estimate` | first, count, phase bits | an estimator, or nothing | what it says of them |
+//! | `cost` | | a scene | Toffolis, qubits, stages; the oracle as an SVG |
+//! | `pixel` | column, row, seed, phase bits | a scene | its paths, its counts and their distribution |
+//!
+//! A playground has one picture, or every `parts`-th pixel of one, from the `part`-th on, so that
+//! several share the work. Pixels are numbered by rows, from the top, within the part. Lists of
+//! colours are linear radiance: red, green and blue of a pixel, then of the next.
+//!
+//! A scene that asks for an `accuracy` is shown with the parameters that it would have without:
+//! planning takes longer than anybody waits who is writing.
+
+mod answer;
+mod check;
+mod cost;
+mod picture;
+mod pixel;
+#[cfg(test)]
+mod tests;
+
+pub use answer::Answer;
+
+use crate::counting::CountingError;
+use crate::estimators::EstimatorError;
+use crate::render::{Model, RenderError};
+use crate::sample::SampleError;
+use picture::Picture;
+use qrt_core::front::{Files, Loaded, parse_with};
+use qrt_core::oracle::OracleError;
+use qrt_core::sampling::SamplingError;
+use qrt_core::syntax::{Problem, Report};
+use qrt_core::valid::ValidScene;
+
+/// The name under which errors show the scene's text.
+const NAME: &str = "scene.yaml";
+/// Triangles that a scene's meshes may have.
+const MOST_FACES: usize = 20_000;
+/// Pixels that a picture may have.
+const MOST_PIXELS: u64 = 1 << 18;
+
+/// A scene that is tried.
+pub struct Playground<'a> {
+    examples: &'a [(&'a str, &'a str)],
+    files: Files<'a>,
+    picture: Option<Picture>,
+}
+
+/// Why there is no answer.
+#[derive(Debug, thiserror::Error)]
+enum Refused {
+    #[error("there is no call `{0}`")]
+    NoSuchCall(String),
+    #[error("there is no example `{0}`")]
+    NoSuchExample(String),
+    #[error("`{0}` needs numbers that are not negative")]
+    Numbers(&'static str),
+    #[error("{0}")]
+    Scene(Report),
+    #[error("no picture is open")]
+    NotOpen,
+    #[error("the pixels are traced first")]
+    NotTraced,
+    #[error(
+        "the playground shows pictures of at most {MOST_PIXELS} pixels: make `film` smaller, or use \
+         `qrt render`"
+    )]
+    TooManyPixels,
+    #[error("there is no estimator `{0}`")]
+    NoSuchEstimator(String),
+    #[error("the film has no pixel {0}, {1}")]
+    Outside(u32, u32),
+    #[error(transparent)]
+    Sampling(#[from] SamplingError),
+    #[error(transparent)]
+    Sample(#[from] SampleError),
+    #[error(transparent)]
+    Counting(#[from] CountingError),
+    #[error(transparent)]
+    Estimator(#[from] EstimatorError),
+    #[error("{0}")]
+    Oracle(OracleError),
+    #[error(transparent)]
+    Render(#[from] RenderError),
+}
+
+impl From<OracleError> for Refused {
+    fn from(error: OracleError) -> Self {
+        Self::Oracle(error)
+    }
+}
+
+impl<'a> Playground<'a> {
+    /// With scenes to begin with, by name and text, and the files that scenes may name: meshes and
+    /// their material libraries.
+    pub fn new(examples: &'a [(&'a str, &'a str)], files: Files<'a>) -> Self {
+        Self {
+            examples,
+            files: files.most_faces(MOST_FACES),
+            picture: None,
+        }
+    }
+
+    /// Answers a call; what goes wrong is an answer, too: the text `error`.
+    pub fn call(&mut self, name: &str, numbers: &[f64], text: &str) -> Answer {
+        let found = match name {
+            "examples" => {
+                let names: Vec<&str> = self.examples.iter().map(|(name, _)| *name).collect();
+                Ok(Answer::default().lines("names", &names))
+            }
+            "example" => {
+                let mut examples = self.examples.iter();
+                let found = examples.find(|(name, _)| *name == text);
+                let found = found.ok_or_else(|| Refused::NoSuchExample(text.to_owned()));
+                found.map(|(_, scene)| Answer::default().text("text", *scene))
+            }
+            "check" => Ok(check::check(self.load(text))),
+            "open" => self.open(numbers, text),
+            "trace" => self.picture().and_then(|picture| {
+                let [first, count, bits] = whole("trace", numbers)?;
+                picture.trace(first as usize, count as usize, bits as u32)
+            }),
+            "estimate" => self.picture().and_then(|picture| {
+                let [first, count, phase_bits] = whole("estimate", numbers)?;
+                picture.estimate(text, phase_bits as u32, first as usize, count as usize)
+            }),
+            "cost" => self.scene(text).and_then(|scene| cost::cost(&scene)),
+            "pixel" => self.scene(text).and_then(|scene| {
+                let [x, y, seed, phase_bits] = whole("pixel", numbers)?;
+                pixel::pixel(&scene, [x as u32, y as u32], seed, phase_bits as u32)
+            }),
+            _ => Err(Refused::NoSuchCall(name.to_owned())),
+        };
+        found.unwrap_or_else(|refused| Answer::default().text("error", refused.to_string()))
+    }
+
+    fn load(&self, text: &str) -> Result<Loaded, Report> {
+        parse_with(text, NAME, &[], self.files)
+    }
+
+    /// The scene, with an accuracy left out that it may ask for.
+    fn scene(&self, text: &str) -> Result<ValidScene, Refused> {
+        let loaded = self.load(text).map_err(Refused::Scene)?;
+        let scene = &loaded.valid;
+        if scene.scene().accuracy.is_none() {
+            return Ok(loaded.valid);
+        }
+        let wrong = |problems: Vec<Problem>| Refused::Scene(loaded.report(problems));
+        scene.with_parameters(scene.parameters()).map_err(wrong)
+    }
+
+    fn open(&mut self, numbers: &[f64], text: &str) -> Result<Answer, Refused> {
+        let [model, seed, part, parts] = whole("open", numbers)?;
+        self.picture = None;
+        let scene = self.scene(text)?;
+        let film = scene.scene().film;
+        if u64::from(film.width) * u64::from(film.height) > MOST_PIXELS {
+            return Err(Refused::TooManyPixels);
+        }
+        let model = if model == 0 {
+            Model::Real
+        } else {
+            Model::Fixed
+        };
+        let picture = Picture::new(&scene, model, seed, (part, parts.max(1)))?;
+        Ok(self.picture.insert(picture).description())
+    }
+
+    fn picture(&mut self) -> Result<&mut Picture, Refused> {
+        self.picture.as_mut().ok_or(Refused::NotOpen)
+    }
+}
+
+/// So many whole numbers.
+fn whole<const N: usize>(call: &'static str, numbers: &[f64]) -> Result<[u64; N], Refused> {
+    let numbers: &[f64; N] = numbers.try_into().map_err(|_| Refused::Numbers(call))?;
+    if numbers.iter().all(|number| (0.0..9e15).contains(number)) {
+        Ok(numbers.map(|number| number as u64))
+    } else {
+        Err(Refused::Numbers(call))
+    }
+}

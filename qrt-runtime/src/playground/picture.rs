@@ -1,0 +1,288 @@
+//! A picture that refines: over more and more paths, and counted with more and more queries.
+
+use super::{Answer, Refused};
+use crate::counting::{Comparators, Octaves};
+use crate::estimators::Noise;
+use crate::machines::{OracleMachine, Real};
+use crate::render::Model;
+use crate::sample::{Countable, Draws, Tally, counted_tallies, tallies};
+use crate::workers::Workers;
+use qrt_core::oracle::{Options, Oracle};
+use qrt_core::scene::{Counting, Estimator};
+use qrt_core::tracer::{PixelClass, PixelClasses};
+use qrt_core::valid::ValidScene;
+use std::ops::Range;
+
+/// What counts where the scene takes the amplitude itself.
+const DEFAULT: Estimator = Estimator::AdaptiveBayes;
+
+/// A part of a picture, as far as it is.
+pub(super) struct Picture {
+    classes: PixelClasses,
+    machines: Vec<(PixelClass, Machine)>,
+    counting: Counting,
+    comparator_bits: u32,
+    path_bits: u32,
+    seed: u64,
+    film: [u32; 2],
+    pixels: Vec<[u32; 2]>,
+    /// By pixel: what its first paths add up to.
+    tallies: Vec<Tally>,
+    /// By pixel: how many paths these are.
+    paths: Vec<u64>,
+    /// By pixel: what was estimated last, and the queries that it took.
+    estimated: Vec<([f64; 3], u64)>,
+}
+
+/// What traces the pixels of a class, and what their paths are compared with.
+struct Machine {
+    source: Source,
+    bound: [f64; 3],
+    comparators: [Comparators; 3],
+}
+
+enum Source {
+    Real(Box<Real>),
+    Fixed(OracleMachine),
+}
+
+impl Machine {
+    fn new(
+        scene: &ValidScene,
+        model: Model,
+        seed: u64,
+        class: PixelClass,
+    ) -> Result<Self, Refused> {
+        let (source, bound) = if model == Model::Real {
+            let real = Real::of_class(scene, seed, class)?;
+            let bound = real.stage().bound();
+            (Source::Real(Box::new(real)), bound)
+        } else {
+            let oracle = Oracle::rgb(scene, Options::of_class(class))?;
+            let scale = |c: usize| oracle.channels.get(c).map_or(0.0, |channel| channel.scale);
+            let bound = [scale(0), scale(1), scale(2)];
+            let machine = OracleMachine::fixed(oracle.into(), seed, false);
+            (Source::Fixed(machine), bound)
+        };
+        Ok(Self {
+            source,
+            bound,
+            comparators: Comparators::rgb(bound, scene.scene().comparator)?,
+        })
+    }
+
+    fn tallies(&self, pixels: &[[u32; 2]], ids: Range<u64>) -> Result<Vec<Tally>, Refused> {
+        let workers = Workers::default();
+        Ok(match &self.source {
+            Source::Real(real) => tallies(real, pixels, ids, &[self.comparators], &workers)?,
+            Source::Fixed(machine) => counted_tallies(machine, pixels, ids, &workers)?,
+        })
+    }
+
+    /// The mean of so many paths: of their colours, or of the thresholds that these exceed.
+    fn mean(&self, tally: &Tally, paths: u64, comparator_bits: u32) -> [f64; 3] {
+        let ids = (paths << comparator_bits) as f64;
+        std::array::from_fn(|c| match &self.source {
+            Source::Real(_) => tally.colour[c] / paths as f64,
+            Source::Fixed(_) => self.bound[c] * (tally.good[0][c] as f64 / ids),
+        })
+    }
+}
+
+impl Picture {
+    /// Of every `parts`-th pixel from the `part`-th on.
+    pub(super) fn new(
+        scene: &ValidScene,
+        model: Model,
+        seed: u64,
+        (part, parts): (u64, u64),
+    ) -> Result<Self, Refused> {
+        let classes = PixelClasses::new(scene);
+        let machines = classes
+            .present()
+            .iter()
+            .map(|&class| Ok((class, Machine::new(scene, model, seed, class)?)))
+            .collect::<Result<_, Refused>>()?;
+        let written = scene.scene();
+        let film = [written.film.width, written.film.height];
+        let all = (0..film[1]).flat_map(|y| (0..film[0]).map(move |x| [x, y]));
+        let pixels: Vec<[u32; 2]> = all.skip(part as usize).step_by(parts as usize).collect();
+        let comparator_bits = written.comparator.bits;
+        let none = Tally {
+            good: vec![[0; 3]],
+            octaves: [(); 3].map(|()| Octaves::new(comparator_bits)),
+            ..Tally::default()
+        };
+        Ok(Self {
+            classes,
+            machines,
+            counting: written.counting,
+            comparator_bits,
+            path_bits: written.sampling.path_bits,
+            seed,
+            film,
+            tallies: vec![none; pixels.len()],
+            paths: vec![0; pixels.len()],
+            estimated: vec![([0.0; 3], 0); pixels.len()],
+            pixels,
+        })
+    }
+
+    pub(super) fn description(&self) -> Answer {
+        let estimators: Vec<&str> = Estimator::ALL
+            .iter()
+            .filter(|&&estimator| estimator != Estimator::Exact)
+            .map(|estimator| estimator.name())
+            .collect();
+        Answer::default()
+            .number("width", self.film[0].into())
+            .number("height", self.film[1].into())
+            .number("pixels", self.pixels.len() as f64)
+            .number("path_bits", self.path_bits.into())
+            .number("comparator_bits", self.comparator_bits.into())
+            .number("phase_bits", self.counting.phase_bits.into())
+            .number("repetitions", self.counting.repetitions.into())
+            .text("estimator", self.estimator().name())
+            .lines("estimators", &estimators)
+    }
+
+    /// The scene's estimator; one that measures.
+    fn estimator(&self) -> Estimator {
+        match self.counting.estimator {
+            Estimator::Exact => DEFAULT,
+            other => other,
+        }
+    }
+
+    fn machine(&self, pixel: [u32; 2]) -> &Machine {
+        let class = self.classes.of(pixel);
+        let found = self.machines.iter().find(|(of, _)| *of == class);
+        // There is one for each class that a pixel may be of.
+        &found.unwrap_or(&self.machines[0]).1
+    }
+
+    fn range(&self, first: usize, count: usize) -> Range<usize> {
+        let first = first.min(self.pixels.len());
+        first..first.saturating_add(count).min(self.pixels.len())
+    }
+
+    /// Traces what is missing of the first `2^bits` paths, at most all, of those of these pixels
+    /// that have as many paths as the first. Answers the means, and how many pixels there are.
+    pub(super) fn trace(
+        &mut self,
+        first: usize,
+        count: usize,
+        bits: u32,
+    ) -> Result<Answer, Refused> {
+        let range = self.range(first, count);
+        let before = self.paths.get(range.start).copied().unwrap_or(0);
+        let alike = self.paths[range.clone()]
+            .iter()
+            .take_while(|&&paths| paths == before)
+            .count();
+        let range = range.start..range.start + alike;
+        let until = 1_u64 << bits.min(self.path_bits);
+        if before < until {
+            let found = self
+                .classes
+                .apart(&self.pixels[range.clone()], |class, pixels| {
+                    let (_, machine) = self
+                        .machines
+                        .iter()
+                        .find(|(of, _)| *of == class)
+                        .unwrap_or(&self.machines[0]);
+                    machine.tallies(pixels, before..until)
+                })?;
+            for (place, more) in range.clone().zip(&found) {
+                self.tallies[place].add(more);
+                self.paths[place] = until;
+            }
+        }
+        let means: Vec<[f64; 3]> = range.clone().map(|place| self.mean(place)).collect();
+        Ok(Answer::default()
+            .number("first", range.start as f64)
+            .number("count", range.len() as f64)
+            .list("radiance", means.into_iter().flatten()))
+    }
+
+    fn mean(&self, place: usize) -> [f64; 3] {
+        let machine = self.machine(self.pixels[place]);
+        machine.mean(
+            &self.tallies[place],
+            self.paths[place].max(1),
+            self.comparator_bits,
+        )
+    }
+
+    /// Estimates these pixels anew from all their paths, as `qrt render` does with so many phase
+    /// bits; by the scene's estimator unless one is named. Answers the colours, and of the pixels
+    /// together: the sum of what they are, of the squares of what they are off by, and of queries.
+    pub(super) fn estimate(
+        &mut self,
+        name: &str,
+        phase_bits: u32,
+        first: usize,
+        count: usize,
+    ) -> Result<Answer, Refused> {
+        let range = self.range(first, count);
+        let estimator = match name {
+            "" => self.estimator(),
+            name => Estimator::from_name(name)
+                .filter(|&estimator| estimator != Estimator::Exact)
+                .ok_or_else(|| Refused::NoSuchEstimator(name.to_owned()))?,
+        };
+        let all = 1_u64 << self.path_bits;
+        if self.paths[range.clone()].iter().any(|&paths| paths < all) {
+            return Err(Refused::NotTraced);
+        }
+        let counting = Counting {
+            estimator,
+            phase_bits,
+            ..self.counting
+        };
+        let pixels = &self.pixels[range.clone()];
+        let scales: Vec<[f64; 3]> = pixels.iter().map(|&p| self.machine(p).bound).collect();
+        let draws = Draws {
+            counting: &counting,
+            scales: &scales,
+            noise: Noise::NONE,
+            seed: self.seed,
+            count: 1,
+            total: all << self.comparator_bits,
+        };
+        let tallies = &self.tallies[range.clone()];
+        let drawn = if counting.may_count_strata() {
+            let octaves: Vec<[Octaves; 3]> = tallies.iter().map(|t| t.octaves.clone()).collect();
+            draws.of(pixels, &Countable::Octaves(&octaves))?
+        } else {
+            let good: Vec<[u64; 3]> = tallies.iter().map(|t| t.good[0]).collect();
+            draws.of(pixels, &Countable::Whole(&good))?
+        };
+        let (mut sum, mut squares, mut queries) = (0.0, 0.0, 0);
+        for (place, drawn) in range.clone().zip(drawn) {
+            let comparators = self.machine(self.pixels[place]).comparators;
+            let colour = std::array::from_fn(|c| {
+                // A channel whose scale is 0 is proven black.
+                match self.machine(self.pixels[place]).bound[c] {
+                    0.0 => 0.0,
+                    _ => comparators[c].pixel_of_amplitude(drawn.amplitudes[0][c]),
+                }
+            });
+            for (exact, found) in self.mean(place).iter().zip(&colour) {
+                sum += exact;
+                squares += (found - exact) * (found - exact);
+            }
+            let spent: u64 = drawn.queries.iter().sum();
+            queries += spent;
+            self.estimated[place] = (colour, spent);
+        }
+        let colours = self.estimated[range.clone()].iter().map(|of| of.0);
+        Ok(Answer::default()
+            .number("first", range.start as f64)
+            .number("count", range.len() as f64)
+            .list("radiance", colours.flatten())
+            .number("sum", sum)
+            .number("squares", squares)
+            .number("queries", queries as f64))
+    }
+}

@@ -1,0 +1,683 @@
+//! Pictures rendered in parts, by several processes or machines, and put together again.
+//!
+//! A part is a portion's pixels, with everything that a picture's files tell: colours, counts, queries
+//! and strata by pixel, bounds, parameters and plan. Its bytes are those of a checkpoint (see
+//! [`crate::checkpoint`]) with one more record, the last, so that what was cut short or changed on the
+//! way is noticed: header and records have a CRC-32 each. [`Merge`] takes the parts in any order; what it
+//! makes of them is what [`super::render`] would have made, to the last bit.
+
+use super::film::Film;
+use super::job::{PORTION, header};
+use super::tiles::{Tiles, rows};
+use super::{
+    Colour, Model, Options, Portion, RenderError, Rendered, Request, Scales, Searched, Visibility,
+    render_portion,
+};
+use crate::checkpoint::{Checkpoint, CheckpointError, Difference, Ending, Header, Record, Tile};
+use crate::estimators::Noise;
+use crate::image::Image;
+use crate::plan::{ErrorParts, Figures};
+use crate::search::Guess;
+use qrt_core::oracle::CallCost;
+use qrt_core::scene::{Accuracy, Estimator, Scene, Sequence};
+use qrt_core::tracer::{PixelClass, PixelClasses};
+use qrt_core::valid::{Parameters, ValidScene};
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// As many missing parts are named.
+const NAMED: usize = 16;
+
+/// Why parts don't make a picture. Each names its part as [`Merge::add`] was told.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+#[allow(missing_docs)]
+pub enum MergeError {
+    /// There is nothing to put together.
+    #[error("there are no parts to merge")]
+    Nothing,
+    /// Other bytes.
+    #[error("`{name}` is no part of a picture")]
+    Foreign { name: String },
+    /// Written by another version of the format.
+    #[error("`{name}` is a part of format {version}, which this qrt does not read")]
+    Version { name: String, version: u32 },
+    /// It fails a sum, or what it says of itself can't be.
+    #[error("`{name}` is damaged: render this part again")]
+    Damaged { name: String },
+    /// What an interrupted render has left, or the beginning of a part.
+    #[error(
+        "`{name}`, part {portion}, is not whole: it was cut short, or its render was interrupted; \
+         go on with that by `--resume`, or render the part again"
+    )]
+    Unfinished { name: String, portion: Portion },
+    /// The checkpoint of a picture that is rendered by one process.
+    #[error("`{name}` is the checkpoint of a whole picture, and no part of one")]
+    Whole { name: String },
+    /// Parts of different pictures.
+    #[error("`{name}` and `{first}` are parts of different pictures{}", listed(.differences))]
+    Differs {
+        name: String,
+        first: String,
+        /// In what: `found` is of `name`, `asked` is of `first`.
+        differences: Vec<Difference>,
+    },
+    /// Two parts with the same pixels.
+    #[error("`{name}` and `{first}` are both part {portion}: leave one of them out")]
+    Doubled {
+        name: String,
+        first: String,
+        portion: Portion,
+    },
+    /// Some parts are not there.
+    #[error("{number} of {count} parts {} missing: {}", are(*.number), named(.first, *.number, *.count))]
+    Missing {
+        /// The numbers of the first of them, from 0.
+        first: Vec<u32>,
+        /// How many are missing.
+        number: u32,
+        count: u32,
+    },
+    /// The picture does not fit into memory.
+    #[error("there is not enough memory for {pixels} pixels")]
+    Memory { pixels: u64 },
+}
+
+fn listed(differences: &[Difference]) -> String {
+    let of = |value: &Option<String>| value.clone().unwrap_or_else(|| "not set".into());
+    let line = |Difference { what, found, asked }: &Difference| {
+        format!("\n  {what}: {} and {}", of(found), of(asked))
+    };
+    differences.iter().map(line).collect()
+}
+
+fn are(number: u32) -> &'static str {
+    if number == 1 { "is" } else { "are" }
+}
+
+fn named(first: &[u32], number: u32, count: u32) -> String {
+    let mut names: Vec<String> = first
+        .iter()
+        .map(|index| format!("{index}/{count}"))
+        .collect();
+    if first.len() < number as usize {
+        names.push("...".into());
+    }
+    names.join(", ")
+}
+
+/// The pixels of a portion of a picture. There is no image of it: pixels that were not rendered would be
+/// black there.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PicturePart {
+    portion: Portion,
+    header: Header,
+    /// The scene that was traced without what it consists of, as YAML.
+    written: String,
+    /// All pixels of other portions are black.
+    rendered: Rendered,
+}
+
+/// Renders a portion of a picture; as [`super::render_keeping`], it hands over the checkpoint.
+///
+/// A scene that asks for an accuracy is planned for by each part anew, to the same plan: it depends on
+/// no seed and no portion. [`Options::plan`] hands over one that is there already.
+///
+/// # Errors
+/// As [`super::render`]; and more portions than the picture has pixels.
+///
+/// ```
+/// use qrt_core::front::parse;
+/// use qrt_runtime::render::{Merge, Options, Portion, render, render_part};
+/// let text = "
+/// name: sky
+/// camera: { orthographic: { eye: [0, 0, 2], target: [0, 0, 0], height: 1 } }
+/// film: { width: 4, height: 2 }
+/// materials: { sky: { emitter: { radiance: [0.25, 0.5, 1] } } }
+/// geometry:
+///   - quad: { vertices: [[-9, -9, 0], [9, -9, 0], [9, 9, 0], [-9, 9, 0]], material: sky }
+/// ";
+/// let scene = parse(text, "sky.yaml", &[], "".as_ref())?.valid;
+/// let mut merge = Merge::default();
+/// for portion in ["1/2", "0/2"] {
+///     let (part, _) = render_part(&scene, portion.parse()?, &Options::default())?;
+///     merge.add(portion, &part.encode())?;
+/// }
+/// assert_eq!(merge.finish()?.image, render(&scene, &Options::default())?.image);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn render_part(
+    scene: &ValidScene,
+    portion: Portion,
+    options: &Options<'_>,
+) -> Result<(PicturePart, Option<Checkpoint>), RenderError> {
+    let told = |request: &Request<'_>| (header(request), written(request.scene));
+    let (rendered, (header, written), checkpoint) =
+        render_portion(scene, options, Some(portion), told)?;
+    let part = PicturePart {
+        portion,
+        header,
+        written,
+        rendered,
+    };
+    Ok((part, checkpoint))
+}
+
+fn written(scene: &ValidScene) -> String {
+    let mut written = scene.scene().clone();
+    written.geometry.clear();
+    written.materials.clear();
+    written.to_yaml()
+}
+
+impl PicturePart {
+    /// Which portion of its picture it is.
+    pub fn portion(&self) -> Portion {
+        self.portion
+    }
+
+    /// Paths of its pixels.
+    pub fn paths(&self) -> u64 {
+        self.rendered.paths
+    }
+
+    /// Pixels that it has.
+    pub fn pixels(&self) -> u64 {
+        self.tiles().area()
+    }
+
+    /// Wall time of tracing and counting, in seconds.
+    pub fn seconds(&self) -> f64 {
+        self.rendered.seconds
+    }
+
+    fn tiles(&self) -> Tiles {
+        tiles(&self.rendered, self.portion)
+    }
+
+    /// The bytes of a file of it.
+    pub fn encode(&self) -> Vec<u8> {
+        let Rendered {
+            image,
+            queries,
+            good,
+            strata,
+            crop,
+            ..
+        } = &self.rendered;
+        let tiles = self.tiles();
+        let mut bytes = self.header.encode();
+        for number in 0..tiles.count() {
+            let mut tile = Tile::of(tiles.rectangle(number));
+            for row in rows(&tile.clone(), *crop) {
+                tile.pixels.extend(&image.pixels[row.clone()]);
+                tile.queries.extend(&queries[row.clone()]);
+                match good {
+                    Some(good) => tile.good.extend(&good[row.clone()]),
+                    None => tile.good.extend(row.clone().map(|_| [0; 3])),
+                }
+                tile.strata.extend(&strata[row]);
+            }
+            bytes.extend(tile.encode());
+        }
+        let ending = Ending {
+            text: format!("{}\n{}", self.rendered.scene_hash, self.written),
+            words: words(&self.rendered),
+        };
+        bytes.extend(ending.encode());
+        bytes
+    }
+}
+
+/// How every portion of a picture is cut.
+fn tiles(rendered: &Rendered, portion: Portion) -> Tiles {
+    let paths = 1 << rendered.parameters.sampling.path_bits;
+    Tiles::new(rendered.crop, None, paths, portion)
+}
+
+/// A part that was read.
+struct Read {
+    name: String,
+    tiles: Vec<Tile>,
+    /// Without pixels.
+    rendered: Rendered,
+}
+
+/// Puts the parts of a picture together.
+#[derive(Default)]
+pub struct Merge {
+    /// The first part's name, and its header without its portion.
+    first: Option<(String, Header)>,
+    count: u32,
+    parts: BTreeMap<u32, Read>,
+}
+
+impl Merge {
+    /// Takes in the bytes of a part; `name` is what errors call it.
+    ///
+    /// # Errors
+    /// If they are no whole part, or it is of another picture than those before, or one of them again.
+    pub fn add(&mut self, name: &str, bytes: &[u8]) -> Result<(), MergeError> {
+        let name = name.to_owned();
+        let mut rest = bytes;
+        let (portion, header) = of_header(&name, &mut rest)?;
+        match &self.first {
+            None => {
+                self.first = Some((name.clone(), header.clone()));
+                self.count = portion.count();
+            }
+            Some((first, expected)) => {
+                let mut differences = header.differences(expected);
+                if portion.count() != self.count {
+                    differences.push(Difference {
+                        what: "parts".into(),
+                        found: Some(portion.count().to_string()),
+                        asked: Some(self.count.to_string()),
+                    });
+                }
+                if !differences.is_empty() {
+                    let first = first.clone();
+                    return Err(MergeError::Differs {
+                        name,
+                        first,
+                        differences,
+                    });
+                }
+            }
+        }
+        if let Some(first) = self.parts.get(&portion.index()) {
+            let first = first.name.clone();
+            return Err(MergeError::Doubled {
+                name,
+                first,
+                portion,
+            });
+        }
+        let read = Read::of(name, portion, &header, rest)?;
+        self.parts.insert(portion.index(), read);
+        Ok(())
+    }
+
+    /// The picture. Its time is that of all parts together, its number of threads the greatest of theirs.
+    ///
+    /// # Errors
+    /// If parts are missing.
+    pub fn finish(self) -> Result<Rendered, MergeError> {
+        let count = self.count;
+        let number = count - self.parts.len() as u32;
+        if number > 0 {
+            let missing = (0..count).filter(|index| !self.parts.contains_key(index));
+            return Err(MergeError::Missing {
+                first: missing.take(NAMED).collect(),
+                number,
+                count,
+            });
+        }
+        let mut parts = self.parts.into_values();
+        let first = parts.next().ok_or(MergeError::Nothing)?;
+        let mut whole = first.rendered;
+        // All pixels are there, so that a film of this size is not more than was read.
+        let [_, _, width, height] = whole.crop;
+        let pixels = u64::from(width) * u64::from(height);
+        let memory = |_| MergeError::Memory { pixels };
+        let mut film = Film::new(whole.crop, whole.film).map_err(memory)?;
+        for tile in &first.tiles {
+            film.paint(tile);
+        }
+        for Read {
+            tiles, rendered, ..
+        } in parts
+        {
+            for tile in &tiles {
+                film.paint(tile);
+            }
+            whole.paths += rendered.paths;
+            whole.resumed_paths += rendered.resumed_paths;
+            whole.seconds += rendered.seconds;
+            whole.threads = whole.threads.max(rendered.threads);
+        }
+        whole.image = film.image;
+        whole.queries = film.queries;
+        whole.strata = film.strata;
+        whole.good = counts_good(whole.model, whole.colour).then_some(film.good);
+        Ok(whole)
+    }
+}
+
+/// Whether S is told of channels.
+pub(super) fn counts_good(model: Model, colour: Colour) -> bool {
+    model != Model::Real && colour == Colour::ThreeRuns
+}
+
+/// Takes the header off a part: which portion it is of, and what it shares with the other parts.
+fn of_header(name: &str, rest: &mut &[u8]) -> Result<(Portion, Header), MergeError> {
+    let name = name.to_owned();
+    let header = match Header::decode(rest, Path::new(&name)) {
+        Err(CheckpointError::Foreign { .. }) => Err(MergeError::Foreign { name: name.clone() }),
+        Err(CheckpointError::Version { version, .. }) => Err(MergeError::Version {
+            name: name.clone(),
+            version,
+        }),
+        decoded => decoded.map_err(|_| MergeError::Damaged { name: name.clone() }),
+    };
+    let mut header = header?;
+    match header.options.remove(PORTION).map(|text| text.parse()) {
+        None => Err(MergeError::Whole { name }),
+        Some(Err(_)) => Err(MergeError::Damaged { name }),
+        Some(Ok(portion)) => Ok((portion, header)),
+    }
+}
+
+impl Read {
+    /// Of the records behind the header.
+    fn of(
+        name: String,
+        portion: Portion,
+        header: &Header,
+        mut rest: &[u8],
+    ) -> Result<Self, MergeError> {
+        let damaged = || MergeError::Damaged { name: name.clone() };
+        let mut found = Vec::new();
+        let ending = loop {
+            let ended = rest.is_empty();
+            match Record::decode(&mut rest, header.crop) {
+                Some(Record::Tile(tile)) => found.push(tile),
+                // Of an unfinished pixel.
+                Some(Record::Part(_)) => {}
+                Some(Record::Ending(ending)) if rest.is_empty() => break ending,
+                None if ended => return Err(MergeError::Unfinished { name, portion }),
+                Some(Record::Ending(_)) | None => return Err(damaged()),
+            }
+        };
+        let rendered = rendered(header, &ending).ok_or_else(damaged)?;
+        let tiles = tiles(&rendered, portion);
+        let [x, y, width, height] = header.crop;
+        let whole = x.checked_add(width).is_some_and(|end| end <= header.width)
+            && y.checked_add(height)
+                .is_some_and(|end| end <= header.height)
+            && u64::from(portion.count()) <= u64::from(width) * u64::from(height)
+            && tiles.count() == found.len() as u64
+            && (found.iter().zip(0..))
+                .all(|(tile, n)| [tile.x, tile.y, tile.width, tile.height] == tiles.rectangle(n));
+        if !whole {
+            return Err(damaged());
+        }
+        Ok(Self {
+            name,
+            tiles: found,
+            rendered,
+        })
+    }
+}
+
+/// What is known of a picture beside its pixels, as words; [`rendered`] reads them.
+fn words(rendered: &Rendered) -> Vec<u64> {
+    let mut words = vec![
+        place(&Model::ALL, &rendered.model),
+        place(&Colour::ALL, &rendered.colour),
+        place(Estimator::ALL, &rendered.estimator),
+    ];
+    let Noise {
+        depolarising,
+        readout,
+    } = rendered.noise;
+    words.extend([depolarising, readout].map(f64::to_bits));
+    match rendered.visibility {
+        Visibility::Classical => words.push(0),
+        Visibility::Exhaustive => words.push(1),
+        Visibility::Grover { failure, guess } => {
+            words.extend([2, failure.to_bits(), place(&Guess::ALL, &guess)]);
+        }
+    }
+    words.push(rendered.searched.is_some().into());
+    if let Some(searched) = rendered.searched {
+        let Searched {
+            faces,
+            states,
+            failure,
+            qubits,
+            toffoli,
+        } = searched;
+        words.extend([faces, states, failure.to_bits(), qubits, toffoli]);
+    }
+    words.push(rendered.plan.is_some().into());
+    if let Some(figures) = &rendered.plan {
+        put_figures(&mut words, figures);
+    }
+    let Scales { of, bounds } = &rendered.scales;
+    words.push(of.outlines().is_some().into());
+    if let Some(outlines) = of.outlines() {
+        words.push(outlines.len() as u64);
+        for outline in outlines {
+            words.push(outline.len() as u64);
+            words.extend(outline.into_iter().flatten().map(f64::to_bits));
+        }
+    }
+    words.push(bounds.len() as u64);
+    for (class, bounds) in bounds {
+        words.push(place(&PixelClass::ALL, class));
+        words.extend(bounds.map(f64::to_bits));
+    }
+    words.extend([
+        rendered.ids,
+        rendered.paths,
+        rendered.resumed_paths,
+        rendered.seconds.to_bits(),
+        rendered.threads as u64,
+    ]);
+    words
+}
+
+fn put_figures(words: &mut Vec<u64>, figures: &Figures) {
+    let Figures {
+        accuracy,
+        mean,
+        pixels,
+        sequence,
+        path_bits,
+        extrapolated,
+        fraction,
+        comparator_bits,
+        estimator,
+        phase_bits,
+        repetitions,
+        error,
+        within,
+        parts,
+        queries,
+        channel_queries,
+        cost,
+    } = *figures;
+    let floats = [accuracy.error, accuracy.confidence, mean, within, queries];
+    words.extend(floats.map(f64::to_bits));
+    words.extend(channel_queries.map(f64::to_bits));
+    let ErrorParts {
+        paths,
+        comparators,
+        width,
+        counting,
+        total,
+    } = parts;
+    words.extend([paths, comparators, width, counting, total].map(f64::to_bits));
+    words.extend(pixels);
+    words.extend([
+        place(Sequence::ALL, &sequence),
+        place(Estimator::ALL, &estimator),
+        extrapolated.into(),
+    ]);
+    words.extend([path_bits, comparator_bits, phase_bits, repetitions].map(u64::from));
+    let mut maybe = |values: Option<Vec<u64>>| {
+        words.push(values.is_some().into());
+        words.extend(values.unwrap_or_default());
+    };
+    maybe(fraction.map(|bits| vec![bits.into()]));
+    maybe(error.map(|error| vec![error.to_bits()]));
+    maybe(cost.map(|cost| vec![cost.qubits, cost.toffoli]));
+}
+
+/// The number of a value among all.
+fn place<T: PartialEq>(all: &[T], value: &T) -> u64 {
+    all.iter().take_while(|other| *other != value).count() as u64
+}
+
+/// Words, one after another.
+struct Words<'a>(std::slice::Iter<'a, u64>);
+
+impl Words<'_> {
+    fn word(&mut self) -> Option<u64> {
+        self.0.next().copied()
+    }
+
+    fn small(&mut self) -> Option<u32> {
+        self.word()?.try_into().ok()
+    }
+
+    fn float(&mut self) -> Option<f64> {
+        self.word().map(f64::from_bits)
+    }
+
+    fn floats<const N: usize>(&mut self) -> Option<[f64; N]> {
+        let mut floats = [0.0; N];
+        for float in &mut floats {
+            *float = self.float()?;
+        }
+        Some(floats)
+    }
+
+    /// The value of this number among all.
+    fn of<T: Copy>(&mut self, all: &[T]) -> Option<T> {
+        let number: usize = self.word()?.try_into().ok()?;
+        all.get(number).copied()
+    }
+
+    /// What may not be there; none where the words are no such thing.
+    #[allow(clippy::option_option)]
+    fn maybe<T>(&mut self, mut read: impl FnMut(&mut Self) -> Option<T>) -> Option<Option<T>> {
+        match self.word()? {
+            0 => Some(None),
+            1 => read(self).map(Some),
+            _ => None,
+        }
+    }
+
+    fn list<T>(&mut self, mut read: impl FnMut(&mut Self) -> Option<T>) -> Option<Vec<T>> {
+        let length = self.word()?;
+        (0..length).map(|_| read(self)).collect()
+    }
+
+    fn figures(&mut self) -> Option<Figures> {
+        let [error, confidence, mean, within, queries] = self.floats()?;
+        let channel_queries = self.floats()?;
+        let [paths, comparators, width, counting, total] = self.floats()?;
+        Some(Figures {
+            channel_queries,
+            accuracy: Accuracy { error, confidence },
+            mean,
+            within,
+            queries,
+            parts: ErrorParts {
+                paths,
+                comparators,
+                width,
+                counting,
+                total,
+            },
+            pixels: [self.word()?, self.word()?],
+            sequence: self.of(Sequence::ALL)?,
+            estimator: self.of(Estimator::ALL)?,
+            extrapolated: self.of(&[false, true])?,
+            path_bits: self.small()?,
+            comparator_bits: self.small()?,
+            phase_bits: self.small()?,
+            repetitions: self.small()?,
+            fraction: self.maybe(Self::small)?,
+            error: self.maybe(Self::float)?,
+            cost: self.maybe(|words| {
+                let [qubits, toffoli] = [words.word()?, words.word()?];
+                Some(CallCost { qubits, toffoli })
+            })?,
+        })
+    }
+}
+
+/// A picture without its pixels, of what a part says of it.
+fn rendered(header: &Header, ending: &Ending) -> Option<Rendered> {
+    let (scene_hash, written) = ending.text.split_once('\n')?;
+    let scene = Scene::from_yaml(written, "the part").ok()?;
+    if [scene.film.width, scene.film.height] != [header.width, header.height] {
+        return None;
+    }
+    let mut words = Words(ending.words.iter());
+    let words = &mut words;
+    let model = words.of(&Model::ALL)?;
+    let colour = words.of(&Colour::ALL)?;
+    let estimator = words.of(Estimator::ALL)?;
+    let [depolarising, readout] = words.floats()?;
+    let visibility = match words.word()? {
+        0 => Visibility::Classical,
+        1 => Visibility::Exhaustive,
+        2 => Visibility::Grover {
+            failure: words.float()?,
+            guess: words.of(&Guess::ALL)?,
+        },
+        _ => return None,
+    };
+    let searched = words.maybe(|words| {
+        Some(Searched {
+            faces: words.word()?,
+            states: words.word()?,
+            failure: words.float()?,
+            qubits: words.word()?,
+            toffoli: words.word()?,
+        })
+    })?;
+    let plan = words.maybe(Words::figures)?;
+    let outlines = words.maybe(|words| words.list(|words| words.list(Words::floats)))?;
+    let bounds = words.list(|words| Some((words.of(&PixelClass::ALL)?, words.floats()?)))?;
+    if bounds.is_empty() {
+        return None;
+    }
+    let rendered = Rendered {
+        scene_name: scene.name,
+        scene_hash: scene_hash.to_owned(),
+        film: [header.width, header.height],
+        image: Image {
+            width: 0,
+            height: 0,
+            pixels: Vec::new(),
+            window: None,
+        },
+        queries: Vec::new(),
+        strata: Vec::new(),
+        good: None,
+        model,
+        visibility,
+        searched,
+        crop: header.crop,
+        estimator,
+        colour,
+        noise: Noise {
+            depolarising,
+            readout,
+        },
+        seed: header.seed,
+        parameters: Parameters {
+            sampling: scene.sampling,
+            precision: scene.precision,
+            comparator: scene.comparator,
+            counting: scene.counting,
+            circuit: scene.circuit,
+        },
+        plan,
+        scales: Scales {
+            of: PixelClasses::of_outlines(outlines),
+            bounds,
+        },
+        ids: words.word()?,
+        paths: words.word()?,
+        resumed_paths: words.word()?,
+        seconds: words.float()?,
+        threads: words.word()?.try_into().ok()?,
+    };
+    words.word().is_none().then_some(rendered)
+}

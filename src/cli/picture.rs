@@ -1,0 +1,146 @@
+//! A picture's files, whether it was rendered at once or in parts.
+
+use super::failure::Failure;
+use super::files::{Output, keep_apart};
+use super::stats;
+use clap::Args;
+use qrt_core::inspect::grouped;
+use qrt_runtime::image::{self, Encoding};
+use qrt_runtime::render::Rendered;
+use qrt_runtime::replace_file::PARTIAL;
+use std::path::{Path, PathBuf};
+
+/// What is written beside a picture.
+#[derive(Clone, Debug, Args)]
+pub(crate) struct BesideArgs {
+    /// Stops of exposure: the picture times 2^STOPS; for .png only
+    #[arg(long, value_name = "STOPS", allow_negative_numbers = true)]
+    pub(crate) exposure: Option<f64>,
+    /// Write time, queries, mean colour and more as JSON
+    #[arg(long, value_name = "FILE.json")]
+    stats: Option<PathBuf>,
+    /// Write every channel of every pixel as CSV: x,y,channel,value,good,total,scale
+    #[arg(long, value_name = "FILE.csv")]
+    counts: Option<PathBuf>,
+}
+
+/// The files that are written.
+pub(crate) struct Outputs {
+    /// The picture, or a part of it.
+    pub(crate) picture: Output,
+    stats: Option<Output>,
+    counts: Option<Output>,
+    /// Where finished tiles are kept; none for a picture that goes to a pipe or a device, beside which
+    /// there is no place.
+    pub(crate) checkpoint: Option<PathBuf>,
+}
+
+impl Outputs {
+    /// Finds out where the files lead.
+    ///
+    /// # Errors
+    /// A folder is in the place of one, or there is none to write to.
+    pub(crate) fn new(picture: &Path, beside: &BesideArgs) -> Result<Self, Failure> {
+        let output = |path: &PathBuf| Output::new(path);
+        let asked = Output::new(picture)?;
+        let mut partial = picture.as_os_str().to_owned();
+        partial.push(PARTIAL);
+        Ok(Self {
+            stats: beside.stats.as_ref().map(output).transpose()?,
+            counts: beside.counts.as_ref().map(output).transpose()?,
+            checkpoint: (!asked.is_device()).then_some(partial.into()),
+            picture: asked,
+        })
+    }
+
+    /// The files that were asked for.
+    pub(crate) fn asked(&self) -> impl Iterator<Item = &Output> {
+        let others = self.stats.iter().chain(&self.counts);
+        std::iter::once(&self.picture).chain(others)
+    }
+
+    /// That none is one of `inputs`, or another of these.
+    ///
+    /// # Errors
+    /// The first that is.
+    pub(crate) fn keep_off<'a>(
+        &self,
+        inputs: impl IntoIterator<Item = &'a Path>,
+    ) -> Result<(), Failure> {
+        let checkpoint = self.checkpoint.as_deref().map(Output::new).transpose()?;
+        let all: Vec<&Output> = self.asked().chain(&checkpoint).collect();
+        keep_apart(inputs, &all)
+    }
+}
+
+/// Writes the picture and what is asked beside it; how many pixels were clipped.
+///
+/// # Errors
+/// A file that cannot be written.
+pub(crate) fn write(
+    outputs: &Outputs,
+    encoding: Encoding,
+    rendered: &Rendered,
+) -> Result<u64, Failure> {
+    let mut metadata = rendered.metadata()?;
+    if let Encoding::Png { exposure } = encoding {
+        metadata.set("exposure", exposure.to_string())?;
+    }
+    let picture = outputs.picture.path()?;
+    let clipped = image::save(picture, &rendered.image, &metadata, encoding)?;
+    if let Some(output) = &outputs.counts {
+        image::write_counts(output.path()?, rendered.counts())?;
+    }
+    if let Some(output) = &outputs.stats {
+        stats::write(output.path()?, rendered, clipped)?;
+    }
+    Ok(clipped)
+}
+
+/// What is said of a picture.
+pub(crate) fn summary(output: &Path, rendered: &Rendered, clipped: u64) -> String {
+    let Rendered { image, paths, .. } = rendered;
+    let clipped = match clipped {
+        0 => String::new(),
+        _ => format!(
+            "{clipped} of {} pixels are clipped: lower --exposure, or write .exr\n",
+            image.pixels.len()
+        ),
+    };
+    format!(
+        "{}: {} x {} pixels, {paths} paths in {:.2} s ({:.2} Mpaths/s), model {}, estimator {}, {} \
+         queries\n\
+         {clipped}",
+        output.display(),
+        image.width,
+        image.height,
+        rendered.seconds,
+        stats::paths_per_second(rendered) / 1e6,
+        rendered.model.name(),
+        rendered.estimator,
+        rendered.total_queries(),
+    ) + &search_summary(rendered)
+}
+
+/// What the search for primary hits took; nothing if there was none.
+fn search_summary(rendered: &Rendered) -> String {
+    let Some(searched) = rendered.searched else {
+        return String::new();
+    };
+    let root = libm::sqrt(searched.faces as f64);
+    let mean = rendered.total_queries() as f64 / rendered.paths as f64;
+    let promise = match searched.failure {
+        0.0 => String::new(),
+        failure => format!(", a miss at most {failure:.1e} likely"),
+    };
+    format!(
+        "primary hits by {}: P = {} faces, {mean:.2} queries a ray = {:.2} sqrt(P) = {:.3} P, each of \
+         {} Toffolis on {} qubits{promise}\n",
+        rendered.visibility.name(),
+        searched.faces,
+        mean / root,
+        mean / searched.faces as f64,
+        grouped(searched.toffoli),
+        grouped(searched.qubits),
+    )
+}

@@ -1,0 +1,93 @@
+//! `qrt render --watch`: the picture again whenever a file of the scene is saved.
+
+use super::failure::Failure;
+use super::terminal;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, SystemTime};
+
+/// How often files are looked at.
+const TICK: Duration = Duration::from_millis(100);
+
+/// Files, and when each was changed last; none of one that is not there.
+#[derive(Debug, PartialEq)]
+struct Times(Vec<(PathBuf, Option<(SystemTime, u64)>)>);
+
+impl Times {
+    fn of(files: &[PathBuf]) -> Self {
+        let time = |path: &PathBuf| {
+            let found = std::fs::metadata(path).ok()?;
+            Some((found.modified().ok()?, found.len()))
+        };
+        Self(
+            files
+                .iter()
+                .map(|path| (path.clone(), time(path)))
+                .collect(),
+        )
+    }
+
+    fn changed(&self) -> bool {
+        let files: Vec<PathBuf> = self.0.iter().map(|(path, _)| path.clone()).collect();
+        *self != Self::of(&files)
+    }
+}
+
+/// Calls `render` now, and again whenever one of its files changes, until `interrupted`. It is told to
+/// end early, by its flag, when what it renders is out of date, and notes the files that it reads. What
+/// goes wrong is told, and mended by the next change.
+///
+/// # Errors
+/// What is wrong with the command line: no change of a file would mend it. Later, with the scene.
+pub(crate) fn watch(
+    scene: &Path,
+    interrupted: &AtomicBool,
+    mut render: impl FnMut(&AtomicBool, &mut Vec<PathBuf>) -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    let mut files = vec![scene.to_owned()];
+    let mut first = true;
+    while !interrupted.load(Ordering::Relaxed) {
+        // From before they are read: what is saved meanwhile is read again.
+        let before = Times::of(&files);
+        let (outdated, done) = (AtomicBool::new(false), AtomicBool::new(false));
+        let mut read = vec![scene.to_owned()];
+        let result = std::thread::scope(|threads| {
+            threads.spawn(|| {
+                while !done.load(Ordering::Relaxed) {
+                    std::thread::sleep(TICK);
+                    if interrupted.load(Ordering::Relaxed) || before.changed() {
+                        outdated.store(true, Ordering::Relaxed);
+                    }
+                }
+            });
+            let result = render(&outdated, &mut read);
+            done.store(true, Ordering::Relaxed);
+            result
+        });
+        if let Err(failure) = result
+            && !outdated.load(Ordering::Relaxed)
+        {
+            if first && matches!(failure, Failure::Usage(_)) {
+                return Err(failure);
+            }
+            terminal::error(&failure);
+        }
+        first = false;
+        // A scene that cannot be read names no files: those of before are its files still.
+        if read.len() >= files.len() {
+            files = read;
+        }
+        let after = Times::of(&files);
+        let stale = |path: &PathBuf| {
+            let of = |times: &Times| times.0.iter().find(|(own, _)| own == path).cloned();
+            of(&before).is_some_and(|then| Some(then) != of(&after))
+        };
+        if files.iter().any(stale) {
+            continue;
+        }
+        while !interrupted.load(Ordering::Relaxed) && !after.changed() {
+            std::thread::sleep(TICK);
+        }
+    }
+    Ok(())
+}
