@@ -1,0 +1,79 @@
+"""Oracles for other quantum libraries."""
+
+from __future__ import annotations
+
+from typing import Any
+
+
+def to_qiskit(oracle: Any, part: str = "oracle") -> Any:
+    """The circuit as a qiskit.QuantumCircuit; `part` is "oracle", "grover" or "counting".
+
+    The qubits of an index are the registers `path` and `comparator`, bit 0 first; all others begin and
+    end at zero. The index is to be prepared by whoever runs an oracle or an iterate: with Hadamards, for
+    all paths in superposition.
+    """
+    from qiskit import qasm2
+
+    instructions = qasm2.LEGACY_CUSTOM_INSTRUCTIONS
+    return qasm2.loads(oracle.qasm(2, part), custom_instructions=instructions)
+
+
+def estimation_problem(oracle: Any) -> Any:
+    """The pixel as a qiskit_algorithms.EstimationProblem, for all of its amplitude estimators.
+
+    The state preparation puts a Hadamard on each qubit of the index, the Grover operator is qrt's
+    iterate, and what is measured is the index: it is good if its path's colour exceeds its threshold,
+    which is looked up in the path's own colour. `post_processing` makes a radiance of the amplitude.
+    """
+    from qiskit import QuantumCircuit
+    from qiskit_algorithms import EstimationProblem
+
+    grover = to_qiskit(oracle, "grover")
+    index = [
+        grover.find_bit(qubit).index
+        for name in ("path", "comparator")
+        for register in grover.qregs
+        if register.name == name
+        for qubit in register
+    ]
+    prepare = QuantumCircuit(grover.num_qubits)
+    prepare.h(index)
+    thresholds = oracle.thresholds
+    mask = len(thresholds) - 1
+
+    def is_good_state(bits: str) -> bool:
+        number = int(bits, 2)
+        return bool(number >> oracle.path_bits < thresholds[number & mask])
+
+    return EstimationProblem(
+        prepare,
+        objective_qubits=index,
+        grover_operator=grover,
+        post_processing=lambda amplitude: amplitude * oracle.scale,
+        is_good_state=is_good_state,
+    )
+
+
+def to_pennylane(oracle: Any, part: str = "oracle") -> Any:
+    """The circuit as a quantum function of PennyLane, through OpenQASM 3: call it in a QNode. Its wires
+    are called `path[0]` and so on, and nothing is measured. PennyLane needs `openqasm3[parser]` for it.
+    """
+    import pennylane
+
+    # It takes neither of these.
+    lines = oracle.qasm(3, part).splitlines()
+    lines = [line for line in lines if "measure" not in line and "include" not in line]
+    return pennylane.from_qasm3("\n".join(lines), {})
+
+
+def to_cirq(oracle: Any, part: str = "oracle") -> Any:
+    """The circuit as a cirq.Circuit, through OpenQASM 2; its qubits are called `path_0` and so on."""
+    from cirq.contrib.qasm_import import circuit_from_qasm
+
+    return circuit_from_qasm(oracle.qasm(2, part))
+
+
+def extend(oracle: type) -> None:
+    """Gives the native class these as methods."""
+    for method in (to_qiskit, estimation_problem, to_pennylane, to_cirq):
+        setattr(oracle, method.__name__, method)

@@ -1,0 +1,40 @@
+"""Pictures in parts."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+from typing import Any
+
+from . import _qrt
+
+
+def render_tile(scene: _qrt.Scene, k: int, n: int, **options: Any) -> bytes:
+    """Render portion `k`, from 0, of `n` of a picture, and return it as the bytes of a part.
+
+    `options` are those of `Scene.render`. The portion's pixels lie in small rectangles all over the
+    picture, so that all portions take about as long. The bytes are those of a file of `qrt render
+    --tile K/N`, and `merge` or `qrt merge` takes them. A function of its arguments alone, for pools of
+    processes: scenes travel with their meshes.
+    """
+    return scene.render_tile(k, n, **options)
+
+
+def merge(parts: Iterable[bytes | str | os.PathLike[str]]) -> _qrt.Picture:
+    """Put together all parts of a picture, in any order: bytes, or paths of files.
+
+    The picture is that of one `Scene.render`, bit for bit. Its `seconds` are those of all parts together.
+
+    Raises MergeError that names a part which is missing, there twice, damaged or of another picture:
+    parts that are bytes are called by their place in `parts`, from 0.
+    """
+
+    def read():
+        for number, part in enumerate(parts):
+            if isinstance(part, (bytes, bytearray, memoryview)):
+                yield f"parts[{number}]", bytes(part)
+            else:
+                with open(part, "rb") as file:
+                    yield os.fspath(part), file.read()
+
+    return _qrt.merge(read())

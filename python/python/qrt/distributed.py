@@ -1,0 +1,84 @@
+"""Pictures by pools of processes and clusters.
+
+A pool is whatever has `submit(function, *arguments)` and returns futures with `result()` and
+`cancel()`: `concurrent.futures`, `mpi4py.futures.MPIPoolExecutor`, a `distributed.Client`, an executor
+of `submitit` or `parsl`. What a worker does is a function of its arguments alone, so that a pool may do a
+lost part again, anywhere.
+"""
+
+from __future__ import annotations
+
+import time
+from typing import Any
+
+from . import _qrt, _tiles
+from ._progress import listener
+
+__all__ = ["render"]
+
+_TICK = 0.05
+
+
+def _work(scene: _qrt.Scene, number: int, tiles: int, attempt: int, options: dict) -> bytes:
+    """A part. A pool that takes equal calls for one, as Dask does, sees that another attempt is
+    another call."""
+    del attempt
+    return _tiles.render_tile(scene, number, tiles, **options)
+
+
+def render(
+    scene: _qrt.Scene,
+    executor: Any,
+    *,
+    tiles: int | None = None,
+    retries: int = 2,
+    threads: int | None = 1,
+    progress: Any = None,
+    **options: Any,
+) -> _qrt.Picture:
+    """Render a scene on the workers of `executor`: the picture of `scene.render(**options)`, bit for
+    bit.
+
+    The picture is cut into `tiles` portions, by default 64 or as many as it has pixels; each is a task
+    that takes `threads` threads. A task that fails is submitted again, up to `retries` times; a request
+    that can't be met, such as a wrong option, is not. `progress` is told of tiles as `Scene.render` is of
+    paths. All tiles are awaited: there is a whole picture, or the exception of the task that failed last.
+    """
+    if tiles is None:
+        crop = options.get("crop")
+        width, height = crop[2:] if crop else (scene.width, scene.height)
+        tiles = max(1, min(64, width * height))
+    options = dict(options, threads=threads, progress=False)
+    parts: dict[int, bytes] = {}
+    failures = [0] * tiles
+
+    def submit(number: int) -> Any:
+        return executor.submit(_work, scene, number, tiles, failures[number], options)
+
+    running = {}
+    told = listener(progress)
+    try:
+        running.update((number, submit(number)) for number in range(tiles))
+        while running:
+            finished = [number for number, future in running.items() if future.done()]
+            for number in finished:
+                future = running.pop(number)
+                try:
+                    parts[number] = future.result()
+                except ValueError:
+                    raise
+                except Exception:
+                    failures[number] += 1
+                    if failures[number] > retries:
+                        raise
+                    running[number] = submit(number)
+            if told is not None:
+                told(len(parts), tiles)
+            if not finished:
+                time.sleep(_TICK)
+    finally:
+        for future in running.values():
+            future.cancel()
+        if told is not None:
+            told.close()
+    return _tiles.merge(parts[number] for number in range(tiles))

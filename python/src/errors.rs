@@ -1,0 +1,77 @@
+//! Errors as exceptions, of the classes in `qrt/_errors.py`.
+
+use pyo3::prelude::*;
+use pyo3::types::PyTuple;
+use qrt_core::syntax::Report;
+use qrt_runtime::render::RenderError;
+
+/// An exception of a class of `qrt`.
+fn exception<'py, A>(py: Python<'py>, class: &str, arguments: A) -> PyErr
+where
+    A: pyo3::call::PyCallArgs<'py>,
+{
+    let made = py
+        .import("qrt._errors")
+        .and_then(|module| module.getattr(class))
+        .and_then(|class| class.call1(arguments));
+    match made {
+        Ok(made) => PyErr::from_value(made),
+        Err(error) => error,
+    }
+}
+
+/// What was asked for does not exist, or does not go together.
+pub(crate) fn request(py: Python<'_>, message: impl ToString) -> PyErr {
+    exception(py, "RequestError", (message.to_string(),))
+}
+
+/// The work failed.
+pub(crate) fn job(py: Python<'_>, message: impl ToString) -> PyErr {
+    exception(py, "JobError", (message.to_string(),))
+}
+
+/// Parts that make no picture.
+pub(crate) fn merging(py: Python<'_>, message: impl ToString) -> PyErr {
+    exception(py, "MergeError", (message.to_string(),))
+}
+
+/// Everything that is wrong with a scene, as the command shows it.
+pub(crate) fn scene(py: Python<'_>, report: &Report) -> PyErr {
+    match problems(py, report) {
+        Ok(problems) => exception(py, "SceneError", (report.to_string().trim_end(), problems)),
+        Err(error) => error,
+    }
+}
+
+/// Warns of what is not wrong, but surely not meant.
+pub(crate) fn warn(py: Python<'_>, report: &Report) -> PyResult<()> {
+    let class = py.import("qrt._errors")?.getattr("SceneWarning")?;
+    let text = report.to_string();
+    py.import("warnings")?
+        .call_method1("warn", (text.trim_end(), class, 2))?;
+    Ok(())
+}
+
+fn problems<'py>(py: Python<'py>, report: &Report) -> PyResult<Bound<'py, PyTuple>> {
+    let class = py.import("qrt._errors")?.getattr("Problem")?;
+    let problems = report.problems().map(|problem| {
+        let place = problem.place.as_ref();
+        let (line, column) = place.map(|place| (place.line, place.column)).unzip();
+        let (code, message, help) = (problem.code, problem.message, problem.help);
+        class.call1((code, message, problem.file, line, column, help))
+    });
+    PyTuple::new(py, problems.collect::<PyResult<Vec<_>>>()?)
+}
+
+/// Why there is no picture.
+pub(crate) fn render(
+    py: Python<'_>,
+    error: RenderError,
+    report: impl FnOnce(Vec<qrt_core::syntax::Problem>) -> Report,
+) -> PyErr {
+    match error {
+        RenderError::Oracle(error) => scene(py, &report(vec![error.problem()])),
+        error if error.is_refusal() => request(py, error),
+        error => job(py, error),
+    }
+}

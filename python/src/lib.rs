@@ -1,0 +1,24 @@
+//! The native part of the Python package `qrt`; what users import is in `python/qrt`.
+
+mod device;
+mod errors;
+mod oracle;
+mod picture;
+mod scene;
+mod work;
+
+use pyo3::prelude::*;
+
+/// The native part of `qrt`.
+#[pymodule]
+fn _qrt(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    module.add_class::<scene::Scene>()?;
+    module.add_class::<picture::Picture>()?;
+    module.add_class::<oracle::Oracle>()?;
+    module.add_class::<device::Device>()?;
+    module.add_function(wrap_pyfunction!(scene::load, module)?)?;
+    module.add_function(wrap_pyfunction!(scene::parse, module)?)?;
+    module.add_function(wrap_pyfunction!(scene::restore, module)?)?;
+    module.add_function(wrap_pyfunction!(picture::merge, module)?)
+}

@@ -1,0 +1,368 @@
+//! A pixel's oracle: what it costs, its counts, its circuit.
+
+use crate::device::Device;
+use crate::errors;
+use crate::scene::Scene;
+use crate::work;
+use numpy::{IntoPyArray, PyArray1};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use qrt_circuit::export::{Export, Format};
+use qrt_circuit::lower::Cost;
+use qrt_circuit::quantum::{Conjunction, Counting, LogicalCounts, Part};
+use qrt_core::inspect::{CHANNELS, Inspection};
+use qrt_core::oracle::{CallCost, Options, Oracle as PathOracle, check_budget};
+use qrt_core::tracer::PixelClasses;
+use qrt_core::valid::ValidScene;
+use qrt_runtime::estimators::{Noise, NoiseError, Problem};
+use qrt_runtime::machines::OracleMachine;
+use qrt_runtime::physical::{PhysicalError, PictureCounts};
+use std::sync::{Arc, OnceLock};
+
+/// Paths whose thresholds are told, at most: 8 bytes each.
+const MOST_PATHS: u64 = 1 << 28;
+
+/// The oracle of a channel of a pixel.
+#[pyclass(frozen, module = "qrt")]
+pub(crate) struct Oracle {
+    scene: Py<Scene>,
+    traced: ValidScene,
+    /// Queries of a pixel that are planned, by channel, where the scene asks for an accuracy.
+    planned: Option<[f64; 3]>,
+    channel: usize,
+    pixel: [u32; 2],
+    seed: u64,
+    compiled: Arc<PathOracle>,
+    cost: Cost,
+    qubits: u32,
+    toffoli_depth: u64,
+    /// By path index, the thresholds that its colour exceeds.
+    thresholds: OnceLock<Vec<i64>>,
+}
+
+impl Oracle {
+    pub(crate) fn new(
+        py: Python<'_>,
+        scene: &Scene,
+        this: Py<Scene>,
+        channel: Option<&str>,
+        pixel: Option<[u32; 2]>,
+        seed: u64,
+    ) -> PyResult<Self> {
+        let pixel = scene.pixel(py, pixel)?;
+        let number = match channel {
+            None => None,
+            Some(name) => {
+                let found = CHANNELS.iter().position(|other| *other == name);
+                let refused =
+                    || errors::request(py, format!("channel={name:?} is none of: r, g, b"));
+                Some(found.ok_or_else(refused)?)
+            }
+        };
+        let (traced, planned) = scene.traced(py)?;
+        let options = Options::of_class(PixelClasses::new(&traced).of(pixel));
+        let report = |problems| errors::scene(py, &scene.loaded.report(problems));
+        let inspection = work::run(py, None, None, |_| {
+            Inspection::new(&traced, number, options)
+        })?;
+        let inspection = inspection.map_err(|error| report(vec![error.problem()]))?;
+        let spent = CallCost {
+            qubits: inspection.qubits.into(),
+            toffoli: inspection.total().toffoli,
+        };
+        check_budget(&traced, spent).map_err(report)?;
+        Ok(Self {
+            scene: this,
+            channel: inspection.channel,
+            pixel,
+            seed,
+            cost: inspection.total(),
+            qubits: inspection.qubits,
+            toffoli_depth: inspection.toffoli_depth,
+            compiled: Arc::new(inspection.oracle),
+            traced,
+            planned,
+            thresholds: OnceLock::new(),
+        })
+    }
+
+    fn paths(&self) -> u64 {
+        1 << self.compiled.points.path_bits()
+    }
+
+    fn counted(&self, py: Python<'_>) -> PyResult<&[i64]> {
+        if let Some(found) = self.thresholds.get() {
+            return Ok(found);
+        }
+        let paths = self.paths();
+        if paths > MOST_PATHS {
+            let message = format!("{paths} paths are more than {MOST_PATHS}: lower path_bits");
+            return Err(errors::request(py, message));
+        }
+        let found = work::run(py, None, None, |_| {
+            let machine = OracleMachine::fixed(Arc::clone(&self.compiled), self.seed, false);
+            let mut found = Vec::with_capacity(paths as usize);
+            let add =
+                |finished: qrt_runtime::machines::Finished<'_>| found.extend(finished.good[0]);
+            machine.trace(&[self.pixel], 0..paths, add).map(|()| found)
+        })?;
+        let found = found.map_err(|error| errors::job(py, error))?;
+        Ok(self.thresholds.get_or_init(|| found))
+    }
+
+    fn problem(&self, py: Python<'_>) -> PyResult<Problem> {
+        Ok(Problem {
+            good: self.counted(py)?.iter().sum::<i64>().cast_unsigned(),
+            total: self.total(),
+        })
+    }
+}
+
+fn of_qsharp(py: Python<'_>, counts: LogicalCounts) -> PyResult<Bound<'_, PyDict>> {
+    let told = PyDict::new(py);
+    for (name, value) in [
+        ("numQubits", counts.qubits),
+        ("cczCount", counts.toffoli),
+        ("ccixCount", counts.and),
+        ("tCount", counts.t),
+        ("rotationCount", counts.rotations),
+        ("rotationDepth", counts.rotation_depth),
+        ("measurementCount", counts.measurements),
+    ] {
+        told.set_item(name, value)?;
+    }
+    Ok(told)
+}
+
+#[pymethods]
+impl Oracle {
+    /// "r", "g" or "b".
+    #[getter]
+    fn channel(&self) -> &'static str {
+        CHANNELS[self.channel]
+    }
+
+    /// Column and row, from 0 at the top left.
+    #[getter]
+    fn pixel(&self) -> (u32, u32) {
+        self.pixel.into()
+    }
+
+    /// What keys the shifts of its paths.
+    #[getter]
+    fn seed(&self) -> u64 {
+        self.seed
+    }
+
+    /// The scene that it is of.
+    #[getter]
+    fn scene(&self, py: Python<'_>) -> Py<Scene> {
+        self.scene.clone_ref(py)
+    }
+
+    /// Qubits of a call: the most in use at any time.
+    #[getter]
+    fn qubits(&self) -> u32 {
+        self.qubits
+    }
+
+    /// Toffoli gates of a call, where everything is undone by gates.
+    #[getter]
+    fn toffoli(&self) -> u64 {
+        self.cost.toffoli
+    }
+
+    /// ANDs of a call, where those into clean qubits are undone by measurement.
+    #[getter]
+    fn and_measured(&self) -> u64 {
+        self.cost.and_measured
+    }
+
+    /// CNOT gates of a call.
+    #[getter]
+    fn cnot(&self) -> u64 {
+        self.cost.cnot
+    }
+
+    /// X gates of a call.
+    #[getter]
+    fn x(&self) -> u64 {
+        self.cost.x
+    }
+
+    /// Toffolis one after another, at the longest.
+    #[getter]
+    fn toffoli_depth(&self) -> u64 {
+        self.toffoli_depth
+    }
+
+    /// Qubits of the path index: R = 2**path_bits paths.
+    #[getter]
+    fn path_bits(&self) -> u32 {
+        self.compiled.points.path_bits()
+    }
+
+    /// Qubits of the comparator: C = 2**comparator_bits thresholds.
+    #[getter]
+    fn comparator_bits(&self) -> u32 {
+        self.compiled.comparator_bits()
+    }
+
+    /// The radiance of S = N, the proven bound on a path's colour.
+    #[getter]
+    fn scale(&self) -> f64 {
+        self.compiled
+            .channels
+            .first()
+            .map_or(0.0, |channel| channel.scale)
+    }
+
+    /// N, the indices: paths times thresholds.
+    #[getter]
+    fn total(&self) -> u64 {
+        self.paths() << self.comparator_bits()
+    }
+
+    /// S, the good indices, counted path by path by the oracle's program.
+    #[getter]
+    fn good(&self, py: Python<'_>) -> PyResult<u64> {
+        Ok(self.problem(py)?.good)
+    }
+
+    /// S/N. The pixel is `scale` times as bright.
+    #[getter]
+    fn amplitude(&self, py: Python<'_>) -> PyResult<f64> {
+        let Problem { good, total } = self.problem(py)?;
+        Ok(good as f64 / total as f64)
+    }
+
+    /// How many thresholds the colour of each path exceeds: an array of (2**path_bits,), int64, in the order
+    /// of path indices. Index path + (y << path_bits) is good if y is below it.
+    #[getter]
+    fn thresholds<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<i64>>> {
+        Ok(self.counted(py)?.to_vec().into_pyarray(py))
+    }
+
+    /// A device that runs the iterate on this oracle's indices: what it measures is drawn from the exact
+    /// probabilities of S and N. `noise` is such as "depolarising=0.001,readout=0.01".
+    #[pyo3(signature = (seed=0, *, noise=None))]
+    fn device(&self, py: Python<'_>, seed: u64, noise: Option<&str>) -> PyResult<Device> {
+        let noise = noise.map(str::parse::<Noise>).transpose();
+        let noise = noise.map_err(|error: NoiseError| errors::request(py, error))?;
+        let problem = self.problem(py)?;
+        Ok(Device::new(
+            problem,
+            noise.unwrap_or_default(),
+            seed,
+            self.pixel,
+            self.channel as u8,
+        ))
+    }
+
+    /// The circuit as OpenQASM 2 or 3; `part` is "oracle", "grover" (one iterate) or "counting" (all of
+    /// quantum counting, by the scene's phase bits).
+    ///
+    /// Raises RequestError for more than max_gates gates, of which each takes some 28 bytes.
+    #[pyo3(signature = (version=3, part="oracle", *, max_gates=50_000_000))]
+    fn qasm(&self, py: Python<'_>, version: u32, part: &str, max_gates: u64) -> PyResult<String> {
+        let format = match version {
+            2 => Format::OpenQasm2,
+            3 => Format::OpenQasm3,
+            other => {
+                let message = format!("there is no OpenQASM {other} here: versions are 2 and 3");
+                return Err(errors::request(py, message));
+            }
+        };
+        let part = match part {
+            "oracle" => Part::Oracle,
+            "grover" => Part::Grover,
+            "counting" => Part::Counting,
+            other => {
+                let message = format!("part={other:?} is none of: oracle, grover, counting");
+                return Err(errors::request(py, message));
+            }
+        };
+        let asked = self.traced.scene().counting;
+        let window = asked.estimator.register_window(asked.window);
+        let [x, y] = self.pixel;
+        let comment = format!(
+            "qrt {}: {}, channel {}, pixel {x},{y}, seed {}",
+            env!("CARGO_PKG_VERSION"),
+            self.traced.scene().name,
+            self.channel(),
+            self.seed
+        );
+        let written = work::run(py, None, None, |_| {
+            let failed = |error: &dyn std::error::Error| error.to_string();
+            let oracle = self
+                .compiled
+                .phase(0, self.seed, self.pixel)
+                .map_err(|e| failed(&e))?;
+            let conjunction = Conjunction::Toffolis;
+            let counting = Counting::with(&oracle, asked.phase_bits, window, conjunction);
+            let counting = counting.map_err(|e| failed(&e))?;
+            let export = Export::new(&counting, part, Some(self.path_bits()));
+            let export = export.map_err(|e| failed(&e))?;
+            if export.gates() > max_gates {
+                let gates = export.gates();
+                return Err(format!("{gates} gates are more than max_gates={max_gates}"));
+            }
+            let mut bytes = Vec::new();
+            let written = export.write(format, &[comment], &mut bytes);
+            written.map_err(|e| failed(&e))?;
+            String::from_utf8(bytes).map_err(|e| failed(&e))
+        })?;
+        written.map_err(|message| errors::request(py, message))
+    }
+
+    /// What estimators of physical resources take, by the names of Q#'s `LogicalCounts`: for
+    /// `qdk.estimator.LogicalCounts(...)`. `of` is "oracle" (a call), "channel", "pixel" or "film" (all that the scene's
+    /// counting may use); `measured` says whether ANDs are undone by measurement.
+    #[pyo3(signature = (of="oracle", *, measured=true))]
+    fn logical_counts<'py>(
+        &self,
+        py: Python<'py>,
+        of: &str,
+        measured: bool,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let counts = work::run(py, None, None, |_| {
+            PictureCounts::of(&self.traced, self.planned)
+        })?;
+        let picture = counts.map_err(|error| match error {
+            PhysicalError::Oracle(error) => {
+                let scene = self.scene.get();
+                errors::scene(py, &scene.loaded.report(vec![error.problem()]))
+            }
+            error => errors::request(py, error),
+        })?;
+        let one = picture.channels[self.channel];
+        let counts = match of {
+            "oracle" => one.oracle,
+            "channel" => one.pixel,
+            "pixel" => picture.pixel,
+            "film" => picture.film,
+            other => {
+                let message = format!("of={other:?} is none of: oracle, channel, pixel, film");
+                return Err(errors::request(py, message));
+            }
+        };
+        of_qsharp(
+            py,
+            if measured {
+                counts.measured
+            } else {
+                counts.unitary
+            },
+        )
+    }
+
+    fn __repr__(&self) -> String {
+        let [x, y] = self.pixel;
+        let (name, channel) = (&self.traced.scene().name, self.channel());
+        let (toffoli, qubits) = (self.cost.toffoli, self.qubits);
+        format!(
+            "<qrt.Oracle of {name:?}, channel {channel}, pixel ({x}, {y}): {toffoli} Toffolis on {qubits} \
+             qubits>"
+        )
+    }
+}

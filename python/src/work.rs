@@ -1,0 +1,110 @@
+//! Long work without the interpreter's lock: progress is told and Ctrl-C heard meanwhile.
+
+use crate::errors;
+use pyo3::prelude::*;
+use qrt_runtime::workers::{Progress, Workers};
+use std::num::NonZeroUsize;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, sync_channel};
+use std::thread;
+use std::time::Duration;
+
+/// How often Python is asked whether it was interrupted, and told how far the work is.
+const TICK: Duration = Duration::from_millis(50);
+/// Bytes of the stack of the thread that works.
+const STACK: usize = 64 << 20;
+
+/// How far the work is, in paths.
+#[derive(Default)]
+struct Far {
+    done: AtomicU64,
+    total: AtomicU64,
+}
+
+impl Far {
+    fn tell(&self, progress: Progress) {
+        match progress {
+            Progress::Started { total, resumed } => {
+                self.total.store(total, Ordering::Relaxed);
+                self.done.store(resumed, Ordering::Relaxed);
+            }
+            Progress::Finished(more) => {
+                self.done.fetch_add(more, Ordering::Relaxed);
+            }
+        }
+    }
+
+    /// Tells `listener`, once there is something to tell.
+    fn pass_on(&self, listener: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
+        let total = self.total.load(Ordering::Relaxed);
+        if let Some(listener) = listener.filter(|_| total > 0) {
+            listener.call1((self.done.load(Ordering::Relaxed), total))?;
+        }
+        Ok(())
+    }
+}
+
+/// So many threads, at least one; none for as many as there are cores.
+pub(crate) fn threads(py: Python<'_>, asked: Option<usize>) -> PyResult<Option<NonZeroUsize>> {
+    match asked {
+        None => Ok(None),
+        Some(number @ 1..=4096) => Ok(NonZeroUsize::new(number)),
+        Some(number) => Err(errors::request(
+            py,
+            format!("threads={number} is not in 1..=4096"),
+        )),
+    }
+}
+
+/// Does `work` on a thread of its own, and meanwhile hears Ctrl-C and calls `listener(done, total)`.
+/// What these raise ends the work.
+pub(crate) fn run<T: Send>(
+    py: Python<'_>,
+    threads: Option<NonZeroUsize>,
+    listener: Option<&Bound<'_, PyAny>>,
+    work: impl FnOnce(Workers<'_>) -> T + Send,
+) -> PyResult<T> {
+    let cancel = AtomicBool::new(false);
+    let far = Far::default();
+    let listener = listener.map(|listener| listener.clone().unbind());
+    let done = py.detach(|| {
+        thread::scope(|scope| {
+            let (send, receive) = sync_channel(1);
+            let (far, cancel) = (&far, &cancel);
+            let started = thread::Builder::new()
+                .stack_size(STACK)
+                .spawn_scoped(scope, move || {
+                    let tell = |progress| far.tell(progress);
+                    let workers = Workers {
+                        threads,
+                        cancel: Some(cancel),
+                        progress: Some(&tell),
+                    };
+                    // Nobody waits for it after an interruption.
+                    let _ = send.send(work(workers));
+                });
+            if let Err(error) = started {
+                return Err(PyErr::from(error));
+            }
+            let hear = || {
+                Python::attach(|py| {
+                    py.check_signals()?;
+                    far.pass_on(listener.as_ref().map(|listener| listener.bind(py)))
+                })
+            };
+            loop {
+                match receive.recv_timeout(TICK) {
+                    Ok(done) => return hear().map(|()| Some(done)),
+                    Err(RecvTimeoutError::Disconnected) => return Ok(None),
+                    Err(RecvTimeoutError::Timeout) => {
+                        if let Err(error) = hear() {
+                            cancel.store(true, Ordering::Relaxed);
+                            return Err(error);
+                        }
+                    }
+                }
+            }
+        })
+    })?;
+    done.ok_or_else(|| errors::job(py, "the work ended without a result"))
+}

@@ -1,0 +1,80 @@
+"""Pictures by clusters: workers may die, and the picture is the same."""
+
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import sys
+import textwrap
+import threading
+import time
+
+import numpy
+import pytest
+
+import qrt
+
+
+def test_dask_renders_the_picture_while_two_of_four_workers_are_killed(box):
+    distributed = pytest.importorskip("distributed")
+    slow = qrt.parse(box.to_yaml(), {"sampling.path_bits": 15})
+    whole = slow.render(estimator="exact")
+    options = {"n_workers": 4, "threads_per_worker": 1, "processes": True}
+    with distributed.LocalCluster(**options, dashboard_address=None) as cluster:
+        with distributed.Client(cluster) as client:
+            workers = client.run(os.getpid)
+            first = threading.Event()
+
+            def told(done, total):
+                if 0 < done < total:
+                    first.set()
+
+            killed = []
+
+            def kill():
+                first.wait(120)
+                for process in list(workers.values())[:2]:
+                    os.kill(process, signal.SIGKILL)
+                    killed.append(process)
+                    time.sleep(0.2)
+
+            killer = threading.Thread(target=kill)
+            killer.start()
+            picture = qrt.distributed.render(
+                slow, client, tiles=48, estimator="exact", progress=told
+            )
+            killer.join()
+    assert len(killed) == 2
+    assert numpy.array_equal(picture.pixels, whole.pixels)
+
+
+SCRIPT = """
+    import sys
+    from mpi4py.futures import MPIPoolExecutor
+    import qrt
+
+    if __name__ == "__main__":
+        scene = qrt.load(sys.argv[1])
+        with MPIPoolExecutor() as pool:
+            assert pool.num_workers == 2
+            picture = qrt.distributed.render(scene, pool, tiles=6, estimator="exact")
+        picture.save(sys.argv[2])
+"""
+
+
+def test_mpirun_renders_the_picture(box, box_file, tmp_path):
+    pytest.importorskip("mpi4py")
+    mpirun = shutil.which("mpirun")
+    if mpirun is None:
+        pytest.skip("there is no mpirun: Debian's is in openmpi-bin")
+    script = tmp_path / "cluster.py"
+    script.write_text(textwrap.dedent(SCRIPT))
+    words = [mpirun, "-n", "3", "--oversubscribe"]
+    if os.geteuid() == 0:
+        words.append("--allow-run-as-root")
+    words += [sys.executable, "-m", "mpi4py.futures", script, box_file, tmp_path / "mpi.exr"]
+    done = subprocess.run([*map(str, words)], capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0, done.stderr
+    box.render(estimator="exact").save(tmp_path / "own.exr")
+    assert (tmp_path / "mpi.exr").read_bytes() == (tmp_path / "own.exr").read_bytes()

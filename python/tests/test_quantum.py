@@ -1,0 +1,147 @@
+"""Oracles in other quantum libraries, and devices."""
+
+import json
+import math
+import re
+
+import pytest
+
+import qrt
+
+PIXEL = (1, 0)
+
+
+def test_an_oracle_costs_what_the_command_says(command, box):
+    oracle = box.oracle("g", (3, 4))
+    inspected = json.loads(command("inspect", "box.yaml", "--json", "--channel", "g"))
+    assert oracle.toffoli == inspected["gates"]["toffoli"]
+    assert oracle.and_measured == inspected["gates"]["and_measured"]
+    assert (oracle.channel, oracle.pixel, oracle.path_bits) == ("g", (3, 4), 10)
+    assert box.oracle().channel in "rgb"
+    with pytest.raises(qrt.RequestError, match="no pixel"):
+        box.oracle("r", (13, 0))
+    with pytest.raises(qrt.RequestError, match="r, g, b"):
+        box.oracle("red")
+    with pytest.raises(qrt.SceneError, match="budget"):
+        qrt.parse(box.to_yaml(), {"budget": {"toffoli": 10}}).oracle("r")
+
+
+def test_good_indices_are_those_of_the_picture(box):
+    picture = box.render(model="fixed", estimator="exact", crop=(4, 5, 1, 1), seed=2)
+    for number, channel in enumerate("rgb"):
+        oracle = box.oracle(channel, (4, 5), seed=2)
+        assert oracle.good == picture.good[0, 0, number]
+        assert oracle.total == picture.total
+        assert oracle.thresholds.sum() == oracle.good
+        assert oracle.scale == picture.scales[0, 0, number]
+        assert oracle.amplitude == oracle.good / oracle.total
+
+
+def test_a_device_measures_with_exact_probabilities(box):
+    oracle = box.oracle("r", (4, 5))
+    theta = math.asin(math.sqrt(oracle.amplitude))
+    device = oracle.device(seed=1)
+    shots = 200_000
+    for k in (0, 1, 5, 1000):
+        expected = math.sin((2 * k + 1) * theta) ** 2
+        found = device.shots(k, shots) / shots
+        # Six standard errors.
+        assert abs(found - expected) < 6 * math.sqrt(expected * (1 - expected) / shots) + 1e-9, k
+    assert device.queries == shots * (1 + 1 + 5 + 1000) and device.measured == 4 * shots
+    assert isinstance(device.shot(3), bool)
+    same = [oracle.device(seed=7).shots(2, 100) for _ in range(2)]
+    assert same[0] == same[1]
+    outcomes = oracle.device(seed=1).phases(8, 5, window="sine")
+    assert len(outcomes) == 5 and all(0 <= y <= 128 for y in outcomes)
+
+
+def test_a_noisy_device_forgets(box):
+    oracle = box.oracle("r", (4, 5))
+    found = oracle.device(seed=1, noise="depolarising=1").shots(9, 100_000) / 100_000
+    assert abs(found - oracle.amplitude) < 0.01
+
+
+def test_the_command_counts_the_same_numbers(command, dot):
+    """S and N of an oracle are what `qrt count` takes; its outcome is likeliest where S/N is."""
+    oracle = dot.oracle("r", PIXEL)
+    assert (oracle.good, oracle.total) == (16, 32)
+    numbers = ("--good", oracle.good, "--total", oracle.total, "--phase-bits", 6)
+    told = json.loads(command("count", *numbers, "--json"))["outcomes"]
+    likeliest = max(told, key=lambda outcome: outcome["probability"])
+    assert math.sin(math.pi * likeliest["theta"]) ** 2 == pytest.approx(oracle.amplitude)
+
+
+def test_qiskits_iterative_estimation_agrees(dot):
+    """The whole circuit, every gate on a statevector, measured by Qiskit's own estimator."""
+    pytest.importorskip("qiskit_algorithms")
+    from qiskit.primitives import StatevectorSampler
+    from qiskit_algorithms import IterativeAmplitudeEstimation
+
+    small = {"sampling": {"path_bits": 2, "depths": [{"bits": [2, 2]}]}, "comparator.bits": 1}
+    scene = qrt.parse(dot.to_yaml(), small)
+    oracle = scene.oracle("r", PIXEL)
+    problem = oracle.estimation_problem()
+    sampler = StatevectorSampler(default_shots=100, seed=5)
+    estimator = IterativeAmplitudeEstimation(0.1, 0.05, sampler=sampler)
+    found = estimator.estimate(problem)
+    assert found.estimation == pytest.approx(oracle.amplitude, abs=0.1)
+    low, high = found.confidence_interval_processed
+    assert low <= oracle.amplitude * oracle.scale <= high
+    assert max(found.powers) > 0
+
+
+def test_qiskit_reads_every_part(dot):
+    pytest.importorskip("qiskit")
+    oracle = dot.oracle("r", PIXEL)
+    circuit = oracle.to_qiskit()
+    assert circuit.num_qubits == oracle.qubits
+    assert circuit.count_ops()["ccx"] == oracle.toffoli
+    assert oracle.to_qiskit("grover").count_ops()["ccx"] >= oracle.toffoli
+    with pytest.raises(qrt.RequestError, match="oracle, grover, counting"):
+        oracle.to_qiskit("all")
+
+
+def test_pennylane_reads_the_circuit(dot):
+    pennylane = pytest.importorskip("pennylane")
+    pytest.importorskip("openqasm3")
+    oracle = dot.oracle("r", PIXEL)
+    tape = pennylane.tape.make_qscript(oracle.to_pennylane())()
+    names = [operation.name for operation in tape.operations]
+    assert names.count("Toffoli") == oracle.toffoli
+
+
+def test_cirq_reads_the_circuit(dot):
+    pytest.importorskip("cirq")
+    pytest.importorskip("ply")
+    oracle = dot.oracle("r", PIXEL)
+    gates = [str(operation.gate) for operation in oracle.to_cirq().all_operations()]
+    assert gates.count("TOFFOLI") == oracle.toffoli
+
+
+def test_openqasm_says_what_it_is(dot):
+    oracle = dot.oracle("r", PIXEL)
+    assert oracle.qasm().startswith("OPENQASM 3")
+    assert oracle.qasm(2, "counting").startswith("OPENQASM 2")
+    gates = len(re.findall(r"^ccx ", oracle.qasm(2), re.MULTILINE))
+    assert gates == oracle.toffoli
+    with pytest.raises(qrt.RequestError, match="max_gates"):
+        oracle.qasm(3, "oracle", max_gates=10)
+    with pytest.raises(qrt.RequestError, match="OpenQASM 1"):
+        oracle.qasm(1)
+
+
+def test_logical_counts_are_what_qdk_takes(command, dot, tmp_path):
+    oracle = dot.oracle("r", PIXEL)
+    (tmp_path / "dot.yaml").write_text(dot.to_yaml(), encoding="utf-8")
+    words = ("inspect", "dot.yaml", "--channel", "r", "--logical-counts", "counts.json")
+    command(*words)
+    told = json.loads((tmp_path / "counts.json").read_text())
+    for of in ("oracle", "channel", "pixel", "film"):
+        assert oracle.logical_counts(of) == told["measured"][of]
+        assert oracle.logical_counts(of, measured=False) == told["unitary"][of]
+    pytest.importorskip("qdk")
+    from qdk.estimator import LogicalCounts
+
+    counts = oracle.logical_counts()
+    estimated = LogicalCounts(counts).estimate()
+    assert estimated["physicalCounts"]["physicalQubits"] > 0

@@ -1,0 +1,94 @@
+"""Pictures in parts, and by pools of workers."""
+
+import concurrent.futures
+import multiprocessing
+
+import numpy
+import pytest
+
+import qrt
+
+
+def test_parts_merge_to_the_picture_in_any_order(box, tmp_path):
+    whole = box.render(seed=3)
+    parts = [qrt.render_tile(box, k, 5, seed=3, threads=1 + k % 2) for k in (3, 0, 4, 1, 2)]
+    merged = qrt.merge(parts)
+    for name in ("pixels", "queries", "strata"):
+        assert numpy.array_equal(getattr(merged, name), getattr(whole, name)), name
+    for picture, name in ((whole, "whole.png"), (merged, "merged.png")):
+        picture.save(tmp_path / name)
+    assert (tmp_path / "whole.png").read_bytes() == (tmp_path / "merged.png").read_bytes()
+
+
+def test_parts_are_those_of_the_command(command, box, tmp_path):
+    (tmp_path / "one").write_bytes(qrt.render_tile(box, 1, 2))
+    command("render", "box.yaml", "--tile", "0/2", "-o", "other")
+    command("render", "box.yaml", "-o", "whole.exr")
+    command("merge", "one", "other", "-o", "merged.exr")
+    qrt.merge([tmp_path / "one", (tmp_path / "other").read_bytes()]).save(tmp_path / "own.exr")
+    whole = (tmp_path / "whole.exr").read_bytes()
+    assert (tmp_path / "merged.exr").read_bytes() == whole
+    assert (tmp_path / "own.exr").read_bytes() == whole
+
+
+def test_there_is_no_picture_of_parts_that_make_none(box):
+    parts = [qrt.render_tile(box, k, 3) for k in range(3)]
+    damaged = bytearray(parts[1])
+    damaged[len(damaged) // 2] ^= 1
+    for wrong, reason in (
+        ([], "no parts"),
+        (parts[:2], "1 of 3 parts is missing: 2/3"),
+        ([*parts, parts[0]], r"`parts\[3\]` and `parts\[0\]` are both part 0/3"),
+        ([parts[0], damaged, parts[2]], r"`parts\[1\]` is damaged"),
+        ([parts[0], b"part", parts[2]], r"`parts\[1\]` is no part"),
+        (
+            [parts[0], qrt.render_tile(box, 1, 3, seed=1), parts[2]],
+            r"`parts\[1\]` and `parts\[0\]` are parts of different pictures\n  seed: 1 and 0",
+        ),
+    ):
+        with pytest.raises(qrt.MergeError, match=reason):
+            qrt.merge(wrong)
+    for k, n in ((3, 3), (0, 0), (0, 144)):
+        with pytest.raises(qrt.RequestError):
+            qrt.render_tile(box, k, n)
+
+
+def test_processes_render_the_picture(box):
+    whole = box.render(estimator="exact")
+    # A process that is forked from one with threads may wait for a lock that nobody has.
+    context = multiprocessing.get_context("spawn")
+    told = []
+    with concurrent.futures.ProcessPoolExecutor(2, mp_context=context) as pool:
+        picture = qrt.distributed.render(
+            box, pool, tiles=7, estimator="exact", progress=lambda *far: told.append(far)
+        )
+        with pytest.raises(qrt.RequestError, match="best"):
+            qrt.distributed.render(box, pool, tiles=2, estimator="best")
+    assert numpy.array_equal(picture.pixels, whole.pixels)
+    assert told[-1] == (7, 7)
+
+
+class Unreliable:
+    """A pool whose tasks fail the first few times."""
+
+    def __init__(self, failures):
+        self.failures = failures
+        self.submitted = 0
+
+    def submit(self, function, *arguments):
+        self.submitted += 1
+        future = concurrent.futures.Future()
+        if self.submitted <= self.failures:
+            future.set_exception(ConnectionError("lost"))
+        else:
+            future.set_result(function(*arguments))
+        return future
+
+
+def test_lost_tasks_are_done_again_so_often(box):
+    pool = Unreliable(3)
+    picture = qrt.distributed.render(box, pool, tiles=4, crop=(0, 0, 4, 4))
+    assert pool.submitted == 7
+    assert numpy.array_equal(picture.pixels, box.render(crop=(0, 0, 4, 4)).pixels)
+    with pytest.raises(ConnectionError):
+        qrt.distributed.render(box, Unreliable(99), tiles=1, retries=2, crop=(0, 0, 4, 4))
