@@ -437,6 +437,7 @@ pub(crate) fn checkpoint(data: &[u8]) {
         pixels: vec![[0.5; 3]],
         queries: vec![1],
         good: vec![[2; 3]],
+        widths: vec![[0.25; 3]],
         strata: vec![[3; 3]],
     };
     checkpoint.append(&new).expect("it can be written");

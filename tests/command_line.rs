@@ -8,6 +8,7 @@ mod command_line {
     mod files_are_safe;
     mod hostile_scenes;
     mod inspect_command;
+    mod other_renderers;
     mod parts_of_pictures;
     mod pictures_by_circuits;
     mod playground_command;

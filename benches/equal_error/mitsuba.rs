@@ -1,12 +1,24 @@
 //! Mitsuba 3, by way of `benches/peers/path_tracing.py`.
 
 use super::curve::{Curve, Point};
+use qrt_core::front;
+use qrt_runtime::mitsuba;
 use serde_json::Value;
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-/// Pictures of the reference data with which its translation of scenes is compared.
-const REFERENCES: [&str; 2] = ["cornell_D3_16", "torusknot8k_D3_16"];
+/// Pictures of the reference data with which its pictures of exported scenes are compared: of so many
+/// rays and pixels a side.
+const REFERENCES: [(&str, &str); 2] = [
+    ("cornell_D3_16", "cornell"),
+    ("torusknot8k_D3_16", "torusknot8k"),
+];
+const REFERENCE: [&str; 3] = [
+    "sampling.depths=[{bits: [8, 8]}, {bits: [8, 8]}, {bits: [8, 8]}]",
+    "film.width=16",
+    "film.height=16",
+];
 
 /// What was measured.
 pub(crate) struct Mitsuba {
@@ -56,9 +68,11 @@ impl Truth {
 
 /// How far its pictures of reference scenes are from the data, in standard errors.
 pub(crate) fn references() -> Result<Vec<(&'static str, f64)>, String> {
-    let compare = |name| {
-        let path = root().join("tests/references").join(name);
-        let found = run(&["--reference".as_ref(), &path])?;
+    let compare = |(name, scene): (&'static str, &str)| {
+        let folder = root().join("tests/references");
+        let sets = REFERENCE.map(str::to_owned);
+        let file = exported(&folder.join(format!("{scene}.yaml")), &sets)?;
+        let found = run(&["--reference".as_ref(), &folder.join(name), &file])?;
         let errors = number(&found, "standard_errors")?;
         Ok((name, errors))
     };
@@ -67,7 +81,7 @@ pub(crate) fn references() -> Result<Vec<(&'static str, f64)>, String> {
 
 /// What it takes for a scene of `scenes-yaml`.
 pub(crate) fn measure(name: &str, errors: &[(f64, f64)], seeds: u64) -> Result<Mitsuba, String> {
-    let scene = root().join(format!("scenes-yaml/{name}.yaml"));
+    let scene = exported(&root().join(format!("scenes-yaml/{name}.yaml")), &[])?;
     let cache = target().join("equal_error");
     let errors: Vec<String> = errors.iter().map(|(error, _)| error.to_string()).collect();
     let found = run(&[
@@ -122,6 +136,24 @@ pub(crate) fn measure(name: &str, errors: &[(f64, f64)], seeds: u64) -> Result<M
         truth_error,
         curves: curves.collect::<Result<_, _>>()?,
     })
+}
+
+/// A scene as Mitsuba reads it: the file.
+fn exported(scene: &Path, sets: &[String]) -> Result<PathBuf, String> {
+    let loaded = front::load(scene, sets).map_err(|report| report.to_string())?;
+    let stem = scene.file_stem().unwrap_or_default().to_string_lossy();
+    let exported = mitsuba::export(&loaded.valid, &stem).map_err(|error| error.to_string())?;
+    // A folder for each, as one scene may be exported in two ways.
+    let folder = target().join(format!("mitsuba-{}", loaded.valid.fingerprint()));
+    let written = || {
+        fs::create_dir_all(&folder)?;
+        for mesh in &exported.meshes {
+            fs::write(folder.join(&mesh.file), &mesh.bytes)?;
+        }
+        let file = folder.join(format!("{stem}.xml"));
+        fs::write(&file, exported.text).map(|()| file)
+    };
+    written().map_err(|error| format!("{}: {error}", folder.display()))
 }
 
 fn root() -> &'static Path {

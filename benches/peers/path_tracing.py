@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Renders a scene of qrt with Mitsuba 3, and says how far its pictures are from the truth for what time.
 
-    path_tracing.py --venv FOLDER --cache FOLDER --errors 0.03,0.01 --seeds 8 SCENE.yaml
-    path_tracing.py --venv FOLDER --reference tests/references/cornell_D3_16
+    path_tracing.py --venv FOLDER --cache FOLDER --errors 0.03,0.01 --seeds 8 SCENE.xml
+    path_tracing.py --venv FOLDER --reference tests/references/cornell_D3_16 SCENE.xml
 
-The first renders with `path`, which samples lights, under each of Mitsuba's samplers, from few
+The scenes are what `qrt export --format mitsuba` writes. The first renders with `path`, which samples lights, under each of Mitsuba's samplers, from few
 samples a pixel to as many as bring the error below the least of `--errors`. It prints one line of JSON:
 
     mitsuba, variant    what was run; `scalar_rgb` where the LLVM variant cannot be
@@ -18,8 +18,8 @@ truth's mean there; what the truth's own noise adds is subtracted. Seconds are t
 all threads, of rendering alone: the least of all seeds, since the first compiles the code. Many samples
 are rendered under fewer seeds than `--seeds`, at least two. The truth is kept in `--cache`.
 
-The second compares Mitsuba's picture of a scene of the reference data, as it is translated here, with
-the data: it prints the root mean square of their difference in standard errors, which is about 1.
+The second compares Mitsuba's picture of a scene of the reference data, as qrt exports it, with the
+data: it prints the root mean square of their difference in standard errors, which is about 1.
 
 Mitsuba is installed from PyPI, at the version in path_tracing.txt, into a virtual environment of its
 own, once. Its fast variant needs LLVM as a shared library: on Linux that is installed beside it;
@@ -62,25 +62,27 @@ SAMPLES = {
 
 
 class Renderer:
-    """Mitsuba with a scene."""
+    """Mitsuba with a scene, a file."""
 
-    def __init__(self, mi, scene):
-        self.mi, self.scene = mi, scene
-        with tempfile.TemporaryDirectory() as folder:
-            self.loaded = scene.load(mi, folder)
+    def __init__(self, mi, file):
+        self.mi, self.file = mi, pathlib.Path(file)
 
-    def render(self, sampler, samples, seed, depth=None):
+    def key(self):
+        """Everything that a picture depends on, as bytes."""
+        meshes = sorted(self.file.parent.glob(f"{self.file.stem}.*.ply"))
+        return b"".join(path.read_bytes() for path in [self.file, *meshes])
+
+    def render(self, sampler, samples, seed, **settings):
         """A picture, and the processor's seconds that it took."""
         import numpy
 
         mi = self.mi
-        sensor = self.scene.sensor(mi, {"type": sampler, "sample_count": samples})
-        if sensor.sampler().sample_count() != samples:
+        settings = {"sampler": sampler, "spp": str(samples)} | settings
+        loaded = mi.load_file(str(self.file), **settings)
+        if loaded.sensors()[0].sampler().sample_count() != samples:
             sys.exit(f"{sampler} does not take {samples} samples")
-        depth = depth or self.scene.depth
-        path = mi.load_dict({"type": "path", "max_depth": depth, "rr_depth": depth + 1})
         start = time.process_time()
-        picture = mi.render(self.loaded, sensor=sensor, integrator=path, spp=samples, seed=seed)
+        picture = mi.render(loaded, spp=samples, seed=seed)
         picture = numpy.array(picture)
         return picture.astype(float), time.process_time() - start
 
@@ -91,9 +93,8 @@ class Truth:
     def __init__(self, renderer, cache):
         import numpy
 
-        scene = renderer.scene
         key = hashlib.sha256(repr((renderer.mi.__version__, TRUTH, TRUTH_SAMPLER)).encode())
-        key.update(scene.key())
+        key.update(renderer.key())
         file = pathlib.Path(cache) / f"{key.hexdigest()[:32]}.npz"
         if file.exists():
             kept = numpy.load(file)
@@ -104,7 +105,7 @@ class Truth:
             renders = [renderer.render(TRUTH_SAMPLER, samples, seed)[0] for seed in seeds]
             self.picture = numpy.mean(renders, axis=0)
             variance = numpy.var(renders, axis=0, ddof=1) / runs
-            emission, _ = renderer.render(TRUTH_SAMPLER, 1024, 1, depth=1)
+            emission, _ = renderer.render(TRUTH_SAMPLER, 1024, 1, max_depth="1")
             seen = emission.max(axis=2) > 0
             file.parent.mkdir(parents=True, exist_ok=True)
             part = file.with_suffix(f".{os.getpid()}.npz")
@@ -139,9 +140,7 @@ def curve(renderer, truth, sampler, least, seeds):
 
 
 def measure(mi, arguments):
-    from mitsuba_scene import Scene
-
-    renderer = Renderer(mi, Scene(arguments.scene))
+    renderer = Renderer(mi, arguments.scene)
     truth = Truth(renderer, arguments.cache)
     least = min(float(error) for error in arguments.errors.split(","))
     return {
@@ -154,18 +153,13 @@ def measure(mi, arguments):
     }
 
 
-def compare(mi, reference):
+def compare(mi, reference, scene):
     """How far a picture is from one of the reference data, in standard errors."""
     import numpy
-    from mitsuba_scene import Scene
 
     reference = pathlib.Path(reference)
-    name, depth, _ = reference.name.rsplit("_", 2)
     theirs = numpy.load(reference.with_name(f"{reference.name}.npy")).astype(float)
     error = numpy.load(reference.with_name(f"{reference.name}_se.npy")).astype(float)
-    scene = Scene(reference.with_name(f"{name}.yaml"))
-    scene.depth = int(depth.removeprefix("D"))
-    scene.height, scene.width, _ = theirs.shape
     renderer = Renderer(mi, scene)
     renders = [renderer.render("independent", 1024, seed)[0] for seed in range(16)]
     ours = numpy.mean(renders, axis=0)
@@ -202,15 +196,14 @@ def main():
     parser.add_argument("--cache", default=tempfile.gettempdir())
     parser.add_argument("--errors", default="0.03,0.01")
     parser.add_argument("--seeds", type=int, default=8)
-    what = parser.add_mutually_exclusive_group(required=True)
-    what.add_argument("--reference")
-    what.add_argument("scene", nargs="?")
+    parser.add_argument("--reference")
+    parser.add_argument("scene")
     arguments = parser.parse_args()
     inside(arguments.venv, "path_tracing.txt")
     if arguments.variant:
         mi, said = load_mitsuba(arguments.variant)
         if arguments.reference:
-            found = compare(mi, arguments.reference)
+            found = compare(mi, arguments.reference, arguments.scene)
         else:
             found = measure(mi, arguments)
         print(json.dumps(said | found))

@@ -97,7 +97,7 @@ cd "$here"
 # Compiles both; the arguments are cargo's.
 compile() {
   local package
-  for package in qrt-figures:release qrt-playground:playground; do
+  for package in qrt-figures:figures qrt-playground:playground; do
     printf 'compiling %s for browsers: some minutes of processor time, once\n' "${package%:*}" >&2
     cargo rustc --quiet --locked --ignore-rust-version --package "${package%:*}" \
       --profile "${package#*:}" --lib --crate-type cdylib --target "$triple" \
@@ -148,7 +148,7 @@ optimise() {
 }
 
 # The playground first: the figures' time says whether both are new.
-for made in playground/qrt_playground:-O3 release/qrt_figures:-Oz; do
+for made in playground/qrt_playground:-O3 figures/qrt_figures:-Oz; do
   level=${made#*:}
   name=$(basename "${made%:*}").wasm
   made=$build/$triple/${made%:*}.wasm

@@ -87,6 +87,16 @@ impl Picture {
         shared(this, view).map(Some)
     }
 
+    /// How wide the interval of a channel is, in radiance: an array of (rows, columns, 3), float64; 0 under
+    /// "exact". Of one run, that of the luminance stands in the first place.
+    #[getter]
+    fn widths<'py>(this: &Bound<'py, Self>) -> PyResult<Bound<'py, PyArray3<f64>>> {
+        let own = this.get();
+        let [height, width] = own.shape();
+        let flat = own.rendered.widths.as_flattened();
+        shared(this, ArrayView3::from_shape((height, width, 3), flat))
+    }
+
     /// Strata of the comparator that were counted one by one: an array of (rows, columns, 3), uint8; 0
     /// where nothing is counted.
     #[getter]

@@ -14,6 +14,7 @@ use qrt_core::tracer::PixelClasses;
 use qrt_core::valid::ValidScene;
 use qrt_runtime::estimators::{Noise, NoiseError};
 use qrt_runtime::machines::{OracleMachine, Real};
+use qrt_runtime::mitsuba;
 use qrt_runtime::plan;
 use qrt_runtime::render::{
     Colour, DEFAULT_FAILURE, Model, Options, Portion, RenderError, Visibility, render, render_part,
@@ -438,6 +439,22 @@ impl Scene {
         })?;
         let colours = traced.map_err(|error| self.failure(py, error))?;
         colours.into_pyarray(py).reshape([paths as usize, 3])
+    }
+
+    /// The scene for the renderer Mitsuba 3: the text of an XML file, and the files that it names, by
+    /// name, which belong into its folder. Their names begin with `stem`.
+    ///
+    /// Raises SceneError for a material that Mitsuba lacks: a `phong` that shines, a `bsdf` of one's own.
+    #[pyo3(signature = (stem="scene"))]
+    fn mitsuba<'py>(&self, py: Python<'py>, stem: &str) -> PyResult<(String, Bound<'py, PyDict>)> {
+        let exported = mitsuba::export(&self.loaded.valid, stem);
+        let exported = exported
+            .map_err(|error| errors::scene(py, &self.loaded.report(vec![error.problem()])))?;
+        let files = PyDict::new(py);
+        for mesh in &exported.meshes {
+            files.set_item(&mesh.file, PyBytes::new(py, &mesh.bytes))?;
+        }
+        Ok((exported.text, files))
     }
 
     /// The oracle of a channel ("r", "g" or "b"; without one, that with the most Toffolis) of a pixel

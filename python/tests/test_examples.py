@@ -26,6 +26,24 @@ def test_an_example_runs(box_file, tmp_path, name, needs, says):
     run(tmp_path, [sys.executable, EXAMPLES / f"{name}.py", box_file], says)
 
 
+def test_the_notebook_runs_to_its_end_and_shows_pictures_and_costs(tmp_path):
+    nbformat = pytest.importorskip("nbformat")
+    nbclient = pytest.importorskip("nbclient")
+    pytest.importorskip("ipykernel")
+    notebook = nbformat.read(EXAMPLES / "counting_light.ipynb", as_version=4)
+    nbformat.validate(notebook)
+    assert all(not cell.get("outputs") for cell in notebook.cells), "committed without outputs"
+    nbclient.NotebookClient(
+        notebook, timeout=300, resources={"metadata": {"path": tmp_path}}
+    ).execute()
+    shown = [output for cell in notebook.cells for output in cell.get("outputs", [])]
+    pages = [output["data"].get("text/html", "") for output in shown if "data" in output]
+    assert any("data:image/png;base64," in page for page in pages)
+    assert any("Toffoli" in page for page in pages)
+    texts = "".join(output.get("text", "") for output in shown)
+    assert texts.count("queries a pixel") == 3 and "S/N is" in texts
+
+
 def test_the_example_of_mpi_runs(box_file, tmp_path):
     pytest.importorskip("mpi4py")
     mpirun = shutil.which("mpirun")

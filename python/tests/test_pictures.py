@@ -42,6 +42,7 @@ def test_arrays_have_the_documented_shapes_and_share_the_pictures_memory(box):
     for name, shape, kind in (
         ("pixels", (3, 7, 3), "float64"),
         ("good", (3, 7, 3), "uint64"),
+        ("widths", (3, 7, 3), "float64"),
         ("strata", (3, 7, 3), "uint8"),
         ("queries", (3, 7), "uint64"),
         ("scales", (3, 7, 3), "float64"),
@@ -49,7 +50,7 @@ def test_arrays_have_the_documented_shapes_and_share_the_pictures_memory(box):
     ):
         array = getattr(picture, name)
         assert (array.shape, array.dtype) == (shape, kind), name
-    for name in ("pixels", "good", "strata", "queries"):
+    for name in ("pixels", "good", "widths", "strata", "queries"):
         one, other = getattr(picture, name), getattr(picture, name)
         assert numpy.shares_memory(one, other), name
         with pytest.raises(ValueError):

@@ -13,7 +13,7 @@ def test_parts_merge_to_the_picture_in_any_order(box, tmp_path):
     whole = box.render(seed=3)
     parts = [qrt.render_tile(box, k, 5, seed=3, threads=1 + k % 2) for k in (3, 0, 4, 1, 2)]
     merged = qrt.merge(parts)
-    for name in ("pixels", "queries", "strata"):
+    for name in ("pixels", "queries", "widths", "strata"):
         assert numpy.array_equal(getattr(merged, name), getattr(whole, name)), name
     for picture, name in ((whole, "whole.png"), (merged, "merged.png")):
         picture.save(tmp_path / name)

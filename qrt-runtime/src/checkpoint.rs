@@ -70,6 +70,8 @@ pub struct Tile {
     pub queries: Vec<u64>,
     /// Good indices of each pixel's channels; 0 where none are counted.
     pub good: Vec<[u64; 3]>,
+    /// Width of the interval of each pixel's channels, in radiance; 0 where nothing is estimated.
+    pub widths: Vec<[f64; 3]>,
     /// Strata in which each pixel's channels were counted; 0 where nothing is.
     pub strata: Vec<[u8; 3]>,
 }
@@ -107,6 +109,7 @@ impl Tile {
             pixels: Vec::new(),
             queries: Vec::new(),
             good: Vec::new(),
+            widths: Vec::new(),
             strata: Vec::new(),
         }
     }
@@ -126,8 +129,8 @@ impl Tile {
 ///     crop: [0, 0, 2, 1],
 /// };
 /// let (pixels, queries) = (vec![[0.5; 3]], vec![4096]);
-/// let (good, strata) = (vec![[512; 3]], vec![[1; 3]]);
-/// let tile = Tile { x: 1, y: 0, width: 1, height: 1, pixels, queries, good, strata };
+/// let (good, strata, widths) = (vec![[512; 3]], vec![[1; 3]], vec![[0.01; 3]]);
+/// let tile = Tile { x: 1, y: 0, width: 1, height: 1, pixels, queries, good, widths, strata };
 /// Checkpoint::create(&path, &header)?.append(&tile)?;
 /// let (_, finished) = Checkpoint::open(&path, &header)?;
 /// assert_eq!(finished, [tile]);
@@ -252,6 +255,7 @@ impl Checkpoint {
             tile.pixels.len(),
             tile.queries.len(),
             tile.good.len(),
+            tile.widths.len(),
             tile.strata.len(),
         ];
         if lengths.iter().any(|&length| area != Some(length as u64)) {

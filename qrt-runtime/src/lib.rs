@@ -8,6 +8,7 @@ pub mod image;
 pub mod layouts;
 pub mod machines;
 pub mod memory;
+pub mod mitsuba;
 mod named;
 pub mod physical;
 pub mod plan;

@@ -12,8 +12,8 @@ use std::time::Instant;
 
 /// Bytes of a face as it is read and traced: 730 were measured, of a flat grid of 720,000 triangles.
 const OF_FACE: u64 = 1000;
-/// Bytes of a pixel in tiles, picture and files: 59 were measured.
-const OF_PIXEL: u64 = 80;
+/// Bytes of a pixel in tiles, picture and files: 83 of a tile.
+const OF_PIXEL: u64 = 104;
 /// Up to so many faces a circuit is compiled without an estimate before it, which takes as long.
 const FEW_FACES: usize = 400;
 /// Faces of the two parts of a scene from which the whole is estimated.

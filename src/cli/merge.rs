@@ -56,7 +56,7 @@ pub(crate) fn run(args: &MergeArgs) -> Result<(), Failure> {
         merge.add(&path.display().to_string(), &bytes)?;
     }
     let rendered = merge.finish()?;
-    let clipped = picture::write(&outputs, encoding, &rendered)?;
+    let clipped = picture::write(&outputs, encoding, &rendered, &[])?;
     if args.quiet {
         return Ok(());
     }

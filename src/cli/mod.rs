@@ -6,6 +6,7 @@
 mod args;
 mod completions;
 mod count;
+mod diff;
 mod export;
 mod failure;
 mod files;
@@ -70,6 +71,7 @@ enum Command {
     Verify(verify::VerifyArgs),
     Trade(trade::TradeArgs),
     Export(export::ExportArgs),
+    Diff(diff::DiffArgs),
     New(new::NewArgs),
     Playground(playground::PlaygroundArgs),
     Schema(schema::SchemaArgs),
@@ -100,6 +102,7 @@ fn run(command: Command) -> Result<(), Failure> {
         Command::Verify(args) => verify::run(&args),
         Command::Trade(args) => trade::run(&args),
         Command::Export(args) => export::run(&args),
+        Command::Diff(args) => diff::run(&args),
         Command::New(args) => new::run(&args),
         Command::Playground(args) => playground::run(&args),
         Command::Schema(_) => schema::run(),

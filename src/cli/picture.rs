@@ -5,7 +5,7 @@ use super::files::{Output, keep_apart};
 use super::stats;
 use clap::Args;
 use qrt_core::inspect::grouped;
-use qrt_runtime::image::{self, Encoding};
+use qrt_runtime::image::{self, Encoding, Layer};
 use qrt_runtime::render::Rendered;
 use qrt_runtime::replace_file::PARTIAL;
 use std::path::{Path, PathBuf};
@@ -73,7 +73,7 @@ impl Outputs {
     }
 }
 
-/// Writes the picture and what is asked beside it; how many pixels were clipped.
+/// Writes the picture with its layers, and what is asked beside it; how many pixels were clipped.
 ///
 /// # Errors
 /// A file that cannot be written.
@@ -81,13 +81,14 @@ pub(crate) fn write(
     outputs: &Outputs,
     encoding: Encoding,
     rendered: &Rendered,
+    layers: &[Layer],
 ) -> Result<u64, Failure> {
     let mut metadata = rendered.metadata()?;
     if let Encoding::Png { exposure } = encoding {
         metadata.set("exposure", exposure.to_string())?;
     }
     let picture = outputs.picture.path()?;
-    let clipped = image::save(picture, &rendered.image, &metadata, encoding)?;
+    let clipped = image::save_layers(picture, &rendered.image, layers, &metadata, encoding)?;
     if let Some(output) = &outputs.counts {
         image::write_counts(output.path()?, rendered.counts())?;
     }

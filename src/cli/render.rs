@@ -89,6 +89,7 @@ Examples:
   qrt render box.yaml --watch --estimator exact         again whenever box.yaml is saved
   qrt render box.yaml --tile 0/4 -o box.0               the first of four parts for `qrt merge`
   qrt render box.yaml --model fixed --visibility grover primary hits by quantum search")]
+#[allow(clippy::struct_excessive_bools, reason = "flags of a command line")]
 pub(crate) struct RenderArgs {
     /// The picture: .png (8-bit sRGB) or .exr (linear 32-bit float) [default: SCENE's name with
     /// .png, in the current folder]
@@ -138,6 +139,11 @@ pub(crate) struct RenderArgs {
         conflicts_with_all = ["exposure", "stats", "counts"]
     )]
     tile: Option<Portion>,
+    /// Keep more of each pixel in an .exr: interval.R .G .B (widths of intervals, in radiance), queries.Y,
+    /// and of what the ray through its middle meets, depth.Z, normal.X .Y .Z and material.ID (the number
+    /// of the material, from 1)
+    #[arg(long, conflicts_with = "tile")]
+    layers: bool,
     #[command(flatten)]
     beside: BesideArgs,
     #[command(flatten)]
@@ -193,7 +199,14 @@ enum Target {
 impl Target {
     fn of(args: &RenderArgs, output: &Path) -> Result<Self, Failure> {
         let Some(portion) = args.tile else {
-            return Ok(Self::Picture(Encoding::of(output, args.beside.exposure)?));
+            let encoding = Encoding::of(output, args.beside.exposure)?;
+            if args.layers && encoding != Encoding::Exr {
+                return Err(Failure::Usage(format!(
+                    "`{}` cannot keep layers: name an .exr",
+                    output.display()
+                )));
+            }
+            return Ok(Self::Picture(encoding));
         };
         if Encoding::of(output, None).is_ok() {
             return Err(Failure::Usage(format!(
@@ -294,7 +307,14 @@ fn render(args: &RenderArgs, cancel: &AtomicBool, files: &mut Vec<PathBuf>) -> R
             let rendered = render_keeping(scene, &options);
             bar.clear();
             let (rendered, checkpoint) = rendered.map_err(|error| failure(error, &loaded))?;
-            let clipped = picture::write(&outputs, encoding, &rendered);
+            let layers = if args.layers {
+                rendered.layers(scene)
+            } else {
+                Ok(Vec::new())
+            };
+            let clipped = layers
+                .map_err(Failure::from)
+                .and_then(|layers| picture::write(&outputs, encoding, &rendered, &layers));
             let told = |clipped| picture::summary(&output, &rendered, clipped);
             (clipped.map(told), checkpoint)
         }

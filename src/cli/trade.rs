@@ -8,7 +8,7 @@ use super::progress::Bar;
 use super::{interrupt, plan, terminal, time};
 use clap::Args;
 use qrt_runtime::plan::Options as PlanOptions;
-use qrt_runtime::render::Model;
+use qrt_runtime::render::{Model, Portion};
 use qrt_runtime::sample::SampleError;
 use qrt_runtime::trade::{Options, TradeError, trade};
 use qrt_runtime::workers::Workers;
@@ -36,7 +36,9 @@ const TRACED_ANEW: f64 = 20.0;
 Examples:
   qrt trade box.yaml -o box-trade                 everything, in some minutes
   qrt trade box.yaml -o box-trade --quick         the outlines, in less than one
-  qrt trade box.yaml -o wide --set precision.fraction=20")]
+  qrt trade box.yaml -o wide --set precision.fraction=20
+  qrt trade box.yaml -o part0 --tile 0/2          a half of it, perhaps on another machine
+  qrt trade box.yaml -o whole --parts part0 part1 the whole, of the halves")]
 pub(crate) struct TradeArgs {
     /// The folder to write to; it is made if it is not there
     #[arg(short, long, value_name = "DIR")]
@@ -50,6 +52,19 @@ pub(crate) struct TradeArgs {
     /// Another seed gives other paths and other noise
     #[arg(long, value_name = "S", default_value_t = 0)]
     seed: u64,
+    /// Measure only portion K (from 0) of N of the settings, for one of several processes, and write
+    /// no more than trade.csv
+    #[arg(
+        long,
+        value_name = "K/N",
+        allow_hyphen_values = true,
+        conflicts_with = "parts"
+    )]
+    tile: Option<Portion>,
+    /// Take over the rows that these folders have, from --tile or otherwise; what none of them has is
+    /// measured
+    #[arg(long, value_name = "DIR", num_args = 1..)]
+    parts: Vec<PathBuf>,
     #[command(flatten)]
     threads: ThreadsArgs,
     #[command(flatten)]
@@ -101,6 +116,8 @@ pub(crate) fn run(args: &TradeArgs) -> Result<(), Failure> {
         pixels: args.pixels,
         seed: args.seed,
         quick: args.quick,
+        portion: args.tile.unwrap_or_default(),
+        parts: &args.parts,
         workers,
     };
     if !args.quiet {
@@ -109,6 +126,7 @@ pub(crate) fn run(args: &TradeArgs) -> Result<(), Failure> {
         let usual = if args.quick { 32 } else { 256 };
         let pixels = film.min(args.pixels.unwrap_or(usual) as f64);
         let threads = args.threads.or_cores();
+        let pixels = pixels / f64::from(args.tile.unwrap_or_default().count());
         time::tell_of_paths(scene, pixels, TRACED_ANEW, &[Model::Real], threads);
     }
     bar.set_up();
@@ -130,6 +148,20 @@ pub(crate) fn run(args: &TradeArgs) -> Result<(), Failure> {
             "{} damaged rows of `{}` were measured again",
             measured.damaged,
             args.output.join("trade.csv").display()
+        ));
+    }
+    let anew = measured.rows.len() - measured.resumed;
+    if !args.parts.is_empty() && anew > 0 {
+        terminal::note(&format!(
+            "{anew} rows were in none of the parts, and were measured here"
+        ));
+    }
+    if let Some(portion) = args.tile {
+        let table = args.output.join("trade.csv");
+        let rows = measured.rows.len();
+        return terminal::print(&format!(
+            "{}: {rows} rows, portion {portion} of the settings\n",
+            table.display()
         ));
     }
     let page = args.output.join("index.html");

@@ -10,7 +10,7 @@ use clap::Args;
 use qrt_core::valid::ValidScene;
 use qrt_runtime::machines::Defect;
 use qrt_runtime::plan::Options as PlanOptions;
-use qrt_runtime::render::Model;
+use qrt_runtime::render::{Model, Portion};
 use qrt_runtime::verify::{Mismatch, Options, Report, verify};
 use qrt_runtime::workers::Workers;
 use serde_json::{Value, json};
@@ -35,6 +35,7 @@ const CHANNELS: [&str; 3] = ["red", "green", "blue"];
 Examples:
   qrt verify box.yaml                                   16 pixels, all their paths
   qrt verify box.yaml --pixels 1000000                  all pixels
+  qrt verify box.yaml --pixels 1000000 --tile 3/100     the fourth of a hundred portions of them
   qrt verify box.yaml --set precision.fraction=20 --json")]
 pub(crate) struct VerifyArgs {
     /// Pixels to check, spread over the film; all of them if it has fewer
@@ -48,6 +49,10 @@ pub(crate) struct VerifyArgs {
     /// Another seed gives other paths
     #[arg(long, value_name = "S", default_value_t = 0)]
     seed: u64,
+    /// Check only portion K (from 0) of N of these pixels, for one of several processes: where each
+    /// exits with 0, all of it holds
+    #[arg(long, value_name = "K/N", allow_hyphen_values = true)]
+    tile: Option<Portion>,
     #[command(flatten)]
     threads: ThreadsArgs,
     /// JSON instead of text
@@ -83,9 +88,11 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
     check_circuit(&loaded, &scene)?;
     let film = scene.scene().film;
     let pixels = (f64::from(film.width) * f64::from(film.height)).min(args.pixels as f64);
+    let pixels = pixels / f64::from(args.tile.unwrap_or_default().count());
     time::tell_of_paths(&scene, pixels, 1.0, &Model::ALL, args.threads.or_cores());
     let options = Options {
         pixels: args.pixels,
+        portion: args.tile.unwrap_or_default(),
         seed: args.seed,
         workers,
     };

@@ -34,6 +34,7 @@ const MODULES: &[(&str, &[&str])] = &[
             "random",
             "workers",
             "image",
+            "mitsuba",
             "counting",
             "machines",
             "search",

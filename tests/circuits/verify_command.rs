@@ -62,6 +62,38 @@ fn the_answer_is_versioned_json() {
     assert!(answer["gates"].as_u64().unwrap() > 1000);
 }
 
+/// Portions check each pixel once, and find together what one process finds.
+#[test]
+fn portions_check_all_pixels_together() {
+    let folder = folder();
+    let whole = answer(&folder, &[]);
+    let parts: Vec<Value> = (0..5)
+        .map(|k| answer(&folder, &["--tile", &format!("{k}/5")]))
+        .collect();
+    let pixels = |of: &Value| of["pixels"].as_array().unwrap().clone();
+    let mut all: Vec<String> = parts
+        .iter()
+        .flat_map(pixels)
+        .map(|p| p.to_string())
+        .collect();
+    let mut asked: Vec<String> = pixels(&whole).iter().map(Value::to_string).collect();
+    all.sort();
+    asked.sort();
+    assert_eq!(all, asked);
+    // Root mean squares over as many pixels as each has.
+    let squares = |of: &Value| {
+        let rmse = of["width_error"]["rmse_rgb"][0].as_f64().unwrap();
+        rmse * rmse * pixels(of).len() as f64
+    };
+    let sum: f64 = parts.iter().map(squares).sum();
+    assert!((sum - squares(&whole)).abs() < 1e-12 * sum);
+    let errors = folder.fails(2, &["verify", "corner.yaml", "--tile", "0/13"]);
+    assert!(
+        errors.contains("12 pixels can't be dealt out to 13 portions"),
+        "{errors}"
+    );
+}
+
 /// E_W by its definition, from the pictures of both models.
 #[test]
 fn the_width_error_is_that_of_the_pictures() {

@@ -8,7 +8,7 @@ use qrt::runtime::workers::Workers;
 use std::fs;
 use std::process::Stdio;
 
-const COMMANDS: [&str; 11] = [
+const COMMANDS: [&str; 12] = [
     "render",
     "merge",
     "inspect",
@@ -16,6 +16,7 @@ const COMMANDS: [&str; 11] = [
     "verify",
     "trade",
     "export",
+    "diff",
     "new",
     "playground",
     "schema",

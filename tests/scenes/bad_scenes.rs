@@ -102,10 +102,11 @@ fn a_file_that_cannot_be_read_is_an_error_like_others() {
 
 /// Codes that no scene file gets from its checks: the first two only scenes that are built in Rust,
 /// the third only a file of 256 MiB, the fourth only millions of faces, the fifth only where the OBJ library disagrees with the
-/// checks before it, the next ones only when the scene's circuit is compiled, the last two as warnings.
+/// checks before it, the next ones only when the scene's circuit is compiled, then two as warnings, and the last when
+/// the scene is exported.
 /// The unit tests of `valid`, of the OBJ reader and of `oracle`, `inspect_command` and the test
 /// below show them.
-const ELSEWHERE: [&str; 12] = [
+const ELSEWHERE: [&str; 13] = [
     codes::DUPLICATE_NAME,
     codes::BSDF_CHANNELS,
     codes::OBJ_TOO_LARGE,
@@ -118,6 +119,7 @@ const ELSEWHERE: [&str; 12] = [
     codes::TOO_MANY_FACES,
     codes::NOT_RECIPROCAL,
     codes::LIGHT_UNUSED,
+    codes::NO_COUNTERPART,
 ];
 
 /// A scene without a lamp, and one of mirrors alone: they are as good as without the bits.

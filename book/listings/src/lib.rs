@@ -42,6 +42,7 @@ pages! {
     playground = "playground.md",
     clusters = "clusters.md",
     python = "python.md",
+    renderers = "renderers.md",
     error_codes = "error-codes.md",
     internals = "internals.md",
     equations = "equations.md",

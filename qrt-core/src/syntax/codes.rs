@@ -356,6 +356,8 @@ codes! {
         "Write `--set sampling.path_bits=14` or `--set 'film={ width: 8, height: 8 }'`";
     SET_PLACE = "QRT0902", "an override of something that is not there",
         "Name a key of the scene format, and list elements that exist";
+    NO_COUNTERPART = "QRT0903", "a material that another renderer does not have",
+        "Give these faces another material for the comparison";
 }
 
 /// The row of a code.

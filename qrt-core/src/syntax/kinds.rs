@@ -245,6 +245,16 @@ problems! {
             help "keep the sum at 1 or below in every channel" also "the diffuse part";
     }
 
+    /// Of a scene as another renderer reads it.
+    Renderer {
+        NoCounterpart { renderer: &'static str, name: String, kind: &'static str } = NO_COUNTERPART
+            { format!("{renderer} has no counterpart of the `{kind}` of `{}`", shorten(name)) }
+            help { Some(match *kind {
+                "phong" => "a `phong` without `specular` is matte, and is exported".to_owned(),
+                _ => "a map and a value of one's own are qrt's alone: use another material".to_owned(),
+            }) };
+    }
+
     /// Of the camera.
     Camera {
         NoView = CAMERA_TARGET "the camera looks at the point it stands on"

@@ -244,6 +244,11 @@ impl<const C: usize> Stage<C> {
         self.normals[face]
     }
 
+    /// The camera, whose rays are in the geometry's units.
+    pub fn camera(&self) -> &CameraStage {
+        &self.camera
+    }
+
     /// The polygons, made ready for intersection.
     pub fn geometry(&self) -> &Geometry {
         &self.geometry

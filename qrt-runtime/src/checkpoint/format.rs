@@ -8,7 +8,8 @@
 //!         options, and for each its name and value; texts as u32 length and UTF-8
 //! record  a tile, a part or an ending, u32 CRC-32 of all before
 //! tile    u32 0, x, y, width, height (u32 each), pixels (3 f64 each, rows from the top),
-//!         queries (u64 each), good ids (3 u64 each), strata (3 u8 each)
+//!         queries (u64 each), good ids (3 u64 each), widths of intervals (3 f64 each),
+//!         strata (3 u8 each)
 //! part    u32 1, x, y (u32 each), u64 number, u64 paths, u32 count of words, words (u64 each)
 //! ending  u32 2, text, u32 count of words, words (u64 each); only in a part of a picture, which has no
 //!         parts of pixels, and where it is last
@@ -19,14 +20,14 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 pub(super) const MAGIC: &[u8; 8] = b"QRTTILES";
-pub(super) const VERSION: u32 = 4;
+pub(super) const VERSION: u32 = 5;
 /// What records begin with.
 const TILE: u32 = 0;
 const PART: u32 = 1;
 const ENDING: u32 = 2;
 /// Bytes of a tile's record beside its pixels, and for each pixel.
 const RECORD: u64 = 24;
-const PIXEL: u64 = 59;
+const PIXEL: u64 = 83;
 
 impl Header {
     pub(crate) fn encode(&self) -> Vec<u8> {
@@ -145,6 +146,9 @@ impl Tile {
         for number in self.queries.iter().chain(self.good.iter().flatten()) {
             bytes.extend(number.to_le_bytes());
         }
+        for width in self.widths.iter().flatten() {
+            bytes.extend(width.to_bits().to_le_bytes());
+        }
         bytes.extend(self.strata.iter().flatten());
         seal(bytes)
     }
@@ -166,6 +170,10 @@ impl Tile {
         for _ in 0..area {
             let mut good = || take_u64(payload);
             tile.good.push([good()?, good()?, good()?]);
+        }
+        for _ in 0..area {
+            let mut width = || take_u64(payload).map(f64::from_bits);
+            tile.widths.push([width()?, width()?, width()?]);
         }
         for strata in payload.as_chunks::<3>().0 {
             tile.strata.push(*strata);

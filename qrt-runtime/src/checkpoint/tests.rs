@@ -36,6 +36,7 @@ fn tile(x: u32, y: u32, width: u32, height: u32) -> Tile {
         pixels,
         queries,
         good: (0..area).map(|i| [u64::from(i); 3]).collect(),
+        widths: (0..area).map(|i| [f64::from(i) / 8.0; 3]).collect(),
         strata: (0..area).map(|i| [i as u8; 3]).collect(),
     }
 }
@@ -311,11 +312,11 @@ fn what_is_no_checkpoint_of_ours_is_left_alone() {
     }
     assert_eq!(fs::read(&path).unwrap(), b"a thesis");
     let mut newer = header().encode();
-    newer[8] = 5;
+    newer[8] = 6;
     fs::write(&path, newer).unwrap();
     let message = Checkpoint::open(&path, &header()).unwrap_err().to_string();
     assert!(
-        message.ends_with("is a checkpoint of format 5; this qrt reads 4"),
+        message.ends_with("is a checkpoint of format 6; this qrt reads 5"),
         "{message}"
     );
 }

@@ -1,4 +1,5 @@
-//! OpenEXR: linear 32-bit float RGB, with the metadata as string attributes.
+//! OpenEXR: linear 32-bit float RGB and what else is told of pixels, with the metadata as string
+//! attributes.
 //!
 //! Written here rather than by a library: one part, scan lines, no compression is a page of code,
 //! brings no dependencies, and gives the same bytes on every run (the `exr` crate, which the tests
@@ -6,46 +7,73 @@
 //! <https://openexr.com/en/latest/OpenEXRFileLayout.html>; all numbers are little-endian.
 
 use super::metadata::{Metadata, PREFIX};
-use super::{Image, Window};
+use super::{Image, Layer, Window};
 use std::io::{self, Write};
 
 const MAGIC: u32 = 20_000_630;
 const VERSION: u32 = 2;
 const FLOAT: i32 = 2;
-/// In the order of the file: alphabetical, as the format demands.
-const CHANNELS: [(u8, usize); 3] = [(b'B', 2), (b'G', 1), (b'R', 0)];
 /// Primaries and white of sRGB and Rec. 709, which is what linear RGB means here: x, y of red,
 /// green, blue and white.
 const CHROMATICITIES: [f32; 8] = [0.64, 0.33, 0.30, 0.60, 0.15, 0.06, 0.3127, 0.3290];
 
-/// Writes the picture. Width and height must fit i32, and every value f32.
-pub(super) fn write(out: &mut impl Write, image: &Image, metadata: &Metadata) -> io::Result<()> {
-    let header = header(image, metadata);
+/// A value of each pixel.
+enum Channel<'a> {
+    /// Of the picture: 0 red, 1 green, 2 blue.
+    Colour(usize),
+    Layer(&'a [f64]),
+}
+
+/// Writes the picture. Bytes of a line must fit i32, and every value f32.
+pub(super) fn write(
+    out: &mut impl Write,
+    image: &Image,
+    layers: &[Layer],
+    metadata: &Metadata,
+) -> io::Result<()> {
+    // Alphabetical, as the format demands.
+    let colours = ["R", "G", "B"].into_iter().enumerate();
+    let mut channels: Vec<(&str, Channel<'_>)> = colours
+        .map(|(c, name)| (name, Channel::Colour(c)))
+        .collect();
+    let others = layers.iter();
+    channels.extend(others.map(|layer| (layer.name.as_str(), Channel::Layer(&layer.values))));
+    channels.sort_by_key(|(name, _)| *name);
+    let names: Vec<&str> = channels.iter().map(|(name, _)| *name).collect();
+    let header = header(image, &names, metadata);
     out.write_all(&header)?;
 
     // Where each line stands, counted from the file's beginning.
-    let line_bytes = 8 + 12 * u64::from(image.width);
+    let data_bytes = 4 * channels.len() as u32 * image.width;
+    let line_bytes = 8 + u64::from(data_bytes);
     let first = header.len() as u64 + 8 * u64::from(image.height);
     for y in 0..u64::from(image.height) {
         out.write_all(&(first + y * line_bytes).to_le_bytes())?;
     }
     let top = image.window().origin[1];
-    for (y, row) in (top..).zip(image.pixels.chunks_exact(image.width as usize)) {
+    let width = image.width as usize;
+    for (number, y) in (top..top + image.height).enumerate() {
         out.write_all(&y.to_le_bytes())?;
-        out.write_all(&(12 * image.width).to_le_bytes())?;
-        for (_, channel) in CHANNELS {
-            for pixel in row {
-                out.write_all(&(pixel[channel] as f32).to_le_bytes())?;
+        out.write_all(&data_bytes.to_le_bytes())?;
+        let row = number * width..(number + 1) * width;
+        for (_, channel) in &channels {
+            for place in row.clone() {
+                let value = match channel {
+                    Channel::Colour(channel) => image.pixels[place][*channel],
+                    Channel::Layer(values) => values[place],
+                };
+                out.write_all(&(value as f32).to_le_bytes())?;
             }
         }
     }
     Ok(())
 }
 
-fn header(image: &Image, metadata: &Metadata) -> Vec<u8> {
+fn header(image: &Image, names: &[&str], metadata: &Metadata) -> Vec<u8> {
     let mut channels = Vec::new();
-    for (name, _) in CHANNELS {
-        channels.extend([name, 0]);
+    for name in names {
+        channels.extend(name.as_bytes());
+        channels.push(0);
         channels.extend(FLOAT.to_le_bytes());
         channels.extend([0; 4]); // not perceptually linear, and three reserved bytes
         channels.extend(1i32.to_le_bytes()); // every pixel across

@@ -4,6 +4,7 @@
 //! `2^exposure`, through the sRGB curve, to 8 bits. Both say in their metadata how they were made,
 //! and both are written whole or not at all.
 
+pub mod compare;
 mod counts;
 mod exr_file;
 mod metadata;
@@ -15,6 +16,7 @@ mod tests;
 pub use counts::{Count, write_counts};
 pub use metadata::Metadata;
 pub use png_file::read_png_metadata;
+pub use srgb::decode as linear_of_srgb;
 
 use crate::replace_file::replace_file;
 use std::io;
@@ -39,6 +41,15 @@ pub struct Window {
     pub origin: [u32; 2],
     /// Width and height of the larger picture.
     pub film: [u32; 2],
+}
+
+/// One more value of each pixel, for EXR.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Layer {
+    /// What it is called in the file, such as `depth.Z`: 1 to 31 bytes, no NUL, and neither R, G nor B.
+    pub name: String,
+    /// Row by row from the top, each row from the left.
+    pub values: Vec<f64>,
 }
 
 /// How a picture becomes a file.
@@ -107,7 +118,23 @@ pub fn save(
     metadata: &Metadata,
     encoding: Encoding,
 ) -> Result<u64, ImageError> {
+    save_layers(path, image, &[], metadata, encoding)
+}
+
+/// As [`save`], with more values of each pixel, which only EXR keeps.
+///
+/// # Errors
+/// As [`save`]; layers for PNG, or of another size, of a name that is none or there twice, or with a
+/// value that is not finite or too large.
+pub fn save_layers(
+    path: &Path,
+    image: &Image,
+    layers: &[Layer],
+    metadata: &Metadata,
+    encoding: Encoding,
+) -> Result<u64, ImageError> {
     image.check(encoding)?;
+    check_layers(image, layers, encoding)?;
     let io = |source| ImageError::Io {
         path: path.to_path_buf(),
         source,
@@ -122,10 +149,39 @@ pub fn save(
             })?;
             Ok(())
         }
-        Encoding::Exr => exr_file::write(out, image, metadata),
+        Encoding::Exr => exr_file::write(out, image, layers, metadata),
     })
     .map_err(io)?;
     Ok(clipped)
+}
+
+fn check_layers(image: &Image, layers: &[Layer], encoding: Encoding) -> Result<(), ImageError> {
+    let mut names = vec!["R", "G", "B"];
+    for Layer { name, values } in layers {
+        let reason = if encoding != Encoding::Exr {
+            Some("only .exr keeps layers")
+        } else if !(1..=31).contains(&name.len()) || name.contains('\0') {
+            Some("its name has 1 to 31 bytes and no NUL")
+        } else if names.contains(&name.as_str()) {
+            Some("there is a channel of this name")
+        } else if values.len() != image.pixels.len() {
+            Some("it has another number of pixels than the picture")
+        } else if values.iter().any(|value| !(*value as f32).is_finite()) {
+            Some("a value of it is no 32-bit float")
+        } else if u64::from(image.width) * 4 * (layers.len() as u64 + 3) > (1 << 31) - 1 {
+            Some("a line of so many channels is too long")
+        } else {
+            None
+        };
+        if let Some(reason) = reason {
+            return Err(ImageError::Layer {
+                name: name.clone(),
+                reason,
+            });
+        }
+        names.push(name);
+    }
+    Ok(())
 }
 
 impl Image {
@@ -248,6 +304,9 @@ pub enum ImageError {
     /// Not a value of metadata.
     #[error("the value of `{key}` contains a NUL or is larger than 2 GiB")]
     Value { key: String },
+    /// Not a layer that can be kept.
+    #[error("layer `{name}`: {reason}")]
+    Layer { name: String, reason: &'static str },
     /// The file system refused.
     #[error("`{}`: {source}", .path.display())]
     Io { path: PathBuf, source: io::Error },

@@ -9,6 +9,16 @@ pub(super) fn encode(linear: f64) -> f64 {
     }
 }
 
+/// The inverse of the sRGB transfer function: a level from 0 to 1, as PNG keeps it, to linear light from
+/// 0 to 1 (IEC 61966-2-1).
+pub fn decode(encoded: f64) -> f64 {
+    if encoded <= 0.04045 {
+        encoded / 12.92
+    } else {
+        libm::pow((encoded + 0.055) / 1.055, 2.4)
+    }
+}
+
 /// The 8-bit level nearest to a linear value, and whether the value lies outside what 8 bits show:
 /// nearer to a level below 0 or above 255 than to those.
 pub(super) fn level(linear: f64) -> (u8, bool) {
@@ -22,15 +32,6 @@ pub(super) fn level(linear: f64) -> (u8, bool) {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// The standard's inverse, in closed form.
-    fn decode(encoded: f64) -> f64 {
-        if encoded <= 0.04045 {
-            encoded / 12.92
-        } else {
-            ((encoded + 0.055) / 1.055).powf(2.4)
-        }
-    }
 
     #[test]
     fn every_level_and_every_boundary_between_levels_is_right() {

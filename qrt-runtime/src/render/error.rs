@@ -50,6 +50,9 @@ pub enum RenderError {
         /// Paths of each, as a power of two.
         path_bits: u32,
     },
+    /// Layers of a picture are asked for with a scene that is not its own.
+    #[error("this is not the scene that the picture was rendered of")]
+    OtherScene,
     /// More portions than the picture has pixels.
     #[error("a picture of {pixels} pixels can't be cut into {count} portions: ask for fewer")]
     Portions {

@@ -15,6 +15,7 @@ pub(super) struct Film {
     pub(super) image: Image,
     pub(super) queries: Vec<u64>,
     pub(super) good: Vec<[u64; 3]>,
+    pub(super) widths: Vec<[f64; 3]>,
     pub(super) strata: Vec<[u8; 3]>,
     /// Pixels that are finished.
     pub(super) finished: u64,
@@ -42,6 +43,7 @@ impl Film {
             },
             queries: filled(0, area)?,
             good: filled([0; 3], area)?,
+            widths: filled([0.0; 3], area)?,
             strata: filled([0; 3], area)?,
             finished: 0,
             checkpoint: None,
@@ -132,6 +134,7 @@ impl Film {
             let own = number * width..(number + 1) * width;
             self.image.pixels[row.clone()].copy_from_slice(&tile.pixels[own.clone()]);
             self.good[row.clone()].copy_from_slice(&tile.good[own.clone()]);
+            self.widths[row.clone()].copy_from_slice(&tile.widths[own.clone()]);
             self.strata[row.clone()].copy_from_slice(&tile.strata[own.clone()]);
             self.queries[row].copy_from_slice(&tile.queries[own]);
         }

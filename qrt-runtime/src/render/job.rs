@@ -87,6 +87,7 @@ impl<'a> Job<'a> {
                     film: [scene.scene().film.width, scene.scene().film.height],
                     image: film.image,
                     queries: film.queries,
+                    widths: film.widths,
                     strata: film.strata,
                     good: counts_good(options.model, options.colour).then_some(film.good),
                     model: options.model,
@@ -173,6 +174,7 @@ impl<'a> Job<'a> {
         tile.pixels.push(pixel.colour);
         tile.queries.push(pixel.queries);
         tile.good.push(pixel.good);
+        tile.widths.push(pixel.widths);
         tile.strata.push(pixel.strata);
         Ok(())
     }

@@ -52,6 +52,7 @@ mod classes;
 mod error;
 mod film;
 mod job;
+mod layers;
 mod metadata;
 mod one_run;
 mod parts;
@@ -172,6 +173,10 @@ pub struct Rendered {
     /// `exact`, which sums over all paths and asks no oracle. Where primary hits are searched for:
     /// those of the oracle of nearest hits, all paths together.
     pub queries: Vec<u64>,
+    /// How wide the interval of a channel is, in radiance, by pixel and channel: it has the estimator's
+    /// confidence. 0 under `exact`, which estimates nothing. Of the luminance, it stands in the first
+    /// place.
+    pub widths: Vec<[f64; 3]>,
     /// Strata of the comparator that were counted one by one, by pixel and channel: 1 where the
     /// whole was counted at once, 0 where nothing is counted. Of the luminance, it stands in the
     /// first place.

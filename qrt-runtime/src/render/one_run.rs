@@ -18,7 +18,7 @@
 use super::pixel::{Pixels, Source, Stop, go_on};
 use crate::counting::{Comparators, CountingError, Octaves, Stratum};
 use crate::estimators::{
-    AmplitudeEstimator, CountedStratum, Device, EstimatorError, Noise, Problem,
+    AmplitudeEstimator, CountedStratum, Device, Estimate, EstimatorError, Noise, Problem,
 };
 use crate::machines::Defect;
 use crate::random::Stream;
@@ -159,11 +159,16 @@ impl OneRun {
         }
     }
 
+    /// The luminance for an estimated amplitude.
+    pub(super) fn pixel_of_amplitude(&self, amplitude: f64) -> f64 {
+        self.comparators.pixel_of_amplitude(amplitude)
+    }
+
     fn good(&self, colour: &[f64; 3]) -> u64 {
         u64::from(self.comparators.good(luminance(colour)))
     }
 
-    /// The colour of a pixel, the queries that it took, and how many strata were counted.
+    /// The colour of a pixel, and what was estimated of its luminance.
     pub(super) fn finish(
         &self,
         pixels: &Pixels,
@@ -171,9 +176,9 @@ impl OneRun {
         [x, y]: [u32; 2],
         segments: &Segments,
         workers: &Workers<'_>,
-    ) -> Result<([f64; 3], u64, u8), Stop> {
+    ) -> Result<([f64; 3], Option<Estimate>), Stop> {
         if self.comparators.step() == 0.0 {
-            return Ok(([0.0; 3], 0, 0));
+            return Ok(([0.0; 3], None));
         }
         let mut stream = Stream::new(pixels.seed(), x, y, LUMINANCE_CHANNEL as u8);
         let mut device = self.device(segments, noise, &mut stream)?;
@@ -234,8 +239,7 @@ impl OneRun {
                 value
             }
         });
-        // At most 31 strata.
-        Ok((colour, estimate.queries, estimate.strata as u8))
+        Ok((colour, Some(estimate)))
     }
 
     fn device<'a>(

@@ -201,6 +201,7 @@ impl PicturePart {
             image,
             queries,
             good,
+            widths,
             strata,
             crop,
             ..
@@ -216,6 +217,7 @@ impl PicturePart {
                     Some(good) => tile.good.extend(&good[row.clone()]),
                     None => tile.good.extend(row.clone().map(|_| [0; 3])),
                 }
+                tile.widths.extend(&widths[row.clone()]);
                 tile.strata.extend(&strata[row]);
             }
             bytes.extend(tile.encode());
@@ -338,6 +340,7 @@ impl Merge {
         }
         whole.image = film.image;
         whole.queries = film.queries;
+        whole.widths = film.widths;
         whole.strata = film.strata;
         whole.good = counts_good(whole.model, whole.colour).then_some(film.good);
         Ok(whole)
@@ -648,6 +651,7 @@ fn rendered(header: &Header, ending: &Ending) -> Option<Rendered> {
             window: None,
         },
         queries: Vec::new(),
+        widths: Vec::new(),
         strata: Vec::new(),
         good: None,
         model,

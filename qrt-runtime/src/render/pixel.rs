@@ -48,8 +48,22 @@ pub(super) struct Pixel {
     pub(super) queries: u64,
     /// S; 0 where none are counted.
     pub(super) good: [u64; 3],
+    /// Widths of intervals, in radiance; 0 where nothing is counted.
+    pub(super) widths: [f64; 3],
     /// Strata that were counted one by one; 0 where nothing is counted.
     pub(super) strata: [u8; 3],
+}
+
+impl Pixel {
+    /// Takes in what was found of a channel.
+    fn take(&mut self, channel: usize, estimate: &Estimate, radiance: impl Fn(f64) -> f64) {
+        // At most 3 * 2^40 * 10^6, below 2^62.
+        self.queries += estimate.queries;
+        // At most 31.
+        self.strata[channel] = estimate.strata as u8;
+        let (low, high) = estimate.interval;
+        self.widths[channel] = radiance(high) - radiance(low);
+    }
 }
 
 /// Why the work on a pixel or a tile ended early.
@@ -381,6 +395,7 @@ impl Pixels {
                 Source::Real(_) => [0; 3],
                 Source::Oracle(_) => totals.good,
             },
+            widths: [0.0; 3],
             strata: [0; 3],
         };
         let Some(counter) = &self.counter else {
@@ -391,8 +406,14 @@ impl Pixels {
             let estimator: &dyn AmplitudeEstimator = &*counter.estimators[0];
             let device = (estimator, counter.noise);
             let segments = &totals.segments;
-            let found = one_run.finish(self, device, pixel, segments, workers)?;
-            (finished.colour, finished.queries, finished.strata[0]) = found;
+            let (colour, estimate) = one_run.finish(self, device, pixel, segments, workers)?;
+            finished.colour = colour;
+            finished.queries = 0;
+            if let Some(estimate) = estimate {
+                finished.take(0, &estimate, |amplitude| {
+                    one_run.pixel_of_amplitude(amplitude)
+                });
+            }
             finished.good = [0; 3];
             return Ok(finished);
         }
@@ -401,12 +422,10 @@ impl Pixels {
             if self.bound[channel] > 0.0 {
                 go_on(workers)?;
                 let estimate = self.estimate(counter, pixel, channel, totals)?;
-                // At most 3 * 2^40 * 10^6, below 2^62.
-                finished.queries += estimate.queries;
-                // At most 31.
-                finished.strata[channel] = estimate.strata as u8;
-                finished.colour[channel] =
-                    counter.comparators[channel].pixel_of_amplitude(estimate.amplitude);
+                let radiance =
+                    |amplitude| counter.comparators[channel].pixel_of_amplitude(amplitude);
+                finished.take(channel, &estimate, radiance);
+                finished.colour[channel] = radiance(estimate.amplitude);
             }
         }
         Ok(finished)

@@ -41,6 +41,12 @@ pub enum PortionError {
     },
 }
 
+impl Default for Portion {
+    fn default() -> Self {
+        Self::WHOLE
+    }
+}
+
 impl Portion {
     /// All pixels.
     pub const WHOLE: Self = Self { index: 0, count: 1 };
@@ -55,6 +61,11 @@ impl Portion {
             _ if index < count => Ok(Self { index, count }),
             _ => Err(PortionError::Beyond { index, count }),
         }
+    }
+
+    /// Whether item `number` of a list that is dealt out one by one, as cards are, is in it.
+    pub fn takes(self, number: usize) -> bool {
+        number % self.count as usize == self.index as usize
     }
 
     /// Its number, from 0.

@@ -149,7 +149,7 @@ fn counting(trade: &Trade) -> Figure {
         plot: Plot {
             title: "Counting: every estimator".to_owned(),
             x: Axis::log("queries of a pixel"),
-            y: Axis::log("E_T: RMSE / mean radiance"),
+            y: Axis::log("counting (E_T): RMSE / mean radiance"),
             series: estimators(trade, Sweep::Counting)
                 .into_iter()
                 .map(of)
@@ -185,7 +185,7 @@ fn repetitions(trade: &Trade) -> Figure {
         plot: Plot {
             title: "A larger phase register, or the same one again".to_owned(),
             x: Axis::log("queries of a pixel"),
-            y: Axis::log("E_T: RMSE / mean radiance"),
+            y: Axis::log("counting (E_T): RMSE / mean radiance"),
             series: all,
         },
         says: "The same queries used for more phase bits (larger) or for more repetitions (again), with \
@@ -205,7 +205,7 @@ fn paths(trade: &Trade) -> Figure {
         plot: Plot {
             title: "Paths, by their sequence".to_owned(),
             x: Axis::bits("path bits"),
-            y: Axis::log("E_R: RMSE / mean radiance"),
+            y: Axis::log("paths (E_R): RMSE / mean radiance"),
             series: Sequence::ALL.iter().copied().map(of).collect(),
         },
         says: "A path bit is one qubit and hardly a gate, but it doubles what a simulation traces. \
@@ -221,7 +221,7 @@ fn comparators(trade: &Trade) -> Figure {
         plot: Plot {
             title: "Comparators".to_owned(),
             x: Axis::bits("comparator bits"),
-            y: Axis::log("E_C: RMSE / mean radiance"),
+            y: Axis::log("comparators (E_C): RMSE / mean radiance"),
             series: vec![series(
                 NAMES[COMPARATORS],
                 rows,
@@ -282,7 +282,7 @@ fn depth(trade: &Trade) -> Figure {
         plot: Plot {
             title: "Length of paths".to_owned(),
             x: Axis::bits("D, rays of a path"),
-            y: Axis::log("E_D: RMSE / mean radiance"),
+            y: Axis::log("depth (E_D): RMSE / mean radiance"),
             series: vec![series(NAMES[DEPTH], rows, rays, DEPTH, Drawn::Joined)],
         },
         says: "Light that longer paths would bring, in units of the scene's own mean radiance. It is \

@@ -52,6 +52,7 @@
 //! Rows are written as they are finished, and not measured again when they are there and their
 //! checksums are right.
 
+mod advice;
 mod band;
 mod bench;
 mod error;
@@ -74,13 +75,15 @@ pub use pareto::pareto;
 pub use setting::{Setting, Sweep};
 pub use table::{ERRORS, Row};
 
+use crate::render::Portion;
 use crate::replace_file::replace_file;
 use crate::sample::spread;
 use crate::workers::{Progress, Workers};
 use bench::{Bench, Effort};
 use qrt_core::valid::ValidScene;
 use std::io::Write as _;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use table::Contents;
 
 /// What to measure, and how.
 #[derive(Clone, Copy, Default)]
@@ -91,6 +94,11 @@ pub struct Options<'a> {
     pub seed: u64,
     /// Fewer settings, pixels and reference paths.
     pub quick: bool,
+    /// Of the settings, dealt out one by one, those that are measured, for one of several processes:
+    /// then there is a table, and neither plots nor a page. All unless set.
+    pub portion: Portion,
+    /// Folders whose tables have rows that need not be measured again.
+    pub parts: &'a [PathBuf],
     /// Who does the work; told of rows.
     pub workers: Workers<'a>,
 }
@@ -100,6 +108,8 @@ pub struct Options<'a> {
 pub struct Trade {
     /// The scene's name.
     pub name: String,
+    /// The scene as YAML.
+    pub scene_text: String,
     /// Pixels that were rendered, and those of the film.
     pub pixels: [u64; 2],
     /// What keyed shifts and draws.
@@ -151,6 +161,9 @@ pub fn trade(
     };
     std::fs::create_dir_all(folder).map_err(failed(folder))?;
     let measured = (options.workers).run(|| measure(scene, folder, options))??;
+    if options.portion != Portion::WHOLE {
+        return Ok(measured);
+    }
     let write = |name: &str, text: &str| {
         let path = folder.join(name);
         replace_file(&path, |out| out.write_all(text.as_bytes())).map_err(failed(&path))
@@ -191,15 +204,27 @@ fn measure(scene: &ValidScene, folder: &Path, options: &Options<'_>) -> Result<T
     let mut bench = Bench::new(scene, pixels, options.seed, effort, options.workers);
     // What cannot be measured at all is told before a file is written.
     bench.check()?;
+    let mut taken = Vec::new();
+    for part in options.parts {
+        taken.push(table::read(&part.join("trade.csv"), &header, &settings)?);
+    }
     let mut table = table::Table::open(&folder.join("trade.csv"), &header, &settings)?;
     let found = std::mem::take(&mut table.found);
-    let resumed = found.iter().flatten().count();
+    table.damaged += taken.iter().map(|part| part.damaged).sum::<usize>();
+    // By setting: the first part that has its row.
+    let taken: Vec<Option<&Contents>> = (0..settings.len())
+        .map(|at| taken.iter().find(|part| part.rows[at].is_some()))
+        .collect();
+    let is_there = |at: usize| found[at].is_some() || taken[at].is_some();
+    let resumed = (0..settings.len()).filter(|&at| is_there(at)).count();
+    let mine = (0..settings.len()).filter(|&at| is_there(at) || options.portion.takes(at));
     options.workers.report(Progress::Started {
-        total: settings.len() as u64,
+        total: mine.count() as u64,
         resumed: resumed as u64,
     });
     let mut measured = Trade {
         name: written.name.clone(),
+        scene_text: written.to_yaml(),
         pixels: [count, u64::from(film[0]) * u64::from(film[1])],
         seed: options.seed,
         reference_bits: effort.reference_bits,
@@ -211,6 +236,13 @@ fn measure(scene: &ValidScene, folder: &Path, options: &Options<'_>) -> Result<T
     for (at, (setting, found)) in settings.into_iter().zip(found).enumerate() {
         if let Some(row) = found {
             measured.rows.push(row);
+            continue;
+        }
+        if let Some(part) = taken[at] {
+            measured.rows.extend(table.take_over(at, part)?);
+            continue;
+        }
+        if !options.portion.takes(at) {
             continue;
         }
         match bench.row(setting)? {

@@ -2,10 +2,10 @@
 
 use super::figures::Figure;
 use super::fronts::{PRICES, candidates, front};
-use super::rivals;
 use super::summary::differs;
 use super::table::{ERRORS, Row};
 use super::{Band, Sweep, Trade};
+use super::{advice, rivals};
 use qrt_core::inspect::grouped;
 use qrt_drawing::{coloured, escaped, style_sheet};
 use std::fmt::Write as _;
@@ -27,7 +27,7 @@ font:16px/1.5 system-ui,-apple-system,'Segoe UI','DejaVu Sans',sans-serif}
 h1{font-size:1.5rem;margin:.5rem 0}h2{font-size:1.2rem;margin:2rem 0 .5rem}
 p,figcaption{max-width:46rem}figcaption,.soft{color:$soft}figcaption{font-size:.9rem}
 .figures{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,520px),1fr));gap:1.5rem}
-figure{margin:0;min-width:0}.wide{overflow-x:auto}.wide svg{display:block;min-width:460px;width:100%}
+figure{margin:0;min-width:0}.wide{overflow-x:auto}.wide svg{display:block;min-width:min(460px,100%);width:100%}
 table{border-collapse:collapse;font-size:.875rem;font-variant-numeric:tabular-nums}
 th,td{padding:.25rem .6rem;text-align:right;border-bottom:1px solid $grid;white-space:nowrap}
 th{font-weight:600;text-align:right;color:$soft}.left,th.left{text-align:left}
@@ -56,9 +56,22 @@ pub(super) fn html(trade: &Trade, figures: &[Figure]) -> String {
         trade.scene().map_or(0.0, |row| row.mean),
         trade.reference_bits,
     );
+    let sentences = advice::sentences(trade);
+    if !sentences.is_empty() {
+        let lines = sentences
+            .iter()
+            .map(|line| format!("<li>{}</li>", escaped(line)));
+        let lines: String = lines.collect();
+        let _ = writeln!(out, "<h2>What to change next</h2>\n<ul>{lines}</ul>");
+    }
     if let Some(row) = trade.scene() {
         own(&mut out, row);
     }
+    let _ = writeln!(
+        out,
+        "<details><summary>The scene's text</summary><pre class=\"wide\">{}</pre></details>",
+        escaped(&trade.scene_text)
+    );
     let _ = writeln!(
         out,
         "<h2>Against classical rivals</h2>\n<p>{}</p>\n<ul>",
@@ -80,8 +93,9 @@ pub(super) fn html(trade: &Trade, figures: &[Figure]) -> String {
     out.push_str("</div>\n<h2>Best settings</h2>\n");
     out.push_str("<p>What no other setting beats in both the total error and the price.</p>\n");
     let rows = candidates(trade);
-    for (_, title, _, price) in PRICES {
-        let _ = writeln!(out, "<details><summary>By {title}</summary>");
+    for (number, (_, title, _, price)) in PRICES.into_iter().enumerate() {
+        let open = if number == 0 { " open" } else { "" };
+        let _ = writeln!(out, "<details{open}><summary>By {title}</summary>");
         let best = front(&rows, price);
         table(&mut out, &best, |row| differs(&row.setting));
         out.push_str("</details>\n");

@@ -2,10 +2,10 @@
 
 use super::figures::{COUNTING, TOTAL, estimators};
 use super::fronts::{PRICES, candidates, front};
-use super::rivals;
 use super::setting::Setting;
 use super::table::ERRORS;
 use super::{Sweep, Trade};
+use super::{advice, rivals};
 use qrt_drawing::Fit;
 use std::fmt::Write as _;
 
@@ -35,6 +35,9 @@ pub(super) fn text(trade: &Trade) -> String {
             "          {:.0} queries a pixel, {} Toffoli, {} qubits",
             row.queries, row.cost.toffoli, row.cost.qubits
         );
+    }
+    for line in advice::sentences(trade) {
+        let _ = writeln!(out, "{line}");
     }
     let slopes = slopes(trade);
     if !slopes.is_empty() {

@@ -10,6 +10,7 @@ use super::setting::{KEY, Setting};
 use crate::disk::{self, DiskFile};
 use crate::replace_file::replaced;
 use qrt_core::oracle::CallCost;
+use std::fs;
 use std::io::{self, Read as _, Seek as _, SeekFrom, Write as _};
 use std::path::{Path, PathBuf};
 
@@ -116,6 +117,74 @@ pub(super) struct Table {
     pub(super) damaged: usize,
 }
 
+/// What a table's file holds.
+pub(super) struct Contents {
+    /// By setting: its line.
+    lines: Vec<Option<String>>,
+    /// By setting: its row.
+    pub(super) rows: Vec<Option<Row>>,
+    /// Rows that are damaged.
+    pub(super) damaged: usize,
+    /// Where the whole lines end, if there are rows or could be.
+    end: Option<u64>,
+}
+
+/// The table of these settings at `path`, which is left as it is.
+pub(super) fn read(
+    path: &Path,
+    header: &Header,
+    settings: &[Setting],
+) -> Result<Contents, TradeError> {
+    let bytes = fs::read(path).map_err(failed(path))?;
+    Contents::read(&bytes, path, header, settings)
+}
+
+impl Contents {
+    fn read(
+        bytes: &[u8],
+        path: &Path,
+        header: &Header,
+        settings: &[Setting],
+    ) -> Result<Self, TradeError> {
+        // What is no text is damaged.
+        let text = String::from_utf8_lossy(bytes);
+        // A last line without its end was cut off while it was written.
+        let whole = text.rfind('\n').map_or("", |end| &text[..=end]);
+        let unreadable = |line| {
+            let path = path.to_path_buf();
+            TradeError::Unreadable { path, line }
+        };
+        let mut lines = whole.lines();
+        if whole.is_empty() && !head(header).as_bytes().starts_with(bytes) {
+            return Err(unreadable(1));
+        }
+        if let Some(found) = lines.next() {
+            check(path, found, header)?;
+            if lines.next().is_some_and(|line| line != columns()) {
+                return Err(unreadable(2));
+            }
+        }
+        let mut contents = Self {
+            lines: vec![None; settings.len()],
+            rows: vec![None; settings.len()],
+            damaged: 0,
+            end: (whole.lines().count() >= 2).then_some(whole.len() as u64),
+        };
+        for (number, line) in lines.enumerate() {
+            let Some(row) = checked(line) else {
+                contents.damaged += 1;
+                continue;
+            };
+            let mut rows = (settings.iter().enumerate())
+                .filter_map(|(at, &setting)| Some((at, Row::read(setting, row)?)));
+            let (at, row) = rows.next().ok_or_else(|| unreadable(number + 3))?;
+            contents.lines[at] = Some(line.to_owned());
+            contents.rows[at] = Some(row);
+        }
+        Ok(contents)
+    }
+}
+
 impl Table {
     /// Goes on with the table of these settings at `path`, or begins it. Damaged rows are taken out
     /// of it.
@@ -131,48 +200,19 @@ impl Table {
         })?;
         let mut bytes = Vec::new();
         file.read_to_end(&mut bytes).map_err(&failed)?;
-        // What is no text is damaged.
-        let text = String::from_utf8_lossy(&bytes);
-        // A last line without its end was cut off while it was written.
-        let whole = text.rfind('\n').map_or("", |end| &text[..=end]);
-        let unreadable = |line| {
-            let path = path.to_path_buf();
-            TradeError::Unreadable { path, line }
-        };
-        let mut lines = whole.lines();
-        let head = format!("{}\n{}\n", first_line(header), columns());
-        if whole.is_empty() && !head.as_bytes().starts_with(&bytes) {
-            return Err(unreadable(1));
-        }
-        if let Some(found) = lines.next() {
-            check(path, found, header)?;
-            if lines.next().is_some_and(|line| line != columns()) {
-                return Err(unreadable(2));
-            }
-        }
+        let read = Contents::read(&bytes, path, header, settings)?;
         let mut table = Self {
             file,
             path: path.to_path_buf(),
-            head,
-            lines: vec![None; settings.len()],
-            found: vec![None; settings.len()],
-            damaged: 0,
+            head: head(header),
+            lines: read.lines,
+            found: read.rows,
+            damaged: read.damaged,
         };
-        for (number, line) in lines.enumerate() {
-            let Some(row) = checked(line) else {
-                table.damaged += 1;
-                continue;
-            };
-            let mut rows = (settings.iter().enumerate())
-                .filter_map(|(at, &setting)| Some((at, Row::read(setting, row)?)));
-            let (at, row) = rows.next().ok_or_else(|| unreadable(number + 3))?;
-            table.lines[at] = Some(line.to_owned());
-            table.found[at] = Some(row);
-        }
         if table.damaged > 0 {
             table.rewrite()?;
-        } else if whole.lines().count() >= 2 {
-            table.go_on_at(whole.len() as u64).map_err(&failed)?;
+        } else if let Some(end) = read.end {
+            table.go_on_at(end).map_err(&failed)?;
         } else {
             table.go_on_at(0).map_err(&failed)?;
             table
@@ -187,11 +227,28 @@ impl Table {
     pub(super) fn append(&mut self, at: usize, row: &Row) -> Result<Row, TradeError> {
         let line = row.line();
         let summed = format!("{line},{:08x}", crc32fast::hash(line.as_bytes()));
+        self.write(at, summed)?;
+        Ok(Row::read(row.setting, &line).unwrap_or(*row))
+    }
+
+    /// Writes the row that another table has of a setting, as it stands there.
+    pub(super) fn take_over(
+        &mut self,
+        at: usize,
+        other: &Contents,
+    ) -> Result<Option<Row>, TradeError> {
+        if let Some(line) = &other.lines[at] {
+            self.write(at, line.clone())?;
+        }
+        Ok(other.rows[at])
+    }
+
+    fn write(&mut self, at: usize, summed: String) -> Result<(), TradeError> {
         (self.file.write_all(format!("{summed}\n").as_bytes()))
             .and_then(|()| self.file.sync())
             .map_err(failed(&self.path))?;
         self.lines[at] = Some(summed);
-        Ok(Row::read(row.setting, &line).unwrap_or(*row))
+        Ok(())
     }
 
     /// Puts rows that were measured again in their places.
@@ -237,6 +294,11 @@ pub(super) fn checked(line: &str) -> Option<&str> {
 }
 
 /// `# qrt trade: scene_hash=..., seed=0`.
+/// The first two lines.
+fn head(header: &Header) -> String {
+    format!("{}\n{}\n", first_line(header), columns())
+}
+
 fn first_line(header: &Header) -> String {
     let parts: Vec<String> = header
         .iter()

@@ -135,6 +135,60 @@ fn an_interrupted_table_is_gone_on_with_to_the_same_table() {
 }
 
 #[test]
+fn portions_of_a_table_make_the_table_and_what_they_lack_is_measured() {
+    let folders = [0; 4].map(|_| Scratch::new());
+    let [whole, first, second, merged] = &folders;
+    let all = trade(&scene(LIT), &whole.path(""), &quick()).unwrap();
+    for (number, folder) in [first, second].into_iter().enumerate() {
+        let portion = Portion::new(number as u32, 2).unwrap();
+        let part = trade(
+            &scene(LIT),
+            &folder.path(""),
+            &Options { portion, ..quick() },
+        )
+        .unwrap();
+        assert!(part.rows.len().abs_diff(all.rows.len() / 2) <= 1);
+        assert_eq!(folder_names(folder), ["trade.csv"]);
+    }
+    let parts = [second.path(""), first.path("")];
+    let both = Options {
+        parts: &parts,
+        ..quick()
+    };
+    let made = trade(&scene(LIT), &merged.path(""), &both).unwrap();
+    assert_eq!((made.resumed, made.damaged), (all.rows.len(), 0));
+    assert!(timeless(merged) == timeless(whole));
+    assert_eq!(folder_names(merged), folder_names(whole));
+
+    // One of the two alone, with a row damaged: the rest is measured.
+    let table = second.path("trade.csv");
+    let text = std::fs::read_to_string(&table).unwrap();
+    let last = text.trim_end().rfind(',').unwrap();
+    std::fs::write(&table, format!("{},00000000\n", &text[..last])).unwrap();
+    let again = Scratch::new();
+    let one = Options {
+        parts: &parts[..1],
+        ..quick()
+    };
+    let made = trade(&scene(LIT), &again.path(""), &one).unwrap();
+    assert_eq!((made.resumed, made.damaged), (all.rows.len() / 2 - 1, 1));
+    assert!(timeless(&again) == timeless(whole));
+    // Of another scene, or none.
+    let other = scene(&LIT.replace("radiance: [3", "radiance: [4"));
+    let error = trade(&other, &Scratch::new().path(""), &one)
+        .unwrap_err()
+        .to_string();
+    assert!(error.contains("another scene hash"), "{error}");
+    let missing = [whole.path("nothing")];
+    let none = Options {
+        parts: &missing,
+        ..quick()
+    };
+    let error = trade(&scene(LIT), &Scratch::new().path(""), &none).unwrap_err();
+    assert!(matches!(error, TradeError::File { .. }), "{error}");
+}
+
+#[test]
 fn a_damaged_row_is_measured_again_wherever_it_is_damaged() {
     let (whole, damaged) = (Scratch::new(), Scratch::new());
     trade(&scene(LIT), &whole.path(""), &quick()).unwrap();
@@ -280,6 +334,44 @@ fn the_table_of_something_else_is_refused() {
     refused("is black", &quick(), &black);
 }
 
+/// What is advised is a row of the table, and what it says of it is so.
+#[test]
+fn the_advice_is_a_change_that_was_measured() {
+    let folder = Scratch::new();
+    let mut measured = trade(&scene(LIT), &folder.path(""), &quick()).unwrap();
+    let said = advice::sentences(&measured);
+    let largest = &said[0];
+    assert!(
+        largest.starts_with("The largest part of the error is that of "),
+        "{largest}"
+    );
+    let most = said
+        .iter()
+        .find(|line| line.starts_with("Most for its price: --set "));
+    let most = most.expect("more queries lessen the error of counting");
+    let sets: Vec<String> = (most.split("--set ").skip(1))
+        .map(|set| set.split([' ', ',']).next().unwrap().to_owned())
+        .collect();
+    let changed = parse(LIT, "lit.yaml", &sets, "".as_ref()).unwrap();
+    let changed = Setting::of(&changed.valid.parameters());
+    let row = measured.rows.iter().find(|row| {
+        let sweep = row.setting.sweep;
+        row.setting == Setting { sweep, ..changed }
+    });
+    let row = row.expect("it was measured");
+    let total = row.errors[5].value;
+    assert!(
+        most.contains(&format!("a total error of {:.2} %", 100.0 * total)),
+        "{most}"
+    );
+    assert!(total < 0.9 * measured.rows[0].errors[5].value);
+    // Nothing is better than what has no error.
+    for band in &mut measured.rows[0].errors {
+        band.value = 0.0;
+    }
+    assert!(advice::sentences(&measured).is_empty());
+}
+
 #[test]
 fn the_page_is_whole_and_asks_nobody() {
     let folder = Scratch::new();
@@ -287,6 +379,8 @@ fn the_page_is_whole_and_asks_nobody() {
     let page = std::fs::read_to_string(folder.path("index.html")).unwrap();
     assert!(page.contains("lit &amp; &quot;floor&quot;: speed against accuracy"));
     assert!(!page.contains("NaN") && !page.contains(">inf"));
+    assert!(page.contains("<h2>What to change next</h2>") && page.contains("<details open>"));
+    assert!(page.contains("radiance: [3, 2, 1]"), "the scene's text");
     // Only the names of formats are addresses.
     for part in page.split("http").skip(1) {
         assert!(part.starts_with("://www.w3.org/2000/svg"), "{part:.60}");

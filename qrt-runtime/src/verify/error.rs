@@ -9,6 +9,14 @@ use qrt_core::sampling::SamplingError;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum VerifyError {
+    /// More portions than there are pixels to check.
+    #[error("{pixels} pixels can't be dealt out to {count} portions: ask for fewer")]
+    Portions {
+        /// How many portions.
+        count: u32,
+        /// Pixels that are checked.
+        pixels: u64,
+    },
     /// No parameters keep the accuracy that the scene asks for.
     #[error(transparent)]
     Plan(#[from] PlanError),
@@ -48,7 +56,10 @@ impl VerifyError {
         match self {
             Self::Plan(error) => error.is_refusal(),
             Self::Threads(_) | Self::Interrupted { .. } => false,
-            Self::Oracle(_) | Self::Sampling(_) | Self::TooManyPaths { .. } => true,
+            Self::Oracle(_)
+            | Self::Sampling(_)
+            | Self::TooManyPaths { .. }
+            | Self::Portions { .. } => true,
         }
     }
 }

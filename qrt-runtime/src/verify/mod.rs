@@ -14,6 +14,7 @@ pub use error::VerifyError;
 
 use crate::machines::{Defect, OracleCircuits, OracleMachine, Real};
 use crate::plan;
+use crate::render::Portion;
 use crate::sample::spread;
 use crate::workers::{Progress, Workers};
 use paths::{Found, Trio, show};
@@ -37,6 +38,8 @@ const SHOWN: usize = 8;
 pub struct Options<'a> {
     /// How many pixels, spread over the film; all of them if it has no more.
     pub pixels: u64,
+    /// Of these, dealt out one by one, those that are checked; all unless set.
+    pub portion: Portion,
     /// Keys the shifts of the digital net.
     pub seed: u64,
     /// Who does the work; told of paths.
@@ -47,6 +50,7 @@ impl Default for Options<'_> {
     fn default() -> Self {
         Self {
             pixels: 16,
+            portion: Portion::WHOLE,
             seed: 0,
             workers: Workers::default(),
         }
@@ -128,12 +132,7 @@ pub fn verify(scene: &ValidScene, options: &Options<'_>) -> Result<Report, Verif
     let planned = plan::plan(scene, &planning)?;
     let scene = planned.as_ref().map_or(scene, |plan| &plan.scene);
     let film = [scene.scene().film.width, scene.scene().film.height];
-    let chosen = spread(
-        film,
-        options
-            .pixels
-            .clamp(1, u64::from(film[0]) * u64::from(film[1])),
-    );
+    let chosen = chosen(film, options)?;
     let classes = PixelClasses::new(scene);
     // Each pixel by the circuit of its class.
     let mut whole: Option<Report> = None;
@@ -165,10 +164,25 @@ pub fn verify_parts(
     parts: OracleCircuits,
     options: &Options<'_>,
 ) -> Result<Report, VerifyError> {
-    let area = u64::from(oracle.film[0]) * u64::from(oracle.film[1]);
-    let pixels = spread(oracle.film, options.pixels.clamp(1, area));
+    let pixels = chosen(oracle.film, options)?;
     let real = Real::new(scene, options.seed)?;
     verify_pixels(scene, &real, oracle, parts, pixels, options)
+}
+
+/// The pixels that are checked.
+fn chosen(film: [u32; 2], options: &Options<'_>) -> Result<Vec<[u32; 2]>, VerifyError> {
+    let area = u64::from(film[0]) * u64::from(film[1]);
+    let all = spread(film, options.pixels.clamp(1, area));
+    let (portion, pixels) = (options.portion, all.len() as u64);
+    if u64::from(portion.count()) > pixels {
+        let count = portion.count();
+        return Err(VerifyError::Portions { count, pixels });
+    }
+    let mine = all
+        .into_iter()
+        .enumerate()
+        .filter(|(number, _)| portion.takes(*number));
+    Ok(mine.map(|(_, pixel)| pixel).collect())
 }
 
 fn verify_pixels(

@@ -7,6 +7,7 @@ use qrt::core::scene::meshes::Meshes;
 use qrt::core::scene::{Bsdf, Jacobian};
 use qrt::core::syntax::{Problem, Report};
 use qrt::core::valid::{bsdf, validate};
+use qrt::runtime::mitsuba;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
@@ -124,6 +125,14 @@ fn elsewhere() -> Vec<String> {
     ] {
         texts.push(tell(&fine, vec![error.problem()]));
     }
+
+    let shiny = wall("").source.text.replace(
+        "emitter: { radiance: [1, 1, 1] }",
+        "phong: { diffuse: [0, 0, 0], specular: [0.5, 0.5, 0.5], exponent: 9 }",
+    );
+    let shiny = parse(&shiny, "wall.yaml", &[], "".as_ref()).unwrap();
+    let refused = mitsuba::export(&shiny.valid, "wall").unwrap_err();
+    texts.push(tell(&shiny, vec![refused.problem()]));
 
     let nothing = "\
 name: cellar

@@ -1,4 +1,6 @@
-//! `qrt export`: a pixel's circuit for other programs.
+//! `qrt export`: a pixel's circuit, or the scene, for other programs.
+
+mod mitsuba;
 
 use super::args::{SceneArgs, choice, numbers};
 use super::failure::Failure;
@@ -24,14 +26,36 @@ use std::io::{self, BufWriter, ErrorKind, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-const FORMATS: [(Format, &str); 2] = [
+/// What is written, and for whom.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Language {
+    /// A circuit.
+    Circuit(Format),
+    /// The scene, for Mitsuba.
+    Mitsuba,
+}
+
+impl Language {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Circuit(format) => format.name(),
+            Self::Mitsuba => "mitsuba",
+        }
+    }
+}
+
+const LANGUAGES: [(Language, &str); 3] = [
     (
-        Format::OpenQasm3,
+        Language::Circuit(Format::OpenQasm3),
         "OpenQASM 3.0, of its standard gates alone",
     ),
     (
-        Format::OpenQasm2,
+        Language::Circuit(Format::OpenQasm2),
         "OpenQASM 2.0, for programs that do not read version 3",
+    ),
+    (
+        Language::Mitsuba,
+        "The scene as XML for the renderer Mitsuba 3, with its faces in .ply files beside it",
     ),
 ];
 
@@ -44,7 +68,7 @@ const PARTS: [(Part, &str); 3] = [
 /// Bytes of a gate's line, of a circuit of some 10,000 to 100,000 qubits.
 const BYTES_A_GATE: u64 = 28;
 
-/// Write a pixel's circuit as OpenQASM, for other programs
+/// Write a pixel's circuit as OpenQASM, or the scene for Mitsuba 3
 ///
 /// The oracle flips the signs of the pixel's good indices. It computes the colours of all paths,
 /// compares, flips and uncomputes, with X, CNOT, Toffoli and Z gates. The pixel's position is built
@@ -57,6 +81,10 @@ const BYTES_A_GATE: u64 = 28;
 /// Bit 0 of every register is its least significant. Every qubit starts at zero. For the oracle and
 /// the iterate, prepare the index (its path and its comparator) yourself, for example with
 /// Hadamards.
+///
+/// For Mitsuba, the whole scene is written: its `path` integrator renders the picture that qrt
+/// renders, so that anyone can check one by the other. A `phong` that shines, and a `bsdf` of one's
+/// own, have no counterpart there.
 #[derive(Clone, Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -64,17 +92,19 @@ Examples:
   qrt export box.yaml --pixel 10,20 --channel g -o g.qasm
   qrt export box.yaml --part counting --set counting.phase_bits=3
   qrt export box.yaml --part grover --stratum 0/4        the darkest eighth of the comparator
-  qrt export box.yaml --format openqasm2 -o - | gzip > box.qasm.gz")]
+  qrt export box.yaml --format openqasm2 -o - | gzip > box.qasm.gz
+  qrt export box.yaml --format mitsuba   the scene, box.xml and box.N.MATERIAL.ply")]
 pub(crate) struct ExportArgs {
-    /// The file; `-` is standard output [default: SCENE's name with .qasm, in the current folder]
+    /// The file; `-` is standard output, for a circuit [default: SCENE's name with .qasm or .xml, in
+    /// the current folder]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// The language
-    #[arg(long, value_parser = choice(FORMATS, Format::name), default_value = "openqasm3")]
-    format: Format,
-    /// Which part of the circuit
-    #[arg(long, value_parser = choice(PARTS, part_name), default_value = "oracle")]
-    part: Part,
+    #[arg(long, value_parser = choice(LANGUAGES, Language::name), default_value = "openqasm3")]
+    format: Language,
+    /// Which part of the circuit [default: oracle]
+    #[arg(long, value_parser = choice(PARTS, part_name))]
+    part: Option<Part>,
     /// The pixel: column and row, from 0 at the top left [default: the one in the middle]
     #[arg(long, value_name = "X,Y", value_parser = pixel, allow_hyphen_values = true)]
     pixel: Option<[u32; 2]>,
@@ -86,17 +116,31 @@ pub(crate) struct ExportArgs {
     /// and counting; the oracle is the same for all
     #[arg(long, value_name = "K/N", value_parser = stratum)]
     stratum: Option<(u32, u32)>,
-    /// Another seed gives other paths
-    #[arg(long, value_name = "S", default_value_t = 0)]
-    seed: u64,
-    /// Refuse to write more gates; a gate takes some 28 bytes
-    #[arg(long, value_name = "N", default_value_t = 50_000_000)]
-    max_gates: u64,
+    /// Another seed gives other paths [default: 0]
+    #[arg(long, value_name = "S")]
+    seed: Option<u64>,
+    /// Refuse to write more gates; a gate takes some 28 bytes [default: 50000000]
+    #[arg(long, value_name = "N")]
+    max_gates: Option<u64>,
     /// JSON instead of a summary
     #[arg(long)]
     json: bool,
     #[command(flatten)]
     scene: SceneArgs,
+}
+
+impl ExportArgs {
+    fn part(&self) -> Part {
+        self.part.unwrap_or(Part::Oracle)
+    }
+
+    fn seed(&self) -> u64 {
+        self.seed.unwrap_or(0)
+    }
+
+    fn max_gates(&self) -> u64 {
+        self.max_gates.unwrap_or(50_000_000)
+    }
 }
 
 fn part_name(part: Part) -> &'static str {
@@ -143,7 +187,7 @@ fn stratum_of(args: &ExportArgs, bits: u32) -> Result<Option<Stratum>, Failure> 
         return Ok(None);
     };
     let refuse = |message: String| Err(Failure::Usage(message));
-    if args.part == Part::Oracle {
+    if args.part() == Part::Oracle {
         return refuse(
             "--stratum is of what is counted, and the oracle is the same for all strata: it needs \
              --part grover or counting"
@@ -177,6 +221,7 @@ fn fixed(
 /// A circuit that is written, and what is said of it.
 struct Exported<'a> {
     args: &'a ExportArgs,
+    format: Format,
     scene: &'a ValidScene,
     channel: usize,
     pixel: [u32; 2],
@@ -189,6 +234,13 @@ struct Exported<'a> {
 }
 
 pub(crate) fn run(args: &ExportArgs) -> Result<(), Failure> {
+    match args.format {
+        Language::Circuit(format) => circuit(args, format),
+        Language::Mitsuba => mitsuba::run(args),
+    }
+}
+
+fn circuit(args: &ExportArgs, format: Format) -> Result<(), Failure> {
     let file = args
         .output
         .clone()
@@ -226,7 +278,7 @@ pub(crate) fn run(args: &ExportArgs) -> Result<(), Failure> {
         .map_err(|error| loaded.report(vec![error.problem()]))?;
     keep_budget(&loaded, &inspection)?;
     let failed = |error: &dyn std::error::Error| Failure::Job(error.to_string());
-    let oracle = inspection.oracle.phase(0, args.seed, pixel);
+    let oracle = inspection.oracle.phase(0, args.seed(), pixel);
     let mut oracle = oracle.map_err(|error| failed(&error))?;
     let path_bits = inspection.oracle.points.path_bits();
     let bits = inspection.oracle.comparator_bits();
@@ -244,7 +296,7 @@ pub(crate) fn run(args: &ExportArgs) -> Result<(), Failure> {
     // The gates come from its program, of which the oracle has its own.
     let channel = inspection.channel;
     drop(inspection);
-    let export = Export::new(&counting, args.part, Some(path_bits));
+    let export = Export::new(&counting, args.part(), Some(path_bits));
     let export = export.map_err(|error| failed(&error))?;
     allow(args, &counting, window, export.gates())?;
     let bar = Bar::gates(!args.json && !to_stdout);
@@ -256,6 +308,7 @@ pub(crate) fn run(args: &ExportArgs) -> Result<(), Failure> {
     let export = export.with_cancel(&cancel).with_progress(&show);
     let exported = Exported {
         args,
+        format,
         scene,
         channel,
         pixel,
@@ -304,11 +357,11 @@ fn allow(
     window: Window,
     gates: u64,
 ) -> Result<(), Failure> {
-    if gates <= args.max_gates {
+    if gates <= args.max_gates() {
         return Ok(());
     }
-    let shorter = if args.part == Part::Counting {
-        match longest(counting, window, args.max_gates) {
+    let shorter = if args.part() == Part::Counting {
+        match longest(counting, window, args.max_gates()) {
             None => format!(
                 "; one iterate alone has {}",
                 grouped(counting.iterate().gates(true))
@@ -322,7 +375,7 @@ fn allow(
         "{} gates, some {} of text, are more than --max-gates {}{shorter}",
         grouped(gates),
         size(gates.saturating_mul(BYTES_A_GATE)),
-        args.max_gates
+        args.max_gates()
     )))
 }
 
@@ -350,7 +403,7 @@ fn size(bytes: u64) -> String {
 
 impl Exported<'_> {
     fn write(&self, out: &mut impl Write) -> Result<Tally, ExportError> {
-        self.export.write(self.args.format, &self.comments(), out)
+        self.export.write(self.format, &self.comments(), out)
     }
 
     fn to_file(&self, output: &Output) -> Result<Option<Tally>, Failure> {
@@ -378,14 +431,14 @@ impl Exported<'_> {
 
     fn comments(&self) -> Vec<String> {
         let [x, y] = self.pixel;
-        let part = self.args.part;
+        let part = self.args.part();
         let mut lines = vec![format!(
             "qrt {}: {}, {} of channel {}, pixel {x},{y}, seed {}",
             env!("CARGO_PKG_VERSION"),
             self.scene.scene().name,
             part_name(part),
             CHANNELS[self.channel],
-            self.args.seed
+            self.args.seed()
         )];
         lines.extend(about(part).iter().map(|line| (*line).to_owned()));
         if let (Some((number, strata)), Some(stratum)) = (self.args.stratum, self.stratum) {
@@ -406,7 +459,7 @@ impl Exported<'_> {
         };
         format!(
             "{file}: {} of channel {}, pixel {x},{y}; {}; {}\n",
-            part_name(self.args.part),
+            part_name(self.args.part()),
             CHANNELS[self.channel],
             tally.text(),
             size(tally.bytes)
@@ -422,18 +475,18 @@ impl Exported<'_> {
         let gates: Map<String, Value> = gates
             .map(|(name, gates)| ((*name).to_owned(), json!(gates)))
             .collect();
-        let counting = self.args.part == Part::Counting;
+        let counting = self.args.part() == Part::Counting;
         json!({
             "version": 1,
             "qrt": env!("CARGO_PKG_VERSION"),
             "scene": self.scene.scene().name,
             "scene_hash": self.scene.fingerprint().to_string(),
             "file": self.file.display().to_string(),
-            "format": self.args.format.name(),
-            "part": part_name(self.args.part),
+            "format": self.format.name(),
+            "part": part_name(self.args.part()),
             "channel": CHANNELS[self.channel],
             "pixel": self.pixel,
-            "seed": self.args.seed,
+            "seed": self.args.seed(),
             "queries": if counting { self.counting.queries() } else { 1 },
             "window": counting.then(|| self.window.name()),
             "stratum": self.stratum.map(|stratum| {

@@ -1,0 +1,93 @@
+"""The renderer Mitsuba 3 has qrt's pictures as its expected values."""
+
+import pathlib
+
+import numpy
+import pytest
+
+import qrt
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+# Independent renderings, so that the error of their mean is known without a model of it.
+RUNS = 8
+
+
+@pytest.fixture(scope="module")
+def mitsuba():
+    mitsuba = pytest.importorskip("mitsuba", reason="pip install mitsuba")
+    mitsuba.set_variant("scalar_rgb")
+    return mitsuba
+
+
+def _mesh(folder):
+    """A roof of four triangles over the floor, from a file."""
+    (folder / "roof.obj").write_text(
+        "v -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\nv 0 1.5 0\n"
+        "f 1 5 2\nf 2 5 3\nf 3 5 4\nf 4 5 1\n"
+    )
+    return """
+name: roof
+camera: { orthographic: { eye: [3, 4, 5], target: [0, 0.5, 0], height: 4 } }
+film: { width: 16, height: 12 }
+materials:
+  white: { lambertian: { albedo: [0.8, 0.6, 0.4] } }
+  lamp: { emitter: { radiance: [5, 5, 4], albedo: [0.2, 0.2, 0.2] } }
+  metal: { mirror: { reflectance: [0.9, 0.8, 0.7] } }
+geometry:
+  - quad: { vertices: [[-3, 0, 3], [3, 0, 3], [3, 0, -3], [-3, 0, -3]], material: white }
+  - quad: { vertices: [[-2, 3, -2], [2, 3, -2], [2, 3, 1], [-2, 3, 1]], material: lamp }
+  - quad: { vertices: [[-3, 0, -3], [3, 0, -3], [3, 3, -3], [-3, 2, -3]], material: metal }
+  - mesh: { obj: roof.obj, material: white, scale: 0.9, rotate: [0, 30, 0], translate: [0, 0.1, 0] }
+"""
+
+
+@pytest.mark.parametrize("name", ["cornell", "cornell_glass", "cornell_ggx", "roof"])
+def test_mitsuba_agrees_within_its_standard_errors(name, mitsuba, tmp_path):
+    path = tmp_path / f"{name}.yaml"
+    if name == "roof":
+        path.write_text(_mesh(tmp_path))
+    else:
+        path.write_text((ROOT / f"tests/references/{name}.yaml").read_text())
+    bounce = {"bits": [10, 10], "light": [10, 10]}
+    settings = {"sampling.depths": [{"bits": [16, 16]}, bounce, bounce], "sampling.path_bits": 14}
+    if name != "roof":
+        settings |= {"film.width": 16, "film.height": 16}
+    ours = qrt.load(path, set=settings)
+    text, meshes = ours.mitsuba()
+    (tmp_path / "scene.xml").write_text(text)
+    for file, content in meshes.items():
+        (tmp_path / file).write_bytes(content)
+    scene = mitsuba.load_file(str(tmp_path / "scene.xml"), spp=1024)
+    runs = [numpy.array(mitsuba.render(scene, seed=seed)) for seed in range(RUNS)]
+    mean = numpy.mean(runs, axis=0)
+    error = numpy.std(runs, axis=0, ddof=1) / RUNS**0.5
+
+    picture = ours.render(estimator="exact", seed=1, progress=False)
+    assert picture.pixels.shape == mean.shape
+    # The film's mean is far better known than a pixel: 0.3 % covers what 2^14 paths leave.
+    means = [numpy.mean(run, axis=(0, 1)) for run in runs]
+    sigma = numpy.std(means, axis=0, ddof=1) / RUNS**0.5
+    found, asked = picture.pixels.mean(axis=(0, 1)), mean.mean(axis=(0, 1))
+    assert (abs(found - asked) < 4 * sigma + 0.003 * asked).all(), (found, asked, sigma)
+    # Of eight runs a standard error is itself a guess: Student's t of seven degrees of freedom is
+    # within 3.5 in 99 of 100. qrt's own error is some 2 % of a pixel.
+    off = abs(picture.pixels - mean) > 3.5 * error + 0.03 * mean.mean()
+    assert off.mean() < 0.03, off.mean()
+
+
+def test_what_mitsuba_lacks_is_named_at_its_place():
+    shiny = {"diffuse": [0.1, 0.1, 0.1], "specular": [0.5, 0.5, 0.5], "exponent": 9}
+    scene = qrt.from_dict(
+        {
+            "name": "shiny",
+            "camera": {"perspective": {"eye": [0, 0, 3], "target": [0, 0, 0], "vfov": 40}},
+            "film": {"width": 2, "height": 2},
+            "materials": {"m": {"phong": shiny}},
+            "geometry": [
+                {"triangle": {"vertices": [[0, 0, 0], [1, 0, 0], [0, 1, 0]], "material": "m"}}
+            ],
+        }
+    )
+    with pytest.raises(qrt.SceneError, match="no counterpart of the `phong` of `m`") as raised:
+        scene.mitsuba()
+    assert [problem.code for problem in raised.value.problems] == ["QRT0903"]

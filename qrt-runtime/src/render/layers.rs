@@ -1,0 +1,120 @@
+//! What an EXR file of a picture can hold beside its colours.
+
+use super::{RenderError, Rendered, tiles};
+use crate::image::Layer;
+use crate::machines::{Real, SingleRay};
+use glam::DVec3;
+use qrt_core::tracer::NO_PLANE;
+use qrt_core::valid::ValidScene;
+
+/// Pixels whose first hits are found at a time.
+const PIXELS: usize = 1 << 12;
+
+impl Rendered {
+    /// The layers of the picture of `scene`, pixel by pixel, each 0 where there is nothing to tell:
+    ///
+    /// - `interval.R`, `.G`, `.B`: how wide the interval of a channel is, in radiance ([`Rendered::widths`]);
+    ///   `interval.Y` alone, of the luminance, where one run makes the colour;
+    /// - `queries.Y`: queries of the oracle, all channels together;
+    /// - `depth.Z`: from the camera to what the ray through the pixel's middle meets first, along the
+    ///   ray, in units of the scene;
+    /// - `normal.X`, `.Y`, `.Z`: the unit normal there, on the side that is seen;
+    /// - `material.ID`: the number of the material there, from 1 on, in the order of
+    ///   [`ValidScene::surfaces`].
+    ///
+    /// Viewers group the channels by what stands before the dot.
+    ///
+    /// # Errors
+    /// If `scene` is not the scene of the picture, or has no paths.
+    pub fn layers(&self, scene: &ValidScene) -> Result<Vec<Layer>, RenderError> {
+        if scene.fingerprint().to_string() != self.scene_hash {
+            return Err(RenderError::OtherScene);
+        }
+        let mut layers = Vec::new();
+        let layer = |name: &str, values: Vec<f64>| Layer {
+            name: name.to_owned(),
+            values,
+        };
+        let intervals: &[(&str, usize)] = match self.colour {
+            super::Colour::ThreeRuns => &[("interval.R", 0), ("interval.G", 1), ("interval.B", 2)],
+            super::Colour::OneRun => &[("interval.Y", 0)],
+        };
+        for &(name, channel) in intervals {
+            layers.push(layer(
+                name,
+                self.widths.iter().map(|widths| widths[channel]).collect(),
+            ));
+        }
+        layers.push(layer(
+            "queries.Y",
+            self.queries.iter().map(|&n| n as f64).collect(),
+        ));
+        let hits = first_hits(scene, self.crop)?;
+        let of = |value: fn(&FirstHit) -> f64| -> Vec<f64> {
+            hits.iter()
+                .map(|hit| hit.as_ref().map_or(0.0, value))
+                .collect()
+        };
+        layers.push(layer("depth.Z", of(|hit| hit.distance)));
+        layers.push(layer("normal.X", of(|hit| hit.normal.x)));
+        layers.push(layer("normal.Y", of(|hit| hit.normal.y)));
+        layers.push(layer("normal.Z", of(|hit| hit.normal.z)));
+        layers.push(layer("material.ID", of(|hit| f64::from(hit.material + 1))));
+        Ok(layers)
+    }
+}
+
+/// What the ray through the middle of a pixel meets first.
+struct FirstHit {
+    /// In units of the scene.
+    distance: f64,
+    /// Towards the viewer.
+    normal: DVec3,
+    /// Among the scene's surfaces, from 0.
+    material: u32,
+}
+
+fn first_hits(scene: &ValidScene, crop: [u32; 4]) -> Result<Vec<Option<FirstHit>>, RenderError> {
+    let real = Real::new(scene, 0)?;
+    let camera = real.stage().camera();
+    let unit = real.stage().geometry().scale;
+    let ray = |[x, y]: [u32; 2]| {
+        let across = [f64::from(x) + 0.5, f64::from(y) + 0.5];
+        let varying: [f64; 3] = std::array::from_fn(|axis| {
+            camera.corner[axis] + across[0] * camera.column[axis] + across[1] * camera.row[axis]
+        });
+        let (origin, direction) = if camera.perspective {
+            (camera.fixed, varying)
+        } else {
+            (varying, camera.fixed)
+        };
+        SingleRay {
+            origin,
+            direction,
+            from: NO_PLANE,
+        }
+    };
+    let pixels: Vec<[u32; 2]> = tiles::pixels(crop).collect();
+    let mut hits = Vec::with_capacity(pixels.len());
+    for pixels in pixels.chunks(PIXELS) {
+        let rays: Vec<SingleRay> = pixels.iter().map(|&pixel| ray(pixel)).collect();
+        for (ray, met) in rays.iter().zip(real.nearest(&rays)) {
+            hits.push(met.and_then(|met| {
+                let polygon = scene.polygons().get(met.face as usize)?;
+                let [v0, v1, v2, _] = polygon.vertices;
+                let normal = (v1 - v0).cross(v2 - v0).normalize();
+                let direction = DVec3::from_array(ray.direction);
+                Some(FirstHit {
+                    distance: met.distance * direction.length() / unit,
+                    normal: if normal.dot(direction) > 0.0 {
+                        -normal
+                    } else {
+                        normal
+                    },
+                    material: polygon.surface,
+                })
+            }));
+        }
+    }
+    Ok(hits)
+}

@@ -1,0 +1,368 @@
+//! What other renderers and viewers read and write: `qrt export --format mitsuba`, layers of an .exr,
+//! `qrt diff`.
+
+use crate::common::command::Folder;
+use exr::prelude as openexr;
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+
+const BOX: &str = include_str!("../scenes/box.yaml");
+
+/// Three walls across the view: the left half a matte one at distance 3, the right half a tilted
+/// mirror, and nothing in the upper half.
+const WALLS: &str = "
+name: walls & <more>
+camera: { orthographic: { eye: [0, 0, 4], target: [0, 0, 0], height: 2 } }
+film: { width: 4, height: 2 }
+materials:
+  unused: { lambertian: { albedo: [0.1, 0.1, 0.1] } }
+  \"a/b\": { emitter: { radiance: [1, 0.5, 0.25], albedo: [0.5, 0.5, 0.5] } }
+  glass: { dielectric: { ior: 1.5 } }
+geometry:
+  - quad: { vertices: [[-2, -1, 1], [0, -1, 1], [0, 0, 1], [-2, 0, 1]], material: a/b }
+  - quad: { vertices: [[0, -1, 0], [0, 0, 0], [2, 0, 2], [2, -1, 2]], material: glass }
+sampling: { path_bits: 4, depths: [{ bits: [4, 4] }, { bits: [4, 4] }] }
+";
+
+type Channels = BTreeMap<String, Vec<f32>>;
+
+fn channels(path: &Path) -> Channels {
+    let read = openexr::read_all_flat_layers_from_file(path).unwrap();
+    let list = read.layer_data[0].channel_data.list.iter();
+    list.map(|channel| {
+        let values = channel.sample_data.values_as_f32().collect();
+        (channel.name.to_string(), values)
+    })
+    .collect()
+}
+
+#[test]
+fn layers_tell_of_first_hits_where_they_are() {
+    let folder = Folder::with("walls.yaml", WALLS);
+    folder.works(&[
+        "render",
+        "walls.yaml",
+        "--layers",
+        "-o",
+        "w.exr",
+        "--estimator",
+        "exact",
+    ]);
+    let found = channels(&folder.path("w.exr"));
+    let names: Vec<&str> = found.keys().map(String::as_str).collect();
+    let asked = [
+        "B",
+        "G",
+        "R",
+        "depth.Z",
+        "interval.B",
+        "interval.G",
+        "interval.R",
+        "material.ID",
+        "normal.X",
+        "normal.Y",
+        "normal.Z",
+        "queries.Y",
+    ];
+    assert_eq!(names, asked);
+    // The upper half sees nothing. Pixels' middles are at x = -1.5, -0.5, 0.5, 1.5.
+    let half = 0.5f32.sqrt();
+    for (name, lower) in [
+        ("depth.Z", [3.0, 3.0, 3.5, 2.5]),
+        ("normal.X", [0.0, 0.0, -half, -half]),
+        ("normal.Y", [0.0; 4]),
+        ("normal.Z", [1.0, 1.0, half, half]),
+        ("material.ID", [2.0, 2.0, 3.0, 3.0]),
+        ("queries.Y", [0.0; 4]),
+        ("interval.R", [0.0; 4]),
+    ] {
+        let (upper, found) = found[name].split_at(4);
+        assert_eq!(upper, [0.0; 4], "{name}");
+        for (found, asked) in found.iter().zip(lower) {
+            assert!((found - asked).abs() < 1e-6, "{name}: {found} {asked}");
+        }
+    }
+    // A crop is cut out of the same, and a file without layers has the same colours.
+    folder.works(&[
+        "render",
+        "walls.yaml",
+        "--layers",
+        "-o",
+        "c.exr",
+        "--crop",
+        "1,1,2,1",
+    ]);
+    assert_eq!(
+        channels(&folder.path("c.exr"))["depth.Z"],
+        found["depth.Z"][5..7]
+    );
+    folder.works(&[
+        "render",
+        "walls.yaml",
+        "-o",
+        "plain.exr",
+        "--estimator",
+        "exact",
+    ]);
+    let plain = channels(&folder.path("plain.exr"));
+    assert_eq!(plain.len(), 3);
+    assert!(plain.iter().all(|(name, values)| found[name] == *values));
+}
+
+#[test]
+fn layers_tell_of_counting_what_stats_and_intervals_do() {
+    let folder = Folder::with("box.yaml", BOX);
+    let counted = [
+        "render",
+        "box.yaml",
+        "--set",
+        "counting.estimator=adaptive-bayes",
+        "--layers",
+    ];
+    folder.works(&[&counted[..], &["-o", "b.exr", "--stats", "b.json"]].concat());
+    folder.works(&[
+        "render",
+        "box.yaml",
+        "--estimator",
+        "exact",
+        "-o",
+        "exact.exr",
+    ]);
+    let (found, exact) = (
+        channels(&folder.path("b.exr")),
+        channels(&folder.path("exact.exr")),
+    );
+    let queries: f64 = found["queries.Y"].iter().map(|&n| f64::from(n)).sum();
+    let stats: Value = serde_json::from_slice(&folder.read("b.json")).unwrap();
+    assert_eq!(queries, stats["oracle_queries"].as_f64().unwrap());
+    // An interval that lies about its estimate holds the exact value within its width, with its
+    // confidence, 95 %, and the 143 pixels' comparators add little to that.
+    for [value, width] in [
+        ["R", "interval.R"],
+        ["G", "interval.G"],
+        ["B", "interval.B"],
+    ] {
+        let all = found[value].iter().zip(&exact[value]).zip(&found[width]);
+        let inside =
+            all.filter(|((value, exact), width)| (*value - *exact).abs() <= **width + 1e-3);
+        let inside = inside.count();
+        assert!(inside >= 130, "{value}: {inside} of 143");
+        assert!(found[width].iter().any(|&width| width > 0.0), "{width}");
+    }
+    // Of one run, the luminance's alone.
+    folder.works(&[&counted[..], &["-o", "one.exr", "--colour", "one-run"]].concat());
+    let one = channels(&folder.path("one.exr"));
+    assert!(one.contains_key("interval.Y") && !one.contains_key("interval.R"));
+    let errors = folder.fails(2, &["render", "box.yaml", "--layers"]);
+    assert!(
+        errors.contains("`box.png` cannot keep layers: name an .exr"),
+        "{errors}"
+    );
+}
+
+/// Vertices and triangles of a binary PLY file.
+fn ply(bytes: &[u8]) -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
+    let end = b"end_header\n";
+    let at = bytes
+        .windows(end.len())
+        .position(|window| window == end)
+        .unwrap()
+        + end.len();
+    let header = std::str::from_utf8(&bytes[..at]).unwrap();
+    let count = |of: &str| -> usize {
+        let line = header.lines().find_map(|line| line.strip_prefix(of));
+        line.unwrap().trim().parse().unwrap()
+    };
+    let (vertices, faces) = (count("element vertex"), count("element face"));
+    let (points, corners) = bytes[at..].split_at(24 * vertices);
+    assert_eq!(corners.len(), 13 * faces);
+    let number = |bytes: &[u8]| f64::from_le_bytes(bytes.try_into().unwrap());
+    let points = points.chunks_exact(24);
+    let points = points.map(|p| [number(&p[..8]), number(&p[8..16]), number(&p[16..])]);
+    let corners = corners.chunks_exact(13).map(|face| {
+        assert_eq!(face[0], 3);
+        let corner = |k: usize| u32::from_le_bytes(face[1 + 4 * k..5 + 4 * k].try_into().unwrap());
+        [corner(0), corner(1), corner(2)]
+    });
+    (points.collect(), corners.collect())
+}
+
+#[test]
+fn a_scene_for_mitsuba_is_xml_that_names_files_which_hold_its_faces() {
+    let folder = Folder::with("walls.yaml", WALLS);
+    let said = folder.works(&["export", "walls.yaml", "--format", "mitsuba"]);
+    assert!(
+        said.starts_with(
+            "walls.xml: for Mitsuba 3, with 2 faces, those of 1 material in .ply files beside it"
+        ),
+        "{said}"
+    );
+    let file = "walls.3.glass.ply";
+    assert_eq!(folder.names(), [file, "walls.xml", "walls.yaml"]);
+    let text = String::from_utf8(folder.read("walls.xml")).unwrap();
+    let xml = roxmltree::Document::parse(&text).unwrap();
+    let named = |name: &str| -> Vec<&str> {
+        let nodes = xml
+            .descendants()
+            .filter(|node| node.attribute("name") == Some(name));
+        nodes.map(|node| node.attribute("value").unwrap()).collect()
+    };
+    assert_eq!(named("max_depth"), ["2", "$max_depth"]);
+    assert_eq!(named("filename"), [file]);
+    assert_eq!(named("face_normals"), ["true"]);
+    assert_eq!(named("radiance"), ["1, 0.5, 0.25"]);
+    assert_eq!(named("reflectance"), ["0.5, 0.5, 0.5"]);
+    assert_eq!([named("int_ior"), named("ext_ior")], [["1.5"], ["1"]]);
+    assert_eq!([named("width"), named("height")], [["4"], ["2"]]);
+    // The lamp is a parallelogram: from the square of -1 to 1, whose normal is z.
+    let matrix = xml.descendants().find(|node| node.has_tag_name("matrix"));
+    let matrix = matrix.and_then(|node| node.attribute("value")).unwrap();
+    assert_eq!(matrix, "1 0 0 -1 0 0.5 0 -0.5 0 0 1 1 0 0 0 1");
+    let scale = xml
+        .descendants()
+        .find(|node| node.has_tag_name("scale"))
+        .unwrap();
+    assert_eq!(scale.attribute("x"), Some("2"));
+    let (points, triangles) = ply(&folder.read(file));
+    assert_eq!(
+        points,
+        [[0., -1., 0.], [0., 0., 0.], [2., 0., 2.], [2., -1., 2.]]
+    );
+    assert_eq!(triangles, [[0, 1, 2], [0, 2, 3]]);
+
+    let told = folder.works(&["export", "walls.yaml", "--format", "mitsuba", "--json"]);
+    let told: Value = serde_json::from_str(&told).unwrap();
+    assert_eq!(told["meshes"], json!([file]));
+    assert_eq!(
+        (&told["format"], &told["faces"]),
+        (&json!("mitsuba"), &json!(2))
+    );
+}
+
+#[test]
+fn what_mitsuba_cannot_show_is_refused_where_it_is_written() {
+    let scene = |material: &str| {
+        WALLS.replace(
+            "glass: { dielectric: { ior: 1.5 } }",
+            &format!("glass: {material}"),
+        )
+    };
+    let shiny = "{ phong: { diffuse: [0.1, 0.1, 0.1], specular: [0.5, 0.5, 0.5], exponent: 9 } }";
+    let folder = Folder::with("s.yaml", &scene(shiny));
+    let errors = folder.fails(2, &["export", "s.yaml", "--format", "mitsuba"]);
+    for part in [
+        "error[QRT0903]",
+        "s.yaml:8:19",
+        "no counterpart of the `phong` of `glass`",
+    ] {
+        assert!(errors.contains(part), "{errors}");
+    }
+    assert_eq!(folder.names(), ["s.yaml"]);
+    let matte = shiny.replace("[0.5, 0.5, 0.5]", "[0, 0, 0]");
+    fs::write(folder.path("s.yaml"), scene(&matte)).unwrap();
+    folder.works(&["export", "s.yaml", "--format", "mitsuba"]);
+    let own = r#"{ bsdf: { map: ["sqrt(u)*cos(2*pi*v)", "sqrt(u)*sin(2*pi*v)", "sqrt(1-u)"], value: ["0.3"] } }"#;
+    fs::write(folder.path("s.yaml"), scene(own)).unwrap();
+    let errors = folder.fails(2, &["export", "s.yaml", "--format", "mitsuba"]);
+    assert!(
+        errors.contains("no counterpart of the `bsdf` of `glass`"),
+        "{errors}"
+    );
+
+    for (more, says) in [
+        (&["--pixel", "1,1"][..], "--pixel is of a pixel's circuit"),
+        (&["--seed", "1"], "--seed is of a pixel's circuit"),
+        (&["-o", "-"], "several files: name the first"),
+        (&["-o", "s.yaml"], "used for two different things"),
+    ] {
+        let command = [&["export", "s.yaml", "--format", "mitsuba"], more].concat();
+        let errors = folder.fails(2, &command);
+        assert!(errors.contains(says), "{errors}");
+    }
+}
+
+#[test]
+fn pictures_are_compared_and_their_errors_shown() {
+    let folder = Folder::with("box.yaml", BOX);
+    let render = |name: &str, more: &[&str]| {
+        folder.works(&[&["render", "box.yaml", "-o", name], more].concat());
+    };
+    render("exact.exr", &["--estimator", "exact"]);
+    render("counted.exr", &["--seed", "3"]);
+    render("exact.png", &["--estimator", "exact"]);
+    render("counted.png", &["--seed", "3"]);
+    let diff = |more: &[&str]| -> Value {
+        let told = folder.works(&[&["diff"], more, &["--json"]].concat());
+        serde_json::from_str(&told).unwrap()
+    };
+    let same = diff(&["exact.exr", "exact.exr"]);
+    assert_eq!(
+        [&same["rmse"], &same["relative_mse"], &same["flip"]],
+        [0.0, 0.0, 0.0]
+    );
+    let found = diff(&["exact.exr", "counted.exr", "-o", "error.png"]);
+    // By the values themselves.
+    let [exact, counted] = ["exact.exr", "counted.exr"].map(|name| channels(&folder.path(name)));
+    let mut squares = [0.0f64; 2];
+    for (name, reference) in &exact {
+        for (a, b) in reference.iter().zip(&counted[name]) {
+            let (a, b) = (f64::from(*a), f64::from(*b));
+            squares[0] += (b - a).powi(2);
+            squares[1] += (b - a).powi(2) / (a * a + 0.01);
+        }
+    }
+    let [rmse, relative] = squares.map(|sum| sum / (3.0 * 143.0));
+    assert!((found["rmse"].as_f64().unwrap() - rmse.sqrt()).abs() < 1e-12);
+    assert!((found["relative_mse"].as_f64().unwrap() - relative).abs() < 1e-12);
+    let flip = found["flip"].as_f64().unwrap();
+    assert!(flip > 0.0 && flip < 1.0, "{flip}");
+    let decoder = png::Decoder::new(std::io::Cursor::new(folder.read("error.png")));
+    assert_eq!(decoder.read_info().unwrap().info().size(), (13, 11));
+    let shown = diff(&["exact.png", "counted.png"]);
+    assert_eq!(shown["of"], "display");
+    assert!(shown["flip"].as_f64().unwrap() > 0.0);
+    let text = folder.works(&["diff", "exact.png", "counted.png"]);
+    for part in [
+        "counted.png against exact.png: 13 x 11 pixels",
+        "RMSE",
+        "relative MSE",
+        "FLIP",
+    ] {
+        assert!(text.contains(part), "{text}");
+    }
+
+    render("crop.exr", &["--crop", "0,0,3,3"]);
+    fs::write(folder.path("not.png"), "no picture").unwrap();
+    fs::write(folder.path("not.exr"), &folder.read("exact.exr")[..500]).unwrap();
+    for (code, arguments, says) in [
+        (
+            2,
+            &["exact.exr", "crop.exr"][..],
+            "13 x 11 and 3 x 3 pixels",
+        ),
+        (2, &["exact.exr", "exact.png"], "compare two of a kind"),
+        (
+            2,
+            &["exact.exr", "box.yaml"],
+            "does not say which kind of picture",
+        ),
+        (
+            2,
+            &["exact.exr", "counted.exr", "-o", "error.exr"],
+            "end its name in `.png`",
+        ),
+        (
+            2,
+            &["exact.png", "counted.png", "-o", "exact.png"],
+            "two different things",
+        ),
+        (1, &["missing.png", "counted.png"], "`missing.png`"),
+        (1, &["not.png", "counted.png"], "`not.png`"),
+        (1, &["not.exr", "counted.exr"], "`not.exr`"),
+    ] {
+        let errors = folder.fails(code, &[&["diff"], arguments].concat());
+        assert!(errors.contains(says), "{errors}");
+    }
+}
