@@ -31,6 +31,7 @@ pages! {
     grover = "grover.md",
     counting = "counting.md",
     estimators = "estimators.md",
+    estimators_exercises = "estimators-exercises.md",
     cost = "cost.md",
     accuracy = "accuracy.md",
     extremes = "extremes.md",
