@@ -150,8 +150,8 @@ impl<'i, S: pulp::Simd, const W: usize> Nearest<Lanes<'i, S, W>> for Indexed<'_>
     ) -> Hit<Lanes<'i, S, W>> {
         let (distance, rank) = cx.apart(FindNearest {
             bvh: self.bvh,
-            // A copy, so that the tracer's own can stay in registers.
-            ray: *ray,
+            // Of a copy, so that the tracer's own can stay in registers.
+            ray: &{ *ray },
             wanted,
             scratch: &mut self.scratch.borrow_mut(),
         });
@@ -202,7 +202,7 @@ impl Indexed<'_> {
     ) -> [S::m64s; W] {
         cx.apart(FindOccluded {
             bvh: self.bvh,
-            ray: *ray,
+            ray: &{ *ray },
             ends,
             wanted,
             scratch: &mut self.scratch.borrow_mut(),

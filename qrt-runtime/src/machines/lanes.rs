@@ -178,17 +178,20 @@ macro_rules! each {
     }};
 }
 
-impl<'a, S: pulp::Simd, const W: usize> Lanes<'a, S, W> {
-    /// The same instruction set with one register a value.
+impl<'a, S: pulp::Simd> Lanes<'a, S, 1> {
+    /// One register a value, at the start of a block.
     #[inline(always)]
-    pub(crate) fn narrow(&self) -> Lanes<'a, S, 1> {
-        Lanes {
-            simd: self.simd,
-            inputs: self.inputs,
-            first: self.first,
+    pub(crate) fn single(simd: S, inputs: &'a Inputs) -> Self {
+        let first = 0;
+        Self {
+            simd,
+            inputs,
+            first,
         }
     }
+}
 
+impl<S: pulp::Simd, const W: usize> Lanes<'_, S, W> {
     /// Notes a ray of the paths that are traced.
     #[cold]
     #[inline(never)]

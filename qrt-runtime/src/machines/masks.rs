@@ -44,7 +44,7 @@ pub(crate) fn bits_of_singles<S: Simd>(simd: S, mask: S::m32s) -> u32 {
 /// `value`, if it is of this type: known when the code is compiled.
 #[cfg(target_arch = "x86_64")]
 #[inline(always)]
-fn same<A: 'static, B: 'static>(value: &A) -> Option<&B> {
+pub(crate) fn same<A: 'static, B: 'static>(value: &A) -> Option<&B> {
     (value as &dyn std::any::Any).downcast_ref()
 }
 

@@ -1,7 +1,8 @@
-//! Building the tree: binned surface area heuristic, then eight children a node.
+//! Building the tree: a binary tree by a binned surface area heuristic, then nodes of up to eight
+//! children that cover it at the least cost (Ylitie, Karras and Laine 2017).
 //!
 //! The faces of a leaf share a main axis, so that a packet sees a ray with its axes permuted in one
-//! way only. Of a smooth mesh's leaves most do by themselves.
+//! way only.
 
 use super::{Child, FACES, Node, WIDE};
 use glam::DVec3;
@@ -105,27 +106,220 @@ pub(super) fn tree(boxes: &[Bounds], axes: &[u8], large: &[u32]) -> Tree {
         bounds: [bounds.low.to_array(), bounds.high.to_array()],
     };
     if !faces.is_empty() {
-        tree.node(boxes, axes, &mut faces, [0, 1]);
+        let mut halving = Halving {
+            boxes,
+            axes,
+            parts: Vec::new(),
+        };
+        let (root, _) = halving.part(&mut faces, 0);
+        tree.node(&halving.parts, root, 1);
     }
     tree
 }
 
-/// Whether `faces` make one packet.
-fn fit(axes: &[u8], faces: &[u32]) -> bool {
-    let axis = |face: u32| axes[face as usize];
-    faces.len() <= FACES && faces.iter().all(|&face| axis(face) == axis(faces[0]))
+/// Faces of the binary tree.
+struct Part {
+    bounds: Bounds,
+    content: Content,
+}
+
+enum Content {
+    /// They make one packet, which sees a ray along this axis.
+    Packet { faces: Vec<u32>, axis: u8 },
+    /// Two parts, by their numbers; and by the number of children that a node has left for both, how
+    /// many of these the first gets at the least cost. If that is none, both are one child: a node.
+    Halves([u32; 2], [u8; WIDE + 1]),
+}
+
+/// The binary tree, while it grows.
+struct Halving<'a> {
+    boxes: &'a [Bounds],
+    axes: &'a [u8],
+    parts: Vec<Part>,
+}
+
+/// What a part costs to a ray through the root, but for a factor: by the number of children of one node
+/// that may hold it, from one on.
+type Costs = [f64; WIDE + 1];
+
+impl Halving<'_> {
+    /// The part of these faces, its number, and its costs. There are `depth` halvings above it.
+    fn part(&mut self, faces: &mut [u32], depth: usize) -> (u32, Costs) {
+        let bounds = around(self.boxes, faces);
+        let axis = self.axes[faces[0] as usize];
+        let one_axis = faces.iter().all(|&face| self.axes[face as usize] == axis);
+        let (content, costs) = if faces.len() <= FACES && one_axis {
+            let faces = faces.to_vec();
+            (Content::Packet { faces, axis }, [bounds.area(); WIDE + 1])
+        } else {
+            let middle = self.split(faces, depth);
+            let (left, right) = faces.split_at_mut(middle);
+            let (left, of_left) = self.part(left, depth + 1);
+            let (right, of_right) = self.part(right, depth + 1);
+            let (mut costs, mut shares) = ([f64::INFINITY; WIDE + 1], [0; WIDE + 1]);
+            for children in 2..=WIDE {
+                for share in 1..children {
+                    let cost = of_left[share] + of_right[children - share];
+                    if cost < costs[children] {
+                        (costs[children], shares[children]) = (cost, share as u8);
+                    }
+                }
+            }
+            costs[1] = bounds.area() + costs[WIDE];
+            for children in 2..WIDE {
+                if costs[1] <= costs[children] {
+                    (costs[children], shares[children]) = (costs[1], 0);
+                }
+            }
+            (Content::Halves([left, right], shares), costs)
+        };
+        self.parts.push(Part { bounds, content });
+        (self.parts.len() as u32 - 1, costs)
+    }
+
+    /// Reorders `faces` and returns where to cut them: both sides are non-empty.
+    fn split(&self, faces: &mut [u32], depth: usize) -> usize {
+        let Self { boxes, axes, .. } = self;
+        let centres = faces.iter().fold(Bounds::EMPTY, |bounds, &face| {
+            let centre = boxes[face as usize].centre();
+            bounds.with(Bounds {
+                low: centre,
+                high: centre,
+            })
+        });
+        let cut = (depth < FREE_DEPTH).then(|| self.best_cut(faces, centres));
+        match cut.flatten() {
+            Some(Cut::Plane(axis, bin)) => partition(faces, |face| {
+                bin_of(boxes[face as usize].centre()[axis], centres, axis) <= bin
+            }),
+            Some(Cut::MainAxis(axis)) => {
+                partition(faces, |face| usize::from(axes[face as usize]) == axis)
+            }
+            None => {
+                // Centres in one place, or a tree too deep: halves.
+                let extent = centres.high - centres.low;
+                let axis = (0..3)
+                    .max_by(|&a, &b| extent[a].total_cmp(&extent[b]))
+                    .unwrap_or(0);
+                let key = |face: u32| boxes[face as usize].centre()[axis];
+                let middle = faces.len() / 2;
+                faces.select_nth_unstable_by(middle, |&a, &b| {
+                    key(a).total_cmp(&key(b)).then(a.cmp(&b))
+                });
+                middle
+            }
+        }
+    }
+
+    /// The cut that costs least, where there is one with faces on both sides.
+    fn best_cut(&self, faces: &[u32], centres: Bounds) -> Option<Cut> {
+        let mut best: Option<(f64, Cut)> = None;
+        let mut consider = |left: &Group, right: &Group, cut: Cut| {
+            if left.packets() > 0.0 && right.packets() > 0.0 {
+                let cost = left.cost() + right.cost();
+                if best.is_none_or(|(least, _)| cost < least) {
+                    best = Some((cost, cut));
+                }
+            }
+        };
+        let group = |face: u32| {
+            let mut counts = [0; 3];
+            counts[usize::from(self.axes[face as usize])] = 1;
+            Group {
+                bounds: self.boxes[face as usize],
+                counts,
+            }
+        };
+        for axis in 0..3 {
+            if centres.high[axis] <= centres.low[axis] {
+                continue;
+            }
+            let mut bins = [Group::EMPTY; BINS];
+            for &face in faces {
+                let group = group(face);
+                let bin = &mut bins[bin_of(group.bounds.centre()[axis], centres, axis)];
+                *bin = bin.with(group);
+            }
+            let mut right = [Group::EMPTY; BINS];
+            for bin in (0..BINS - 1).rev() {
+                right[bin] = right[bin + 1].with(bins[bin + 1]);
+            }
+            let mut left = Group::EMPTY;
+            for bin in 0..BINS - 1 {
+                left = left.with(bins[bin]);
+                consider(&left, &right[bin], Cut::Plane(axis, bin));
+            }
+        }
+        for axis in 0..3 {
+            let (mut left, mut right) = (Group::EMPTY, Group::EMPTY);
+            for &face in faces {
+                let side = if usize::from(self.axes[face as usize]) == axis {
+                    &mut left
+                } else {
+                    &mut right
+                };
+                *side = side.with(group(face));
+            }
+            consider(&left, &right, Cut::MainAxis(axis));
+        }
+        best.map(|(_, cut)| cut)
+    }
+}
+
+/// What comes to the left side of a cut.
+#[derive(Clone, Copy)]
+enum Cut {
+    /// The faces whose centres lie, along an axis, in the bins up to this one.
+    Plane(usize, usize),
+    /// Those with this main axis.
+    MainAxis(usize),
+}
+
+/// Faces on one side of a cut: how many have each main axis.
+#[derive(Clone, Copy)]
+struct Group {
+    bounds: Bounds,
+    counts: [u32; 3],
+}
+
+impl Group {
+    const EMPTY: Self = Self {
+        bounds: Bounds::EMPTY,
+        counts: [0; 3],
+    };
+
+    fn with(self, other: Self) -> Self {
+        Self {
+            bounds: self.bounds.with(other.bounds),
+            counts: [0, 1, 2].map(|axis| self.counts[axis] + other.counts[axis]),
+        }
+    }
+
+    fn packets(&self) -> f64 {
+        let packets = |count: u32| count.div_ceil(FACES as u32);
+        f64::from(self.counts.map(packets).into_iter().sum::<u32>())
+    }
+
+    fn cost(&self) -> f64 {
+        self.bounds.area() * self.packets()
+    }
+}
+
+/// Brings the faces that are `left` to the front, and returns their number.
+fn partition(faces: &mut [u32], left: impl Fn(u32) -> bool) -> usize {
+    let mut middle = 0;
+    for i in 0..faces.len() {
+        if left(faces[i]) {
+            faces.swap(i, middle);
+            middle += 1;
+        }
+    }
+    middle
 }
 
 impl Tree {
-    /// A node over `faces`, whose number it returns. `depth` is the number of binary splits
-    /// above it, and `level` that of nodes down to it.
-    fn node(
-        &mut self,
-        boxes: &[Bounds],
-        axes: &[u8],
-        faces: &mut [u32],
-        [depth, level]: [usize; 2],
-    ) -> u32 {
+    /// A node over part `part`, whose number it returns; `level` is the number of nodes down to it.
+    fn node(&mut self, parts: &[Part], part: u32, level: usize) -> u32 {
         let number = self.nodes.len() as u32;
         self.levels = self.levels.max(level);
         // Finite, so that no box's test has 0 times infinity.
@@ -133,30 +327,16 @@ impl Tree {
             boxes: [[[f32::MAX; WIDE]; 3], [[f32::MIN; WIDE]; 3]],
             children: [Child::Absent; WIDE],
         });
-        // Split the largest part again and again until there are eight.
-        let mut parts = vec![(faces, depth)];
-        while parts.len() < WIDE {
-            let largest = (0..parts.len())
-                .filter(|&part| !fit(axes, parts[part].0))
-                .max_by(|&a, &b| cost(boxes, parts[a].0).total_cmp(&cost(boxes, parts[b].0)));
-            let Some(largest) = largest else { break };
-            let (part, depth) = parts.swap_remove(largest);
-            let middle = if part.len() <= FACES {
-                split_by_axis(axes, part)
-            } else {
-                split(boxes, part, depth)
-            };
-            let (left, right) = part.split_at_mut(middle);
-            parts.push((left, depth + 1));
-            parts.push((right, depth + 1));
-        }
-        for (place, (part, depth)) in parts.into_iter().enumerate() {
-            let bounds = around(boxes, part);
-            let child = if fit(axes, part) {
-                self.leaves.push(part.to_vec());
-                Child::Packet(self.leaves.len() as u32 - 1, axes[part[0] as usize])
-            } else {
-                Child::Node(self.node(boxes, axes, part, [depth, level + 1]))
+        let mut children = Vec::with_capacity(WIDE);
+        children_of(parts, part, WIDE, &mut children);
+        for (place, part) in children.into_iter().enumerate() {
+            let Part { bounds, content } = &parts[part as usize];
+            let child = match content {
+                Content::Packet { faces, axis } => {
+                    self.leaves.push(faces.clone());
+                    Child::Packet(self.leaves.len() as u32 - 1, *axis)
+                }
+                Content::Halves(..) => Child::Node(self.node(parts, part, level + 1)),
             };
             let node = &mut self.nodes[number as usize];
             node.children[place] = child;
@@ -166,6 +346,18 @@ impl Tree {
             }
         }
         number
+    }
+}
+
+/// Puts the parts that hold part `part` as `most` children of one node at the least cost into `children`.
+fn children_of(parts: &[Part], part: u32, most: usize, children: &mut Vec<u32>) {
+    match parts[part as usize].content {
+        Content::Halves([left, right], shares) if shares[most] > 0 => {
+            let share = usize::from(shares[most]);
+            children_of(parts, left, share, children);
+            children_of(parts, right, most - share, children);
+        }
+        Content::Packet { .. } | Content::Halves(..) => children.push(part),
     }
 }
 
@@ -185,89 +377,7 @@ pub(super) fn around(boxes: &[Bounds], faces: &[u32]) -> Bounds {
     })
 }
 
-fn cost(boxes: &[Bounds], faces: &[u32]) -> f64 {
-    around(boxes, faces).area() * faces.len() as f64
-}
-
-/// Reorders `faces`, which don't share a main axis, and returns where to cut them: those on the
-/// first one's axis come first.
-fn split_by_axis(axes: &[u8], faces: &mut [u32]) -> usize {
-    let axis = |face: u32| axes[face as usize];
-    let first = axis(faces[0]);
-    faces.sort_by_key(|&face| (axis(face) != first, face));
-    faces.partition_point(|&face| axis(face) == first)
-}
-
-/// Reorders `faces` and returns where to cut them: both sides are non-empty.
-fn split(boxes: &[Bounds], faces: &mut [u32], depth: usize) -> usize {
-    let centres = faces.iter().fold(Bounds::EMPTY, |bounds, &face| {
-        let centre = boxes[face as usize].centre();
-        bounds.with(Bounds {
-            low: centre,
-            high: centre,
-        })
-    });
-    let extent = centres.high - centres.low;
-    if depth < FREE_DEPTH
-        && let Some((axis, bin)) = best_plane(boxes, faces, centres)
-    {
-        let is_left = |face: u32| bin_of(boxes[face as usize].centre()[axis], centres, axis) <= bin;
-        let mut middle = 0;
-        for i in 0..faces.len() {
-            if is_left(faces[i]) {
-                faces.swap(i, middle);
-                middle += 1;
-            }
-        }
-        return middle;
-    }
-    // Centres in one place, or a tree too deep: halves.
-    let axis = (0..3)
-        .max_by(|&a, &b| extent[a].total_cmp(&extent[b]))
-        .unwrap_or(0);
-    let middle = faces.len() / 2;
-    let key = |face: u32| boxes[face as usize].centre()[axis];
-    faces.select_nth_unstable_by(middle, |&a, &b| key(a).total_cmp(&key(b)).then(a.cmp(&b)));
-    middle
-}
-
 fn bin_of(centre: f64, centres: Bounds, axis: usize) -> usize {
     let fraction = (centre - centres.low[axis]) / (centres.high[axis] - centres.low[axis]);
     ((fraction * BINS as f64) as usize).min(BINS - 1)
-}
-
-/// The axis and last bin of the left side whose cut costs least.
-fn best_plane(boxes: &[Bounds], faces: &[u32], centres: Bounds) -> Option<(usize, usize)> {
-    let packets = |count: usize| count.div_ceil(FACES) as f64;
-    let mut best: Option<(f64, usize, usize)> = None;
-    for axis in 0..3 {
-        if centres.high[axis] <= centres.low[axis] {
-            continue;
-        }
-        let mut bins = [(Bounds::EMPTY, 0_usize); BINS];
-        for &face in faces {
-            let bounds = boxes[face as usize];
-            let (around, count) = &mut bins[bin_of(bounds.centre()[axis], centres, axis)];
-            *around = around.with(bounds);
-            *count += 1;
-        }
-        let mut right = [(Bounds::EMPTY, 0_usize); BINS];
-        for bin in (0..BINS - 1).rev() {
-            let (bounds, count) = right[bin + 1];
-            right[bin] = (bounds.with(bins[bin + 1].0), count + bins[bin + 1].1);
-        }
-        let mut left = (Bounds::EMPTY, 0);
-        for bin in 0..BINS - 1 {
-            left = (left.0.with(bins[bin].0), left.1 + bins[bin].1);
-            if left.1 == 0 || right[bin].1 == 0 {
-                continue;
-            }
-            let cost =
-                left.0.area() * packets(left.1) + right[bin].0.area() * packets(right[bin].1);
-            if best.is_none_or(|(least, ..)| cost < least) {
-                best = Some((cost, axis, bin));
-            }
-        }
-    }
-    best.map(|(_, axis, bin)| (axis, bin))
 }

@@ -6,8 +6,10 @@ use super::beam::{Beam, FEW_RAYS};
 use super::large::LargeFace;
 use super::walk::{Blocks, Found, Hides, NearestFace, Waiting};
 use super::{Bvh, Child};
-use crate::machines::lanes::{Lanes, lanes, slots};
+use crate::machines::instructions::at_256_bits;
+use crate::machines::lanes::{Inputs, Lanes, lanes, slots};
 use crate::machines::masks;
+use pulp::WithSimd;
 use qrt_core::tracer::{Arith, NO_PLANE, Ray, Work};
 
 /// What walks keep from one to the next: memory.
@@ -40,10 +42,20 @@ fn bits<S: pulp::Simd, const W: usize>(simd: S, mask: [S::m64s; W]) -> u64 {
     all
 }
 
+/// The lanes that are set in `rays`, one after the other.
+#[inline(always)]
+fn lanes_of(mut rays: u64) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let lane = (rays != 0).then(|| rays.trailing_zeros() as usize)?;
+        rays &= rays - 1;
+        Some(lane)
+    })
+}
+
 /// Finds the nearest face of each ray: its distance and its place in the geometry's faces, or their number.
 pub(super) struct FindNearest<'a, 'i, S: pulp::Simd, const W: usize> {
     pub(super) bvh: &'a Bvh,
-    pub(super) ray: Ray<Lanes<'i, S, W>>,
+    pub(super) ray: &'a Ray<Lanes<'i, S, W>>,
     pub(super) wanted: [S::m64s; W],
     pub(super) scratch: &'a mut Scratch,
 }
@@ -59,7 +71,7 @@ impl<'i, S: pulp::Simd, const W: usize> Work<Lanes<'i, S, W>> for FindNearest<'_
         let mut distance = cx.real(f64::MAX);
         let mut rank = cx.index(bvh.labels.len() as u32 - 1);
         for large in &bvh.large {
-            let (meets, at) = large.meet(cx, &ray);
+            let (meets, at) = large.meet(cx, ray);
             let nearer = cx.less(at, distance);
             let nearer = cx.and(meets, nearer);
             let this = cx.index(large.rank);
@@ -69,13 +81,12 @@ impl<'i, S: pulp::Simd, const W: usize> Work<Lanes<'i, S, W>> for FindNearest<'_
         if bvh.nodes.is_empty() {
             return (distance, rank);
         }
-        let approach = Approach::new(cx, &bvh.bounds, &ray, distance, self.wanted);
+        let approach = Approach::new(cx, &bvh.bounds, ray, distance, self.wanted);
         let near = bits(cx.simd, approach.meets);
         if near == 0 {
             return (distance, rank);
         }
         let lines = &mut scratch.lines;
-        let mut single = cx.narrow();
         let from_camera = lanes::<_, u64>(&ray.from)[near.trailing_zeros() as usize];
         if from_camera == u64::from(NO_PLANE) && near.count_ones() as usize >= FEW_RAYS {
             let mut start = f64::INFINITY;
@@ -85,45 +96,101 @@ impl<'i, S: pulp::Simd, const W: usize> Work<Lanes<'i, S, W>> for FindNearest<'_
                 }
             }
             let start = cx.real(start);
-            approach.make_ready(cx, &ray, start, bvh.greatest, lines);
+            approach.make_ready(cx, ray, start, bvh.greatest, lines);
             if let Some(beam) = Beam::around(lines, near) {
-                let mut found = [Found {
-                    distance: 0.0,
-                    rank: 0,
-                }; MOST_RAYS];
-                let known = lanes::<_, f64>(&distance)
-                    .iter()
-                    .zip(lanes::<_, u64>(&rank));
-                for (found, (&distance, &rank)) in found.iter_mut().zip(known) {
-                    let rank = rank as u32;
-                    *found = Found { distance, rank };
-                }
-                bvh.walk_together(&mut single, &beam, &mut scratch.beam_stack, &mut found);
-                for (slot, found) in slots::<_, f64>(&mut distance).iter_mut().zip(&found) {
-                    *slot = found.distance;
-                }
-                for (slot, found) in slots::<_, u64>(&mut rank).iter_mut().zip(&found) {
-                    *slot = u64::from(found.rank);
-                }
+                let together = Together {
+                    bvh,
+                    inputs: cx.inputs,
+                    beam,
+                    stack: &mut scratch.beam_stack,
+                    distance: slots(&mut distance),
+                    rank: slots(&mut rank),
+                };
+                at_256_bits(cx.simd, together);
                 return (distance, rank);
             }
         }
-        approach.make_ready(cx, &ray, approach.near, bvh.greatest, lines);
-        let mut left = near;
-        while left != 0 {
-            let lane = left.trailing_zeros() as usize;
-            left &= left - 1;
+        approach.make_ready(cx, ray, approach.near, bvh.greatest, lines);
+        let alone = Alone {
+            bvh,
+            inputs: cx.inputs,
+            lines,
+            rays: near,
+            stack: &mut scratch.stack,
+            distance: slots(&mut distance),
+            rank: slots(&mut rank),
+        };
+        at_256_bits(cx.simd, alone);
+        (distance, rank)
+    }
+}
+
+/// Finds the nearest faces of the rays of a beam, where they are nearer than those known.
+struct Together<'a, 'i> {
+    bvh: &'a Bvh,
+    inputs: &'i Inputs,
+    beam: Beam<'a>,
+    stack: &'a mut [Waiting<u32>],
+    /// What is known, by lane.
+    distance: &'a mut [f64],
+    rank: &'a mut [u64],
+}
+
+impl WithSimd for Together<'_, '_> {
+    type Output = ();
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, simd: S) {
+        let mut cx = Lanes::single(simd, self.inputs);
+        let mut found = [Found {
+            distance: 0.0,
+            rank: 0,
+        }; MOST_RAYS];
+        let known = self.distance.iter().zip(&*self.rank);
+        for (found, (&distance, &rank)) in found.iter_mut().zip(known) {
+            let rank = rank as u32;
+            *found = Found { distance, rank };
+        }
+        self.bvh
+            .walk_together(&mut cx, &self.beam, self.stack, &mut found);
+        let known = self.distance.iter_mut().zip(self.rank);
+        for ((distance, rank), found) in known.zip(&found) {
+            *distance = found.distance;
+            *rank = u64::from(found.rank);
+        }
+    }
+}
+
+/// Finds the nearest faces of rays that each walk by themselves, where they are nearer than those
+/// known.
+struct Alone<'a, 'i> {
+    bvh: &'a Bvh,
+    inputs: &'i Inputs,
+    lines: &'a Lines,
+    /// The lanes of the rays, as bits.
+    rays: u64,
+    stack: &'a mut [Waiting<Child>],
+    /// What is known, by lane.
+    distance: &'a mut [f64],
+    rank: &'a mut [u64],
+}
+
+impl WithSimd for Alone<'_, '_> {
+    type Output = ();
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, simd: S) {
+        let mut cx = Lanes::single(simd, self.inputs);
+        for lane in lanes_of(self.rays) {
             let mut search = NearestFace {
                 best: Found {
-                    distance: lanes::<_, f64>(&distance)[lane],
-                    rank: lanes::<_, u64>(&rank)[lane] as u32,
+                    distance: self.distance[lane],
+                    rank: self.rank[lane] as u32,
                 },
             };
-            bvh.walk(&mut single, lines, lane, &mut scratch.stack, &mut search);
-            slots::<_, f64>(&mut distance)[lane] = search.best.distance;
-            slots::<_, u64>(&mut rank)[lane] = u64::from(search.best.rank);
+            let Self { bvh, lines, .. } = self;
+            bvh.walk(&mut cx, lines, lane, self.stack, &mut search);
+            self.distance[lane] = search.best.distance;
+            self.rank[lane] = u64::from(search.best.rank);
         }
-        (distance, rank)
     }
 }
 
@@ -181,7 +248,7 @@ impl<S: pulp::Simd, const W: usize> Ends<S, W> {
 /// Finds whether a face stands before the end of each ray.
 pub(super) struct FindOccluded<'a, 'i, S: pulp::Simd, const W: usize> {
     pub(super) bvh: &'a Bvh,
-    pub(super) ray: Ray<Lanes<'i, S, W>>,
+    pub(super) ray: &'a Ray<Lanes<'i, S, W>>,
     pub(super) ends: Ends<S, W>,
     pub(super) wanted: [S::m64s; W],
     pub(super) scratch: &'a mut Scratch,
@@ -197,7 +264,7 @@ impl<'i, S: pulp::Simd, const W: usize> Work<Lanes<'i, S, W>> for FindOccluded<'
         } = self;
         let mut hidden = cx.truth(false);
         for large in &bvh.large {
-            if let Some(hides) = self.ends.hidden_by(cx, bvh, large, &ray) {
+            if let Some(hides) = self.ends.hidden_by(cx, bvh, large, ray) {
                 hidden = cx.or(hidden, hides);
             }
         }
@@ -210,33 +277,73 @@ impl<'i, S: pulp::Simd, const W: usize> Work<Lanes<'i, S, W>> for FindOccluded<'
             Ends::Emitter(distance) => distance,
             Ends::Lamp(_) => cx.real(Blocks::LIMIT),
         };
-        let approach = Approach::new(cx, &bvh.bounds, &ray, limit, open);
-        let mut left = bits(cx.simd, approach.meets);
-        if left == 0 {
+        let approach = Approach::new(cx, &bvh.bounds, ray, limit, open);
+        let rays = bits(cx.simd, approach.meets);
+        if rays == 0 {
             return hidden;
         }
         let (lines, stack) = (&mut scratch.lines, &mut scratch.stack);
-        approach.make_ready(cx, &ray, approach.near, bvh.greatest, lines);
-        let mut single = cx.narrow();
+        approach.make_ready(cx, ray, approach.near, bvh.greatest, lines);
         let mut found = cx.index(0);
-        while left != 0 {
-            let lane = left.trailing_zeros() as usize;
-            left &= left - 1;
-            let met = match &self.ends {
-                Ends::Emitter(distance) => {
-                    let distance = lanes::<_, f64>(distance)[lane];
-                    let mut search = Hides { bvh, distance };
-                    bvh.walk(&mut single, lines, lane, stack, &mut search)
-                }
-                Ends::Lamp(lamp) => {
-                    let lamp = lanes::<_, u64>(lamp)[lane] as u32;
-                    let mut search = Blocks { bvh, lamp };
-                    bvh.walk(&mut single, lines, lane, stack, &mut search)
-                }
-            };
-            slots::<_, u64>(&mut found)[lane] = u64::from(met);
-        }
+        let hiding = Hiding {
+            bvh,
+            inputs: cx.inputs,
+            lines,
+            rays,
+            ends: match &self.ends {
+                Ends::Emitter(distance) => EndsByLane::Emitter(lanes(distance)),
+                Ends::Lamp(lamp) => EndsByLane::Lamp(lanes(lamp)),
+            },
+            stack,
+            hidden: slots(&mut found),
+        };
+        at_256_bits(cx.simd, hiding);
         let found = cx.is(found, 1);
         cx.or(hidden, found)
+    }
+}
+
+/// What ends each ray, by lane.
+enum EndsByLane<'a> {
+    /// The distance of an emitter.
+    Emitter(&'a [f64]),
+    /// The number of an emitting face.
+    Lamp(&'a [u64]),
+}
+
+/// Finds whether a face of the tree stands before the end of each ray.
+struct Hiding<'a, 'i> {
+    bvh: &'a Bvh,
+    inputs: &'i Inputs,
+    lines: &'a Lines,
+    /// The lanes of the rays, as bits.
+    rays: u64,
+    ends: EndsByLane<'a>,
+    stack: &'a mut [Waiting<Child>],
+    /// 1 in the lanes of those that are hidden.
+    hidden: &'a mut [u64],
+}
+
+impl WithSimd for Hiding<'_, '_> {
+    type Output = ();
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, simd: S) {
+        let mut cx = Lanes::single(simd, self.inputs);
+        let Self { bvh, lines, .. } = self;
+        for lane in lanes_of(self.rays) {
+            let hidden = match self.ends {
+                EndsByLane::Emitter(distance) => {
+                    let distance = distance[lane];
+                    let mut search = Hides { bvh, distance };
+                    bvh.walk(&mut cx, lines, lane, self.stack, &mut search)
+                }
+                EndsByLane::Lamp(lamp) => {
+                    let lamp = lamp[lane] as u32;
+                    let mut search = Blocks { bvh, lamp };
+                    bvh.walk(&mut cx, lines, lane, self.stack, &mut search)
+                }
+            };
+            self.hidden[lane] = u64::from(hidden);
+        }
     }
 }
