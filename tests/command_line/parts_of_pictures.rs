@@ -16,6 +16,8 @@ fn accurate() -> String {
     let text = BOX.replace("  path_bits: 10\n", "");
     let text = text.lines().filter(|line| !line.starts_with("counting"));
     let text = text.collect::<Vec<_>>().join("\n");
+    // Each part is planned for by itself, which takes as long as the film is large.
+    let text = text.replace("width: 13, height: 11", "width: 5, height: 4");
     format!("{text}\naccuracy: {{ error: 0.3, confidence: 0.9 }}\n")
 }
 

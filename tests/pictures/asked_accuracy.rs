@@ -13,11 +13,16 @@ use std::num::NonZeroUsize;
 
 /// A lamp over a floor, seen obliquely; two rays.
 fn lit(accuracy: &str, more: &str) -> ValidScene {
+    lit_on([16, 12], accuracy, more)
+}
+
+/// The same on a film of another width and height.
+fn lit_on([width, height]: [u32; 2], accuracy: &str, more: &str) -> ValidScene {
     let text = format!(
         "
 name: lit
 camera: {{ perspective: {{ eye: [0, 1, 2], target: [0, 0.4, 0], vfov: 60 }} }}
-film: {{ width: 16, height: 12 }}
+film: {{ width: {width}, height: {height} }}
 materials:
   floor: {{ lambertian: {{ albedo: [0.8, 0.5, 0.2] }} }}
   lamp: {{ emitter: {{ radiance: [3, 2, 0] }} }}
@@ -89,9 +94,10 @@ fn a_scene_without_an_accuracy_needs_no_plan() {
 
 #[test]
 fn half_the_error_costs_more_and_threads_change_nothing() {
-    let coarse_scene = lit("{ error: 0.2, confidence: 0.9 }", "");
+    let film = [8, 6];
+    let coarse_scene = lit_on(film, "{ error: 0.2, confidence: 0.9 }", "");
     let coarse = planned(&coarse_scene);
-    let fine_scene = lit("{ error: 0.05, confidence: 0.9 }", "");
+    let fine_scene = lit_on(film, "{ error: 0.05, confidence: 0.9 }", "");
     let fine = planned(&fine_scene);
     let (a, b) = (coarse.figures, fine.figures);
     assert!(

@@ -8,6 +8,8 @@ use std::f64::consts::PI;
 
 /// Points that together hold less than this of the mass are dropped, cell by cell.
 const NEGLIGIBLE: f64 = 1e-8;
+/// Densities below this fraction of the greatest are rarely part of an interval.
+const FAR_BELOW: f64 = 1e-4;
 /// Grid steps per standard deviation that the shots may have left, at the least. Sums over points
 /// of a smooth density then agree with its integral to better than `exp(-2 (pi/0.7)^2) = 3e-18`.
 const COARSEST: f64 = 0.7;
@@ -392,15 +394,30 @@ impl Posterior {
             }
         };
         let mass = mass.as_ref().unwrap_or(&self.mass);
-        let mut order: Vec<usize> = (0..self.mass.len()).collect();
-        order.sort_by(|&a, &b| density(b).total_cmp(&density(a)));
+        // Most points are far below the likeliest and hardly ever asked for, so that they are sorted
+        // apart.
+        let greatest = (0..mass.len()).map(density).fold(0.0, f64::max);
         let (mut held, mut first, mut last) = (0.0, usize::MAX, 0);
-        for index in order {
+        for far in [false, true] {
+            let asked = |index: &usize| (density(*index) < FAR_BELOW * greatest) == far;
+            let count = (0..mass.len()).filter(asked).count();
+            let mut points = Vec::with_capacity(count);
+            points.extend(
+                (0..mass.len())
+                    .filter(asked)
+                    .map(|index| (density(index), index)),
+            );
+            points.sort_by(|a, b| b.0.total_cmp(&a.0));
+            for (_, index) in points {
+                if held >= content {
+                    break;
+                }
+                held += mass[index];
+                (first, last) = (first.min(index), last.max(index));
+            }
             if held >= content {
                 break;
             }
-            held += mass[index];
-            (first, last) = (first.min(index), last.max(index));
         }
         let low = self.support.ends(first, self.total).0;
         let high = self.support.ends(last, self.total).1;
