@@ -137,7 +137,7 @@ export function start(body, qrt, figure) {
     const flipped = now.signs.reduce((sum, sign) => sum + sign, 0);
     readouts.show([
       ["negative", "sign of this state", now.negative, now.negative ? "−" : "+"],
-      ["flipped", "states with a turned sign", flipped, `${flipped} of ${ids * comparators}`],
+      ["flipped", "states with a flipped phase", flipped, `${flipped} of ${ids * comparators}`],
       ["held", "qubits in use besides id and comparator", ancillas, `${ancillas} of ${grouped(about.qubits - about.id_bits - about.comparator_bits)}`],
       ["unowned_are_zero", "all others looked at, on every state:", now.unowned_are_zero, now.unowned_are_zero ? "zero" : "not zero"],
       ["position", "operations run", now.position, `${now.position} of ${about.operations}`],

@@ -301,7 +301,7 @@ impl Oracle {
             let conjunction = Conjunction::Toffolis;
             let counting = Counting::with(&oracle, asked.phase_bits, window, conjunction);
             let counting = counting.map_err(|e| failed(&e))?;
-            let export = Export::new(&counting, part, Some(self.path_bits()));
+            let export = Export::new(&counting, part, &self.compiled.index_parts());
             let export = export.map_err(|e| failed(&e))?;
             if export.gates() > max_gates {
                 let gates = export.gates();

@@ -1,6 +1,6 @@
 //! Products of a number with many constants, as sums of one another.
 //!
-//! The planes of a scene multiply the same few coordinates with a constant each. A product by itself
+//! Geometry multiplies the same few coordinates with many constants. A product by itself
 //! is a sum of shifted copies of the number, with one addition less than its constant has signed
 //! digits. But 45 is 5 times 9 and takes two additions instead of three, and after 45 the constant 361
 //! takes only one more. That is *multiple constant multiplication* (Voronenko and Püschel,

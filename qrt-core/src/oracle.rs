@@ -276,6 +276,15 @@ impl Oracle {
         self.program.width(self.comparator)
     }
 
+    /// The parts of the index, from its bit 0 upwards, by name and number of bits: the path's index and
+    /// the comparator, as [`Export::new`](qrt_circuit::export::Export::new) takes them.
+    pub fn index_parts(&self) -> [(&'static str, u32); 2] {
+        [
+            ("path", self.points.path_bits()),
+            ("comparator", self.comparator_bits()),
+        ]
+    }
+
     /// How many basis states are good of a path whose register `count` reads as `count`: of its
     /// `2^c` comparators, those that the colour exceeds.
     pub fn good(&self, count: i64) -> u64 {

@@ -16,7 +16,7 @@ pub enum LayoutsError {
     /// The threads can't be started.
     #[error(transparent)]
     Threads(#[from] ThreadsError),
-    /// It was cancelled.
+    /// The cancel flag of the workers ended the search.
     #[error("cancelled")]
     Cancelled,
 }

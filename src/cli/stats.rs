@@ -21,7 +21,7 @@ pub(crate) fn write(path: &Path, rendered: &Rendered, clipped: u64) -> Result<()
 fn stats(rendered: &Rendered, clipped: u64) -> Value {
     let [width, height] = rendered.film;
     json!({
-        "version": 1,
+        "version": 2,
         "qrt": env!("CARGO_PKG_VERSION"),
         "scene": rendered.scene_name,
         "scene_hash": rendered.scene_hash,
@@ -37,7 +37,7 @@ fn stats(rendered: &Rendered, clipped: u64) -> Value {
         "crop": rendered.crop,
         "depths": rendered.parameters.sampling.depths.len(),
         "path_bits": rendered.parameters.sampling.path_bits,
-        "knobs": {
+        "parameters": {
             "path_bits": rendered.parameters.sampling.path_bits,
             "fraction": rendered.parameters.precision.fraction,
             "comparator_bits": rendered.parameters.comparator.bits,

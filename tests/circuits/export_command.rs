@@ -160,7 +160,7 @@ fn the_iterate_is_the_circuits_own_amplitude_by_amplitude() {
         for part in [Part::Oracle, Part::Grover, Part::Counting] {
             for format in [Format::OpenQasm3, Format::OpenQasm2] {
                 let mut text = Vec::new();
-                let export = Export::new(&counting, part, None).unwrap();
+                let export = Export::new(&counting, part, &[]).unwrap();
                 let written = export.write(format, &[], &mut text);
                 if part == Part::Counting && conjunction == Conjunction::Whole {
                     // A sign under four controls.
@@ -440,7 +440,7 @@ fn the_advised_register_is_short_enough_and_the_next_is_not() {
 fn an_export_can_be_stopped_and_tells_how_far_it_is() {
     let oracle = PhaseOracle::table(6, |id| id % 5 == 0).unwrap();
     let counting = Counting::with(&oracle, 10, Window::Rect, Conjunction::Toffolis).unwrap();
-    let export = Export::new(&counting, Part::Counting, Some(4)).unwrap();
+    let export = Export::new(&counting, Part::Counting, &[("path", 4)]).unwrap();
     assert!(export.gates() > 1 << 17);
     let seen = std::cell::Cell::new(0);
     let progress = |gates| seen.set(seen.get() + gates);
@@ -464,7 +464,7 @@ fn an_export_can_be_stopped_and_tells_how_far_it_is() {
 fn comments_stay_on_their_lines() {
     let oracle = PhaseOracle::table(2, |id| id == 2).unwrap();
     let counting = Counting::new(&oracle, 1, Window::Rect).unwrap();
-    let export = Export::new(&counting, Part::Oracle, Some(1)).unwrap();
+    let export = Export::new(&counting, Part::Oracle, &[("path", 1), ("comparator", 1)]).unwrap();
     let mut text = Vec::new();
     let comments = ["caf\u{e9}\nx work[0];".to_owned()];
     export
@@ -474,6 +474,6 @@ fn comments_stay_on_their_lines() {
     assert_eq!(circuit.comments[0], "caf\\u{e9}\\nx work[0];");
     let names: Vec<&str> = circuit.registers.iter().map(|(name, _)| &**name).collect();
     assert_eq!(names, ["path", "comparator", "work"]);
-    let refused = Export::new(&counting, Part::Oracle, Some(3)).unwrap_err();
-    assert_eq!(refused.to_string(), "a path of 3 bits in an id of 2");
+    let refused = Export::new(&counting, Part::Oracle, &[("path", 3)]).unwrap_err();
+    assert_eq!(refused.to_string(), "parts of 3 bits in an index of 2");
 }

@@ -71,7 +71,14 @@ impl Circuit {
                 Some(("qubit" | "qreg", name, size)) => {
                     assert!(read.gates.is_empty() && size > 0);
                     // Neither gates of the libraries nor words of the languages.
-                    let known = ["path", "comparator", "ids", "work", "counter", "bond"];
+                    let known = [
+                        "path",
+                        "comparator",
+                        "index",
+                        "work",
+                        "phase_register",
+                        "bond",
+                    ];
                     assert!(known.contains(&name), "{name}");
                     let end = read.qubits + size;
                     read.registers.push((name.to_owned(), read.qubits..end));

@@ -59,7 +59,7 @@ fn so_do_those_of_auto_in_example_scenes() {
 
 #[test]
 fn auto_is_the_cheapest_that_fits() {
-    let (channel, keep) = Layout::of_dearest(&written(CORNER, &[]), Strategy::KEEP).unwrap();
+    let (channel, keep) = Layout::of_most_expensive(&written(CORNER, &[]), Strategy::KEEP).unwrap();
     let layouts = Strategy::LADDER
         .map(|strategy| Layout::new(&written(CORNER, &[]), channel, strategy).unwrap());
     let front = Layout::front(layouts.to_vec());

@@ -132,7 +132,7 @@ fn gives_the_distribution_of_every_stratum() {
         for strata in 2..=3 {
             for stratum in Stratum::halving(strata, bits) {
                 let (fixed, lowest) = stratum.fixed_bits(bits);
-                let comparator = &phase.ids()[path_bits..];
+                let comparator = &phase.index()[path_bits..];
                 let fixed = &comparator[fixed.start as usize..fixed.end as usize];
                 let (ones, zeros) = fixed.split_at(usize::from(lowest));
                 let phase = phase.clone().with_fixed(zeros, ones).unwrap();

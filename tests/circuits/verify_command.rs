@@ -156,7 +156,7 @@ fn threads_do_not_change_the_answer_and_seeds_do() {
 }
 
 #[test]
-fn an_accuracy_is_checked_with_the_knobs_that_keep_it() {
+fn an_accuracy_is_checked_with_the_parameters_that_keep_it() {
     let accurate = CORNER.replace("  path_bits: 5\n", "");
     let accurate = accurate.replace("precision: { fraction: 8 }\ncomparator: { bits: 4 }\n", "");
     let accurate = accurate + "accuracy: { error: 0.5, confidence: 0.7 }\n";

@@ -200,7 +200,7 @@ fn stats_tell_the_cost() {
     folder.works(&[&arguments[..], &["--stats", "s.json", "-o", "p.exr"]].concat());
     let stats = stats(&folder, "s.json");
     for (key, value) in [
-        ("version", json!(1)),
+        ("version", json!(2)),
         ("qrt", json!(env!("CARGO_PKG_VERSION"))),
         ("scene", json!("box \"ä\"")),
         ("model", json!("real")),
@@ -331,7 +331,7 @@ fn accurate(error: f64, confidence: f64) -> Folder {
 }
 
 #[test]
-fn an_accuracy_takes_the_knobs_that_keep_it_and_says_which() {
+fn an_accuracy_takes_the_parameters_that_keep_it_and_says_which() {
     let folder = accurate(0.3, 0.9);
     let options = ["-o", "p.exr", "--stats", "s.json"];
     let output = folder.qrt(&[&["render", "box.yaml"], &options[..]].concat());
@@ -342,7 +342,7 @@ fn an_accuracy_takes_the_knobs_that_keep_it_and_says_which() {
         "{said}"
     );
     let stats = stats(&folder, "s.json");
-    let (parameters, plan) = (&stats["knobs"], &stats["plan"]);
+    let (parameters, plan) = (&stats["parameters"], &stats["plan"]);
     for parameter in [
         "path_bits",
         "fraction",

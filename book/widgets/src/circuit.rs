@@ -324,7 +324,7 @@ mod tests {
         }
     }
 
-    /// Good ids are those whose sign is turned, and nothing else is left.
+    /// Good indices are those whose phase is flipped, and nothing else is left.
     #[test]
     fn the_whole_call_turns_the_signs_of_good_ids_and_no_more() {
         let oracle = oracle();

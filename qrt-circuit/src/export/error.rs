@@ -6,12 +6,12 @@ use std::{fmt, io};
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum ExportError {
-    /// Fewer qubits are in superposition than the path index is said to have.
-    PathBits {
-        /// Bits that the path index is said to have.
-        path_bits: u32,
-        /// Qubits in superposition: those of the path index and the comparator.
-        id: u32,
+    /// The index has fewer qubits than its parts are said to have.
+    IndexBits {
+        /// Bits that the parts are said to have, together.
+        parts: u32,
+        /// Qubits of the index.
+        index: u32,
     },
     /// A gate reads a bit of a classical parameter for which no word was given.
     MissingWord {
@@ -31,8 +31,8 @@ pub enum ExportError {
 impl fmt::Display for ExportError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::PathBits { path_bits, id } => {
-                write!(f, "a path of {path_bits} bits in an id of {id}")
+            Self::IndexBits { parts, index } => {
+                write!(f, "parts of {parts} bits in an index of {index}")
             }
             Self::MissingWord { parameter, bit } => {
                 write!(

@@ -1,6 +1,6 @@
 //! Gates, a line each.
 
-use super::{ExportError, Format, Register};
+use super::{ExportError, Format, PHASE_REGISTER, Register};
 use crate::quantum::{QuantumGate, Turns};
 use crate::{Qubit, grouped};
 use std::collections::BTreeMap;
@@ -102,8 +102,9 @@ impl<'a, W: Write> Writer<'a, W> {
         self.put(&format!("// {text}\n"))
     }
 
-    /// Writes the language's first lines, the comments and the registers.
-    pub(super) fn header(&mut self, comments: &[String]) -> io::Result<()> {
+    /// Writes the language's first lines, the comments, the registers and, if any bits are measured, the
+    /// register of their outcome.
+    pub(super) fn header(&mut self, comments: &[String], outcome: usize) -> io::Result<()> {
         self.put(self.format.header())?;
         for comment in comments {
             self.comment(comment)?;
@@ -112,9 +113,8 @@ impl<'a, W: Write> Writer<'a, W> {
         for Register { name, qubits } in registers {
             self.put(&self.format.qubits(name, qubits.len()))?;
         }
-        let counter = registers.iter().find(|register| register.name == "counter");
-        if let Some(counter) = counter {
-            self.put(&self.format.bits("outcome", counter.qubits.len()))?;
+        if outcome > 0 {
+            self.put(&self.format.bits("outcome", outcome))?;
         }
         Ok(())
     }
@@ -184,7 +184,7 @@ impl<'a, W: Write> Writer<'a, W> {
     /// Measures the phase register, bit 0 first.
     pub(super) fn measure(&mut self, bits: usize) -> io::Result<()> {
         for bit in 0..bits {
-            let [qubit, bit] = ["counter", "outcome"].map(|name| format!("{name}[{bit}]"));
+            let [qubit, bit] = [PHASE_REGISTER, "outcome"].map(|name| format!("{name}[{bit}]"));
             self.put(&self.format.measure(&qubit, &bit))?;
         }
         Ok(())

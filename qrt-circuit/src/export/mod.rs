@@ -23,10 +23,10 @@
 //!
 //! # Registers
 //!
-//! `path` and `comparator`, which are in superposition (or `ids` alone); `work`, zero before and
-//! after; for counting also `counter`, the phase register, whose qubits are measured into
-//! `outcome`, and for the sine window `bond`, which is zero before and after. Bit 0 of each is its
-//! least significant.
+//! `index`, which is in superposition, or parts of it under names of the caller's; `work`, zero
+//! before and after; for counting also `phase_register`, whose qubits are measured into `outcome`,
+//! and for the sine window `bond`, which is zero before and after. Bit 0 of each is its least
+//! significant.
 //!
 //! ```
 //! use qrt_circuit::quantum::{Counting, Part, PhaseOracle, Window};
@@ -36,16 +36,16 @@
 //! let oracle = PhaseOracle::polynomial(2, vec![vec![0], vec![1], vec![0, 1]])?;
 //! let counting = Counting::new(&oracle, 1, Window::Rect)?;
 //! let mut text = Vec::new();
-//! let written = Export::new(&counting, Part::Oracle, None)?.write(Format::OpenQasm3, &[], &mut text)?;
+//! let written = Export::new(&counting, Part::Oracle, &[])?.write(Format::OpenQasm3, &[], &mut text)?;
 //! assert_eq!(
 //!     String::from_utf8(text)?,
 //!     "\
 //! OPENQASM 3.0;
 //! include \"stdgates.inc\";
-//! qubit[2] ids;
-//! z ids[0];
-//! z ids[1];
-//! cz ids[0], ids[1];
+//! qubit[2] index;
+//! z index[0];
+//! z index[1];
+//! cz index[0], index[1];
 //! // 2 qubits, 3 gates: 2 z, 1 cz
 //! "
 //! );
@@ -73,6 +73,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// How many gates are written between two looks at what may end the writing.
 const STRIDE: u64 = 1 << 16;
 
+/// What the phase register is called. (`phase` is a gate in OpenQASM, and `id` another.)
+const PHASE_REGISTER: &str = "phase_register";
+
 /// A register of an exported circuit.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Register {
@@ -93,6 +96,8 @@ pub struct Export<'a> {
     counting: &'a Counting<'a>,
     part: Part,
     registers: Vec<Register>,
+    /// Bits that are measured: those of the phase register, if there is one.
+    outcome: usize,
     cancel: Option<&'a AtomicBool>,
     progress: Option<&'a dyn Fn(u64)>,
 }
@@ -107,37 +112,42 @@ impl std::fmt::Debug for Export<'_> {
 }
 
 impl<'a> Export<'a> {
-    /// Prepares a part of a circuit for writing. Of the index's qubits, in superposition or fixed, the
-    /// lowest `path_bits` are called `path` and the others `comparator`; without such a number all are
-    /// `ids` (`id` is a gate in OpenQASM).
+    /// Prepares a part of a circuit for writing. `parts` names parts of the index, whose qubits are in
+    /// superposition or fixed: a register's name and its number of qubits each, from the index's bit 0
+    /// upwards. What is left of the index is called `index`.
     ///
     /// # Errors
-    /// The index has fewer than `path_bits` qubits.
+    /// The index has fewer qubits than its parts.
     pub fn new(
         counting: &'a Counting<'a>,
         part: Part,
-        path_bits: Option<u32>,
+        parts: &[(&'static str, u32)],
     ) -> Result<Self, ExportError> {
-        let id = counting.iterate().oracle().ids();
-        let mut registers = match path_bits {
-            None => vec![("ids", id.to_vec())],
-            Some(bits) => {
-                let split = id.split_at_checked(bits as usize);
-                let (path, comparator) = split.ok_or(ExportError::PathBits {
-                    path_bits: bits,
-                    id: id.len() as u32,
-                })?;
-                vec![("path", path.to_vec()), ("comparator", comparator.to_vec())]
-            }
-        };
+        let index = counting.iterate().oracle().index();
+        let mut registers = Vec::new();
+        let mut rest = index;
+        for &(name, bits) in parts {
+            let split = rest.split_at_checked(bits as usize);
+            let (part, others) = split.ok_or(ExportError::IndexBits {
+                parts: parts.iter().map(|(_, bits)| bits).sum(),
+                index: index.len() as u32,
+            })?;
+            registers.push((name, part.to_vec()));
+            rest = others;
+        }
+        registers.push(("index", rest.to_vec()));
         // Beyond the iterate's qubits are the phase register's, and the window's bond.
         let iterate = counting.iterate().qubits().min(counting.qubits_of(part));
-        let work = (0..iterate).filter(|qubit| !id.contains(qubit)).collect();
+        let work = (0..iterate)
+            .filter(|qubit| !index.contains(qubit))
+            .collect();
         registers.push(("work", work));
+        let mut outcome = 0;
         if part == Part::Counting {
-            let counter = counting.phase_register();
-            registers.push(("counter", counter.to_vec()));
-            let bond = counter.last().map_or(iterate, |last| last + 1);
+            let phase = counting.phase_register();
+            outcome = phase.len();
+            registers.push((PHASE_REGISTER, phase.to_vec()));
+            let bond = phase.last().map_or(iterate, |last| last + 1);
             registers.push(("bond", (bond..counting.qubits()).collect()));
         }
         Ok(Self {
@@ -151,6 +161,7 @@ impl<'a> Export<'a> {
                     qubits,
                 })
                 .collect(),
+            outcome,
             cancel: None,
             progress: None,
         })
@@ -198,7 +209,7 @@ impl<'a> Export<'a> {
     ) -> Result<Tally, ExportError> {
         self.check_cancelled()?;
         let mut out = Writer::new(format, &self.registers, self.qubits(), out);
-        out.header(comments)?;
+        out.header(comments, self.outcome)?;
         let (mut sent, mut told) = (0, 0);
         self.counting.part(self.part, &mut |gate| {
             out.gate(gate)?;
@@ -212,9 +223,7 @@ impl<'a> Export<'a> {
             }
             Ok::<(), ExportError>(())
         })?;
-        if self.part == Part::Counting {
-            out.measure(self.counting.phase_register().len())?;
-        }
+        out.measure(self.outcome)?;
         Ok(out.end()?)
     }
 
@@ -243,7 +252,7 @@ pub fn write_program(
     let circuit = lower::circuit(program);
     let registers = registers(program, &circuit);
     let mut out = Writer::new(format, &registers, circuit.qubits, out);
-    out.header(comments)?;
+    out.header(comments, 0)?;
     for gate in &circuit.gates {
         match *gate {
             Gate::X(t) => out.gate(QuantumGate::X(t))?,

@@ -3,7 +3,7 @@ use crate::quantum::{Conjunction, PhaseOracle, Window};
 
 fn text(counting: &Counting<'_>, part: Part, format: Format) -> String {
     let mut text = Vec::new();
-    let export = Export::new(counting, part, None).unwrap();
+    let export = Export::new(counting, part, &[]).unwrap();
     let tally = export.write(format, &[], &mut text).unwrap();
     assert_eq!(tally.bytes, text.len() as u64);
     String::from_utf8(text).unwrap()
@@ -22,11 +22,11 @@ fn signs_under_one_two_and_three_qubits_have_gates() {
     let oracle = PhaseOracle::polynomial(3, vec![vec![1], vec![2, 0], vec![0, 1, 2]]).unwrap();
     let counting = Counting::new(&oracle, 1, Window::Rect).unwrap();
     let lines = [
-        "z ids[1];",
-        "cz ids[2], ids[0];",
-        "h ids[2];",
-        "ccx ids[0], ids[1], ids[2];",
-        "h ids[2];",
+        "z index[1];",
+        "cz index[2], index[0];",
+        "h index[2];",
+        "ccx index[0], index[1], index[2];",
+        "h index[2];",
     ];
     for format in [Format::OpenQasm3, Format::OpenQasm2] {
         assert_eq!(gates(&text(&counting, Part::Oracle, format)), lines);
@@ -39,13 +39,13 @@ fn a_counting_circuit_of_one_id_bit_is_known_line_by_line() {
     let counting = Counting::with(&oracle, 2, Window::Rect, Conjunction::Toffolis).unwrap();
     let iterate = |control: u32| {
         [
-            format!("cz counter[{control}], ids[0];"),
-            "h ids[0];".to_owned(),
-            "x ids[0];".to_owned(),
-            format!("cz counter[{control}], ids[0];"),
-            "x ids[0];".to_owned(),
-            format!("z counter[{control}];"),
-            "h ids[0];".to_owned(),
+            format!("cz phase_register[{control}], index[0];"),
+            "h index[0];".to_owned(),
+            "x index[0];".to_owned(),
+            format!("cz phase_register[{control}], index[0];"),
+            "x index[0];".to_owned(),
+            format!("z phase_register[{control}];"),
+            "h index[0];".to_owned(),
         ]
     };
     for (format, phase, measures) in [
@@ -53,32 +53,36 @@ fn a_counting_circuit_of_one_id_bit_is_known_line_by_line() {
             Format::OpenQasm3,
             "cp",
             [
-                "outcome[0] = measure counter[0];",
-                "outcome[1] = measure counter[1];",
+                "outcome[0] = measure phase_register[0];",
+                "outcome[1] = measure phase_register[1];",
             ],
         ),
         (
             Format::OpenQasm2,
             "cu1",
             [
-                "measure counter[0] -> outcome[0];",
-                "measure counter[1] -> outcome[1];",
+                "measure phase_register[0] -> outcome[0];",
+                "measure phase_register[1] -> outcome[1];",
             ],
         ),
     ] {
-        let mut lines = ["h counter[0];", "h counter[1];", "h ids[0];"]
-            .map(str::to_owned)
-            .to_vec();
+        let mut lines = [
+            "h phase_register[0];",
+            "h phase_register[1];",
+            "h index[0];",
+        ]
+        .map(str::to_owned)
+        .to_vec();
         for control in [0, 1, 1] {
             lines.extend(iterate(control));
         }
         lines.extend([
-            "cx counter[0], counter[1];".to_owned(),
-            "cx counter[1], counter[0];".to_owned(),
-            "cx counter[0], counter[1];".to_owned(),
-            "h counter[0];".to_owned(),
-            format!("{phase}(-1.5707963267948966) counter[0], counter[1];"),
-            "h counter[1];".to_owned(),
+            "cx phase_register[0], phase_register[1];".to_owned(),
+            "cx phase_register[1], phase_register[0];".to_owned(),
+            "cx phase_register[0], phase_register[1];".to_owned(),
+            "h phase_register[0];".to_owned(),
+            format!("{phase}(-1.5707963267948966) phase_register[0], phase_register[1];"),
+            "h phase_register[1];".to_owned(),
         ]);
         lines.extend(measures.map(str::to_owned));
         assert_eq!(gates(&text(&counting, Part::Counting, format)), lines);

@@ -9,7 +9,7 @@ use std::fmt;
 #[non_exhaustive]
 pub enum QuantumError {
     /// The oracle has no qubits in superposition, so there is nothing to count.
-    NoIds,
+    NoIndex,
     /// A truth table has more entries than can be listed.
     TableBits {
         /// Address bits of the table that was asked for.
@@ -37,9 +37,12 @@ pub enum QuantumError {
 impl fmt::Display for QuantumError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::NoIds => f.write_str("an oracle without qubits in superposition has no ids"),
+            Self::NoIndex => f.write_str("an oracle without qubits in superposition has no index"),
             Self::TableBits { bits, most } => {
-                write!(f, "a truth table of ids of {bits} bits; at most {most}")
+                write!(
+                    f,
+                    "a truth table of an index of {bits} bits; at most {most}"
+                )
             }
             Self::MissingWord { parameter, bit } => write!(
                 f,
@@ -51,7 +54,7 @@ impl fmt::Display for QuantumError {
             ),
             Self::SignOutsideFlip(qubit) => write!(
                 f,
-                "a sign is turned on qubit {qubit} outside of the oracle's flip"
+                "a phase is flipped on qubit {qubit} outside of the oracle's flip"
             ),
             Self::NoChannel(channel) => write!(f, "the oracle has no channel {channel}"),
             Self::PhaseBitsOutOfRange(bits) => write!(

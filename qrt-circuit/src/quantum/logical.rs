@@ -22,7 +22,7 @@ pub struct LogicalCounts {
     pub toffoli: u64,
     /// Toffolis into a clean qubit that a measurement undoes.
     pub and: u64,
-    /// T gates.
+    /// T gates; Toffolis are counted apart.
     pub t: u64,
     /// Rotations by other angles.
     pub rotations: u64,

@@ -3,7 +3,7 @@
 //! An oracle of [`super::lower`] permutes basis states and flips one phase. What quantum counting
 //! puts around it are Hadamards, phases and rotations: a [`QuantumGate`] is a gate of either kind.
 //!
-//! * [`PhaseOracle`]: O_f of one pixel and channel, as gates;
+//! * [`PhaseOracle`]: O_f, an oracle that flips the phase of good basis states, as gates;
 //! * [`GroverIterate`]: `G = H O_0 H O_f`, alone or under a control;
 //! * [`Counting`]: Hadamards on the qubits in superposition, the phase register's window,
 //!   controlled powers of G and the inverse Fourier transform;

@@ -1,4 +1,4 @@
-//! O_f of one pixel and channel, as gates.
+//! O_f, an oracle that flips the phase of good basis states, as gates.
 
 use super::QuantumGate::{Ccx, Cx, Phase, X};
 use super::{QuantumError, QuantumGate, Turns};
@@ -21,13 +21,13 @@ pub enum Flip {
 
 /// An oracle that flips the phase of good basis states: compute, flip, uncompute.
 ///
-/// Its qubits are `0..qubits`. Those in superposition hold the path index and the comparator, of
-/// which some bits may be fixed; all others are zero before and after. The circuit of a pixel has its classical parameters built in.
+/// Its qubits are `0..qubits`. Those of the index are in superposition, but for bits that are fixed;
+/// all others are zero before and after. Classical parameters are built in.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PhaseOracle {
     steps: Steps,
     /// The qubits of the index, bit 0 first: those in superposition and those that are fixed.
-    ids: Vec<Qubit>,
+    index: Vec<Qubit>,
     superposed: Vec<Qubit>,
     /// Of the fixed, those that hold 1.
     ones: Vec<Qubit>,
@@ -79,7 +79,7 @@ impl PhaseOracle {
                 flip: flip.collect(),
                 uncompute: loaded(&uncompute.gates, words)?,
             },
-            ids: superposed.clone(),
+            index: superposed.clone(),
             superposed,
             ones: Vec::new(),
             qubits,
@@ -116,12 +116,12 @@ impl PhaseOracle {
                 flip: Vec::new(),
                 uncompute: Vec::new(),
             },
-            ids: Vec::new(),
+            index: Vec::new(),
             superposed: qubits.collect(),
             ones: Vec::new(),
             qubits: lower::most_qubits(&program),
         };
-        oracle.ids.clone_from(&oracle.superposed);
+        oracle.index.clone_from(&oracle.superposed);
         let mut gates = 0;
         lower::try_each_instruction(&program, |next, _| {
             for gate in next {
@@ -153,7 +153,7 @@ impl PhaseOracle {
                 flip: monomials.into_iter().map(Flip::Sign).collect(),
                 uncompute: Vec::new(),
             },
-            ids: (0..bits).collect(),
+            index: (0..bits).collect(),
             superposed: (0..bits).collect(),
             ones: Vec::new(),
             qubits: bits,
@@ -168,7 +168,7 @@ impl PhaseOracle {
     /// No bits, or more than 20.
     pub fn table(bits: u32, good: impl Fn(u64) -> bool) -> Result<Self, QuantumError> {
         if bits == 0 {
-            return Err(QuantumError::NoIds);
+            return Err(QuantumError::NoIndex);
         }
         if bits > TABLE_BITS {
             return Err(QuantumError::TableBits {
@@ -213,10 +213,9 @@ impl PhaseOracle {
         self.checked()
     }
 
-    /// The qubits of the index, bit 0 first: the path index and, above it, the comparator. All are
-    /// in superposition, but those that are fixed.
-    pub fn ids(&self) -> &[Qubit] {
-        &self.ids
+    /// The qubits of the index, bit 0 first. All are in superposition, but those that are fixed.
+    pub fn index(&self) -> &[Qubit] {
+        &self.index
     }
 
     /// The fixed qubits that hold 1, before and after each call.
@@ -301,7 +300,7 @@ impl PhaseOracle {
 
     fn checked(self) -> Result<Self, QuantumError> {
         if self.superposed.is_empty() {
-            return Err(QuantumError::NoIds);
+            return Err(QuantumError::NoIndex);
         }
         self.different(&self.superposed)?;
         let Steps::Held {

@@ -338,7 +338,7 @@ fn words_are_built_in() {
         bit: 1,
     };
     assert_eq!(refused(&[load(1, 1)], &[], &[0], &[]), missing);
-    assert_eq!(refused(&[], &[], &[], &[]), QuantumError::NoIds);
+    assert_eq!(refused(&[], &[], &[], &[]), QuantumError::NoIndex);
     let invalid = QuantumError::InvalidQubit;
     assert_eq!(refused(&[], &[], &[0, 0], &[]), invalid(0));
     assert_eq!(refused(&[Gate::X(3)], &[], &[0], &[]), invalid(3));
@@ -349,7 +349,7 @@ fn words_are_built_in() {
     assert_eq!(bits(0), Err(QuantumError::PhaseBitsOutOfRange(0)));
     assert_eq!(bits(41), Err(QuantumError::PhaseBitsOutOfRange(41)));
     assert_eq!(bits(40), Ok(()));
-    assert_eq!(PhaseOracle::table(0, |_| true), Err(QuantumError::NoIds));
+    assert_eq!(PhaseOracle::table(0, |_| true), Err(QuantumError::NoIndex));
     assert!(PhaseOracle::table(21, |_| true).is_err());
     assert!(PhaseOracle::polynomial(2, vec![vec![0, 0]]).is_err());
 }

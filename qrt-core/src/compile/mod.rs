@@ -156,7 +156,7 @@ pub struct Passes {
 }
 
 impl Passes {
-    /// All passes.
+    /// Every pass that makes a program smaller.
     pub const ALL: Self = Self {
         share: true,
         tabulate: true,
@@ -164,7 +164,7 @@ impl Passes {
         merge: true,
         multiples: true,
     };
-    /// No passes.
+    /// No pass: the program as the tracer recorded it.
     pub const NONE: Self = Self {
         share: false,
         tabulate: false,

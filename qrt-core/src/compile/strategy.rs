@@ -83,7 +83,7 @@ pub enum Garbage {
 }
 
 impl Garbage {
-    /// All of them.
+    /// All kinds of operations that have an out-of-place and an in-place form.
     pub const ALL: [Self; 3] = [Self::Tables, Self::Products, Self::Quotients];
 }
 

@@ -29,7 +29,7 @@ impl Reached {
         form: 0.0,
         nearness: 0.0,
     };
-    /// Nothing is known.
+    /// The bound of whatever nothing is known about: infinity.
     pub const UNBOUNDED: Self = Self {
         form: f64::INFINITY,
         nearness: f64::INFINITY,

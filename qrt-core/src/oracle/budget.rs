@@ -147,7 +147,7 @@ geometry: [quad: {{ vertices: [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], mate
     }
 
     #[test]
-    fn advice_names_a_knob_that_is_not_yet_turned() {
+    fn advice_names_a_parameter_that_is_not_yet_changed() {
         for (more, advice) in [
             ("", ["circuit.uncompute: auto", "sampling.depths"]),
             (
@@ -244,7 +244,7 @@ sampling:
     }
 
     #[test]
-    fn what_fits_no_register_is_an_error_at_its_knob() {
+    fn what_fits_no_register_is_an_error_at_its_parameter() {
         let wide = OracleError::Build(BuildError::TooWide {
             what: "a constant of the scene",
             bits: 70,

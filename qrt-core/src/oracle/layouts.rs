@@ -62,22 +62,22 @@ impl Layout {
         })
     }
 
-    /// The layout of the dearest channel, and which that is.
+    /// The layout of the most expensive channel, and which that is.
     ///
     /// # Errors
     /// As [`Oracle::new`].
-    pub fn of_dearest(
+    pub fn of_most_expensive(
         scene: &ValidScene,
         strategy: Strategy,
     ) -> Result<(usize, Self), OracleError> {
-        let (mut dearest, mut most) = (0, Self::new(scene, 0, strategy)?);
+        let (mut number, mut most) = (0, Self::new(scene, 0, strategy)?);
         for channel in 1..3 {
             let other = Self::new(scene, channel, strategy)?;
             if other.cost.toffoli > most.cost.toffoli {
-                (dearest, most) = (channel, other);
+                (number, most) = (channel, other);
             }
         }
-        Ok((dearest, most))
+        Ok((number, most))
     }
 
     /// Those that no other beats in qubits without more Toffolis, or in Toffolis without more
@@ -106,7 +106,7 @@ pub(super) fn strategy_of(scene: &ValidScene) -> Result<Strategy, OracleError> {
     let Some(most) = written.budget.and_then(|budget| budget.qubits) else {
         return Ok(Strategy::KEEP);
     };
-    let (channel, keep) = Layout::of_dearest(scene, Strategy::KEEP)?;
+    let (channel, keep) = Layout::of_most_expensive(scene, Strategy::KEEP)?;
     if keep.cost.qubits <= most {
         return Ok(Strategy::KEEP);
     }

@@ -52,7 +52,7 @@ pub enum RayNumber {
 }
 
 impl RayNumber {
-    /// All of them.
+    /// All quantities of a path, in the order in which its registers are declared.
     pub const ALL: [Self; 14] = [
         Self::Origin(0),
         Self::Origin(1),

@@ -36,7 +36,7 @@ impl Oracle {
         let flip = whole.instructions.len() - 2 * compute;
         let parts = lower::parts(&whole, &[compute, compute + flip]);
         let [compute, flip, uncompute] = &parts[..] else {
-            return Err(QuantumError::NoIds);
+            return Err(QuantumError::NoIndex);
         };
         let register = |register| {
             let mut inputs = compute.inputs.iter();
@@ -77,7 +77,7 @@ mod tests {
             let inputs = [oracle.id, oracle.comparator];
             let lowered = PhaseOracle::lowered(oracle.whole(channel), &inputs, &words).unwrap();
             assert_eq!(lowered.superposed(), held.superposed());
-            assert_eq!(lowered.ids(), held.ids());
+            assert_eq!(lowered.index(), held.index());
             assert_eq!(lowered.qubits(), held.qubits());
             assert_eq!(lowered.gates(), held.gates());
             for control in [None, Some(held.qubits())] {

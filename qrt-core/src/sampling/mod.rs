@@ -110,7 +110,7 @@ impl Coordinate {
         }
     }
 
-    /// The second one.
+    /// The dimension of the second coordinate of the point on a lamp that depth `depth` names.
     pub const fn light_v(depth: usize) -> Self {
         Self::light_u(depth).of(Axis::V)
     }

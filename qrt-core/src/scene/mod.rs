@@ -59,7 +59,7 @@ record! {
     pub precision: Precision = part::<Precision>(), or Precision::default();
     /// The comparator register.
     pub comparator: Comparator = part::<Comparator>(), or Comparator::default();
-    /// How the good ids are counted.
+    /// How the good indices are counted.
     pub counting: Counting = part::<Counting>(), or Counting::default();
     /// How the circuit is laid out.
     pub circuit: Circuit = part::<Circuit>(), or Circuit::default();
@@ -273,7 +273,7 @@ record! {
     /// The paths of a pixel.
     #[derive(Clone, Debug, PartialEq)]
     pub struct Sampling = "sampling", finalize = finalize::path_bits;
-    /// How path ids become points.
+    /// How path indices become points.
     pub sequence: Sequence = word::<Sequence>(), or Sequence::DigitalNet;
     /// R = 2^path_bits paths; default 12. Under product-lattice it is the sum of all bits, and
     /// only that.
@@ -304,7 +304,7 @@ keyword! {
 }
 
 keyword! {
-    /// How path ids become points.
+    /// How path indices become points.
     pub enum Sequence = "a sequence";
     /// One digital net over all coordinates, shifted per pixel.
     DigitalNet = "digital-net";
@@ -381,7 +381,7 @@ keyword! {
 }
 
 record! {
-    /// How the good ids are counted.
+    /// How the good indices are counted.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Counting = "counting";
     /// T = 2^phase_bits; default 8. A run of the counting circuit takes T - 1 queries; estimators

@@ -200,7 +200,7 @@ codes! {
         "Give `depths` at least one entry";
     PATH_BITS_SUM = "QRT0502", "path_bits that is not the sum of the lattice's bits",
         "Leave `path_bits` out under `product-lattice`, or change the bits";
-    TOO_MANY_IDS = "QRT0503", "more ids than fit into a word",
+    TOO_MANY_IDS = "QRT0503", "more path indices than fit into a word",
         "Use fewer path bits or comparator bits";
     TOO_MANY_DIMENSIONS = "QRT0504", "more dimensions than the digital net has",
         "Use fewer depths, or `product-lattice`";

@@ -443,8 +443,8 @@ problems! {
             "no surface reflects to more than single directions and tells how densely: none can \
              sample a lamp" help "remove it";
         TooManyIds { path: u32, comparator: u32, most: u32 } = TOO_MANY_IDS
-            { format!("{path} path bits and {comparator} comparator bits make 2^{} ids: at most 2^{most} \
-                fit", path.saturating_add(*comparator)) }
+            { format!("{path} path bits and {comparator} comparator bits make 2^{} indices: at most \
+                2^{most} fit", path.saturating_add(*comparator)) }
             help "use fewer of either" also "with these";
         TooManyPaths { sum: u32, most: u32 } = TOO_MANY_IDS
             "the bits add up to {sum}: a lattice of at most 2^{most} paths"

@@ -13,7 +13,7 @@ const MARGIN: f64 = 1e-6;
 /// What primary rays of a pixel may meet.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum PixelClass {
-    /// Anything.
+    /// A camera ray of the pixel may meet a lamp, or nothing is proven.
     #[default]
     MayMeetLamp,
     /// No lamp, or its back.
@@ -21,7 +21,7 @@ pub enum PixelClass {
 }
 
 impl PixelClass {
-    /// Both.
+    /// All classes, the one that any pixel may be of first.
     pub const ALL: [Self; 2] = [Self::MayMeetLamp, Self::MeetsNoLamp];
 }
 

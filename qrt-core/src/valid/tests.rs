@@ -42,7 +42,7 @@ fn scenes_built_in_rust_are_checked_like_others() {
 }
 
 #[test]
-fn knobs_beside_an_accuracy_are_seen_without_their_text() {
+fn parameters_beside_an_accuracy_are_seen_without_their_text() {
     let mut accurate = scene();
     accurate.accuracy = Some(Accuracy {
         error: 0.01,

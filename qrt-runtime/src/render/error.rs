@@ -200,8 +200,8 @@ pub enum CompiledError {
     OneRun,
     /// The circuit finds primary hits itself.
     #[error(
-        "a compiled circuit finds primary hits itself, and none that are searched for: find first \
-         hits classically, or use `render`"
+        "a compiled circuit finds primary hits itself, and none that are searched for: find \
+         primary hits classically, or use `render`"
     )]
     Visibility,
 }

@@ -7,7 +7,7 @@ use glam::DVec3;
 use qrt_core::tracer::NO_PLANE;
 use qrt_core::valid::ValidScene;
 
-/// Pixels whose first hits are found at a time.
+/// Pixels whose primary hits are found at a time.
 const PIXELS: usize = 1 << 12;
 
 impl Rendered {

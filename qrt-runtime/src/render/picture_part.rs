@@ -36,7 +36,7 @@ pub enum MergeError {
     /// There is nothing to put together.
     #[error("there are no parts to merge")]
     Nothing,
-    /// Other bytes.
+    /// The file is no part of a picture.
     #[error("`{name}` is no part of a picture")]
     Foreign { name: String },
     /// Written by another version of the format.

@@ -48,7 +48,7 @@ impl Default for Portion {
 }
 
 impl Portion {
-    /// All pixels.
+    /// The portion that is the whole picture.
     pub const WHOLE: Self = Self { index: 0, count: 1 };
 
     /// Portion `index`, from 0, of `count`.

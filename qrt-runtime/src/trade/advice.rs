@@ -1,4 +1,4 @@
-//! What to change next: the knob that buys most for its price.
+//! What to change next: the parameter that buys most for its price.
 
 use super::figures::TOTAL;
 use super::fronts::candidates;

@@ -42,7 +42,7 @@ fn timeless(folder: &Scratch) -> Vec<String> {
 }
 
 #[test]
-fn parts_of_the_error_fall_with_their_own_knob_alone() {
+fn parts_of_the_error_fall_with_their_own_parameter_alone() {
     let folder = Scratch::new();
     let measured = trade(&scene(LIT), &folder.path(""), &quick()).unwrap();
     assert!(measured.left_out.is_empty());

@@ -211,7 +211,7 @@ fn fixed(
     bits: u32,
 ) -> Result<PhaseOracle, QuantumError> {
     let (fixed, lowest) = stratum.fixed_bits(bits);
-    let comparator = oracle.ids().get(path_bits as usize..).unwrap_or_default();
+    let comparator = oracle.index().get(path_bits as usize..).unwrap_or_default();
     let fixed = comparator.get(fixed.start as usize..fixed.end as usize);
     let fixed = fixed.unwrap_or_default().to_vec();
     let (ones, zeros) = fixed.split_at(usize::from(lowest).min(fixed.len()));
@@ -295,8 +295,9 @@ fn circuit(args: &ExportArgs, format: Format) -> Result<(), Failure> {
     let counting = counting.map_err(|error| failed(&error))?;
     // The gates come from its program, of which the oracle has its own.
     let channel = inspection.channel;
+    let parts = inspection.oracle.index_parts();
     drop(inspection);
-    let export = Export::new(&counting, args.part(), Some(path_bits));
+    let export = Export::new(&counting, args.part(), &parts);
     let export = export.map_err(|error| failed(&error))?;
     allow(args, &counting, window, export.gates())?;
     let bar = Bar::gates(!args.json && !to_stdout);

@@ -170,11 +170,11 @@ pub(super) fn check_circuit(loaded: &Loaded, scene: &ValidScene) -> Result<(), F
 /// # Errors
 /// The figures that are beyond the budget.
 pub(super) fn keep_budget(loaded: &Loaded, inspection: &Inspection) -> Result<(), Failure> {
-    let spent = CallCost {
+    let cost = CallCost {
         qubits: u64::from(inspection.qubits),
         toffoli: inspection.total().toffoli,
     };
-    check_budget(&loaded.valid, spent).map_err(|problems| loaded.report(problems).into())
+    check_budget(&loaded.valid, cost).map_err(|problems| loaded.report(problems).into())
 }
 
 fn write(output: &Output, text: &str) -> Result<(), Failure> {

@@ -25,7 +25,7 @@ pub(super) fn run(
     let channel = match args.channel {
         Some(channel) => channel,
         None => {
-            Layout::of_dearest(scene, Strategy::KEEP)
+            Layout::of_most_expensive(scene, Strategy::KEEP)
                 .map_err(refused)?
                 .0
         }
