@@ -136,11 +136,11 @@ fn gates_speed(oracle: &Oracle, parts: &OracleCircuits, machine: &Gates) -> f64 
         .collect();
     let words = oracle.words(1, PIXELS[0]);
     let spans = [Span {
-        lanes: Gates::LANES,
+        lanes: machine.lanes(),
         parameters: &words,
     }];
-    let ids: Vec<u64> = (0..Gates::LANES as u64).collect();
-    let mut values = vec![0; Gates::LANES];
+    let ids: Vec<u64> = (0..machine.lanes() as u64).collect();
+    let mut values = vec![0; machine.lanes()];
     let mut rows = machine.rows();
     let blocks = 2_000_000 / (machine.len(0) + machine.len(1)) + 1;
     let started = Instant::now();
@@ -153,7 +153,7 @@ fn gates_speed(oracle: &Oracle, parts: &OracleCircuits, machine: &Gates) -> f64 
             std::hint::black_box(&mut values);
         }
         machine.run(1, &mut rows);
-        assert_eq!(rows.dirty(id, Gates::LANES), None, "all is undone");
+        assert_eq!(rows.dirty(id, machine.lanes()), None, "all is undone");
     }
-    (blocks * Gates::LANES) as f64 / started.elapsed().as_secs_f64()
+    (blocks * machine.lanes()) as f64 / started.elapsed().as_secs_f64()
 }

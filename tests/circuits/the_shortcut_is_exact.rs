@@ -22,13 +22,13 @@ fn whole(scene: &ValidScene, oracle: &Oracle, pixels: &[[u32; 2]]) -> Vec<[u64; 
     let states: Vec<(u64, u64)> = (0..paths)
         .flat_map(|id| (0..comparators).map(move |y| (id, y)))
         .collect();
-    assert!(states.len() <= Gates::LANES);
     let at = scene.scene().comparator.at;
     let mut good = vec![[0; 3]; pixels.len()];
     #[allow(clippy::needless_range_loop)] // A channel's number, not a place alone.
     for c in 0..3 {
         let circuit = lower::circuit(&oracle.whole(c));
         let machine = Gates::new(&[&circuit]).unwrap();
+        assert!(states.len() <= machine.lanes());
         let qubits = |register| {
             let mut inputs = circuit.inputs.iter();
             let found = inputs.find(|(id, _)| *id == register);

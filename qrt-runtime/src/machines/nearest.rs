@@ -165,7 +165,7 @@ impl NearestMachine {
         answers.distances.resize(states * asked.len(), 0);
         let most = match &self.machine {
             Machine::Fixed { .. } => Fixed::LANES,
-            Machine::Gates(_) => Gates::LANES,
+            Machine::Gates(circuit) => circuit.gates.lanes(),
         };
         let mut marks = answers.marks.as_mut_slice();
         let mut distances = answers.distances.as_mut_slice();

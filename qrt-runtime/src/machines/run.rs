@@ -166,7 +166,7 @@ pub fn on_gates(
     };
     let inputs: Vec<&[Qubit]> = program.inputs.iter().map(qubits).collect();
     let mut rows = machine.rows();
-    on_blocks(program, states, Gates::LANES, |columns, count| {
+    on_blocks(program, states, machine.lanes(), |columns, count| {
         rows.clear();
         for (qubits, column) in inputs.iter().zip(columns) {
             rows.set(qubits, column);

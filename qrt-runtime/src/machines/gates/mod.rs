@@ -68,7 +68,7 @@ pub struct Gates {
 }
 
 impl Gates {
-    /// States that a machine's rows hold, unless it is of few lanes.
+    /// States that a machine's rows hold, at most: see [`Gates::lanes`].
     pub const LANES: usize = LANES;
 
     /// A machine for circuits that share their qubits and their list of classical parameters: one
@@ -88,9 +88,9 @@ impl Gates {
         Ok(Self {
             code: code.collect::<Result<_, _>>()?,
             lengths: circuits.iter().map(|circuit| circuit.gates.len()).collect(),
+            words: rows::words_of(wiring.rows()),
             wiring,
             instructions: InstructionSet::widest(),
-            words: rows::WORDS,
         })
     }
 
@@ -101,12 +101,18 @@ impl Gates {
     }
 
     /// With rows of 256 states alone, for circuits of very many qubits.
-    pub fn with_few_lanes(mut self) -> Self {
-        self.words = rows::FEW_WORDS;
+    pub fn with_few_lanes(self) -> Self {
+        self.with_words(rows::FEW_WORDS)
+    }
+
+    /// With rows of so many words, one of [`rows::LENGTHS`].
+    fn with_words(mut self, words: usize) -> Self {
+        self.words = words;
         self
     }
 
-    /// States that this machine's rows hold.
+    /// States that this machine's rows hold: [`Gates::LANES`], or a half or a quarter of them where
+    /// there are so many qubits that longer rows would not stay in the processor's caches.
     pub fn lanes(&self) -> usize {
         64 * self.words
     }
@@ -176,20 +182,34 @@ impl WithSimd for Run<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        const WORDS: usize = rows::WORDS;
-        const FEW: usize = rows::FEW_WORDS;
-        if self.words == FEW {
-            return match S::U64_LANES {
-                4 => run::<S, { FEW / 4 }>(simd, self.code, self.rows),
-                2 => run::<S, { FEW / 2 }>(simd, self.code, self.rows),
-                _ => run::<pulp::Scalar, FEW>(pulp::Scalar::new(), self.code, self.rows),
-            };
-        }
         match S::U64_LANES {
-            8 => run::<S, { WORDS / 8 }>(simd, self.code, self.rows),
-            4 => run::<S, { WORDS / 4 }>(simd, self.code, self.rows),
-            2 => run::<S, { WORDS / 2 }>(simd, self.code, self.rows),
-            _ => run::<pulp::Scalar, WORDS>(pulp::Scalar::new(), self.code, self.rows),
+            // Few words do not fill a vector.
+            8 if self.words < 8 => self.scalar(),
+            8 => self.of_length::<S, 4, 2, 1, 1>(simd),
+            4 => self.of_length::<S, 8, 4, 2, 1>(simd),
+            2 => self.of_length::<S, 16, 8, 4, 2>(simd),
+            _ => self.scalar(),
+        }
+    }
+}
+
+impl Run<'_> {
+    #[inline(always)]
+    fn scalar(self) {
+        self.of_length::<pulp::Scalar, 32, 16, 8, 4>(pulp::Scalar::new());
+    }
+
+    /// Runs on rows of so many vectors, by their words: those of [`rows::LENGTHS`].
+    #[inline(always)]
+    fn of_length<S: Simd, const A: usize, const B: usize, const C: usize, const D: usize>(
+        self,
+        simd: S,
+    ) {
+        match rows::LENGTHS.iter().position(|words| *words == self.words) {
+            Some(0) => run::<S, A>(simd, self.code, self.rows),
+            Some(1) => run::<S, B>(simd, self.code, self.rows),
+            Some(2) => run::<S, C>(simd, self.code, self.rows),
+            _ => run::<S, D>(simd, self.code, self.rows),
         }
     }
 }

@@ -6,18 +6,31 @@ use crate::machines::transpose::transpose;
 use qrt_circuit::Qubit;
 use std::fmt;
 
-/// States that a machine's rows hold.
+/// States that a machine's rows hold, at most.
 ///
 /// Longer rows hide the time that a row takes from being written to being read, and the choosing
-/// of what to execute; shorter ones fit a nearer cache. On a Zen 4 core, full adders over 24,000
-/// qubits run at 0.7, 1.0, 1.2 and 1.2e12 lane-gates a second at 512, 1024, 2048 and 4096 lanes.
+/// of what to execute; shorter ones fit a nearer cache. On a Zen 5 core with 32 MB of cache, in 1e11
+/// lane-gates a second at 512, 1024 and 2048 lanes: the box under `scoped` (1,386 qubits) 5.2, 8.7 and
+/// 13.2; under `keep` (39,277) 9.2, 14.4 and 19.2; `cornell-glass` under `keep` (143,923) 9.3, 10.3 and
+/// 8.4, where the longest rows take 37 MB.
 pub(super) const LANES: usize = 2048;
 
-/// Words of a row.
-pub(super) const WORDS: usize = LANES / 64;
+/// Words that a row may have.
+pub(super) const LENGTHS: [usize; 4] = [LANES / 64, LANES / 128, LANES / 256, FEW_WORDS];
 
-/// Words of a row where there are very many qubits.
+/// Words of a row where there are very many qubits, and their gates are not held.
 pub(super) const FEW_WORDS: usize = 4;
+
+/// Bytes that a machine's rows may have before they are made shorter: each thread has rows of its
+/// own, and a few share the last cache.
+const MOST_BYTES: usize = 12 << 20;
+
+/// Words of a row where there are so many rows.
+pub(super) fn words_of(rows: usize) -> usize {
+    let [long, middle, short, _] = LENGTHS;
+    let fit = |words: &usize| rows * words * size_of::<u64>() <= MOST_BYTES;
+    [long, middle].into_iter().find(fit).unwrap_or(short)
+}
 
 /// Words that rows are aligned to: a cache line. Vectors across two lines halve the speed.
 const LINE: usize = 8;

@@ -82,12 +82,14 @@ fn gates() -> impl Strategy<Value = Vec<Gate>> {
     proptest::collection::vec(piece, 0..40).prop_map(|pieces| pieces.concat())
 }
 
-/// All states of the qubits, in 4 pixels; and a quarter of them in rows of few lanes.
+/// All states of the qubits, in 4 pixels; and as many of them as there are lanes in shorter rows.
 fn check(gates: &[Gate], set: InstructionSet) {
     let circuit = circuit(gates.to_vec(), QUBITS);
     let machine = Gates::new(&[&circuit]).unwrap().with_instructions(set);
-    check_lanes(gates, &machine.clone().with_few_lanes(), set);
-    check_lanes(gates, &machine, set);
+    assert_eq!(machine.lanes(), LANES);
+    for words in rows::LENGTHS {
+        check_lanes(gates, &machine.clone().with_words(words), set);
+    }
 }
 
 fn check_lanes(gates: &[Gate], machine: &Gates, set: InstructionSet) {
@@ -245,4 +247,14 @@ fn blocks_come_in_order() {
         value[0]
     });
     assert_eq!(sums, [0, 3, 0, 3, 0, 3, 0, 3, 0]);
+}
+
+#[test]
+fn rows_of_many_qubits_are_shorter() {
+    let lanes = |qubits| {
+        let machine = Gates::new(&[&circuit(Vec::new(), qubits)]).unwrap();
+        assert_eq!(machine.rows().signs().len() * 64, machine.lanes());
+        machine.lanes()
+    };
+    assert_eq!([40_000, 80_000, 150_000].map(lanes), [2048, 1024, 512]);
 }

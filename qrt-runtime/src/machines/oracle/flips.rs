@@ -18,11 +18,12 @@ pub(super) fn try_all(oracle: &Oracle, parts: &OracleCircuits) -> Result<(), Def
     let flips = oracle.channels.iter().zip(&parts.flips);
     for (channel, flip) in flips {
         let flip = Flip::new(oracle, parts, channel, flip)?;
-        let blocks = flip.pairs.count.div_ceil(Gates::LANES as u64) as usize;
         let gates = Gates::new(&[&flip.circuit])?;
+        let lanes = gates.lanes() as u64;
+        let blocks = flip.pairs.count.div_ceil(lanes) as usize;
         let faults = gates.blocks(blocks, |rows, block| {
-            let first = block as u64 * Gates::LANES as u64;
-            let end = (first + Gates::LANES as u64).min(flip.pairs.count);
+            let first = block as u64 * lanes;
+            let end = (first + lanes).min(flip.pairs.count);
             let (colours, comparators): (Vec<u64>, Vec<u64>) =
                 (first..end).map(|pair| flip.pairs.pair(pair)).unzip();
             rows.clear();
