@@ -1,4 +1,8 @@
-"""Qiskit's iterative amplitude estimation runs a pixel's whole circuit."""
+"""Qiskit's iterative amplitude estimation runs a pixel's whole circuit: qiskit_estimation.py [COMMAND]."""
+
+import json
+import subprocess
+import sys
 
 from qiskit.primitives import StatevectorSampler
 from qiskit_algorithms import IterativeAmplitudeEstimation
@@ -8,19 +12,30 @@ import qrt
 scene = qrt.parse("""
 name: edge
 camera: { orthographic: { eye: [0, 0, 2], target: [0, 0, 0], height: 2 } }
-film: { width: 2, height: 2 }
+film: { width: 1, height: 1 }
 materials: { lamp: { emitter: { radiance: [1, 0.5, 0.25] } } }
 geometry:
-  - quad: { vertices: [[-1, -1, 0], [0.25, -1, 0], [0.25, 1, 0], [-1, 1, 0]], material: lamp }
-sampling: { path_bits: 2, depths: [{ bits: [2, 2] }] }
+  - quad: { vertices: [[-1, -1, 0], [-0.5, -1, 0], [-0.5, 1, 0], [-1, 1, 0]], material: lamp }
+sampling: { path_bits: 3, depths: [{ bits: [3, 3] }] }
 precision: { fraction: 4 }
 comparator: { bits: 1 }
 circuit: { uncompute: scoped }
 """)
-oracle = scene.oracle("r", (1, 0))
-sampler = StatevectorSampler(default_shots=100, seed=5)
-estimator = IterativeAmplitudeEstimation(0.1, 0.05, sampler=sampler)
-found = estimator.estimate(oracle.estimation_problem())
+oracle = scene.oracle("r", (0, 0))
+print(f"{oracle.qubits} qubits, {oracle.toffoli} Toffolis a query; S/N is {oracle.amplitude}")
 
-print(f"{oracle.qubits} qubits, {oracle.toffoli} Toffolis a query")
-print(f"estimated {found.estimation:.3f}, S/N is {oracle.amplitude:.3f}")
+sampler = StatevectorSampler(default_shots=100, seed=5)
+estimator = IterativeAmplitudeEstimation(0.03, 0.05, sampler=sampler)
+found = estimator.estimate(oracle.estimation_problem())
+low, high = found.confidence_interval
+print(f"Qiskit: {low:.3f} to {high:.3f}, by up to {max(found.powers)} iterates")
+
+numbers = ["--good", oracle.good, "--total", oracle.total, "--phase-bits", 7, "--shots", 20]
+command = [sys.argv[1] if sys.argv[1:] else "qrt", "count", *map(str, numbers), "--json"]
+told = json.loads(subprocess.run(command, capture_output=True, check=True).stdout)
+lower, higher = told["estimate"]["interval"]
+print(f"qrt count: {lower:.3f} to {higher:.3f}")
+
+for left, right in ((low, high), (lower, higher)):
+    assert left <= oracle.amplitude <= right and right - left < 0.06
+print("both intervals hold S/N")

@@ -1,5 +1,6 @@
-"""A picture by jobs of Slurm, which submitit submits."""
+"""A picture by an array of Slurm's jobs, which submitit submits: slurm.py SCENE TILES."""
 
+import functools
 import sys
 
 import submitit
@@ -7,8 +8,10 @@ import submitit
 import qrt
 
 if __name__ == "__main__":
-    scene = qrt.load(sys.argv[1])
+    scene, tiles = qrt.load(sys.argv[1]), int(sys.argv[2])
     executor = submitit.AutoExecutor(folder="jobs")
-    executor.update_parameters(timeout_min=60, cpus_per_task=4)
-    picture = qrt.distributed.render(scene, executor, tiles=100, threads=4, seed=1)
+    executor.update_parameters(timeout_min=60, cpus_per_task=4, slurm_array_parallelism=50)
+    part = functools.partial(qrt.render_tile, scene, n=tiles, threads=4, seed=1, progress=False)
+    jobs = executor.map_array(part, range(tiles))
+    picture = qrt.merge(job.result() for job in jobs)
     picture.save("picture.png")

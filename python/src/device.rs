@@ -45,28 +45,34 @@ impl Device {
     fn measure<T>(
         &self,
         py: Python<'_>,
-        run: impl FnOnce(&mut RuntimeDevice<'_>) -> Result<T, EstimatorError>,
-    ) -> PyResult<T> {
-        let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
-        let State {
-            stream,
-            queries,
-            shots,
-        } = &mut *state;
-        let measured =
-            RuntimeDevice::new(self.problem, self.noise, stream).and_then(|mut device| {
-                let found = run(&mut device)?;
-                let usage = device.usage();
-                *queries += usage.queries;
-                *shots += usage.shots;
-                Ok(found)
-            });
+        run: impl FnOnce(&mut RuntimeDevice<'_>) -> Result<T, EstimatorError> + Send,
+    ) -> PyResult<T>
+    where
+        T: Send,
+    {
+        // Who waits for the lock does not hold up the interpreter, which its holder may want.
+        let measured = py.detach(|| {
+            let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
+            let State {
+                stream,
+                queries,
+                shots,
+            } = &mut *state;
+            let mut device = RuntimeDevice::new(self.problem, self.noise, stream)?;
+            let found = run(&mut device)?;
+            let usage = device.usage();
+            *queries += usage.queries;
+            *shots += usage.shots;
+            Ok::<T, EstimatorError>(found)
+        });
         measured.map_err(|error| errors::request(py, error))
     }
 
-    fn used(&self) -> (u64, u64) {
-        let state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
-        (state.queries, state.shots)
+    fn used(&self, py: Python<'_>) -> (u64, u64) {
+        py.detach(|| {
+            let state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
+            (state.queries, state.shots)
+        })
     }
 }
 
@@ -113,13 +119,13 @@ impl Device {
 
     /// Queries of the oracle up to now.
     #[getter]
-    fn queries(&self) -> u64 {
-        self.used().0
+    fn queries(&self, py: Python<'_>) -> u64 {
+        self.used(py).0
     }
 
     /// Measurements up to now.
     #[getter]
-    fn measured(&self) -> u64 {
-        self.used().1
+    fn measured(&self, py: Python<'_>) -> u64 {
+        self.used(py).1
     }
 }

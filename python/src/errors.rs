@@ -3,6 +3,7 @@
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 use qrt_core::syntax::Report;
+use qrt_runtime::memory::MemoryError;
 use qrt_runtime::render::RenderError;
 
 /// An exception of a class of `qrt`.
@@ -23,6 +24,11 @@ where
 /// What was asked for does not exist, or does not go together.
 pub(crate) fn request(py: Python<'_>, message: impl ToString) -> PyErr {
     exception(py, "RequestError", (message.to_string(),))
+}
+
+/// What was asked for would not fit into memory.
+pub(crate) fn memory(py: Python<'_>, error: &MemoryError) -> PyErr {
+    request(py, format!("{error}, or allow more with max_memory"))
 }
 
 /// The work failed.
@@ -71,6 +77,8 @@ pub(crate) fn render(
 ) -> PyErr {
     match error {
         RenderError::Oracle(error) => scene(py, &report(vec![error.problem()])),
+        RenderError::Budget(problems) => scene(py, &report(problems)),
+        RenderError::WouldNotFit(error) => memory(py, &error),
         error if error.is_refusal() => request(py, error),
         error => job(py, error),
     }

@@ -4,7 +4,8 @@ use crate::device::Device;
 use crate::errors;
 use crate::scene::Scene;
 use crate::work;
-use numpy::{IntoPyArray, PyArray1};
+use numpy::PyArray1;
+use numpy::ndarray::ArrayView1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use qrt_circuit::export::{Export, Format};
@@ -15,7 +16,8 @@ use qrt_core::oracle::{CallCost, Options, Oracle as PathOracle, check_budget};
 use qrt_core::tracer::PixelClasses;
 use qrt_core::valid::ValidScene;
 use qrt_runtime::estimators::{Noise, NoiseError, Problem};
-use qrt_runtime::machines::OracleMachine;
+use qrt_runtime::machines::{Defect, OracleMachine};
+use qrt_runtime::memory::{CircuitWork, Memory};
 use qrt_runtime::physical::{PhysicalError, PictureCounts};
 use std::sync::{Arc, OnceLock};
 
@@ -60,6 +62,8 @@ impl Oracle {
             }
         };
         let (traced, planned) = scene.traced(py)?;
+        let size = Memory::default().keep_circuit(&traced, CircuitWork::Program);
+        size.map_err(|error| errors::request(py, error))?;
         let options = Options::of_class(PixelClasses::new(&traced).of(pixel));
         let report = |problems| errors::scene(py, &scene.loaded.report(problems));
         let inspection = work::run(py, None, None, |_| {
@@ -99,12 +103,13 @@ impl Oracle {
             let message = format!("{paths} paths are more than {MOST_PATHS}: lower path_bits");
             return Err(errors::request(py, message));
         }
-        let found = work::run(py, None, None, |_| {
+        let found = work::run(py, None, None, |workers| {
             let machine = OracleMachine::fixed(Arc::clone(&self.compiled), self.seed, false);
             let mut found = Vec::with_capacity(paths as usize);
-            let add =
-                |finished: qrt_runtime::machines::Finished<'_>| found.extend(finished.good[0]);
-            machine.trace(&[self.pixel], 0..paths, add).map(|()| found)
+            for ids in work::runs(workers, paths) {
+                machine.trace(&[self.pixel], ids, |run| found.extend(run.good[0]))?;
+            }
+            Ok::<_, Defect>(found)
         })?;
         let found = found.map_err(|error| errors::job(py, error))?;
         Ok(self.thresholds.get_or_init(|| found))
@@ -237,10 +242,16 @@ impl Oracle {
     }
 
     /// How many thresholds the colour of each path exceeds: an array of (2**path_bits,), int64, in the order
-    /// of path indices. Index path + (y << path_bits) is good if y is below it.
+    /// of path indices, that shares the oracle's memory and can't be written to. Index path + (y <<
+    /// path_bits) is good if y is below it.
     #[getter]
-    fn thresholds<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<i64>>> {
-        Ok(self.counted(py)?.to_vec().into_pyarray(py))
+    fn thresholds<'py>(this: &Bound<'py, Self>) -> PyResult<Bound<'py, PyArray1<i64>>> {
+        let view = ArrayView1::from(this.get().counted(this.py())?);
+        // SAFETY: the memory belongs to the oracle, which is frozen and counts once: it neither changes nor
+        // moves, and the array holds a reference to the oracle.
+        let array = unsafe { PyArray1::borrow_from_array(&view, this.clone().into_any()) };
+        array.call_method1("setflags", (false,))?;
+        Ok(array)
     }
 
     /// A device that runs the iterate on this oracle's indices: what it measures is drawn from the exact
@@ -292,7 +303,7 @@ impl Oracle {
             self.channel(),
             self.seed
         );
-        let written = work::run(py, None, None, |_| {
+        let written = work::run(py, None, None, |workers| {
             let failed = |error: &dyn std::error::Error| error.to_string();
             let oracle = self
                 .compiled
@@ -307,6 +318,10 @@ impl Oracle {
                 let gates = export.gates();
                 return Err(format!("{gates} gates are more than max_gates={max_gates}"));
             }
+            let export = match workers.cancel {
+                Some(cancel) => export.with_cancel(cancel),
+                None => export,
+            };
             let mut bytes = Vec::new();
             let written = export.write(format, &[comment], &mut bytes);
             written.map_err(|e| failed(&e))?;

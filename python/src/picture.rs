@@ -1,18 +1,22 @@
 //! Pictures: arrays that share their memory, files, and parts put together.
 
 use crate::errors;
+use crate::scene::Scene;
 use numpy::ndarray::{ArrayView1, ArrayView3, ShapeError};
-use numpy::{Element, IntoPyArray, PyArray1, PyArray3, PyArrayMethods};
+use numpy::{Element, PyArray1, PyArray3};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use qrt_runtime::image::{self, Encoding, ImageError};
 use qrt_runtime::render::{Merge, Rendered};
 use std::path::PathBuf;
+use std::sync::OnceLock;
 
 /// A picture, and how it came about.
 #[pyclass(frozen, module = "qrt")]
 pub(crate) struct Picture {
     rendered: Rendered,
+    scales: OnceLock<Vec<[f64; 3]>>,
+    amplitudes: OnceLock<Vec<[f64; 3]>>,
 }
 
 /// Puts parts together; each has a name for errors and its bytes.
@@ -21,11 +25,11 @@ pub(crate) fn merge(py: Python<'_>, parts: &Bound<'_, PyAny>) -> PyResult<Pictur
     let mut merge = Merge::default();
     for part in parts.try_iter()? {
         let (name, bytes): (String, pyo3::pybacked::PyBackedBytes) = part?.extract()?;
-        merge
-            .add(&name, &bytes)
+        py.detach(|| merge.add(&name, &bytes))
             .map_err(|error| errors::merging(py, error))?;
     }
-    let rendered = merge.finish().map_err(|error| errors::merging(py, error))?;
+    let rendered = py.detach(|| merge.finish());
+    let rendered = rendered.map_err(|error| errors::merging(py, error))?;
     Ok(Picture::new(rendered))
 }
 
@@ -53,7 +57,37 @@ fn shared<'py, T: Element>(
 
 impl Picture {
     pub(crate) fn new(rendered: Rendered) -> Self {
-        Self { rendered }
+        Self {
+            rendered,
+            scales: OnceLock::new(),
+            amplitudes: OnceLock::new(),
+        }
+    }
+
+    /// The bounds on a path's colour, by pixel.
+    fn bounds(&self) -> &[[f64; 3]] {
+        self.scales.get_or_init(|| {
+            let [x, y, width, height] = self.rendered.crop;
+            let rows = (y..y + height).flat_map(|y| (x..x + width).map(move |x| [x, y]));
+            rows.map(|pixel| self.rendered.scales.at(pixel)).collect()
+        })
+    }
+
+    /// What was estimated of S/N, by pixel; 0 where a channel is proven black.
+    fn estimates(&self) -> &[[f64; 3]] {
+        let of = |(pixel, scale): (&[f64; 3], &[f64; 3])| {
+            std::array::from_fn(|c| {
+                if scale[c] > 0.0 {
+                    pixel[c] / scale[c]
+                } else {
+                    0.0
+                }
+            })
+        };
+        self.amplitudes.get_or_init(|| {
+            let pixels = self.rendered.image.pixels.iter();
+            pixels.zip(self.bounds()).map(of).collect()
+        })
     }
 
     fn shape(&self) -> [usize; 2] {
@@ -118,18 +152,24 @@ impl Picture {
         array.call_method1("reshape", (own.shape(),))
     }
 
-    /// The radiance of S = N, the proven bound on a path's colour: an array of (rows, columns, 3), float64.
+    /// The radiance of S = N, the proven bound on a path's colour: an array of (rows, columns, 3), float64,
+    /// that can't be written to.
     #[getter]
-    fn scales<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
-        let [x, y, width, height] = self.rendered.crop;
-        let mut scales = Vec::with_capacity(3 * self.rendered.image.pixels.len());
-        for y in y..y + height {
-            for x in x..x + width {
-                scales.extend(self.rendered.scales.at([x, y]));
-            }
-        }
-        let [height, width] = self.shape();
-        scales.into_pyarray(py).reshape([height, width, 3])
+    fn scales<'py>(this: &Bound<'py, Self>) -> PyResult<Bound<'py, PyArray3<f64>>> {
+        let own = this.get();
+        let [height, width] = own.shape();
+        let flat = own.bounds().as_flattened();
+        shared(this, ArrayView3::from_shape((height, width, 3), flat))
+    }
+
+    /// Amplitudes S/N that were estimated: an array of (rows, columns, 3), float64, RGB, that can't be
+    /// written to. Pixels over scales, and 0 where a channel is proven black.
+    #[getter]
+    fn amplitudes<'py>(this: &Bound<'py, Self>) -> PyResult<Bound<'py, PyArray3<f64>>> {
+        let own = this.get();
+        let [height, width] = own.shape();
+        let flat = own.estimates().as_flattened();
+        shared(this, ArrayView3::from_shape((height, width, 3), flat))
     }
 
     /// N, the indices of a channel of a pixel: paths times thresholds.
@@ -209,16 +249,36 @@ impl Picture {
     /// Write the picture to a file in .png (8-bit sRGB) or .exr (linear 32-bit float), all or nothing: the
     /// bytes of `qrt render -o`. `exposure` is in stops, for .png. Returns how many pixels were clipped.
     ///
-    /// Raises RequestError for another ending, OSError where the file can't be written.
-    #[pyo3(signature = (path, *, exposure=None))]
-    fn save(&self, py: Python<'_>, path: PathBuf, exposure: Option<f64>) -> PyResult<u64> {
+    /// `layers` is the scene of the picture: an .exr then has, as of `qrt render --layers`, the layers
+    /// interval.R .G .B (widths of intervals, in radiance), queries.Y, and of what the ray through a pixel's
+    /// middle meets depth.Z (in units of the scene), normal.X .Y .Z and material.ID (from 1).
+    ///
+    /// Raises RequestError for another ending, for layers in .png or of another scene; OSError where the
+    /// file can't be written.
+    #[pyo3(signature = (path, *, exposure=None, layers=None))]
+    fn save(
+        &self,
+        py: Python<'_>,
+        path: PathBuf,
+        exposure: Option<f64>,
+        layers: Option<Py<Scene>>,
+    ) -> PyResult<u64> {
+        let scene = layers.as_ref().map(Py::get);
+        let layers = py.detach(|| match scene {
+            Some(scene) => self.rendered.layers(scene.valid()),
+            None => Ok(Vec::new()),
+        });
+        let layers = layers.map_err(|error| match scene {
+            Some(scene) => scene.failure(py, error),
+            None => errors::job(py, error),
+        })?;
         let saved = py.detach(|| {
             let encoding = Encoding::of(&path, exposure)?;
             let mut metadata = self.rendered.metadata()?;
             if let Encoding::Png { exposure } = encoding {
                 metadata.set("exposure", exposure.to_string())?;
             }
-            image::save(&path, &self.rendered.image, &metadata, encoding)
+            image::save_layers(&path, &self.rendered.image, &layers, &metadata, encoding)
         });
         saved.map_err(|error| refused(py, error))
     }

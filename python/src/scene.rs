@@ -14,10 +14,12 @@ use qrt_core::tracer::PixelClasses;
 use qrt_core::valid::ValidScene;
 use qrt_runtime::estimators::{Noise, NoiseError};
 use qrt_runtime::machines::{OracleMachine, Real};
+use qrt_runtime::memory::Memory;
 use qrt_runtime::mitsuba;
 use qrt_runtime::plan;
 use qrt_runtime::render::{
-    Colour, DEFAULT_FAILURE, Model, Options, Portion, RenderError, Visibility, render, render_part,
+    Colour, DEFAULT_FAILURE, Model, Options, Portion, RenderError, Visibility, check_circuit,
+    render, render_part,
 };
 use qrt_runtime::search::Guess;
 use std::fs;
@@ -29,7 +31,8 @@ const MOST_PATHS: u64 = 1 << 28;
 /// Files by the name that the scene has for them, with their contents.
 type Held = Vec<(String, Vec<u8>)>;
 
-/// A scene that was read and checked. It does not change; `with_` methods make others.
+/// A scene that was read and checked: what `qrt.load`, `qrt.parse` and `qrt.from_dict` make. It does not
+/// change; their `set=` makes others.
 #[pyclass(frozen, module = "qrt")]
 pub(crate) struct Scene {
     pub(crate) loaded: Loaded,
@@ -160,6 +163,7 @@ impl Asked {
                         value.extract()?,
                     )?);
                 }
+                "max_memory" => own.memory = Memory::of(Some(value.extract()?)),
                 "threads" => asked.threads = work::threads(py, Some(value.extract()?))?,
                 "checkpoint" => own.checkpoint = Some(value.extract()?),
                 "resume" => own.resume = value.extract()?,
@@ -240,15 +244,17 @@ impl Scene {
         let made = work::run(py, threads, heard, |workers| {
             make(self.valid(), &Options { workers, ..options })
         });
-        if let Some(listener) = heard {
-            listener.call_method0("close")?;
-        }
-        made?.map_err(|error| self.failure(py, error))
+        let made = made.and_then(|made| made.map_err(|error| self.failure(py, error)));
+        let closed = heard.map(|listener| listener.call_method0("close"));
+        // What failed first is what is told.
+        made.and_then(|made| closed.transpose().map(|_| made))
     }
 
     /// The scene that is traced: with the parameters that its accuracy takes, if it asks for one; and
     /// then the queries of a pixel that are planned, by channel.
     pub(crate) fn traced(&self, py: Python<'_>) -> PyResult<(ValidScene, Option<[f64; 3]>)> {
+        let fits = Memory::default().keep_plan(self.valid());
+        fits.map_err(|error| errors::request(py, error))?;
         let planned = work::run(py, None, None, |workers| {
             let options = plan::Options {
                 workers,
@@ -356,21 +362,37 @@ impl Scene {
     /// visibility: "classical", "exhaustive" or "grover", with search_failure (a probability) and
     ///     first_guess ("random" or "coherent").
     /// threads: one for each core unless given.
+    /// max_memory: bytes that it may take, by an estimate; three quarters of what the machine has unless given.
     /// progress: a function of the paths done and of all paths; True for a bar of tqdm, False for none;
-    ///     by default a bar in terminals and notebooks where tqdm is installed.
+    ///     by default a bar in terminals and notebooks.
     /// checkpoint, resume: a file that keeps what is finished, and whether to go on from it.
     ///
     /// Other threads of Python run meanwhile, and Ctrl-C ends the work.
     ///
     /// Raises SceneError or RequestError for what can't be rendered, JobError where the work fails.
-    #[pyo3(signature = (**options))]
+    #[pyo3(
+        signature = (**options),
+        text_signature = "($self, *, model='real', estimator=None, seed=0, crop=None, colour='three-runs', \
+                          noise=None, visibility='classical', search_failure=None, first_guess=None, \
+                          threads=None, max_memory=None, progress=None, checkpoint=None, resume=False)"
+    )]
     fn render(&self, py: Python<'_>, options: Option<&Bound<'_, PyDict>>) -> PyResult<Picture> {
         let rendered = self.work(py, options, render)?;
         Ok(Picture::new(rendered))
     }
 
-    /// As `qrt.render_tile`.
-    #[pyo3(signature = (k, n, **options))]
+    /// Render portion `k`, from 0, of `n` of the picture, and return it as the bytes of a part: those of a
+    /// file of `qrt render --tile K/N`, which `qrt.merge` and `qrt merge` put together. What else is given is
+    /// as for `render`.
+    ///
+    /// Raises RequestError, too, where there are more portions than pixels.
+    #[pyo3(
+        signature = (k, n, **options),
+        text_signature = "($self, k, n, *, model='real', estimator=None, seed=0, crop=None, \
+                          colour='three-runs', noise=None, visibility='classical', search_failure=None, \
+                          first_guess=None, threads=None, max_memory=None, progress=None, checkpoint=None, \
+                          resume=False)"
+    )]
     fn render_tile<'py>(
         &self,
         py: Python<'py>,
@@ -391,6 +413,9 @@ impl Scene {
     /// colours of the models "fixed" and "gates" are those of the circuit's numbers.
     ///
     /// pixel: column and row, from 0 at the top left; the middle one unless given.
+    ///
+    /// Raises RequestError for a pixel that is not on the film, and for more paths than 2**28; SceneError for
+    /// a scene without a circuit, or whose budget it exceeds, of the models "fixed" and "gates".
     #[pyo3(signature = (pixel=None, *, model="real", seed=0))]
     fn paths<'py>(
         &self,
@@ -408,15 +433,23 @@ impl Scene {
             return Err(errors::request(py, message));
         }
         let class = PixelClasses::new(&scene).of(pixel);
-        let traced = work::run(py, None, None, |_| {
+        let options = Options {
+            model,
+            ..Options::default()
+        };
+        let traced = work::run(py, None, None, |workers| {
+            check_circuit(&scene, &options)?;
             let mut colours = Vec::with_capacity(3 * paths as usize);
             if model == Model::Real {
-                Real::of_class(&scene, seed, class)?.trace(&[pixel], |block| {
-                    let [red, green, blue] = block.colours;
-                    for ((red, green), blue) in red.iter().zip(green).zip(blue) {
-                        colours.extend([red, green, blue]);
-                    }
-                });
+                let real = Real::of_class(&scene, seed, class)?;
+                for ids in work::runs(workers, paths) {
+                    real.trace_range(&[pixel], ids, |block| {
+                        let [red, green, blue] = block.colours;
+                        for ((red, green), blue) in red.iter().zip(green).zip(blue) {
+                            colours.extend([red, green, blue]);
+                        }
+                    });
+                }
                 return Ok(colours);
             }
             let made = PathOracle::rgb(&scene, oracle::Options::of_class(class))?;
@@ -428,13 +461,15 @@ impl Scene {
             } else {
                 OracleMachine::fixed(made.into(), seed, true)
             };
-            machine.trace(&[pixel], 0..paths, |finished| {
-                let [red, green, blue] = finished.colours;
-                for ((red, green), blue) in red.iter().zip(green).zip(blue) {
-                    let of = |c: usize, value: i64| value as f64 * unit * scale[c];
-                    colours.extend([of(0, *red), of(1, *green), of(2, *blue)]);
-                }
-            })?;
+            let of = |c: usize, value: i64| value as f64 * unit * scale[c];
+            for ids in work::runs(workers, paths) {
+                machine.trace(&[pixel], ids, |finished| {
+                    let [red, green, blue] = finished.colours;
+                    for ((red, green), blue) in red.iter().zip(green).zip(blue) {
+                        colours.extend([of(0, *red), of(1, *green), of(2, *blue)]);
+                    }
+                })?;
+            }
             Ok::<Vec<f64>, RenderError>(colours)
         })?;
         let colours = traced.map_err(|error| self.failure(py, error))?;

@@ -4,6 +4,7 @@ use crate::errors;
 use pyo3::prelude::*;
 use qrt_runtime::workers::{Progress, Workers};
 use std::num::NonZeroUsize;
+use std::ops::Range;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, sync_channel};
 use std::thread;
@@ -13,6 +14,17 @@ use std::time::Duration;
 const TICK: Duration = Duration::from_millis(50);
 /// Bytes of the stack of the thread that works.
 const STACK: usize = 64 << 20;
+
+/// Paths that are traced between two looks at whether the work is still wanted.
+const RUN: u64 = 1 << 12;
+
+/// The path indices below `paths` in runs, until the work is cancelled; nobody is handed what is there then.
+pub(crate) fn runs(workers: Workers<'_>, paths: u64) -> impl Iterator<Item = Range<u64>> {
+    (0..paths)
+        .step_by(RUN as usize)
+        .take_while(move |_| !(workers.cancel).is_some_and(|cancel| cancel.load(Ordering::Relaxed)))
+        .map(move |first| first..(first + RUN).min(paths))
+}
 
 /// How far the work is, in paths.
 #[derive(Default)]

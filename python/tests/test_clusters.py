@@ -1,7 +1,6 @@
 """Pictures by clusters: workers may die, and the picture is the same."""
 
 import os
-import pathlib
 import shutil
 import signal
 import subprocess
@@ -16,37 +15,52 @@ import pytest
 import qrt
 
 
-def test_dask_renders_the_picture_while_two_of_four_workers_are_killed(box):
+def test_dask_renders_the_picture_while_two_of_four_workers_are_killed(box, tmp_path):
     distributed = pytest.importorskip("distributed")
-    slow = qrt.parse(box.to_yaml(), {"sampling.path_bits": 15})
-    whole = slow.render(estimator="exact")
+    slow = qrt.parse(box.to_yaml(), {"sampling.path_bits": 16})
+    tiles = 48
     options = {"n_workers": 4, "threads_per_worker": 1, "processes": True}
     with distributed.LocalCluster(**options, dashboard_address=None) as cluster:
         with distributed.Client(cluster) as client:
             workers = client.run(os.getpid)
-            first = threading.Event()
+            begun = threading.Event()
+            finished = [0]
 
             def told(done, total):
-                if 0 < done < total:
-                    first.set()
+                assert total == tiles
+                finished[0] = done
+                if done:
+                    begun.set()
 
+            # How many tiles were finished when each was killed.
             killed = []
 
             def kill():
-                first.wait(120)
+                begun.wait(120)
                 for process in list(workers.values())[:2]:
                     os.kill(process, signal.SIGKILL)
-                    killed.append(process)
+                    killed.append(finished[0])
                     time.sleep(0.2)
 
             killer = threading.Thread(target=kill)
             killer.start()
             picture = qrt.distributed.render(
-                slow, client, tiles=48, estimator="exact", progress=told
+                slow, client, tiles=tiles, estimator="exact", progress=told
             )
             killer.join()
-    assert len(killed) == 2
-    assert numpy.array_equal(picture.pixels, whole.pixels)
+    assert len(killed) == 2 and all(0 < done < tiles for done in killed), killed
+    assert finished[0] == tiles
+    for made, name in ((picture, "dask.exr"), (slow.render(estimator="exact"), "own.exr")):
+        made.save(tmp_path / name)
+    assert (tmp_path / "dask.exr").read_bytes() == (tmp_path / "own.exr").read_bytes()
+
+
+def test_submitit_renders_the_picture(box, tmp_path):
+    submitit = pytest.importorskip("submitit")
+    executor = submitit.LocalExecutor(folder=tmp_path)
+    executor.update_parameters(timeout_min=5)
+    picture = qrt.distributed.render(box, executor, tiles=3, estimator="exact")
+    assert numpy.array_equal(picture.pixels, box.render(estimator="exact").pixels)
 
 
 SCRIPT = """

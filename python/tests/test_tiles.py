@@ -64,6 +64,9 @@ def test_processes_render_the_picture(box):
         )
         with pytest.raises(qrt.RequestError, match="best"):
             qrt.distributed.render(box, pool, tiles=2, estimator="best")
+        for option in ("checkpoint", "resume"):
+            with pytest.raises(qrt.RequestError, match=f"{option}= keeps the work of one process"):
+                qrt.distributed.render(box, pool, **{option: True})
     assert numpy.array_equal(picture.pixels, whole.pixels)
     assert told[-1] == (7, 7)
 
@@ -83,6 +86,50 @@ class Unreliable:
         else:
             future.set_result(function(*arguments))
         return future
+
+
+def test_a_wrong_option_is_no_lost_task(box):
+    pool = Unreliable(0)
+    with pytest.raises(TypeError, match="modell"):
+        qrt.distributed.render(box, pool, tiles=1, modell="real")
+    assert pool.submitted == 1
+
+
+def test_a_pool_that_breaks_with_a_worker_says_so(box):
+    """A process that dies breaks a ProcessPoolExecutor, all of whose tasks are then lost."""
+    slow = qrt.parse(box.to_yaml(), {"sampling.path_bits": 15})
+    context = multiprocessing.get_context("spawn")
+    with concurrent.futures.ProcessPoolExecutor(2, mp_context=context) as pool:
+
+        def told(done, total):
+            if done:
+                for process in list((pool._processes or {}).values()):
+                    process.kill()
+
+        with pytest.raises(concurrent.futures.process.BrokenProcessPool):
+            qrt.distributed.render(slow, pool, tiles=40, estimator="exact", progress=told)
+
+
+def test_parts_make_the_layers_of_one_render(command, box, tmp_path):
+    sets = ("--set", "film={ width: 9, height: 7 }")
+    box = qrt.parse(box.to_yaml(), {"film": {"width": 9, "height": 7}})
+    command("render", "box.yaml", *sets, "--layers", "-o", "whole.exr")
+    for k in range(2):
+        command("render", "box.yaml", *sets, "--tile", f"{k}/2", "-o", f"part{k}")
+    command("merge", "part1", "part0", "--layers", "box.yaml", *sets, "-o", "merged.exr")
+    merged = qrt.merge([tmp_path / "part0", tmp_path / "part1"])
+    merged.save(tmp_path / "own.exr", layers=box)
+    box.render().save(tmp_path / "once.exr", layers=box)
+    whole = (tmp_path / "whole.exr").read_bytes()
+    for name in ("merged", "own", "once"):
+        assert (tmp_path / f"{name}.exr").read_bytes() == whole, name
+    box.render().save(tmp_path / "plain.exr")
+    assert len((tmp_path / "plain.exr").read_bytes()) < len(whole)
+    with pytest.raises(qrt.RequestError, match="only .exr keeps layers"):
+        merged.save(tmp_path / "own.png", layers=box)
+    other = qrt.parse(box.to_yaml(), {"materials.red.lambertian.albedo": [0.1, 0.1, 0.1]})
+    with pytest.raises(qrt.RequestError, match="not the scene that the picture was rendered of"):
+        merged.save(tmp_path / "own.exr", layers=other)
 
 
 def test_lost_tasks_are_done_again_so_often(box):

@@ -1,4 +1,9 @@
-//! How much memory this process has needed, and how much it may take.
+//! How much memory this process has needed, and how much it may take: work that would take more is
+//! refused before it begins.
+
+mod allowance;
+
+pub use allowance::{CircuitSize, CircuitWork, Memory, MemoryError};
 
 /// The most memory that was resident at any time since the process began, in bytes: Linux's
 /// `VmHWM`, right to within the few pages per core that the kernel has not yet counted. `None` on

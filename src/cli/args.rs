@@ -1,15 +1,16 @@
 //! Arguments that several commands have.
 
 use super::failure::Failure;
-use super::memory::{self, Memory};
+use super::memory;
 use super::progress::Bar;
 use super::terminal;
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use qrt_core::front::{self, Loaded};
 use qrt_core::scene::meshes::MOST_FACES;
+use qrt_runtime::memory::Memory;
 use std::num::NonZeroUsize;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// A scene, with some of its keys overridden.
 #[derive(Clone, Debug, Args)]
@@ -37,18 +38,28 @@ impl SceneArgs {
 
     /// Reads the scene and checks it.
     pub(crate) fn load(&self) -> Result<Loaded, Failure> {
-        let bar = Bar::setting_up();
-        let loaded = front::load_with(&self.scene, &self.sets, |files| {
-            let most = self.memory().faces().min(MOST_FACES);
-            files.allowing(&self.allow_files).most_faces(most)
-        });
-        bar.clear();
-        let loaded = loaded?;
-        if let Some(warnings) = loaded.warnings() {
-            terminal::warn(&warnings);
-        }
-        Ok(loaded)
+        load(&self.scene, &self.sets, &self.allow_files, self.memory())
     }
+}
+
+/// Reads a scene with these keys overridden, which may read files below these folders, and checks it.
+pub(crate) fn load(
+    scene: &Path,
+    sets: &[String],
+    allow_files: &[PathBuf],
+    memory: Memory,
+) -> Result<Loaded, Failure> {
+    let bar = Bar::setting_up();
+    let loaded = front::load_with(scene, sets, |files| {
+        let most = memory.faces().min(MOST_FACES);
+        files.allowing(allow_files).most_faces(most)
+    });
+    bar.clear();
+    let loaded = loaded?;
+    if let Some(warnings) = loaded.warnings() {
+        terminal::warn(&warnings);
+    }
+    Ok(loaded)
 }
 
 /// Threads.

@@ -1,12 +1,14 @@
 //! `qrt merge`: parts of a picture become the picture.
 
+use super::args::load;
 use super::failure::Failure;
 use super::files::Output;
-use super::memory::{self, Memory};
+use super::memory::{self, refused};
 use super::picture::{self, BesideArgs, Outputs};
 use super::terminal;
 use clap::Args;
 use qrt_runtime::image::Encoding;
+use qrt_runtime::memory::Memory;
 use qrt_runtime::render::Merge;
 use std::fs;
 use std::path::PathBuf;
@@ -24,7 +26,8 @@ use std::path::PathBuf;
 Examples:
   qrt render box.yaml --tile 0/2 -o box.0               one part of two
   qrt render box.yaml --tile 1/2 -o box.1               the other, perhaps on another machine
-  qrt merge box.0 box.1 -o box.png --stats box.json     the picture")]
+  qrt merge box.0 box.1 -o box.png --stats box.json     the picture
+  qrt merge box.0 box.1 -o box.exr --layers box.yaml    with depths, normals, materials and more")]
 pub(crate) struct MergeArgs {
     /// All parts of a picture
     #[arg(value_name = "PARTS", required = true)]
@@ -32,6 +35,15 @@ pub(crate) struct MergeArgs {
     /// The picture: .png (8-bit sRGB) or .exr (linear 32-bit float)
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
+    /// Keep more of each pixel in an .exr, as `qrt render --layers` does, of the scene that the parts are of
+    #[arg(long, value_name = "SCENE")]
+    layers: Option<PathBuf>,
+    /// Override a key of that scene, as the parts' renders did; may be repeated
+    #[arg(long = "set", value_name = "KEY=VALUE", requires = "layers")]
+    sets: Vec<String>,
+    /// Let that scene read files below this folder, too; may be repeated
+    #[arg(long, value_name = "DIR", requires = "layers")]
+    allow_files: Vec<PathBuf>,
     #[command(flatten)]
     beside: BesideArgs,
     /// The memory that the work may take, such as 500M or 4G: what would take more is refused before it
@@ -46,17 +58,29 @@ pub(crate) struct MergeArgs {
 pub(crate) fn run(args: &MergeArgs) -> Result<(), Failure> {
     let encoding = Encoding::of(&args.output, args.beside.exposure)?;
     let outputs = Outputs::new(&args.output, &args.beside)?;
-    outputs.keep_off(args.parts.iter().map(PathBuf::as_path))?;
+    picture::keeps_layers(args.layers.is_some(), &args.output, encoding)?;
+    let inputs = args.parts.iter().chain(&args.layers);
+    outputs.keep_off(inputs.map(PathBuf::as_path))?;
+    let memory = Memory::of(args.max_memory);
+    let load = |path| load(path, &args.sets, &args.allow_files, memory);
+    let scene = args.layers.as_deref().map(load).transpose()?;
+    let files = scene.iter().flat_map(|loaded| loaded.valid.files());
+    outputs.keep_off(files.map(PathBuf::as_path))?;
     outputs.asked().try_for_each(Output::try_writing)?;
     let length = |path: &PathBuf| fs::metadata(path).map_or(0, |found| found.len());
-    Memory::of(args.max_memory).keep_parts(args.parts.iter().map(length).sum())?;
+    let length = args.parts.iter().map(length).sum();
+    memory.keep_parts(length).map_err(|error| refused(&error))?;
     let mut merge = Merge::default();
     for path in &args.parts {
         let bytes = fs::read(path).map_err(|error| Failure::file(path, &error))?;
         merge.add(&path.display().to_string(), &bytes)?;
     }
     let rendered = merge.finish()?;
-    let clipped = picture::write(&outputs, encoding, &rendered, &[])?;
+    let layers = match &scene {
+        Some(loaded) => rendered.layers(&loaded.valid)?,
+        None => Vec::new(),
+    };
+    let clipped = picture::write(&outputs, encoding, &rendered, &layers)?;
     if args.quiet {
         return Ok(());
     }

@@ -73,6 +73,20 @@ impl Outputs {
     }
 }
 
+/// That the picture keeps layers, if they are asked for.
+///
+/// # Errors
+/// Its format has none.
+pub(crate) fn keeps_layers(asked: bool, picture: &Path, encoding: Encoding) -> Result<(), Failure> {
+    if !asked || encoding == Encoding::Exr {
+        return Ok(());
+    }
+    Err(Failure::Usage(format!(
+        "`{}` cannot keep layers: name an .exr",
+        picture.display()
+    )))
+}
+
 /// Writes the picture with its layers, and what is asked beside it; how many pixels were clipped.
 ///
 /// # Errors

@@ -3,11 +3,10 @@
 use super::args::{SceneArgs, ThreadsArgs, choice, numbers};
 use super::failure::Failure;
 use super::files::{Output, named_after};
-use super::inspect::check_circuit;
 use super::picture::{self, BesideArgs, Outputs};
 use super::progress::Bar;
 use super::watch::watch;
-use super::{interrupt, plan, terminal, time};
+use super::{interrupt, memory, plan, terminal, time};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use qrt_core::front::Loaded;
@@ -200,12 +199,7 @@ impl Target {
     fn of(args: &RenderArgs, output: &Path) -> Result<Self, Failure> {
         let Some(portion) = args.tile else {
             let encoding = Encoding::of(output, args.beside.exposure)?;
-            if args.layers && encoding != Encoding::Exr {
-                return Err(Failure::Usage(format!(
-                    "`{}` cannot keep layers: name an .exr",
-                    output.display()
-                )));
-            }
+            picture::keeps_layers(args.layers, output, encoding)?;
             return Ok(Self::Picture(encoding));
         };
         if Encoding::of(output, None).is_ok() {
@@ -260,7 +254,6 @@ fn render(args: &RenderArgs, cancel: &AtomicBool, files: &mut Vec<PathBuf>) -> R
     outputs.keep_off(scene.files().iter().map(PathBuf::as_path))?;
     outputs.asked().try_for_each(Output::try_writing)?;
     Metadata::new().set("scene", scene.scene().name.as_str())?;
-    args.scene.memory().keep_picture(scene, args.crop)?;
     let bar = Bar::paths(!args.quiet);
     let show = |progress| bar.show(progress);
     let mut options = Options {
@@ -276,20 +269,17 @@ fn render(args: &RenderArgs, cancel: &AtomicBool, files: &mut Vec<PathBuf>) -> R
             cancel: Some(cancel),
             progress: Some(&show),
         },
+        memory: args.scene.memory(),
         checkpoint: outputs.checkpoint.clone(),
         resume: args.resume,
         ..Options::default()
     };
-    args.scene.memory().keep_plan(&loaded.valid)?;
+    memory::keep_plan(options.memory, scene)?;
     let planned = plan::of(scene, &options.planning(), args.quiet)?;
     options.plan = planned.as_ref();
-    if args.model != Model::Real {
-        let traced = planned.as_ref().map_or(scene, |plan| &plan.scene);
-        let threads = args.threads.or_cores();
-        args.scene
-            .memory()
-            .keep_model(traced, args.model, threads)?;
-        check_circuit(&loaded, planned.as_ref().map_or(scene, |plan| &plan.scene))?;
+    let traced = planned.as_ref().map_or(scene, |plan| &plan.scene);
+    if let Some(work) = options.circuit_work() {
+        memory::keep_circuit(options.memory, traced, work)?;
     }
     if let Some(path) = (outputs.checkpoint.as_ref()).filter(|path| path.exists() && !args.resume) {
         terminal::note(&format!(
@@ -298,7 +288,6 @@ fn render(args: &RenderArgs, cancel: &AtomicBool, files: &mut Vec<PathBuf>) -> R
         ));
     }
     if !args.quiet {
-        let traced = planned.as_ref().map_or(scene, |plan| &plan.scene);
         tell_of_time(traced, args, target.portions());
     }
     bar.set_up();
@@ -382,6 +371,8 @@ fn tell_of_time(scene: &ValidScene, args: &RenderArgs, portions: u32) {
 fn failure(error: RenderError, loaded: &Loaded) -> Failure {
     match error {
         RenderError::Oracle(error) => loaded.report(vec![error.problem()]).into(),
+        RenderError::Budget(problems) => loaded.report(problems).into(),
+        RenderError::WouldNotFit(error) => memory::refused(&error),
         RenderError::Interrupted {
             checkpoint: Some(_),
             ..

@@ -1,7 +1,8 @@
 //! How long work takes is estimated before it begins, and told where it is long: it may be meant, but hardly is.
 
-use super::{memory, terminal};
+use super::terminal;
 use qrt_core::valid::ValidScene;
+use qrt_runtime::memory::CircuitSize;
 use qrt_runtime::render::Model;
 
 /// Paths that a thread is taken to trace in a second: a round figure, for an estimate of hours or days.
@@ -14,21 +15,12 @@ const FEW_PATHS: f64 = 65_536.0;
 /// Less is not told of.
 const MINUTES: f64 = 10.0;
 
-/// What a path goes through.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct PathCost {
-    pub(crate) operations: f64,
-    pub(crate) gates: f64,
-}
-
-impl PathCost {
-    /// Seconds of a thread.
-    fn seconds(self, model: Model) -> f64 {
-        match model {
-            Model::Real => 1.0 / PATHS,
-            Model::Fixed => self.operations / OPERATIONS,
-            Model::Gates => self.gates / GATES,
-        }
+/// Seconds of a thread for a path; nothing where the scene has no circuit.
+fn seconds(size: Option<CircuitSize>, model: Model) -> f64 {
+    match model {
+        Model::Real => 1.0 / PATHS,
+        Model::Fixed => size.map_or(0.0, |size| size.operations / OPERATIONS),
+        Model::Gates => size.map_or(0.0, |size| size.gates / GATES),
     }
 }
 
@@ -45,13 +37,9 @@ pub(crate) fn tell_of_paths(
     let paths = times * pixels * libm::exp2(f64::from(bits));
     // Of fewer, no circuit that is run takes long, and looking at it would.
     let of_circuit = paths > FEW_PATHS && models.iter().any(|model| *model != Model::Real);
-    let cost = if of_circuit {
-        memory::path_cost(scene)
-    } else {
-        PathCost::default()
-    };
-    let seconds = models.iter().map(|model| cost.seconds(*model));
-    let seconds = paths * seconds.sum::<f64>() / threads as f64;
+    let size = of_circuit.then(|| CircuitSize::estimated(scene)).flatten();
+    let of_path = models.iter().map(|model| seconds(size, *model));
+    let seconds = paths * of_path.sum::<f64>() / threads as f64;
     let plural = if pixels == 1.0 { "" } else { "s" };
     let what = format!("{pixels} pixel{plural} of 2^{bits} paths each");
     let less = "lower `sampling.path_bits` takes less, such as `--set sampling.path_bits=12`";

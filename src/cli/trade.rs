@@ -3,10 +3,11 @@
 use super::args::{SceneArgs, ThreadsArgs};
 use super::failure::Failure;
 use super::files::{Output, keep_apart};
-use super::memory::Work;
+use super::memory;
 use super::progress::Bar;
 use super::{interrupt, plan, terminal, time};
 use clap::Args;
+use qrt_runtime::memory::CircuitWork;
 use qrt_runtime::plan::Options as PlanOptions;
 use qrt_runtime::render::{Model, Portion};
 use qrt_runtime::sample::SampleError;
@@ -61,8 +62,8 @@ pub(crate) struct TradeArgs {
         conflicts_with = "parts"
     )]
     tile: Option<Portion>,
-    /// Take over the rows that these folders have, from --tile or otherwise; what none of them has is
-    /// measured
+    /// Take over the rows that these folders have, from --tile or otherwise; what none of them has, such as
+    /// a portion that was lost, is measured. Two may have the same row, but not different ones of a setting
     #[arg(long, value_name = "DIR", num_args = 1..)]
     parts: Vec<PathBuf>,
     #[command(flatten)]
@@ -95,8 +96,8 @@ pub(crate) fn run(args: &TradeArgs) -> Result<(), Failure> {
         return Err(Failure::Usage(message));
     }
     let loaded = args.scene.load()?;
-    let work = Work::Gates(args.threads.or_cores());
-    args.scene.memory().keep_circuit(&loaded.valid, work)?;
+    let work = CircuitWork::Gates(args.threads.or_cores());
+    memory::keep_circuit(args.scene.memory(), &loaded.valid, work)?;
     keep_apart_from(&args.output, &args.scene.scene, loaded.valid.files())?;
     let cancel = interrupt::cancel_on_interrupt()?;
     let bar = Bar::settings(!args.quiet);

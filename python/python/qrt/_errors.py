@@ -22,7 +22,10 @@ class Problem(NamedTuple):
 
 
 class Error(Exception):
-    """Any error of qrt."""
+    """Any error of qrt. `problems` has one entry for each thing that is wrong with a scene, and none where
+    it is not the scene that is wrong."""
+
+    problems: tuple[Problem, ...] = ()
 
 
 class SceneError(Error, ValueError):

@@ -20,15 +20,16 @@ class _Function:
 
 
 class _Bar:
-    """A bar of tqdm."""
+    """A bar of tqdm: of the terminal, or of the notebook."""
 
-    def __init__(self, tqdm: Any):
-        self._tqdm = tqdm
-        self._bar = None
+    def __init__(self) -> None:
+        self._bar: Any = None
 
     def __call__(self, done: int, total: int) -> None:
         if self._bar is None:
-            self._bar = self._tqdm(total=total, unit="path", unit_scale=True, leave=False)
+            from tqdm.auto import tqdm
+
+            self._bar = tqdm(total=total, unit="path", unit_scale=True, leave=False)
         self._bar.update(done - self._bar.n)
 
     def close(self) -> None:
@@ -46,18 +47,12 @@ def listener(progress: Any) -> Any:
     """What is called with paths done and all paths, and closed at the end; None if nobody is told.
 
     `progress` is a function of the two, False for nobody, True for a bar of tqdm, and None for a bar in a
-    terminal or a notebook where tqdm is installed.
+    terminal or a notebook.
     """
     if callable(progress):
         return _Function(progress)
     if progress is False:
         return None
-    if progress is not True and not (_is_notebook() or (sys.stderr and sys.stderr.isatty())):
-        return None
-    try:
-        from tqdm.auto import tqdm
-    except ImportError:
-        if progress is True:
-            raise
-        return None
-    return _Bar(tqdm)
+    if progress is True or _is_notebook() or (sys.stderr and sys.stderr.isatty()):
+        return _Bar()
+    return None

@@ -1,12 +1,27 @@
 import os
 from collections.abc import Callable, Iterable, Sequence
-from typing import Any, Literal
+from typing import Any, Literal, final
 
 import cirq
 import numpy
 import numpy.typing as npt
 from qiskit import QuantumCircuit
 from qiskit_algorithms import EstimationProblem
+from typing_extensions import Unpack
+
+from ._options import RenderOptions
+
+__all__ = [
+    "Device",
+    "Oracle",
+    "Picture",
+    "Scene",
+    "__version__",
+    "load",
+    "merge",
+    "parse",
+    "restore",
+]
 
 __version__: str
 
@@ -16,6 +31,7 @@ _Channel = Literal["r", "g", "b"]
 _Model = Literal["real", "fixed", "gates"]
 _Part = Literal["oracle", "grover", "counting"]
 
+@final
 class Scene:
     @property
     def name(self) -> str: ...
@@ -29,21 +45,22 @@ class Scene:
     def render(
         self,
         *,
-        model: _Model = ...,
-        estimator: str | None = ...,
-        seed: int = ...,
-        crop: tuple[int, int, int, int] | None = ...,
-        colour: Literal["three-runs", "one-run"] = ...,
-        noise: str | None = ...,
-        visibility: Literal["classical", "exhaustive", "grover"] = ...,
-        search_failure: float | None = ...,
-        first_guess: Literal["random", "coherent"] | None = ...,
-        threads: int | None = ...,
-        progress: _Progress = ...,
-        checkpoint: _Path | None = ...,
-        resume: bool = ...,
+        model: _Model = "real",
+        estimator: str | None = None,
+        seed: int = 0,
+        crop: tuple[int, int, int, int] | None = None,
+        colour: Literal["three-runs", "one-run"] = "three-runs",
+        noise: str | None = None,
+        visibility: Literal["classical", "exhaustive", "grover"] = "classical",
+        search_failure: float | None = None,
+        first_guess: Literal["random", "coherent"] | None = None,
+        threads: int | None = None,
+        max_memory: int | None = None,
+        progress: _Progress = None,
+        checkpoint: _Path | None = None,
+        resume: bool = False,
     ) -> Picture: ...
-    def render_tile(self, k: int, n: int, **options: Any) -> bytes: ...
+    def render_tile(self, k: int, n: int, **options: Unpack[RenderOptions]) -> bytes: ...
     def paths(
         self,
         pixel: tuple[int, int] | None = None,
@@ -60,6 +77,7 @@ class Scene:
     ) -> Oracle: ...
     def mitsuba(self, stem: str = "scene") -> tuple[str, dict[str, bytes]]: ...
 
+@final
 class Picture:
     @property
     def pixels(self) -> npt.NDArray[numpy.float64]: ...
@@ -97,12 +115,15 @@ class Picture:
     def mean(self) -> tuple[float, float, float]: ...
     @property
     def metadata(self) -> dict[str, str]: ...
-    def save(self, path: _Path, *, exposure: float | None = None) -> int: ...
+    def save(
+        self, path: _Path, *, exposure: float | None = None, layers: Scene | None = None
+    ) -> int: ...
     def save_counts(self, path: _Path) -> None: ...
     def png(self, exposure: float | None = None) -> bytes: ...
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> numpy.ndarray: ...
     def _repr_html_(self) -> str: ...
 
+@final
 class Oracle:
     @property
     def scene(self) -> Scene: ...
@@ -158,6 +179,7 @@ class Oracle:
     def estimation_problem(self) -> EstimationProblem: ...
     def _repr_html_(self) -> str: ...
 
+@final
 class Device:
     def shot(self, k: int = 0) -> bool: ...
     def shots(self, k: int, shots: int) -> int: ...

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 
-def to_qiskit(oracle: Any, part: str = "oracle") -> Any:
+def to_qiskit(self: Any, part: str = "oracle") -> Any:
     """The circuit as a qiskit.QuantumCircuit; `part` is "oracle", "grover" or "counting".
 
     The qubits of an index are the registers `path` and `comparator`, bit 0 first; all others begin and
@@ -15,10 +15,10 @@ def to_qiskit(oracle: Any, part: str = "oracle") -> Any:
     from qiskit import qasm2
 
     instructions = qasm2.LEGACY_CUSTOM_INSTRUCTIONS
-    return qasm2.loads(oracle.qasm(2, part), custom_instructions=instructions)
+    return qasm2.loads(self.qasm(2, part), custom_instructions=instructions)
 
 
-def estimation_problem(oracle: Any) -> Any:
+def estimation_problem(self: Any) -> Any:
     """The pixel as a qiskit_algorithms.EstimationProblem, for all of its amplitude estimators.
 
     The state preparation puts a Hadamard on each qubit of the index, the Grover operator is qrt's
@@ -28,7 +28,7 @@ def estimation_problem(oracle: Any) -> Any:
     from qiskit import QuantumCircuit
     from qiskit_algorithms import EstimationProblem
 
-    grover = to_qiskit(oracle, "grover")
+    grover = to_qiskit(self, "grover")
     index = [
         grover.find_bit(qubit).index
         for name in ("path", "comparator")
@@ -38,42 +38,42 @@ def estimation_problem(oracle: Any) -> Any:
     ]
     prepare = QuantumCircuit(grover.num_qubits)
     prepare.h(index)
-    thresholds = oracle.thresholds
+    thresholds = self.thresholds
     mask = len(thresholds) - 1
 
     def is_good_state(bits: str) -> bool:
         number = int(bits, 2)
-        return bool(number >> oracle.path_bits < thresholds[number & mask])
+        return bool(number >> self.path_bits < thresholds[number & mask])
 
     return EstimationProblem(
         prepare,
         objective_qubits=index,
         grover_operator=grover,
-        post_processing=lambda amplitude: amplitude * oracle.scale,
+        post_processing=lambda amplitude: amplitude * self.scale,
         is_good_state=is_good_state,
     )
 
 
-def to_pennylane(oracle: Any, part: str = "oracle") -> Any:
+def to_pennylane(self: Any, part: str = "oracle") -> Any:
     """The circuit as a quantum function of PennyLane, through OpenQASM 3: call it in a QNode. Its wires
     are called `path[0]` and so on, and nothing is measured. PennyLane needs `openqasm3[parser]` for it.
     """
     import pennylane
 
     # It takes neither of these.
-    lines = oracle.qasm(3, part).splitlines()
+    lines = self.qasm(3, part).splitlines()
     lines = [line for line in lines if "measure" not in line and "include" not in line]
     return pennylane.from_qasm3("\n".join(lines), {})
 
 
-def to_cirq(oracle: Any, part: str = "oracle") -> Any:
+def to_cirq(self: Any, part: str = "oracle") -> Any:
     """The circuit as a cirq.Circuit, through OpenQASM 2; its qubits are called `path_0` and so on."""
     from cirq.contrib.qasm_import import circuit_from_qasm
 
-    return circuit_from_qasm(oracle.qasm(2, part))
+    return circuit_from_qasm(self.qasm(2, part))
 
 
-def extend(oracle: type) -> None:
+def extend(oracle: Any) -> None:
     """Gives the native class these as methods."""
     for method in (to_qiskit, estimation_problem, to_pennylane, to_cirq):
         setattr(oracle, method.__name__, method)

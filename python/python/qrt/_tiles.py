@@ -3,19 +3,26 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable
-from typing import Any
+from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING
 
 from . import _qrt
 
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
-def render_tile(scene: _qrt.Scene, k: int, n: int, **options: Any) -> bytes:
+    from ._options import RenderOptions
+
+
+def render_tile(scene: _qrt.Scene, k: int, n: int, **options: Unpack[RenderOptions]) -> bytes:
     """Render portion `k`, from 0, of `n` of a picture, and return it as the bytes of a part.
 
     `options` are those of `Scene.render`. The portion's pixels lie in small rectangles all over the
     picture, so that all portions take about as long. The bytes are those of a file of `qrt render
     --tile K/N`, and `merge` or `qrt merge` takes them. A function of its arguments alone, for pools of
     processes: scenes travel with their meshes.
+
+    Raises what `Scene.render` raises, and RequestError for more portions than pixels.
     """
     return scene.render_tile(k, n, **options)
 
@@ -29,7 +36,7 @@ def merge(parts: Iterable[bytes | str | os.PathLike[str]]) -> _qrt.Picture:
     parts that are bytes are called by their place in `parts`, from 0.
     """
 
-    def read():
+    def read() -> Iterator[tuple[str, bytes]]:
         for number, part in enumerate(parts):
             if isinstance(part, (bytes, bytearray, memoryview)):
                 yield f"parts[{number}]", bytes(part)

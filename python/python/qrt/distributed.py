@@ -9,10 +9,16 @@ lost part again, anywhere.
 from __future__ import annotations
 
 import time
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from . import _qrt, _tiles
+from ._errors import RequestError
 from ._progress import listener
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from ._options import PictureOptions
 
 __all__ = ["render"]
 
@@ -34,7 +40,7 @@ def render(
     retries: int = 2,
     threads: int | None = 1,
     progress: Any = None,
-    **options: Any,
+    **options: Unpack[PictureOptions],
 ) -> _qrt.Picture:
     """Render a scene on the workers of `executor`: the picture of `scene.render(**options)`, bit for
     bit.
@@ -43,19 +49,27 @@ def render(
     that takes `threads` threads. A task that fails is submitted again, up to `retries` times; a request
     that can't be met, such as a wrong option, is not. `progress` is told of tiles as `Scene.render` is of
     paths. All tiles are awaited: there is a whole picture, or the exception of the task that failed last.
+
+    `options` are those of `Scene.render` but for `checkpoint` and `resume`: what is lost of a pool's work
+    are single tiles, and the pool does them again. A pool that breaks when a worker dies, such as
+    ProcessPoolExecutor or MPI's, raises its own exception here (BrokenProcessPool).
     """
+    for name in ("checkpoint", "resume"):
+        if name in options:
+            message = f"{name}= keeps the work of one process: a pool does lost tiles again"
+            raise RequestError(message)
     if tiles is None:
         crop = options.get("crop")
         width, height = crop[2:] if crop else (scene.width, scene.height)
         tiles = max(1, min(64, width * height))
-    options = dict(options, threads=threads, progress=False)
+    every = dict(options, threads=threads, progress=False)
     parts: dict[int, bytes] = {}
     failures = [0] * tiles
 
     def submit(number: int) -> Any:
-        return executor.submit(_work, scene, number, tiles, failures[number], options)
+        return executor.submit(_work, scene, number, tiles, failures[number], every)
 
-    running = {}
+    running: dict[int, Any] = {}
     told = listener(progress)
     try:
         running.update((number, submit(number)) for number in range(tiles))
@@ -65,7 +79,7 @@ def render(
                 future = running.pop(number)
                 try:
                     parts[number] = future.result()
-                except ValueError:
+                except (TypeError, ValueError):
                     raise
                 except Exception:
                     failures[number] += 1

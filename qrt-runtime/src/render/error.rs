@@ -4,12 +4,14 @@ use crate::checkpoint::CheckpointError;
 use crate::counting::CountingError;
 use crate::estimators::EstimatorError;
 use crate::machines::Defect;
+use crate::memory::MemoryError;
 use crate::plan::PlanError;
 use crate::search::RoundsError;
 use crate::workers::ThreadsError;
 use qrt_core::oracle::{OracleError, PredicateError};
 use qrt_core::sampling::SamplingError;
 use qrt_core::scene::Estimator;
+use qrt_core::syntax::Problem;
 use std::path::{Path, PathBuf};
 
 /// Why a picture isn't rendered.
@@ -67,6 +69,13 @@ pub enum RenderError {
         /// How many pixels it has.
         pixels: u64,
     },
+    /// What would take more memory than it may, by an estimate.
+    #[error(transparent)]
+    WouldNotFit(#[from] MemoryError),
+    /// The scene's circuit costs more than its `budget` allows, which
+    /// [`qrt_core::front::Loaded::report`] shows at its place.
+    #[error("the circuit is beyond the scene's budget: {}", first(.0))]
+    Budget(Vec<Problem>),
     /// A bound on a path's colour so large that sums over paths would overflow.
     #[error(
         "a path's {} can only be bounded by {bound:e}, too large to sum: lower the radiance or the \
@@ -225,6 +234,11 @@ impl RenderError {
             _ => true,
         }
     }
+}
+
+fn first(problems: &[Problem]) -> String {
+    let first = problems.first().map(|problem| problem.words().message);
+    first.unwrap_or_default()
 }
 
 fn name(channel: usize) -> &'static str {

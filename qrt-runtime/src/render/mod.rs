@@ -48,6 +48,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod allowed;
 mod classes;
 mod error;
 mod film;
@@ -62,6 +63,7 @@ mod portion;
 mod tiles;
 mod visibility;
 
+pub use allowed::check_circuit;
 pub use classes::Scales;
 pub use error::{CompiledError, PredicateRefusal, RenderError};
 pub use picture_part::{Merge, MergeError, PicturePart, render_part};
@@ -72,6 +74,7 @@ use crate::checkpoint::Checkpoint;
 use crate::estimators::Noise;
 use crate::image::{Count, Image};
 use crate::machines::{NativeOracle, OracleMachine, Real, Simd};
+use crate::memory::Memory;
 use crate::named::named;
 use crate::plan::{self, Figures, Plan, plan};
 use crate::workers::Workers;
@@ -135,6 +138,8 @@ pub struct Options<'a> {
     pub plan: Option<&'a Plan>,
     /// Who does the work; told of paths.
     pub workers: Workers<'a>,
+    /// The memory that it may take: what would take more by an estimate is refused.
+    pub memory: Memory,
     /// Lanes to trace on, under [`Model::Real`].
     pub simd: Simd,
     /// Width and height of the tiles in pixels; chosen by the number of paths unless set.
@@ -295,11 +300,13 @@ fn render_portion<T>(
     told: impl FnOnce(&Request<'_>) -> T,
 ) -> Result<(Rendered, T, Option<Checkpoint>), RenderError> {
     let crop = crop_of(scene, options)?;
+    options.memory.keep_picture([crop[2], crop[3]])?;
     let planned;
     let chosen = match (scene.scene().accuracy, options.plan) {
         (None, _) => None,
         (Some(_), Some(plan)) => Some(plan),
         (Some(_), None) => {
+            options.memory.keep_plan(scene)?;
             planned = plan(scene, &options.planning())?;
             planned.as_ref()
         }
@@ -315,6 +322,7 @@ fn render_portion<T>(
         let pixels = request.area;
         return Err(RenderError::Portions { count, pixels });
     }
+    check_circuit(traced, options)?;
     let (classes, searched) = Classes::new(&request)?;
     let told = told(&request);
     let (rendered, checkpoint) = Job::new(request, classes)?.run()?;

@@ -71,6 +71,19 @@ pub enum TradeError {
         /// The value that was asked for.
         asked: String,
     },
+    /// Two tables have different rows of one setting: at least one of them is no measurement of it.
+    #[error(
+        "`{}` and `{}` disagree about a setting that both have: {setting}; remove one of the two",
+        .path.display(), .first.display()
+    )]
+    Disagree {
+        /// A table's file.
+        path: PathBuf,
+        /// The other's.
+        first: PathBuf,
+        /// The setting, by its columns.
+        setting: String,
+    },
     /// The table that is there cannot be read.
     #[error(
         "`{}`: line {line} is no row of this table; remove the file, or name another folder",

@@ -97,7 +97,8 @@ pub struct Options<'a> {
     /// Of the settings, dealt out one by one, those that are measured, for one of several processes:
     /// then there is a table, and neither plots nor a page. All unless set.
     pub portion: Portion,
-    /// Folders whose tables have rows that need not be measured again.
+    /// Folders whose tables have rows that need not be measured again. Two tables may have the same row, and
+    /// no two different ones of a setting. What none of them has is measured.
     pub parts: &'a [PathBuf],
     /// Who does the work; told of rows.
     pub workers: Workers<'a>,
@@ -204,11 +205,15 @@ fn measure(scene: &ValidScene, folder: &Path, options: &Options<'_>) -> Result<T
     let mut bench = Bench::new(scene, pixels, options.seed, effort, options.workers);
     // What cannot be measured at all is told before a file is written.
     bench.check()?;
-    let mut taken = Vec::new();
-    for part in options.parts {
-        taken.push(table::read(&part.join("trade.csv"), &header, &settings)?);
-    }
-    let mut table = table::Table::open(&folder.join("trade.csv"), &header, &settings)?;
+    let own = folder.join("trade.csv");
+    let parts = options.parts.iter().map(|part| part.join("trade.csv"));
+    let there = own.exists().then(|| own.clone());
+    let tables: Vec<PathBuf> = parts.chain(there).collect();
+    let read = |path: &PathBuf| table::read(path, &header, &settings);
+    let mut taken = tables.iter().map(read).collect::<Result<Vec<_>, _>>()?;
+    table::agree(&tables, &taken, &settings)?;
+    taken.truncate(options.parts.len());
+    let mut table = table::Table::open(&own, &header, &settings)?;
     let found = std::mem::take(&mut table.found);
     table.damaged += taken.iter().map(|part| part.damaged).sum::<usize>();
     // By setting: the first part that has its row.

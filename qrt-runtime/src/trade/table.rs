@@ -139,6 +139,33 @@ pub(super) fn read(
     Contents::read(&bytes, path, header, settings)
 }
 
+/// That these tables have the same row of a setting wherever two have one, but for the time that it took.
+pub(super) fn agree(
+    paths: &[PathBuf],
+    tables: &[Contents],
+    settings: &[Setting],
+) -> Result<(), TradeError> {
+    for (at, setting) in settings.iter().enumerate() {
+        let timeless = |row: Row| Row {
+            seconds: 0.0,
+            ..row
+        };
+        let rows = tables.iter().map(|table| table.rows[at].map(timeless));
+        let mut rows = paths.iter().zip(rows).filter(|(_, row)| row.is_some());
+        let Some((first, row)) = rows.next() else {
+            continue;
+        };
+        if let Some((path, _)) = rows.find(|(_, other)| *other != row) {
+            return Err(TradeError::Disagree {
+                path: path.clone(),
+                first: first.clone(),
+                setting: setting.values().join(","),
+            });
+        }
+    }
+    Ok(())
+}
+
 impl Contents {
     fn read(
         bytes: &[u8],

@@ -111,6 +111,14 @@ impl Report {
         self.mismatched == 0 && self.defect.is_none()
     }
 
+    /// The report of all portions of a check, each with the report of its own.
+    ///
+    /// Pixels, paths and mismatches add up, means are those over all pixels, root mean squares are pooled,
+    /// and of what is greatest, of qubits and of gates the largest counts. Empty without reports.
+    pub fn pooled(portions: impl IntoIterator<Item = Self>) -> Self {
+        portions.into_iter().reduce(Self::and).unwrap_or_default()
+    }
+
     /// E_W of all channels in units of the mean of all; none if nothing is bright.
     pub fn relative_error(&self) -> Option<f64> {
         let square: f64 = self.width_error.iter().map(|e| e * e).sum();
@@ -152,6 +160,17 @@ pub fn verify(scene: &ValidScene, options: &Options<'_>) -> Result<Report, Verif
         });
     }
     Ok(whole.unwrap_or_default())
+}
+
+/// The pixels that [`verify`] checks of a scene, portion by portion in the order of the film.
+///
+/// # Errors
+/// More portions than pixels.
+pub fn pixels(scene: &ValidScene, options: &Options<'_>) -> Result<Vec<[u32; 2]>, VerifyError> {
+    chosen(
+        [scene.scene().film.width, scene.scene().film.height],
+        options,
+    )
 }
 
 /// As [`verify`], on circuits that are given, such as ones that were tampered with.

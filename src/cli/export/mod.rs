@@ -6,7 +6,7 @@ use super::args::{SceneArgs, choice, numbers};
 use super::failure::Failure;
 use super::files::{Output, keep_apart, named_after};
 use super::inspect::{CHANNEL_CHOICES, channel_name, keep_budget};
-use super::memory::Work;
+use super::memory;
 use super::progress::Bar;
 use super::{interrupt, plan, terminal};
 use clap::Args;
@@ -18,6 +18,7 @@ use qrt_core::scene::Window;
 use qrt_core::tracer::PixelClasses;
 use qrt_core::valid::{ValidScene, most_strata};
 use qrt_runtime::counting::Stratum;
+use qrt_runtime::memory::CircuitWork;
 use qrt_runtime::plan::{Figures, Options as PlanOptions};
 use qrt_runtime::replace_file::replace_file;
 use qrt_runtime::workers::{Progress, Workers};
@@ -267,13 +268,13 @@ fn circuit(args: &ExportArgs, format: Format) -> Result<(), Failure> {
         },
         ..PlanOptions::default()
     };
-    args.scene.memory().keep_plan(&loaded.valid)?;
+    memory::keep_plan(args.scene.memory(), &loaded.valid)?;
     let planned = plan::of(&loaded.valid, &planning, args.json)?;
     let scene = planned.as_ref().map_or(&loaded.valid, |plan| &plan.scene);
     let written = scene.scene();
     let pixel = on_film(args.pixel, [written.film.width, written.film.height])?;
     let options = Options::of_class(PixelClasses::new(scene).of(pixel));
-    args.scene.memory().keep_circuit(scene, Work::Export)?;
+    memory::keep_circuit(args.scene.memory(), scene, CircuitWork::Export)?;
     let inspection = Inspection::new(scene, args.channel, options)
         .map_err(|error| loaded.report(vec![error.problem()]))?;
     keep_budget(&loaded, &inspection)?;

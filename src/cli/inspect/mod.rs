@@ -8,7 +8,7 @@ mod text;
 use super::args::{SceneArgs, ThreadsArgs, choice};
 use super::failure::Failure;
 use super::files::{Output, keep_apart};
-use super::memory::Work;
+use super::memory;
 use super::progress::Bar;
 use super::terminal;
 use clap::Args;
@@ -17,6 +17,7 @@ use qrt_core::inspect::{CHANNELS, Frame, Inspection, PassFigures};
 use qrt_core::oracle::{CallCost, Options, check_budget};
 use qrt_core::valid::ValidScene;
 use qrt_runtime::draw;
+use qrt_runtime::memory::CircuitWork;
 use qrt_runtime::plan::{Figures, Options as PlanOptions, plan};
 use qrt_runtime::replace_file::replace_file;
 use std::io::Write;
@@ -107,11 +108,11 @@ pub(crate) fn run(args: &InspectArgs) -> Result<(), Failure> {
     let loaded = args.scene.load()?;
     keep_apart(loaded.valid.files().iter().map(PathBuf::as_path), &outputs)?;
     outputs.iter().try_for_each(|output| output.try_writing())?;
-    args.scene.memory().keep_plan(&loaded.valid)?;
+    memory::keep_plan(args.scene.memory(), &loaded.valid)?;
     let planned = plan(&loaded.valid, &PlanOptions::default())?;
     let scene = planned.as_ref().map_or(&loaded.valid, |plan| &plan.scene);
     let refused = |error: qrt_core::oracle::OracleError| loaded.report(vec![error.problem()]);
-    args.scene.memory().keep_circuit(scene, Work::Program)?;
+    memory::keep_circuit(args.scene.memory(), scene, CircuitWork::Program)?;
     if args.pareto {
         return pareto::run(args, &loaded, scene, front.as_ref());
     }

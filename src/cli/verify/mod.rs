@@ -1,20 +1,24 @@
 //! `qrt verify`: the three models of a scene against each other.
 
+mod json;
+mod parts;
+
 use super::args::{SceneArgs, ThreadsArgs};
 use super::failure::Failure;
 use super::inspect::check_circuit;
-use super::memory::Work;
+use super::memory;
 use super::progress::Bar;
 use super::{interrupt, plan, terminal, time};
 use clap::Args;
 use qrt_core::valid::ValidScene;
-use qrt_runtime::machines::Defect;
+use qrt_runtime::memory::CircuitWork;
 use qrt_runtime::plan::Options as PlanOptions;
 use qrt_runtime::render::{Model, Portion};
 use qrt_runtime::verify::{Mismatch, Options, Report, verify};
 use qrt_runtime::workers::Workers;
-use serde_json::{Value, json};
+use serde_json::Value;
 use std::fmt::Write;
+use std::path::PathBuf;
 use std::time::Instant;
 
 const CHANNELS: [&str; 3] = ["red", "green", "blue"];
@@ -35,7 +39,9 @@ const CHANNELS: [&str; 3] = ["red", "green", "blue"];
 Examples:
   qrt verify box.yaml                                   16 pixels, all their paths
   qrt verify box.yaml --pixels 1000000                  all pixels
-  qrt verify box.yaml --pixels 1000000 --tile 3/100     the fourth of a hundred portions of them
+  qrt verify box.yaml --pixels 1000000 --tile 3/100 --json > 3.json
+                                                        the fourth of a hundred portions of them
+  qrt verify box.yaml --pixels 1000000 --parts *.json   all of them, put together
   qrt verify box.yaml --set precision.fraction=20 --json")]
 pub(crate) struct VerifyArgs {
     /// Pixels to check, spread over the film; all of them if it has fewer
@@ -51,8 +57,17 @@ pub(crate) struct VerifyArgs {
     seed: u64,
     /// Check only portion K (from 0) of N of these pixels, for one of several processes: where each
     /// exits with 0, all of it holds
-    #[arg(long, value_name = "K/N", allow_hyphen_values = true)]
+    #[arg(
+        long,
+        value_name = "K/N",
+        allow_hyphen_values = true,
+        conflicts_with = "parts"
+    )]
     tile: Option<Portion>,
+    /// Check nothing, and put the answers of all portions together: what --tile K/N --json has written
+    /// for every K, of this scene, these pixels and this seed, in any order
+    #[arg(long, value_name = "FILE.json", num_args = 1..)]
+    parts: Vec<PathBuf>,
     #[command(flatten)]
     threads: ThreadsArgs,
     /// JSON instead of text
@@ -80,35 +95,40 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
         workers,
         ..PlanOptions::default()
     };
-    args.scene.memory().keep_plan(&loaded.valid)?;
+    memory::keep_plan(args.scene.memory(), &loaded.valid)?;
     let planned = plan::of(&loaded.valid, &planning, args.json)?;
     let scene = planned.map_or_else(|| loaded.valid.clone(), |plan| plan.scene);
-    let work = Work::Gates(args.threads.or_cores());
-    args.scene.memory().keep_circuit(&scene, work)?;
-    check_circuit(&loaded, &scene)?;
-    let film = scene.scene().film;
-    let pixels = (f64::from(film.width) * f64::from(film.height)).min(args.pixels as f64);
-    let pixels = pixels / f64::from(args.tile.unwrap_or_default().count());
-    time::tell_of_paths(&scene, pixels, 1.0, &Model::ALL, args.threads.or_cores());
+    if args.parts.is_empty() {
+        let work = CircuitWork::Gates(args.threads.or_cores());
+        memory::keep_circuit(args.scene.memory(), &scene, work)?;
+        check_circuit(&loaded, &scene)?;
+    }
     let options = Options {
         pixels: args.pixels,
         portion: args.tile.unwrap_or_default(),
         seed: args.seed,
         workers,
     };
-    let start = Instant::now();
-    bar.set_up();
-    let verified = verify(&scene, &options);
-    bar.clear();
-    let report = verified?;
-    let seconds = start.elapsed().as_secs_f64();
-    let answer = if args.json {
-        format!("{:#}\n", to_json(args, &scene, &report, seconds))
+    let found = if args.parts.is_empty() {
+        let film = scene.scene().film;
+        let pixels = (f64::from(film.width) * f64::from(film.height)).min(args.pixels as f64);
+        let pixels = pixels / f64::from(options.portion.count());
+        time::tell_of_paths(&scene, pixels, 1.0, &Model::ALL, args.threads.or_cores());
+        let start = Instant::now();
+        bar.set_up();
+        let verified = verify(&scene, &options);
+        bar.clear();
+        Found::of(verified?, start.elapsed().as_secs_f64())
     } else {
-        text(args, &scene, &report, seconds)
+        parts::put_together(&args.parts, &scene, &options)?
+    };
+    let answer = if args.json {
+        format!("{:#}\n", json::answer(args, &scene, &found))
+    } else {
+        text(args, &scene, &found)
     };
     terminal::print(&answer)?;
-    match fault(&report) {
+    match fault(&found) {
         None => Ok(()),
         Some(fault) => Err(Failure::Job(format!(
             "{fault}; this is a defect of qrt, please report it with the scene"
@@ -116,11 +136,40 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
     }
 }
 
-/// The defect or the first mismatch in words, if the check failed.
-fn fault(report: &Report) -> Option<String> {
-    if let Some(defect) = &report.defect {
-        return Some(defect.to_string());
+/// What a check found, be it its own report or that of all portions.
+struct Found {
+    report: Report,
+    /// The circuit's defect, as the answer in JSON has it.
+    defect: Option<Value>,
+    /// Wall time of the check, in seconds; of portions, of all together.
+    seconds: f64,
+}
+
+impl Found {
+    fn of(report: Report, seconds: f64) -> Self {
+        Self {
+            defect: report.defect.as_ref().map(json::defect),
+            report,
+            seconds,
+        }
     }
+
+    fn holds(&self) -> bool {
+        self.report.mismatched == 0 && self.defect.is_none()
+    }
+
+    /// The defect in words.
+    fn defect(&self) -> Option<&str> {
+        self.defect.as_ref()?["message"].as_str()
+    }
+}
+
+/// The defect or the first mismatch in words, if the check failed.
+fn fault(found: &Found) -> Option<String> {
+    if let Some(defect) = found.defect() {
+        return Some(defect.to_owned());
+    }
+    let report = &found.report;
     let first = report.mismatches.first().map(shown)?;
     let pairs = match report.mismatched {
         1 => "a path".to_owned(),
@@ -150,7 +199,10 @@ fn shown(mismatch: &Mismatch) -> String {
     )
 }
 
-fn text(args: &VerifyArgs, scene: &ValidScene, report: &Report, seconds: f64) -> String {
+fn text(args: &VerifyArgs, scene: &ValidScene, found: &Found) -> String {
+    let Found {
+        report, seconds, ..
+    } = found;
     let film = &scene.scene().film;
     let pixels = report.pixels.len();
     let mut out = format!(
@@ -161,10 +213,10 @@ fn text(args: &VerifyArgs, scene: &ValidScene, report: &Report, seconds: f64) ->
         report.qubits,
         report.gates,
     );
-    let mut line = |name: &str, found: &str| {
-        let _ = writeln!(out, "  {name:<34}{found}");
+    let mut line = |name: &str, value: &str| {
+        let _ = writeln!(out, "  {name:<34}{value}");
     };
-    if let Some(defect) = &report.defect {
+    if let Some(defect) = found.defect() {
         line("circuit", &format!("wrong: {defect}"));
     } else {
         line("every borrowed qubit zero again", "yes, on every path");
@@ -201,85 +253,11 @@ fn text(args: &VerifyArgs, scene: &ValidScene, report: &Report, seconds: f64) ->
             &format!("{:.4} %", 100.0 * report.parted),
         );
     }
-    let verdict = if report.holds() {
+    let verdict = if found.holds() {
         "all of it holds"
     } else {
         "it does NOT hold"
     };
     let _ = writeln!(out, "\n{verdict}");
     out
-}
-
-fn to_json(args: &VerifyArgs, scene: &ValidScene, report: &Report, seconds: f64) -> Value {
-    let mismatches = report.mismatches.iter().map(|mismatch| {
-        json!({
-            "pixel": mismatch.pixel,
-            "id": mismatch.id,
-            "channel": mismatch.channel,
-            "colour": { "fixed": mismatch.fixed[0], "gates": mismatch.gates[0] },
-            "count": {
-                "fixed": mismatch.fixed[1],
-                "gates": mismatch.gates[1],
-                "thresholds": mismatch.thresholds,
-            },
-        })
-    });
-    let measured = report.defect.is_none();
-    json!({
-        "version": 1,
-        "qrt": env!("CARGO_PKG_VERSION"),
-        "scene": scene.scene().name,
-        "scene_hash": scene.fingerprint().to_string(),
-        "seed": args.seed,
-        "holds": report.holds(),
-        "pixels": report.pixels,
-        "paths": report.paths,
-        "qubits": report.qubits,
-        "gates": report.gates,
-        "fraction_bits": report.fraction,
-        "mismatched": report.mismatched,
-        "mismatches": mismatches.collect::<Vec<_>>(),
-        "defect": report.defect.as_ref().map(defect),
-        "mean_rgb": measured.then_some(report.mean),
-        "width_error": measured.then(|| json!({
-            "rmse_rgb": report.width_error,
-            "relative": report.relative_error(),
-            "greatest_rgb": report.greatest,
-        })),
-        "parted": measured.then_some(report.parted),
-        "seconds": seconds,
-    })
-}
-
-fn defect(defect: &Defect) -> Value {
-    let mut value = json!({ "message": defect.to_string() });
-    match defect {
-        Defect::Dirty {
-            dirty,
-            pixel,
-            id,
-            register,
-        } => {
-            value["qubit"] = json!(dirty.qubit);
-            value["pixel"] = json!(pixel);
-            value["id"] = json!(id);
-            value["register"] = json!(register);
-        }
-        Defect::Id { pixel, id } => {
-            value["pixel"] = json!(pixel);
-            value["id"] = json!(id);
-            value["register"] = json!("id");
-        }
-        Defect::Flip {
-            channel,
-            count,
-            comparator,
-        } => {
-            value["channel"] = json!(channel);
-            value["count"] = json!(count);
-            value["comparator"] = json!(comparator);
-        }
-        _ => {}
-    }
-    value
 }

@@ -1,0 +1,242 @@
+//! What work takes is estimated before it begins: what would take more memory than may be had is refused,
+//! with the number, and with what to lower.
+
+use super::allowed_bytes;
+use qrt_circuit::lower;
+use qrt_core::oracle::{MOST_BITS, Options, Oracle};
+use qrt_core::valid::ValidScene;
+use std::time::Instant;
+
+/// Bytes of a face as it is read and traced: 730 were measured, of a flat grid of 720,000 triangles.
+const OF_FACE: u64 = 1000;
+/// Bytes of a pixel in tiles, picture and files: 83 of a tile.
+const OF_PIXEL: u64 = 104;
+/// Up to so many faces a circuit is compiled without an estimate before it, which takes as long.
+const FEW_FACES: usize = 400;
+/// Faces of the two parts of a scene from which the whole is estimated.
+const PARTS: [usize; 2] = [64, 128];
+
+/// The memory that work may take; three quarters of what there is, unless set.
+///
+/// ```
+/// use qrt_runtime::memory::Memory;
+/// let little = Memory::of(Some(1 << 20));
+/// assert!(little.keep_picture([64, 64]).is_ok());
+/// let refused = little.keep_picture([4096, 4096]).unwrap_err();
+/// assert!(refused.to_string().contains("4096 x 4096 pixels would take about 1.7 GB"));
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Memory {
+    bytes: u64,
+}
+
+/// Work that would take more memory than it may.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{what} would take about {} of memory, and {} are allowed: {lower}", words(*.bytes), words(*.allowed as f64))]
+pub struct MemoryError {
+    /// What would take it.
+    pub what: String,
+    /// An estimate of how many bytes.
+    pub bytes: f64,
+    /// Bytes that it may take.
+    pub allowed: u64,
+    /// What would take less.
+    pub lower: &'static str,
+}
+
+/// What is done with a circuit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CircuitWork {
+    /// It is compiled and its operations counted or run.
+    Program,
+    /// Its gates run on so many threads.
+    Gates(usize),
+    /// Its gates are written.
+    Export,
+}
+
+/// Bytes in words.
+fn words(bytes: f64) -> String {
+    let (value, unit) = match bytes {
+        bytes if bytes < 1e9 => (bytes / 1e6, "MB"),
+        bytes if bytes < 1e12 => (bytes / 1e9, "GB"),
+        bytes => (bytes / 1e12, "TB"),
+    };
+    let places = usize::from(value < 100.0);
+    format!("{value:.places$} {unit}")
+}
+
+impl Default for Memory {
+    fn default() -> Self {
+        Self::of(None)
+    }
+}
+
+impl Memory {
+    /// So many bytes, or three quarters of what there is; where the system does not tell that, any.
+    pub fn of(bytes: Option<u64>) -> Self {
+        let usual = || allowed_bytes().map_or(u64::MAX, |bytes| bytes / 4 * 3);
+        Self {
+            bytes: bytes.unwrap_or_else(usual),
+        }
+    }
+
+    /// As many faces a scene may have.
+    pub fn faces(self) -> usize {
+        usize::try_from(self.bytes / OF_FACE).unwrap_or(usize::MAX)
+    }
+
+    fn keep(self, what: &str, bytes: f64, lower: &'static str) -> Result<(), MemoryError> {
+        if bytes <= self.bytes as f64 {
+            return Ok(());
+        }
+        Err(MemoryError {
+            what: what.to_owned(),
+            bytes,
+            allowed: self.bytes,
+            lower,
+        })
+    }
+
+    /// That a picture of this width and height in pixels fits.
+    ///
+    /// # Errors
+    /// It does not.
+    pub fn keep_picture(self, [width, height]: [u32; 2]) -> Result<(), MemoryError> {
+        let pixels = f64::from(width) * f64::from(height);
+        let what = format!("a picture of {width} x {height} pixels");
+        let lower = "render part of it with a crop, or a smaller film";
+        self.keep(&what, pixels * OF_PIXEL as f64, lower)
+    }
+
+    /// That parts of so many bytes fit, and the picture that they make: it has about as many.
+    ///
+    /// # Errors
+    /// They do not.
+    pub fn keep_parts(self, bytes: u64) -> Result<(), MemoryError> {
+        let lower = "merge on another machine";
+        self.keep("merging these parts", 2.0 * bytes as f64, lower)
+    }
+
+    /// That the circuits fit that are compiled to plan for an accuracy, if the scene asks for one.
+    ///
+    /// # Errors
+    /// They do not.
+    pub fn keep_plan(self, scene: &ValidScene) -> Result<Option<CircuitSize>, MemoryError> {
+        match scene.scene().accuracy {
+            Some(_) => self.keep_circuit(scene, CircuitWork::Program),
+            None => Ok(None),
+        }
+    }
+
+    /// That the oracle's circuit fits, which grows with the scene's faces. Gives its estimated size, if it
+    /// has so many faces that an estimate takes less time than the circuit, and a circuit.
+    ///
+    /// # Errors
+    /// It does not.
+    pub fn keep_circuit(
+        self,
+        scene: &ValidScene,
+        work: CircuitWork,
+    ) -> Result<Option<CircuitSize>, MemoryError> {
+        let faces = scene.polygons().len();
+        if faces <= FEW_FACES {
+            return Ok(None);
+        }
+        // What is wrong is told, with its place, where the whole is compiled.
+        let Some(whole) = CircuitSize::estimated(scene) else {
+            return Ok(None);
+        };
+        let what = format!("the circuit of a scene of {faces} faces");
+        let lower = "use a coarser mesh, or fewer rays";
+        self.keep(&what, whole.bytes(work), lower)?;
+        Ok(Some(whole))
+    }
+}
+
+/// What a circuit consists of.
+#[derive(Clone, Copy, Debug)]
+pub struct CircuitSize {
+    /// Operations of the program.
+    pub operations: f64,
+    /// Qubits, at the peak.
+    pub qubits: f64,
+    /// Bits of all registers.
+    pub bits: f64,
+    /// Gates of compute and uncompute.
+    pub gates: f64,
+    /// Wall time to compile it and make its gates, in seconds.
+    pub seconds: f64,
+}
+
+impl CircuitSize {
+    /// Of a scene's oracle, if it has one; of one of many faces, estimated from two parts of it.
+    pub fn estimated(scene: &ValidScene) -> Option<Self> {
+        let faces = scene.polygons().len();
+        if faces <= FEW_FACES {
+            return Self::of(scene);
+        }
+        let [few, more] = PARTS.map(|faces| Self::of(&scene.thinned(faces)));
+        let share = (faces - PARTS[0]) as f64 / (PARTS[1] - PARTS[0]) as f64;
+        Some(few?.towards(&more?, share))
+    }
+
+    /// Of a scene's oracle, if it has one.
+    fn of(scene: &ValidScene) -> Option<Self> {
+        let start = Instant::now();
+        let program = Oracle::rgb(scene, Options::default()).ok()?.program;
+        let mut gates = 0.0;
+        let qubits = lower::each_instruction(&program, |next, _| gates += 2.0 * next.len() as f64);
+        let bits = program
+            .registers
+            .iter()
+            .map(|register| f64::from(register.width));
+        Some(Self {
+            operations: program.ops.len() as f64,
+            qubits: f64::from(qubits),
+            bits: bits.sum(),
+            gates,
+            seconds: start.elapsed().as_secs_f64(),
+        })
+    }
+
+    /// On the line from here to `other`, at `share` of the way; it may be far beyond.
+    fn towards(&self, other: &Self, share: f64) -> Self {
+        let line = |from: f64, to: f64| from + (to - from) * share;
+        Self {
+            operations: line(self.operations, other.operations),
+            qubits: line(self.qubits, other.qubits),
+            bits: line(self.bits, other.bits),
+            gates: line(self.gates, other.gates),
+            seconds: line(self.seconds, other.seconds),
+        }
+    }
+
+    /// Bytes that work with it takes: of the knot, whose 142,875 operations need 12.7 million qubits, 0.62 GB
+    /// were measured of compiling and 0.80 GB of running gates.
+    fn bytes(&self, work: CircuitWork) -> f64 {
+        let (qubits, operations) = (self.qubits, self.operations);
+        let compiled = 40.0 * qubits + 700.0 * operations;
+        match work {
+            CircuitWork::Gates(threads) if self.bits <= MOST_BITS as f64 => {
+                compiled + 40.0 * self.gates + 256.0 * qubits * threads as f64
+            }
+            // Rows of 32 bytes, once; where registers are; the program with its inverse.
+            CircuitWork::Gates(_) => compiled.max(64.0 * qubits + 500.0 * operations),
+            CircuitWork::Export if self.bits <= MOST_BITS as f64 => compiled + 48.0 * self.gates,
+            CircuitWork::Program | CircuitWork::Export => compiled,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bytes_are_told_in_words() {
+        assert_eq!(words(7.2e9), "7.2 GB");
+        assert_eq!(words(687e9), "687 GB");
+        assert_eq!(words(3e6), "3.0 MB");
+    }
+}

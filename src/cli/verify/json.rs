@@ -1,0 +1,84 @@
+//! What a check found, as JSON.
+
+use super::{Found, VerifyArgs};
+use qrt_core::valid::ValidScene;
+use qrt_runtime::machines::Defect;
+use serde_json::{Value, json};
+
+/// The answer.
+pub(super) fn answer(args: &VerifyArgs, scene: &ValidScene, found: &Found) -> Value {
+    let report = &found.report;
+    let mismatches = report.mismatches.iter().map(|mismatch| {
+        json!({
+            "pixel": mismatch.pixel,
+            "id": mismatch.id,
+            "channel": mismatch.channel,
+            "colour": { "fixed": mismatch.fixed[0], "gates": mismatch.gates[0] },
+            "count": {
+                "fixed": mismatch.fixed[1],
+                "gates": mismatch.gates[1],
+                "thresholds": mismatch.thresholds,
+            },
+        })
+    });
+    let measured = found.defect.is_none();
+    json!({
+        "version": 1,
+        "qrt": env!("CARGO_PKG_VERSION"),
+        "scene": scene.scene().name,
+        "scene_hash": scene.fingerprint().to_string(),
+        "seed": args.seed,
+        "tile": args.tile.map(|portion| [portion.index(), portion.count()]),
+        "holds": found.holds(),
+        "pixels": report.pixels,
+        "paths": report.paths,
+        "qubits": report.qubits,
+        "gates": report.gates,
+        "fraction_bits": report.fraction,
+        "mismatched": report.mismatched,
+        "mismatches": mismatches.collect::<Vec<_>>(),
+        "defect": found.defect,
+        "mean_rgb": measured.then_some(report.mean),
+        "width_error": measured.then(|| json!({
+            "rmse_rgb": report.width_error,
+            "relative": report.relative_error(),
+            "greatest_rgb": report.greatest,
+        })),
+        "parted": measured.then_some(report.parted),
+        "seconds": found.seconds,
+    })
+}
+
+/// A defect of the circuit.
+pub(super) fn defect(defect: &Defect) -> Value {
+    let mut value = json!({ "message": defect.to_string() });
+    match defect {
+        Defect::Dirty {
+            dirty,
+            pixel,
+            id,
+            register,
+        } => {
+            value["qubit"] = json!(dirty.qubit);
+            value["pixel"] = json!(pixel);
+            value["id"] = json!(id);
+            value["register"] = json!(register);
+        }
+        Defect::Id { pixel, id } => {
+            value["pixel"] = json!(pixel);
+            value["id"] = json!(id);
+            value["register"] = json!("id");
+        }
+        Defect::Flip {
+            channel,
+            count,
+            comparator,
+        } => {
+            value["channel"] = json!(channel);
+            value["count"] = json!(count);
+            value["comparator"] = json!(comparator);
+        }
+        _ => {}
+    }
+    value
+}

@@ -1,0 +1,178 @@
+//! The answers of all portions of a check become the answer of the whole.
+
+use super::super::failure::Failure;
+use super::Found;
+use qrt_core::valid::ValidScene;
+use qrt_runtime::render::Portion;
+use qrt_runtime::verify::{Mismatch, Options, Report, pixels};
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// As many missing portions are named.
+const NAMED: usize = 16;
+
+/// What the portions in `files` found together, of this scene, these pixels and this seed.
+///
+/// # Errors
+/// A file that can't be read, is no such answer or is of another check; a portion that is missing or
+/// there twice.
+pub(super) fn put_together(
+    files: &[PathBuf],
+    scene: &ValidScene,
+    options: &Options<'_>,
+) -> Result<Found, Failure> {
+    let mut parts: BTreeMap<u32, (&Path, Found)> = BTreeMap::new();
+    let mut first: Option<(&Path, Portion)> = None;
+    for file in files {
+        let bytes = fs::read(file).map_err(|error| Failure::file(file, &error))?;
+        let (portion, found) = part(file, &bytes, scene, options)?;
+        let shown = file.display();
+        let (other, expected) = *first.get_or_insert((file, portion));
+        if expected.count() != portion.count() {
+            return Err(Failure::Usage(format!(
+                "`{shown}` is portion {portion}, and `{}` is portion {expected}",
+                other.display()
+            )));
+        }
+        if let Some((other, _)) = parts.insert(portion.index(), (file, found)) {
+            return Err(Failure::Usage(format!(
+                "`{shown}` and `{}` are both portion {portion}: leave one of them out",
+                other.display()
+            )));
+        }
+    }
+    let count = first.map_or(1, |(_, portion)| portion.count());
+    let missing = count as usize - parts.len();
+    if missing > 0 {
+        let names = (0..count).filter(|index| !parts.contains_key(index));
+        let names: Vec<String> = names.take(NAMED).map(|k| format!("{k}/{count}")).collect();
+        let (names, more) = (names.join(", "), if missing > NAMED { ", ..." } else { "" });
+        let are = if missing == 1 { "is" } else { "are" };
+        let message = format!("{missing} of {count} portions {are} missing: {names}{more}");
+        return Err(Failure::Usage(message));
+    }
+    let mut defect = None;
+    let mut seconds = 0.0;
+    let reports = parts.into_values().map(|(_, found)| {
+        defect = defect.take().or(found.defect);
+        seconds += found.seconds;
+        found.report
+    });
+    let report = Report::pooled(reports);
+    Ok(Found {
+        report,
+        defect,
+        seconds,
+    })
+}
+
+/// The portion that a file is of, and what it found.
+fn part(
+    file: &Path,
+    bytes: &[u8],
+    scene: &ValidScene,
+    options: &Options<'_>,
+) -> Result<(Portion, Found), Failure> {
+    let none = || {
+        let words = "is no answer of `qrt verify --tile K/N --json`, or of another version of qrt";
+        Failure::Usage(format!("`{}` {words}", file.display()))
+    };
+    let answer: Value = serde_json::from_slice(bytes).map_err(|_| none())?;
+    if answer["version"] != 1 || answer["qrt"] != env!("CARGO_PKG_VERSION") {
+        return Err(none());
+    }
+    let tile = words(&answer["tile"]).ok_or_else(none)?;
+    let portion = Portion::new(tile[0], tile[1]).map_err(|_| none())?;
+    let found = found(&answer).ok_or_else(none)?;
+    let differs = |what: &str| {
+        let file = file.display();
+        Failure::Usage(format!("`{file}` is of another {what} than is asked for"))
+    };
+    if answer["scene_hash"] != scene.fingerprint().to_string() {
+        return Err(differs("scene"));
+    }
+    if answer["seed"] != options.seed {
+        return Err(differs("seed"));
+    }
+    let mut asked = pixels(
+        scene,
+        &Options {
+            portion,
+            ..*options
+        },
+    )?;
+    // A check goes through them by class.
+    let mut there = found.report.pixels.clone();
+    asked.sort_unstable();
+    there.sort_unstable();
+    if asked != there {
+        return Err(differs("number of --pixels"));
+    }
+    Ok((portion, found))
+}
+
+/// What an answer tells; none if it lacks something.
+fn found(answer: &Value) -> Option<Found> {
+    let pixels = answer["pixels"].as_array()?.iter().map(words);
+    let mismatches = answer["mismatches"].as_array()?.iter().map(mismatch);
+    let measured = answer["defect"].is_null();
+    let of = |value: &Value| {
+        if measured {
+            floats(value)
+        } else {
+            Some([0.0; 3])
+        }
+    };
+    let errors = &answer["width_error"];
+    let report = Report {
+        pixels: pixels.collect::<Option<_>>()?,
+        paths: answer["paths"].as_u64()?,
+        qubits: answer["qubits"].as_u64()?.try_into().ok()?,
+        gates: answer["gates"].as_u64()?.try_into().ok()?,
+        fraction: answer["fraction_bits"].as_u64()?.try_into().ok()?,
+        mismatched: answer["mismatched"].as_u64()?,
+        mismatches: mismatches.collect::<Option<_>>()?,
+        defect: None,
+        mean: of(&answer["mean_rgb"])?,
+        width_error: of(&errors["rmse_rgb"])?,
+        greatest: of(&errors["greatest_rgb"])?,
+        parted: if measured {
+            answer["parted"].as_f64()?
+        } else {
+            0.0
+        },
+    };
+    Some(Found {
+        report,
+        defect: (!measured).then(|| answer["defect"].clone()),
+        seconds: answer["seconds"].as_f64()?,
+    })
+}
+
+fn mismatch(value: &Value) -> Option<Mismatch> {
+    let pair = |name: &str| {
+        let [colour, count] = [&value["colour"][name], &value["count"][name]];
+        Some([colour.as_i64()?, count.as_i64()?])
+    };
+    Some(Mismatch {
+        pixel: words(&value["pixel"])?,
+        id: value["id"].as_u64()?,
+        channel: (value["channel"].as_u64()?.try_into().ok()).filter(|channel| *channel < 3)?,
+        fixed: pair("fixed")?,
+        gates: pair("gates")?,
+        thresholds: value["count"]["thresholds"].as_i64()?,
+    })
+}
+
+fn words(value: &Value) -> Option<[u32; 2]> {
+    let words = value.as_array()?.iter();
+    let words = words.map(|word| word.as_u64()?.try_into().ok());
+    words.collect::<Option<Vec<u32>>>()?.try_into().ok()
+}
+
+fn floats(value: &Value) -> Option<[f64; 3]> {
+    let floats = value.as_array()?.iter().map(Value::as_f64);
+    floats.collect::<Option<Vec<f64>>>()?.try_into().ok()
+}
