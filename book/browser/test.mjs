@@ -416,6 +416,39 @@ async function figures(browser, address, name) {
   }
 }
 
+/** The figures that need no server's WebAssembly: moved by keyboard, and held against the still pictures' own words. */
+async function stills(browser, address) {
+  const page = await browser.page();
+  await page.size(...WIDE);
+  await page.send("Emulation.setEmulatedMedia", { features: [{ name: "prefers-reduced-motion", value: "reduce" }] });
+  const read = (name) => readFileSync(join(folder, "figures", name), "utf8");
+  const slide = (name, place, value) => page.call((name, place, value) => {
+    const input = document.querySelectorAll(`figure.qrt-still[data-still=${name}] input`)[place];
+    input.value = value;
+    input.dispatchEvent(new Event("input"));
+  }, name, place, value);
+  await page.visit(`${address}/grover.html`);
+  // What a state vector finds after 0, 1, 2, 3 iterates.
+  const known = read("grover-plane.svg").match(/measured with ([\d., ]+) %/)[1].split(", ").map(Number);
+  await slide("grover", 0, 3);
+  for (const [k, percent] of known.entries()) {
+    await slide("grover", 1, k);
+    const found = await page.value("Number(document.querySelector('figure[data-still=grover]').dataset.probability)");
+    check(`grover, ${k} iterates`, "the probability of a good index in percent", 100 * found, percent, 0.011);
+  }
+  await page.visit(`${address}/oracle.html`);
+  const steps = read("oracle-call.svg").match(/<g id="s\d+"/g).length - 1;
+  const shown = () => page.value("[...document.querySelectorAll('figure[data-still=call] img.qrt-shown')].map((i) => `${i.src.split('#')[1]} ${i.naturalWidth > 0}`).join()");
+  if ((await shown()) !== "undefined true") fail("call", `begins with ${await shown()}, by itself though motion is not wanted`);
+  await slide("call", 0, steps);
+  await page.until(() => document.querySelector("figure[data-still=call] img.qrt-shown").naturalWidth > 0);
+  if ((await shown()) !== `s${steps} true`) fail("call", `shows ${await shown()} after all ${steps} boxes`);
+  await page.call(() => document.querySelector("figure[data-still=call] input").focus());
+  await page.key("ArrowLeft");
+  if (!(await shown()).startsWith(`s${steps - 1} `)) fail("call", "does not move by keyboard");
+  for (const complaint of new Set(page.complaints)) fail("stills", complaint);
+}
+
 const { server, address } = await serve(folder);
 const browser = await Browser.start(CHROMIUM);
 try {
@@ -425,6 +458,7 @@ try {
     await figures(browser, address, name);
     if (name === "playground.html") await playground(browser, address, name, tools);
   }
+  await stills(browser, address);
   console.log(`figures on ${withFigures.length} pages`);
 } catch (error) {
   fail("the test", error.stack);

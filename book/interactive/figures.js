@@ -17,6 +17,9 @@ const FIGURES = {
 // Those that bring what answers them along.
 const ALONE = new Set(["playground"]);
 
+/** What a figure shows where scripts do not run, but for its caption. */
+const stills = (figure) => [...figure.children].filter((child) => child.tagName !== "FIGCAPTION");
+
 async function start(figure) {
   const name = figure.dataset.figure;
   const load = FIGURES[name];
@@ -30,15 +33,15 @@ async function start(figure) {
     body.setAttribute("role", "group");
     body.setAttribute("aria-label", `interactive figure: ${name}`);
     // The static picture's place, before anything is drawn: sizes are measured in the page.
-    for (const child of figure.children) child.hidden = true;
-    figure.append(body);
+    for (const child of stills(figure)) child.hidden = true;
+    figure.prepend(body);
     await (qrt ? figureModule.start(body, qrt, figure) : figureModule.start(body, figure));
     figure.dataset.state = "ready";
     performance.mark("qrt-figure-ready", { detail: name });
     performance.measure(`qrt-figure:${name}`, { start: begun, end: performance.now() });
   } catch (error) {
     figure.querySelector(".qrt-body")?.remove();
-    for (const child of figure.children) child.hidden = false;
+    for (const child of stills(figure)) child.hidden = false;
     figure.dataset.state = "static";
     const note = document.createElement("p");
     note.className = "qrt-note";

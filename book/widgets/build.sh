@@ -94,14 +94,28 @@ fi
 command -v cargo >/dev/null || lacks "cargo is not installed"
 cd "$here"
 
+# Waits for a cargo whose words go to the log, and now and then says what it is at.
+progress() {
+  local begin=$SECONDS told=$SECONDS
+  while kill -0 "$1" 2>/dev/null; do
+    sleep 1
+    if [ $((SECONDS - told)) -ge 20 ]; then
+      told=$SECONDS
+      printf '  %s s: %s\n' $((SECONDS - begin)) "$(grep -a Compiling "$build/log" | tail -n 1 | sed 's/^ *//; s/ (.*//')" >&2
+    fi
+  done
+  wait "$1"
+}
+
 # Compiles both; the arguments are cargo's.
 compile() {
   local package
   for package in qrt-figures:figures qrt-playground:playground; do
     printf 'compiling %s for browsers: some minutes of processor time, once\n' "${package%:*}" >&2
-    cargo rustc --quiet --locked --ignore-rust-version --package "${package%:*}" \
+    cargo rustc --locked --ignore-rust-version --package "${package%:*}" \
       --profile "${package#*:}" --lib --crate-type cdylib --target "$triple" \
-      --target-dir "$build" "$@" 2>"$build/log" || return 1
+      --target-dir "$build" "$@" 2>"$build/log" &
+    progress "$!" || return 1
   done
 }
 

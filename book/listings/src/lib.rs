@@ -19,6 +19,9 @@ macro_rules! pages {
 pages! {
     introduction = "introduction.md",
     first_picture = "first-picture.md",
+    one_pixel = "one-pixel.md",
+    quantum_for_graphics = "quantum-for-graphics.md",
+    graphics_for_quantum = "graphics-for-quantum.md",
     quantum_computing = "quantum-computing.md",
     path_tracing = "path-tracing.md",
     superposition = "superposition.md",
@@ -31,6 +34,7 @@ pages! {
     grover = "grover.md",
     counting = "counting.md",
     estimators = "estimators.md",
+    speed_up = "speed-up.md",
     estimators_exercises = "estimators-exercises.md",
     cost = "cost.md",
     accuracy = "accuracy.md",
@@ -52,9 +56,18 @@ pages! {
     glossary = "glossary.md",
 }
 
+/// The program that the chapter "One pixel, from nothing" builds.
+#[cfg(test)]
+#[path = "../../../examples/one_pixel.rs"]
+#[allow(
+    dead_code,
+    reason = "the program's own `main`, and what only figures read"
+)]
+mod one_pixel_program;
+
 #[cfg(test)]
 mod tests {
-    use super::PAGES;
+    use super::{PAGES, one_pixel_program};
     use std::collections::BTreeSet;
     use std::path::Path;
 
@@ -67,5 +80,15 @@ mod tests {
         assert!(listed.len() > 20 && listed.iter().all(|page| page.strip_suffix(".md").is_some()));
         assert_eq!(listed, PAGES.iter().copied().collect());
         assert_eq!(listed.len(), PAGES.len(), "a page stands here twice");
+    }
+
+    /// The chapter's program runs, and says what the page says that it says.
+    #[test]
+    fn the_pixel_is_built_as_the_page_says() {
+        let lines = one_pixel_program::report().unwrap();
+        let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../src/one-pixel.md");
+        let page = std::fs::read_to_string(page).unwrap();
+        let told = format!("```text\n{}\n```", lines.join("\n"));
+        assert!(page.contains(&told), "the page does not have\n{told}");
     }
 }

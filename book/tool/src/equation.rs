@@ -36,6 +36,8 @@ pub(crate) struct Equation {
     pub(crate) test: Vec<Place>,
     /// The letter of the erratum about it.
     pub(crate) erratum: Option<char>,
+    /// What the paper prints in its place, in LaTeX; empty where that is the same.
+    pub(crate) printed: String,
 }
 
 impl Equation {
@@ -78,6 +80,7 @@ impl Equation {
             code: Vec::new(),
             test: Vec::new(),
             erratum: None,
+            printed: String::new(),
         };
         let keys = keys.get(1..).unwrap_or_default();
         complaints.extend(equation.read(keys, file, line + tex.len() + 1));
@@ -93,6 +96,13 @@ impl Equation {
                     format!("`{info}` does not say `{key}:`"),
                 ));
             }
+        }
+        if !equation.printed.is_empty() && equation.erratum.is_none() {
+            complaints.push(Complaint::at(
+                file,
+                line - 1,
+                format!("`{info}` has `printed:`, and no `erratum:` says what is wrong with it"),
+            ));
         }
         if complaints.is_empty() {
             Ok(equation)
@@ -134,6 +144,7 @@ impl Equation {
             "what" => value.clone_into(&mut self.what),
             "code" => self.code = places(value)?,
             "test" => self.test = places(value)?,
+            "printed" => value.clone_into(&mut self.printed),
             "erratum" => {
                 let mut letters = value.chars();
                 self.erratum = match (letters.next(), letters.next()) {
@@ -148,7 +159,7 @@ impl Equation {
             }
             _ => {
                 return Err(format!(
-                    "unknown key `{key}`: there are what, code, test and erratum"
+                    "unknown key `{key}`: there are what, code, test, printed and erratum"
                 ));
             }
         }
@@ -222,13 +233,27 @@ mod tests {
             said,
             [
                 "x.md:4: `equation 29`: equations are numbered 1 to 28, as in ```equation 17",
-                "x.md:10: unknown key `tset`: there are what, code, test and erratum",
+                "x.md:10: unknown key `tset`: there are what, code, test, printed and erratum",
                 "x.md:11: `z` is no erratum: they are called a to k",
                 "x.md:4: `equation 29` does not say `test:`",
             ]
         );
         assert!(Equation::parse("equation 3", &["a = b"], "x.md", 5).is_err());
         assert!(Equation::parse("equation", &BODY, "x.md", 5).is_err());
+    }
+
+    #[test]
+    fn what_is_printed_stands_beside_an_erratum_alone() {
+        let mut body = BODY.to_vec();
+        body.push("printed: P(y) = 2");
+        let complaints = Equation::parse("equation 17", &body, "x.md", 5).unwrap_err();
+        assert_eq!(
+            complaints[0].to_string(),
+            "x.md:4: `equation 17` has `printed:`, and no `erratum:` says what is wrong with it"
+        );
+        body.push("erratum: f");
+        let equation = Equation::parse("equation 17", &body, "x.md", 5).unwrap();
+        assert_eq!(equation.printed, "P(y) = 2");
     }
 
     #[test]

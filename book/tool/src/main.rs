@@ -8,6 +8,7 @@
 //! The preprocessor also speaks mdBook's protocol, so that plain `mdbook build book` does the same
 //! but for the check.
 
+mod bibliography;
 mod chapter;
 mod check;
 mod complaint;

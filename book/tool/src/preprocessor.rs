@@ -1,6 +1,7 @@
 //! The book as a whole: mdBook's preprocessor.
 
-use crate::chapter::{Chapter, Indexed, Workshop};
+use crate::bibliography::Bibliography;
+use crate::chapter::{Chapter, Figures, Indexed, Workshop};
 use crate::complaint::Complaint;
 use crate::equation;
 use crate::formula::Formulas;
@@ -41,6 +42,8 @@ impl Preprocessor for QrtBook {
         let mut workshop = Workshop {
             formulas: Formulas::kept_in(&context.root.join(".cache")),
             sources: Sources::new(repository),
+            bibliography: Bibliography::read(&src),
+            figures: Figures::default(),
             complaints: Vec::new(),
         };
         let assets = interactive::prepare(&context.root, &src, &mut workshop.complaints)?;
@@ -83,6 +86,13 @@ impl Preprocessor for QrtBook {
             }
             if chapter.content.lines().any(|line| line.trim() == INDEX) {
                 indices.push(path);
+            }
+        });
+
+        each(&mut book, &mut |chapter| {
+            if let Some(path) = chapter.source_path.clone() {
+                let of = Names::new(&seen, &path, &chapter.name, &src);
+                chapter.content = workshop.numbered(&of.chapter(), &chapter.content);
             }
         });
 

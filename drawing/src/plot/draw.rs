@@ -54,7 +54,7 @@ impl Curve<'_> {
 pub(super) fn plot(plot: &Plot) -> Canvas {
     let curves: Vec<Curve<'_>> = (plot.series.iter().enumerate())
         .map(|(number, series)| Curve {
-            number,
+            number: series.style.unwrap_or(number),
             series,
             places: series.places(&plot.x, &plot.y),
             fit: series.fit(&plot.x, &plot.y),

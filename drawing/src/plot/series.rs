@@ -34,6 +34,9 @@ pub struct Series {
     pub points: Vec<Point>,
     /// What is drawn through them.
     pub drawn: Drawn,
+    /// The style of its colour and marks, below [`crate::STYLES`], where the same thing has it in
+    /// other plots, too; none for that of its place in the plot.
+    pub style: Option<usize>,
 }
 
 impl Series {
@@ -49,7 +52,15 @@ impl Series {
             name: name.to_owned(),
             points: points.into_iter().map(bare).collect(),
             drawn,
+            style: None,
         }
+    }
+
+    /// The same in a style of its own, wherever it stands in a plot.
+    #[must_use]
+    pub fn styled(mut self, style: usize) -> Self {
+        self.style = Some(style);
+        self
     }
 
     /// What of it has a place on the axes: (x, y, low, high) as places. The ends of an error bar

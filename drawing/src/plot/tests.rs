@@ -106,3 +106,22 @@ fn ticks_are_numbers_that_people_write() {
     assert_eq!(labels(5.1, 5.8), ["2\u{b7}10\u{2075}", "5\u{b7}10\u{2075}"]);
     assert_eq!(labels(-20.0, 20.0).len(), 7);
 }
+
+/// What is drawn in several plots has one colour in all of them.
+#[test]
+fn a_series_keeps_its_style_wherever_it_stands() {
+    let points = [(1.0, 1.0), (10.0, 0.1)];
+    let series = Series::of("digital net", points, Drawn::Joined).styled(2);
+    let [alone, second] = [
+        plot(vec![series.clone()]),
+        plot(vec![
+            Series::of("random paths", points, Drawn::Joined).styled(5),
+            series,
+        ]),
+    ]
+    .map(|plot| plot.draw().svg());
+    for svg in [alone, second] {
+        assert!(svg.contains("class=\"line s2\"") && svg.contains("class=\"mark s2\""));
+        assert!(!svg.contains("class=\"line s0\"") && !svg.contains("class=\"line s1\""));
+    }
+}

@@ -5,11 +5,12 @@ mod scenes;
 
 use super::{Figure, cornell, scene};
 use qrt::circuit::lower;
-use qrt::core::inspect::{Inspection, grouped};
+use qrt::core::compile::Role;
+use qrt::core::inspect::{Inspection, Part, grouped};
 use qrt::core::oracle::{Options, Oracle};
 use qrt::core::scene::Estimator;
 use qrt::core::valid::ValidScene;
-use qrt::drawing::{Axis, Drawn, Plot, Series};
+use qrt::drawing::{Axis, Canvas, Drawn, Plot, Series};
 use qrt::runtime::draw;
 use qrt::runtime::render::{self, Model, Rendered};
 
@@ -42,17 +43,113 @@ pub(super) fn frame() -> Figure {
     Figure::drawn(draw::frame(&inspection, "lit-wall"), says)
 }
 
-/// Which register has which qubits, and when.
+/// Qubits of one stage and one role, from the first that is computed to the last that is undone.
+struct Held {
+    stage: String,
+    role: Role,
+    qubits: u64,
+    instructions: [usize; 2],
+}
+
+/// The map of registers, summed up by stage and role.
+fn held(inspection: &Inspection) -> Vec<Held> {
+    let stages = inspection.stages();
+    let mut all: Vec<Held> = Vec::new();
+    for lifetime in &inspection.layout.lifetimes {
+        let register = &inspection.whole.registers[lifetime.register.index()];
+        let span = &lifetime.instructions;
+        let stage = if inspection.whole.inputs.contains(&lifetime.register) {
+            register.name.clone()
+        } else {
+            let within = stages
+                .iter()
+                .find(|stage| stage.instructions.contains(&span.start));
+            within.map_or_else(String::new, ToString::to_string)
+        };
+        let (role, qubits) = (Role::of(register), u64::from(register.width));
+        let known = all
+            .iter_mut()
+            .find(|held| held.stage == stage && held.role == role);
+        if let Some(held) = known {
+            held.qubits += qubits;
+            held.instructions[0] = held.instructions[0].min(span.start);
+            held.instructions[1] = held.instructions[1].max(span.end);
+        } else {
+            all.push(Held {
+                stage,
+                role,
+                qubits,
+                instructions: [span.start, span.end],
+            });
+        }
+    }
+    all.sort_by_key(|held| held.instructions[0]);
+    all
+}
+
+/// Which stage's qubits are held, and when.
 pub(super) fn registers() -> Figure {
     let inspection = inspected(&scene(WALL, "lit-wall.yaml"));
+    let all = held(&inspection);
+    let mut times = vec![0.0];
+    for cost in &inspection.costs {
+        times.push(times.last().copied().unwrap_or(0.0) + cost.toffoli as f64);
+    }
+    let last = times.last().copied().unwrap_or(1.0);
+    let bottom = 72.0 + 22.0 * all.len() as f64;
+    let title = "One oracle call: which stage's qubits are held, and when";
+    let mut canvas = Canvas::new(title, 720.0, bottom + 58.0);
+    let (left, right) = (170.0, 700.0);
+    let x = |instruction: usize| left + (right - left) * times[instruction] / last;
+    let mut at = 14.0;
+    for role in Role::ALL {
+        let name = role.to_string();
+        canvas.rectangle(class(role), [at, 38.0, 12.0, 12.0]);
+        canvas.text("small", [at + 17.0, 48.0], &name);
+        at += 34.0 + 7.0 * name.len() as f64;
+    }
+    canvas.text("small soft end", [left - 8.0, 60.0], "qubits");
+    for (row, held) in all.iter().enumerate() {
+        let y = 66.0 + 22.0 * row as f64;
+        canvas.text("small end", [left - 44.0, y + 13.0], &held.stage);
+        let [from, to] = held.instructions.map(x);
+        let width = (to - from).max(3.0);
+        canvas.rectangle(class(held.role), [from, y + 1.0, width, 17.0]);
+        let qubits = grouped(held.qubits);
+        canvas.text("small soft end", [left - 8.0, y + 13.0], &qubits);
+    }
+    let flip = inspection.instructions(Part::Flip);
+    let middle = f64::midpoint(x(flip.start), x(flip.end));
+    canvas.line("wire", [middle, 60.0], [middle, bottom + 4.0]);
+    canvas.text("small mid", [middle, bottom + 18.0], "flip");
+    canvas.text("small", [left, bottom + 18.0], "compute");
+    canvas.text("small end", [right, bottom + 18.0], "uncompute");
+    let axis = format!("Toffolis so far, to {}", grouped(last as u64));
+    canvas.text(
+        "soft mid",
+        [f64::midpoint(left, right), bottom + 42.0],
+        &axis,
+    );
     let says = format!(
-        "Registers of one oracle call of a lamp before a wall (2 quads, 2 rays, 2^5 paths, 8 \
-         fraction bits), from the instruction that computes each to the one that uncomputes it; {}, \
-         {} registers. As `qrt inspect SCENE --registers FILE.svg` draws it.",
+        "Qubits of one oracle call of a lamp before a wall (2 quads, 2 rays, 2^5 paths, 8 fraction \
+         bits), by stage and role, from the first register that is computed to the last that is \
+         uncomputed; {}, {} registers.",
         figures(&inspection),
         grouped(inspection.layout.registers())
     );
-    Figure::drawn(draw::registers(&inspection, "lit-wall"), says)
+    Figure::drawn(canvas, says)
+}
+
+/// The class of a role's colour.
+fn class(role: Role) -> &'static str {
+    match role {
+        Role::Id => "id",
+        Role::Comparator => "comparator",
+        Role::Work => "work",
+        Role::Scratch => "scratch",
+        Role::Colour => "colour",
+        Role::Flag => "flag",
+    }
 }
 
 /// Toffolis of one call, first channel.

@@ -201,3 +201,54 @@ pub(super) fn posteriors() -> Figure {
     );
     Figure::drawn(canvas, says)
 }
+
+/// What a register reads where nothing, one, half, all but one or all indices are good.
+pub(super) fn ends() -> Figure {
+    const BITS: u32 = 5;
+    const TOTAL: u64 = 1024;
+    let title = "A phase register of T = 32 at the extremes, N = 1,024";
+    let mut canvas = Canvas::new(title, 580.0, 560.0);
+    let cases = [
+        (0, "S = 0: certain"),
+        (1, "S = 1: hardly told from 0"),
+        (TOTAL / 2, "S = N/2: on the grid, certain"),
+        (TOTAL - 1, "S = N \u{2212} 1"),
+        (TOTAL, "S = N: certain"),
+    ];
+    let mut told = Vec::new();
+    for (k, (good, name)) in cases.into_iter().enumerate() {
+        let top = 62.0 + 98.0 * k as f64;
+        let panel = Panel {
+            edges: [76.0, top, 560.0, top + 62.0],
+            x: [-0.7, 16.7],
+            y: [0.0, 1.0],
+        };
+        canvas.text("", [panel.edges[0], top - 6.0], name);
+        let last = k == 4;
+        let outcomes = (0..=16).step_by(2).filter(|_| last).map(f64::from);
+        let label = if last { "outcome y" } else { "" };
+        panel.axes(
+            &mut canvas,
+            [&ticks(outcomes, 0), &ticks([0.0, 1.0], 0)],
+            [label, ""],
+        );
+        let known = PhaseDistribution::new(good, TOTAL, BITS, Window::Rect).expect("it exists");
+        let mut most = (0, 0.0);
+        for y in 0..=16_u64 {
+            let probability = known.probability(y);
+            let [x, height] = panel.at([y as f64, probability]);
+            let bar = [x - 8.0, height, 16.0, panel.edges[3] - height];
+            canvas.rectangle("pale s0", bar);
+            if probability > most.1 {
+                most = (y, probability);
+            }
+        }
+        told.push(format!("S = {good} reads {} with {:.4}", most.0, most.1));
+    }
+    let says = format!(
+        "Probabilities of the outcomes of a phase register of five bits with the rectangular \
+         window. {}.",
+        told.join("; ")
+    );
+    Figure::drawn(canvas, says)
+}

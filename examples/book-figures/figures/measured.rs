@@ -1,6 +1,6 @@
 //! Figures of measured tables: `book/data`.
 
-use super::{Figure, root};
+use super::{Figure, root, style};
 use qrt::drawing::{Axis, Drawn, Fit, Plot, Point, Series};
 use qrt::runtime::trade::pareto;
 
@@ -86,7 +86,7 @@ pub(super) fn truncation() -> Figure {
     );
     let series = names.iter().map(|name| {
         let points = of(name).into_iter().map(|[x, y]| (x, y));
-        Series::of(name, points, Drawn::Fit)
+        Series::of(name, points, Drawn::Fit).styled(style(name))
     });
     let plot = Plot {
         title: "Error of a picture over the number of paths".to_owned(),
@@ -208,6 +208,7 @@ pub(super) fn trade() -> Figure {
         name: name.to_owned(),
         points,
         drawn,
+        style: None,
     };
     let ends = [front.first(), front.last()].map(|p| p.map_or([0.0; 2], |p| [p.x, 100.0 * p.y]));
     let [own] = points(&table, &[("sweep", "scene")], "e_total")[..] else {
@@ -270,10 +271,42 @@ pub(super) fn parts() -> Figure {
         name: name.to_owned(),
         points: points(&table, &asked, error),
         drawn: Drawn::Joined,
+        style: None,
     });
     let plot = Plot {
         title: "Where the Cornell box's error comes from".to_owned(),
         x: Axis::log("queries of a pixel"),
+        y: Axis::log("RMSE over the mean"),
+        series: series.into(),
+    };
+    Figure::drawn(plot.draw(), says)
+}
+
+/// Counting beside random paths, and beside a net that is run classically.
+pub(super) fn rivals() -> Figure {
+    const ALL: [(&str, &str, &str); 3] = [
+        ("beside-rivals", "e_t", "counting"),
+        ("random-paths", "e_total", "random paths"),
+        ("classical-net", "e_total", "digital net"),
+    ];
+    let table = Table::read("trade.csv");
+    let mut said = Vec::new();
+    let series = ALL.map(|(sweep, error, name)| {
+        let points = points(&table, &[("sweep", sweep)], error);
+        let over: Vec<_> = points.iter().map(|p| [p.x, p.y]).collect();
+        said.push(format!("{name}: slope {:.2}", slope(&over)));
+        let bare = points.iter().map(|p| (p.x, p.y));
+        Series::of(name, bare, Drawn::Fit).styled(style(name))
+    });
+    let says = format!(
+        "Error of a pixel of the Cornell box over its mean: of counting over the queries of all three \
+         channels, of random paths and of the same net of paths run classically over the paths, both \
+         with sampled lamps; by `qrt trade`, quick, on pixels that see no lamp. {}.",
+        said.join("; ")
+    );
+    let plot = Plot {
+        title: "Counting and its rivals, Cornell box".to_owned(),
+        x: Axis::log("queries, or paths, of a pixel"),
         y: Axis::log("RMSE over the mean"),
         series: series.into(),
     };

@@ -1,12 +1,17 @@
 //! All figures of the book, each from the library's own code or from a measured table in
 //! `book/data`.
 
+mod call;
 mod circuits;
 mod comparator;
 mod counting;
+mod furnace;
+mod gates;
+mod geometry;
 mod grover;
 mod measured;
 pub(crate) mod pictures;
+mod pixel;
 mod plates;
 mod points;
 
@@ -56,11 +61,30 @@ impl Figure {
 pub(crate) type Make = fn() -> Figure;
 
 /// All figures, by the names of their files.
-pub(crate) const ALL: [(&str, Make); 23] = [
+pub(crate) const ALL: [(&str, Make); 43] = [
     ("first-picture.png", pictures::first),
     ("noise-strip.png", pictures::noise),
     ("counted-strip.png", pictures::counted),
     ("cornell-box-gates.png", pictures::gates),
+    ("materials.png", pictures::materials),
+    ("light-strip.png", pictures::lights),
+    ("circuit-garbage.svg", gates::garbage),
+    ("circuit-flip.svg", gates::flip),
+    ("circuit-kickback.svg", gates::kickback),
+    ("circuit-fourier.svg", gates::fourier),
+    ("circuit-grover.svg", gates::iterate),
+    ("circuit-counting.svg", gates::counting),
+    ("path.svg", geometry::path),
+    ("edge-tests.svg", geometry::edges),
+    ("light-sample.svg", geometry::lamp),
+    ("furnace.svg", furnace::depths),
+    ("oracle-call.svg", call::animated),
+    ("counting-ends.svg", counting::ends),
+    ("pixel-paths.svg", pixel::paths),
+    ("pixel-oracle.svg", pixel::oracle),
+    ("pixel-indices.svg", pixel::indices),
+    ("pixel-amplified.svg", pixel::amplified),
+    ("pixel-counted.svg", pixel::counted),
     ("counting-distribution.svg", counting::distribution),
     ("counting-windows.svg", counting::windows),
     ("posterior.svg", counting::posteriors),
@@ -78,6 +102,7 @@ pub(crate) const ALL: [(&str, Make); 23] = [
     ("estimators-error.svg", measured::estimators_error),
     ("estimators-rmse.svg", measured::estimators_rmse),
     ("estimators-pixels.svg", measured::estimators_pixels),
+    ("rivals.svg", measured::rivals),
     ("trade.svg", measured::trade),
     ("trade-parts.svg", measured::parts),
 ];
@@ -89,6 +114,16 @@ fn root() -> &'static Path {
 /// Where the figures are.
 pub(crate) fn folder() -> PathBuf {
     root().join("book/src/figures")
+}
+
+/// The style of what comes in several figures, so that it has one colour in all of them.
+fn style(name: &str) -> usize {
+    match name {
+        "product lattice" | "paper" => 3,
+        "random paths" | "monte-carlo" => 1,
+        "digital net" => 2,
+        _ => 0,
+    }
 }
 
 /// The Cornell box of the example scenes, with overrides.

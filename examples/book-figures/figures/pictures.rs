@@ -1,6 +1,6 @@
 //! Pictures, enlarged so that their pixels are seen.
 
-use super::{Body, Figure, cornell, root};
+use super::{Body, Figure, cornell, root, scene};
 use qrt::core::front;
 use qrt::core::scene::Estimator;
 use qrt::core::valid::ValidScene;
@@ -9,6 +9,7 @@ use qrt::runtime::machines::Real;
 use qrt::runtime::render::{Model, Options, render};
 use qrt::runtime::sample::tallies;
 use qrt::runtime::workers::Workers;
+use std::f64::consts::{PI, TAU};
 
 /// Between pictures of a strip, in their pixels.
 const GAP: u32 = 2;
@@ -161,6 +162,109 @@ pub(super) fn counted() -> Figure {
         listed.join(", ")
     );
     let body = Body::Picture(enlarged(&strip(&all.map(|(image, _)| image)), 3), EXPOSURE);
+    Figure { body, says }
+}
+
+/// Materials of a ball, in the order of the grid.
+const MATERIALS: [&str; 6] = [
+    "lambertian: { albedo: [0.75, 0.3, 0.2] }",
+    "mirror: { reflectance: [0.9, 0.9, 0.9] }",
+    "dielectric: { ior: 1.5 }",
+    "ggx: { alpha: 0.25, reflectance: [0.95, 0.75, 0.4] }",
+    "phong: { diffuse: [0.2, 0.35, 0.5], specular: [0.3, 0.3, 0.3], exponent: 40 }",
+    "bsdf: { map: ['sqrt(1-u^2)*cos(2*pi*v)', 'sqrt(1-u^2)*sin(2*pi*v)', 'u'], jacobian: auto, \
+     value: '0.1/pi + 2.2*(1-cos_i)^3*(1-cos_o)^3', pdf: '1/(2*pi)' }",
+];
+
+/// A ball of triangles around (0, 1, 0), as lines of a scene.
+fn ball(rings: u32, sectors: u32) -> String {
+    let corner = |ring: u32, sector: u32| {
+        let polar = PI * f64::from(ring) / f64::from(rings);
+        let around = TAU * f64::from(sector % sectors) / f64::from(sectors);
+        let [x, y, z] = [
+            libm::sin(polar) * libm::cos(around),
+            1.02 + libm::cos(polar),
+            libm::sin(polar) * libm::sin(around),
+        ];
+        format!("[{x:.6}, {y:.6}, {z:.6}]")
+    };
+    let mut lines = String::new();
+    for (ring, sector) in (0..rings).flat_map(|ring| (0..sectors).map(move |s| (ring, s))) {
+        let [a, b, c, d] =
+            [(0, 0), (0, 1), (1, 1), (1, 0)].map(|(r, s)| corner(ring + r, sector + s));
+        // At the poles one of the two has no area. The front is outside.
+        let both = [(ring + 1 < rings, [&a, &c, &d]), (ring > 0, [&a, &b, &c])];
+        for [p, q, r] in both
+            .into_iter()
+            .filter_map(|(there, corners)| there.then_some(corners))
+        {
+            lines += &format!("  - triangle: {{ vertices: [{p}, {q}, {r}], material: shown }}\n");
+        }
+    }
+    lines
+}
+
+/// A ball of each material.
+pub(super) fn materials() -> Figure {
+    let ball = ball(14, 28);
+    let images = MATERIALS.map(|material| {
+        let text = format!(
+            "name: ball
+camera: {{ perspective: {{ eye: [0, 2.2, 5], target: [0, 0.95, 0], vfov: 30 }} }}
+film: {{ width: {SIDE}, height: {SIDE} }}
+materials:
+  floor: {{ lambertian: {{ albedo: [0.6, 0.6, 0.6] }} }}
+  back: {{ lambertian: {{ albedo: [0.25, 0.45, 0.3] }} }}
+  lamp: {{ emitter: {{ radiance: [9, 8.5, 8] }} }}
+  shown: {{ {material} }}
+geometry:
+  - quad: {{ vertices: [[-9, 0, 9], [9, 0, 9], [9, 0, -3], [-9, 0, -3]], material: floor }}
+  - quad: {{ vertices: [[-9, 0, -3], [9, 0, -3], [9, 9, -3], [-9, 9, -3]], material: back }}
+  - quad: {{ vertices: [[-2, 5, 0], [1, 5, 0], [1, 5, 3], [-2, 5, 3]], material: lamp }}
+{ball}sampling:
+  path_bits: 8
+  depths:
+    - {{ bits: [10, 10] }}
+    - {{ bits: [10, 10], light: [10, 10] }}
+    - {{ bits: [10, 10], light: [10, 10] }}
+    - {{ bits: [10, 10], light: [10, 10] }}
+    - {{ bits: [10, 10], light: [10, 10] }}
+"
+        );
+        mean_of(&Real::new(&scene(&text, "ball.yaml"), 0).expect("a machine"))
+    });
+    let [first, second] = [&images[..3], &images[3..]].map(strip);
+    let between = vec![BETWEEN; (GAP * first.width) as usize];
+    let image = Image {
+        width: first.width,
+        height: 2 * first.height + GAP,
+        pixels: [first.pixels, between, second.pixels].concat(),
+        window: None,
+    };
+    let says = "A ball of 728 triangles, 48 x 48 pixels, each shown as 3 x 3, 2^8 paths of five \
+                rays with sampled lamps: lambertian, mirror, dielectric; ggx, phong, a bsdf of \
+                one's own."
+        .to_owned();
+    let body = Body::Picture(enlarged(&image, 3), 0.0);
+    Figure { body, says }
+}
+
+/// The same 64 paths with lamps found by chance, and aimed at.
+pub(super) fn lights() -> Figure {
+    let images = ["none", "mis", "auto"].map(|lights| {
+        let sets = [
+            format!("film={{ width: {SIDE}, height: {SIDE} }}"),
+            "sampling.path_bits=6".to_owned(),
+            format!("sampling.lights={lights}"),
+        ];
+        let loaded = front::load(&root().join("scenes-yaml/lit-box.yaml"), &sets);
+        let scene = loaded.unwrap_or_else(|report| panic!("{report}")).valid;
+        mean_of(&Real::new(&scene, 0).expect("a machine"))
+    });
+    let says = "The lit box, 48 x 48 pixels, each shown as 4 x 4, the exact mean of 2^6 paths a \
+                pixel, exposure 1: `lights: none`, `mis`, `auto`."
+        .to_owned();
+    let body = Body::Picture(enlarged(&strip(&images), 4), EXPOSURE);
     Figure { body, says }
 }
 

@@ -6,7 +6,7 @@
 //! fraction RHO. So a path's expected colour is a sum of probabilities that so many steps lead
 //! beyond c, each of them one integral.
 
-use super::{Figure, scene};
+use super::{Figure, scene, style};
 use qrt::core::valid::ValidScene;
 use qrt::drawing::{Axis, Drawn, Plot, Series};
 use qrt::runtime::machines::Real;
@@ -159,7 +159,7 @@ pub(super) fn dimensions() -> Figure {
         x: Axis::bits("D, rays of a path (2 D coordinates)"),
         y: Axis::log("RMSE over the mean"),
         series: series
-            .map(|(name, errors)| Series::of(name, errors, Drawn::Joined))
+            .map(|(name, errors)| Series::of(name, errors, Drawn::Joined).styled(style(name)))
             .collect(),
     };
     Figure::drawn(plot.draw(), says)

@@ -1,6 +1,6 @@
 //! Where paths' sample points lie, in the square and on the hemisphere.
 
-use super::Figure;
+use super::{Figure, style};
 use qrt::core::expr::Variables;
 use qrt::core::sampling::{Coordinate, PathPoints, cell_centre, maps};
 use qrt::core::scene::{DepthSampling, Map, Sampling, Sequence};
@@ -158,7 +158,7 @@ pub(super) fn projections() -> Figure {
     let random = (0..1 << PATH_BITS).map(|_| [(); 6].map(|()| stream.uniform()));
     let sets = [
         ("product lattice", lattice),
-        ("random", random.collect()),
+        ("random paths", random.collect()),
         ("digital net", net),
     ];
     let pairs = [
@@ -174,7 +174,7 @@ pub(super) fn projections() -> Figure {
         for (row, (axes, label)) in pairs.iter().enumerate() {
             let top = 60.0 + 176.0 * row as f64;
             canvas.rectangle("thin axis", [left, top, side, side]);
-            let class = format!("s{column}");
+            let class = format!("s{}", style(name));
             let to = [left, top, side];
             if column == 0 {
                 canvas.upright("soft", [28.0, top + side / 2.0], label);

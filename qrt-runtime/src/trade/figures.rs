@@ -84,6 +84,7 @@ pub(super) fn series<'a>(
         name: name.to_owned(),
         points,
         drawn,
+        style: None,
     }
 }
 

@@ -173,8 +173,12 @@ fn value(sweep: Sweep, row: &Row) -> String {
 
 fn table(out: &mut String, rows: &[&Row], name: impl Fn(&Row) -> String) {
     out.push_str("<div class=\"wide\"><table>\n<tr><th class=\"left\">setting</th>");
-    for error in ERRORS {
-        let _ = write!(out, "<th><code>{error}</code></th>");
+    for (error, meaning) in ERRORS.iter().zip(MEANINGS) {
+        let word = meaning.split(':').next().unwrap_or_default();
+        let _ = write!(
+            out,
+            "<th title=\"{meaning}\"><code>{error}</code><br>{word}</th>"
+        );
     }
     out.push_str(
         "<th>queries</th><th>Toffoli</th><th>qubits</th><th>Toffoli \u{d7} queries</th>\

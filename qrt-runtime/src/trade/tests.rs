@@ -381,6 +381,10 @@ fn the_page_is_whole_and_asks_nobody() {
     assert!(!page.contains("NaN") && !page.contains(">inf"));
     assert!(page.contains("<h2>What to change next</h2>") && page.contains("<details open>"));
     assert!(page.contains("radiance: [3, 2, 1]"), "the scene's text");
+    assert!(
+        page.contains("<code>e_r</code><br>paths</th>"),
+        "what an error is of"
+    );
     // Only the names of formats are addresses.
     for part in page.split("http").skip(1) {
         assert!(part.starts_with("://www.w3.org/2000/svg"), "{part:.60}");

@@ -63,11 +63,7 @@ pub(crate) const CHAPTERS: [(&str, &str, &str); 9] = [
     ("geometry", "Find intersection", "intersection.md"),
     ("sampling", "Dense sampling", "sampling.md"),
     ("comparator", "The comparator", "comparator.md"),
-    (
-        "counting",
-        "Estimators, and what the speed-up is",
-        "estimators.md",
-    ),
+    ("counting", "Estimators", "estimators.md"),
     ("circuit", "Phase oracle and uncomputation", "oracle.md"),
     ("accuracy", "Speed against accuracy", "accuracy.md"),
     ("budget", "Cost: space, time, Toffolis", "cost.md"),

@@ -96,6 +96,9 @@ impl Workshop {
                 let html = format!("<div class=\"formula\">{html}</div>");
                 traced.push_block(line, &html, origin);
                 index = after;
+            } else if let Some(after) = self.figure(chapter, (&lines, &origins), index, &mut traced)
+            {
+                index = after;
             } else {
                 traced.push(line, origin);
                 index += 1;

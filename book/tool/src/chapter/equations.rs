@@ -36,8 +36,9 @@ impl Workshop {
         let mut html = format!(
             "<div class=\"equation\" id=\"eq-{number}\"><div class=\"equation-row\">\
              <div class=\"formula\">{formula}</div>\
-             <a class=\"equation-number\" href=\"#eq-{number}\">({number})</a></div>\
+             <a class=\"equation-number\" href=\"#eq-{number}\">({number})</a></div>{}\
              <div class=\"equation-links\">code {}, test {}",
+            self.printed(chapter, equation, line),
             self.places(chapter, &equation.code, line),
             self.places(chapter, &equation.test, line),
         );
@@ -50,6 +51,18 @@ impl Workshop {
         }
         html.push_str("</div></div>");
         html
+    }
+
+    /// What the paper prints in an equation's place, if it is something else.
+    fn printed(&mut self, chapter: &Chapter<'_>, equation: &Equation, line: usize) -> String {
+        if equation.printed.is_empty() {
+            return String::new();
+        }
+        let formula = self.formula(chapter, &equation.printed, true, line);
+        format!(
+            "<div class=\"equation-printed\"><span>as printed</span>\
+             <div class=\"formula\">{formula}</div></div>"
+        )
     }
 
     fn places(&mut self, chapter: &Chapter<'_>, places: &[Place], line: usize) -> String {

@@ -55,6 +55,8 @@ impl Inlines<'_> {
             }) => {
                 if let Some(target) = dest_url.strip_prefix("source:") {
                     self.source(target, range);
+                } else {
+                    self.cite(&dest_url, range);
                 }
             }
             Event::Text(words) if !self.in_code => self.words(&words, range.start),
@@ -97,6 +99,17 @@ impl Inlines<'_> {
         });
         self.changes
             .push((start..end, self.chapter.to_root() + &link));
+    }
+
+    /// A link that cites something of the bibliography.
+    fn cite(&mut self, target: &str, range: Range<usize>) {
+        let root = self.chapter.to_root();
+        let cited = (self.workshop.bibliography).cite(target, (self.chapter.page, &root));
+        match cited {
+            None => {}
+            Some(Ok(html)) => self.changes.push((range, within_markdown(&html))),
+            Some(Err(message)) => self.complain(range.start, message),
+        }
     }
 
     /// Words, in which a dollar has a backslash before it.

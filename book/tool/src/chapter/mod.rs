@@ -2,13 +2,16 @@
 
 mod blocks;
 mod equations;
+mod figures;
 mod inlines;
 #[cfg(test)]
 mod tests;
 mod traced;
 
 pub(crate) use equations::Indexed;
+pub(crate) use figures::Figures;
 
+use crate::bibliography::Bibliography;
 use crate::complaint::Complaint;
 use crate::equation::Equation;
 use crate::formula::Formulas;
@@ -22,6 +25,10 @@ pub(crate) struct Workshop {
     pub(crate) formulas: Formulas,
     /// Files of the repository that chapters show.
     pub(crate) sources: Sources,
+    /// What may be cited.
+    pub(crate) bibliography: Bibliography,
+    /// The numbers of figures so far.
+    pub(crate) figures: Figures,
     /// What is wrong so far.
     pub(crate) complaints: Vec<Complaint>,
 }

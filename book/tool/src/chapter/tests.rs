@@ -9,6 +9,8 @@ fn workshop(root: &Path) -> Workshop {
     Workshop {
         formulas: Formulas::new(),
         sources: Sources::new(root),
+        bibliography: crate::bibliography::Bibliography::default(),
+        figures: Figures::default(),
         complaints: Vec::new(),
     }
 }
@@ -217,4 +219,74 @@ fn an_equation_stands_in_lines_of_its_own() {
         ["x.md:1: an equation's fence stands at the beginning of its line"]
     );
     assert!(shown.equations.is_empty());
+}
+
+#[test]
+fn figures_are_numbered_and_have_captions() {
+    let content = "\
+See [Figure](#fig-plane).
+
+![a plane
+of two](figures/plane.svg)
+; left | right
+: The plane, with $x$.
+More of it.
+
+<figure class=\"qrt-interactive\" data-figure=\"map\">
+<img src=\"figures/map.svg\" alt=\"map\">
+</figure>
+: To be moved.
+
+After.
+";
+    let mut workshop = workshop(Path::new(env!("CARGO_MANIFEST_DIR")));
+    let chapter = Chapter {
+        file: "x.md",
+        page: "x.html",
+        name: "X",
+        original: content,
+    };
+    let processed = workshop.process(&chapter, content);
+    assert!(processed.interactive);
+    let html = html(&workshop.numbered(&chapter, &processed.markdown));
+    assert_eq!(workshop.complaints, []);
+    assert!(
+        html.contains("<figure class=\"qrt-figure\" id=\"fig-plane\">"),
+        "{html}"
+    );
+    assert!(
+        html.contains("<strong>Figure 1.</strong> The plane, with "),
+        "{html}"
+    );
+    assert!(
+        html.contains("<a href=\"#fig-plane\">Figure 1</a>"),
+        "{html}"
+    );
+    assert!(
+        html.contains("<span>left</span><span>right</span>"),
+        "{html}"
+    );
+    assert!(html.contains("id=\"fig-interactive-map\""), "{html}");
+    assert!(
+        html.contains("<strong>Figure 2.</strong> To be moved."),
+        "{html}"
+    );
+    let ends = |tag: &str| html.matches(&format!("</{tag}>")).count();
+    assert_eq!((ends("figure"), ends("figcaption")), (2, 2), "{html}");
+}
+
+#[test]
+fn a_figure_without_a_caption_or_that_is_not_there_is_told() {
+    let (_, complaints) = processed("![a plane](figures/plane.svg)\n\nAfter.\n");
+    assert_eq!(complaints.len(), 1);
+    assert!(complaints[0].starts_with("x.md:1: this figure has no caption"));
+    let mut workshop = workshop(Path::new(env!("CARGO_MANIFEST_DIR")));
+    let chapter = Chapter {
+        file: "x.md",
+        page: "x.html",
+        name: "X",
+        original: "",
+    };
+    workshop.numbered(&chapter, "[Figure](y.md#fig-none)");
+    assert_eq!(workshop.complaints.len(), 1);
 }
