@@ -7,7 +7,7 @@
 //! 3. [`share_multiples`]: products of one number with several constants share the sums that they
 //!    consist of.
 //! 4. [`schedule`]: operations run once and stay, but for those of scopes: a scope copies out what is
-//!    needed outside of it and then runs backwards. Where qubits are dearer than gates, see
+//!    needed outside of it and then runs backwards. Where qubits cost more than gates, see
 //!    [`super::recompute`].
 
 use super::{Label, Passes, PixelWord, Recorded, Strategy, recompute};

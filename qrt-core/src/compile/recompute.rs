@@ -1,4 +1,4 @@
-//! The order of instructions where qubits are dearer than gates: what nobody reads any more is undone.
+//! The order of instructions where qubits cost more than gates: what nobody reads any more is undone.
 //!
 //! A scope is a list of parts: operations, and scopes within. Beyond what [`super::passes`] does at the end
 //! of a scope,
