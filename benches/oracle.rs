@@ -59,7 +59,7 @@ const TOFFOLIS: [u64; 2] = [85_000, 67_000];
 const QUBITS: [u64; 2] = [1_500, 500];
 
 /// Toffolis that it may take, at most, within so many qubits.
-const WITHIN: [[u64; 2]; 2] = [[5_000, 200_000], [2_000, 500_000]];
+const WITHIN: [[u64; 2]; 3] = [[5_000, 200_000], [2_000, 500_000], [500, 5_000_000]];
 
 /// What the box took under `keep` when every plane was asked about every ray: Toffolis and qubits.
 const ALL_PLANES: [u64; 2] = [160_912, 87_280];
@@ -352,7 +352,7 @@ fn pareto(root: &Path) -> Vec<Layout> {
         );
     }
     let fewest = front.iter().min_by_key(|layout| layout.cost.qubits);
-    let [most, some] = WITHIN.map(|[qubits, _]| cheapest(&front, qubits));
+    let [most, some, _] = WITHIN.map(|[qubits, _]| cheapest(&front, qubits));
     for layout in [most, some, fewest].into_iter().flatten() {
         let strategy = layout.strategy;
         println!("\nhow that grows which undoes: {strategy}");

@@ -10,6 +10,7 @@ mod circuits {
 
     mod every_width;
     mod export_command;
+    mod fronts;
     mod models_agree;
     mod nearest_hits;
     mod only_what_the_scene_requires;

@@ -28,7 +28,7 @@ mod predicate;
 mod recording;
 
 pub use budget::{CallCost, call_cost, check_budget};
-pub use layouts::Layout;
+pub use layouts::{Layout, Layouts};
 pub use nearest::{MOST_FACES, NearestOracle};
 pub use phase::MOST_BITS;
 pub use predicate::{Marks, Predicate, PredicateError};

@@ -2,7 +2,7 @@
 
 use crate::workers::{Progress, ThreadsError, Workers};
 use qrt_core::compile::Strategy;
-use qrt_core::oracle::{Layout, OracleError};
+use qrt_core::oracle::{Layout, Layouts, OracleError};
 use qrt_core::valid::ValidScene;
 use qrt_drawing::{Axis, Canvas, Drawn, Plot, Series};
 use rayon::prelude::*;
@@ -36,11 +36,12 @@ pub fn front(
         total: all.len() as u64,
         resumed: 0,
     });
+    let traced = Layouts::new(scene, channel);
     let layout = |strategy: &Strategy| {
         if workers.cancelled() {
             return Err(LayoutsError::Cancelled);
         }
-        let layout = Layout::new(scene, channel, *strategy).map_err(LayoutsError::Oracle);
+        let layout = traced.under(*strategy).map_err(LayoutsError::Oracle);
         workers.report(Progress::Finished(1));
         layout
     };

@@ -7,7 +7,7 @@ use qrt::runtime::verify::{Options, verify};
 use std::fmt::Write as _;
 
 /// A scene that looks at a few surfaces; coordinates are eighths, so that parallelograms are flat.
-fn scene(numbers: &mut Numbers) -> String {
+pub(super) fn scene(numbers: &mut Numbers) -> String {
     let mut text = String::from("name: random\n");
     let eighths = |numbers: &mut Numbers, most: usize| {
         (numbers.below(2 * most + 1) as f64 - most as f64) / 8.0

@@ -4,6 +4,7 @@
 use super::paths::{CORNER, film, paths};
 use crate::common::command::Folder;
 use crate::common::scene::{from_file, written};
+use qrt::circuit::{Gate, lower};
 use qrt::core::compile::Strategy;
 use qrt::core::oracle::{Layout, Options, Oracle, call_cost};
 use qrt::core::valid::ValidScene;
@@ -38,7 +39,7 @@ fn agree(scene: &ValidScene, strategies: &[Strategy]) {
 #[test]
 fn every_strategy_computes_the_same() {
     let all = Strategy::all();
-    assert_eq!(all.len(), 512);
+    assert_eq!(all.len(), 640);
     let some: Vec<Strategy> = all.into_iter().step_by(7).collect();
     agree(&written(CORNER, &[]), &some);
 }
@@ -85,6 +86,37 @@ fn auto_is_the_cheapest_that_fits() {
     // Without a budget nothing is undone early.
     let scene = written(CORNER, &["circuit.uncompute=auto"]);
     assert_eq!(Options::default().strategy(&scene), Ok(Strategy::KEEP));
+}
+
+/// The box as it is, on fewer qubits than a path's rays and hits alone had under `keep`: two pixels, all of
+/// their paths.
+#[test]
+fn the_box_fits_into_five_hundred_qubits() {
+    let sets = ["circuit.uncompute=auto", "budget.qubits=500"];
+    let scene = from_file("scenes-yaml/cornell-box.yaml", &sets);
+    let under = |strategy| {
+        let options = Options {
+            strategy,
+            ..Options::default()
+        };
+        Arc::new(Oracle::new(&scene, 0, options).unwrap())
+    };
+    let pixels = [[32, 4], [20, 50]];
+    let keep = OracleMachine::fixed(under(Some(Strategy::KEEP)), 3, false);
+    let expected = paths(&keep, &pixels).unwrap();
+    let oracle = under(None);
+    let circuit = lower::circuit(&oracle.whole(0));
+    let toffolis = circuit.gates.iter();
+    let toffolis = toffolis
+        .filter(|gate| matches!(gate, Gate::Ccx(..)))
+        .count() as u64;
+    let emitted = [circuit.qubits.into(), toffolis];
+    assert!(emitted[0] <= 500 && toffolis <= 3_000_000, "{emitted:?}");
+    let cost = call_cost(&[Oracle::clone(&oracle)]);
+    assert_eq!(emitted, [cost.qubits, cost.toffoli]);
+    let gates = OracleMachine::gates(oracle, 3, false).unwrap();
+    let traced = paths(&gates, &pixels).unwrap();
+    assert!(traced == expected && expected.good[0].iter().any(|good| *good > 0));
 }
 
 #[test]

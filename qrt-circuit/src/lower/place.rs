@@ -111,27 +111,39 @@ pub fn scratch_width(op: &Op, width: impl Fn(RegisterId) -> u32) -> u32 {
     lowering.garbage.len() as u32
 }
 
+/// How many ancillas `op` borrows beyond its own registers, at most, given their widths.
+pub(super) fn ancillas(op: &Op, width: impl Fn(RegisterId) -> u32) -> u32 {
+    let (op, mut lowering) = placed(op, width);
+    let scratch = op.scratch().map(|id| lowering.register(id));
+    lowering.scratch = Some(scratch.unwrap_or_default());
+    let own = lowering.pool.in_use();
+    lowering.pool.peak = own;
+    lowering.lower(&op);
+    lowering.pool.peak - own
+}
+
 /// An operation with its registers, other than its garbage, placed on qubits of its own.
 pub(super) fn alone(op: &Op, width: impl Fn(RegisterId) -> u32) -> (Op, Lowering) {
+    let scratch = op.scratch();
+    placed(op, |id| if Some(id) == scratch { 0 } else { width(id) })
+}
+
+/// An operation with its registers placed on qubits of its own.
+fn placed(op: &Op, width: impl Fn(RegisterId) -> u32) -> (Op, Lowering) {
     let mut lowering = Lowering::default();
     let mut ids: Vec<RegisterId> = Vec::new();
     for id in op.reads().into_iter().chain(op.fresh()) {
         if !ids.contains(&id) {
-            let width = if Some(id) == op.scratch() {
-                0
-            } else {
-                width(id)
-            };
             lowering.registers.push(Vec::new());
-            lowering.place(RegisterId(ids.len() as u32), width);
+            lowering.place(RegisterId(ids.len() as u32), width(id));
             ids.push(id);
         }
     }
-    let placed = |id| {
+    let own = |id| {
         let place = ids.iter().position(|known| *known == id);
         RegisterId(place.unwrap_or_default() as u32)
     };
-    let op = op.clone().map(placed, placed);
+    let op = op.clone().map(own, own);
     (op, lowering)
 }
 

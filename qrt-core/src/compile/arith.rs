@@ -240,6 +240,9 @@ impl Arith for Builder<'_> {
             self.records.push(word.register);
         }
     }
+    fn recomputes(&self) -> bool {
+        self.target.strategy.recomputes()
+    }
     fn enter(&mut self, part: Part) {
         let depth = |depth: usize| Some(depth as u32);
         match part {

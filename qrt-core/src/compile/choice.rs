@@ -74,7 +74,9 @@ impl Builder<'_> {
             Index::Node(node) => node,
         };
         let choice = self.choices[node as usize].clone();
-        if let Some(word) = choice.word {
+        if let Some(word) = choice.word
+            && (choice.table.is_none() || self.is_filled(word.register))
+        {
             return Operand::Word(word);
         }
         let Some(table) = choice.table else {

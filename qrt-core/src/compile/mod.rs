@@ -33,6 +33,7 @@ mod number;
 mod order;
 mod passes;
 mod product;
+mod recompute;
 mod root;
 mod strategy;
 mod table;
@@ -306,6 +307,16 @@ impl<'a> Builder<'a> {
         self.open.last().copied().unwrap_or(BlockId::ROOT)
     }
 
+    /// Whether what was computed in `block` is read where it is needed, rather than computed anew.
+    fn is_at_hand(&self, block: BlockId) -> bool {
+        !self.target.strategy.recomputes() || self.open.contains(&block)
+    }
+
+    /// Whether a register that a table may fill again is read where it is needed.
+    fn is_filled(&self, register: RegisterId) -> bool {
+        self.is_at_hand(self.registers[register.index()].block)
+    }
+
     fn begin(&mut self, stage: StageName, depth: Option<u32>) {
         let id = BlockId(self.blocks.len() as u32);
         let parent = self.block();
@@ -366,7 +377,9 @@ impl<'a> Builder<'a> {
         self.asked += 1;
         // Equal operands at another width are another operation.
         let key = op.clone().map(|read| read, |(_, width)| width);
-        if let (true, Some(&known)) = (self.target.passes.share, self.known.get(&key)) {
+        if let (true, Some(&known)) = (self.target.passes.share, self.known.get(&key))
+            && self.is_at_hand(self.ops[known].1)
+        {
             self.shared += 1;
             return self.ops[known].0.targets();
         }

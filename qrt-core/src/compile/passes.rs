@@ -7,9 +7,10 @@
 //! 3. [`share_multiples`]: products of one number with several constants share the sums that they
 //!    consist of.
 //! 4. [`schedule`]: operations run once and stay, but for those of scopes: a scope copies out what is
-//!    needed outside of it and then runs backwards.
+//!    needed outside of it and then runs backwards. Where qubits cost more than gates, see
+//!    [`super::recompute`].
 
-use super::{Label, Passes, PixelWord, Recorded, Strategy};
+use super::{Label, Passes, PixelWord, Recorded, Strategy, recompute};
 use qrt_circuit::{
     Bit, Block, BlockId, Instruction, Multiples, Op, Program, Register, RegisterId, Style, Word,
     lower,
@@ -42,7 +43,7 @@ pub(crate) struct Known {
 
 impl Draft {
     /// Blocks from `block` to the root.
-    fn ancestors(&self, block: BlockId) -> Vec<BlockId> {
+    pub(super) fn ancestors(&self, block: BlockId) -> Vec<BlockId> {
         let mut path = vec![block];
         let mut at = block;
         while let Some(parent) = self.blocks[at.index()].parent {
@@ -287,6 +288,9 @@ pub(super) fn schedule(
     strategy: Strategy,
     roots: &[RegisterId],
 ) -> (Vec<Instruction>, HashMap<RegisterId, RegisterId>) {
+    if strategy.recomputes() {
+        return recompute::schedule(draft, strategy, roots);
+    }
     if strategy.is_keep() {
         let instructions = draft.ops.iter().enumerate();
         let instructions = instructions.map(|(op, &(_, block))| Instruction {

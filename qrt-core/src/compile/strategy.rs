@@ -93,6 +93,10 @@ pub struct Strategy {
     scopes: u16,
     /// By [`Garbage`]: whether it is undone at once, for as many gates again.
     lean: [bool; 3],
+    /// Whether what is cheap is computed anew where it is read, and undone where nobody reads it any more.
+    recomputes: bool,
+    /// Whether more is undone, by running again what it was computed from.
+    runs_again: bool,
 }
 
 impl Strategy {
@@ -100,16 +104,20 @@ impl Strategy {
     pub const KEEP: Self = Self {
         scopes: 0,
         lean: [false; 3],
+        recomputes: false,
+        runs_again: false,
     };
 
     /// All parts but convex bodies are scopes, and operations leave no garbage.
     pub const SCOPED: Self = Self {
         scopes: ((1 << Scope::ALL.len()) - 1) & !(1 << Scope::Body as u16),
         lean: [true; 3],
+        recomputes: false,
+        runs_again: false,
     };
 
     /// From the fewest gates to the fewest qubits, in steps: what `uncompute: auto` chooses from.
-    pub const LADDER: [Self; 17] = {
+    pub const LADDER: [Self; 23] = {
         use Garbage::{Products, Quotients, Tables};
         use Scope::{Body, Component, Plane, Ray, Sample, Search, Shade, Side};
         const ALL: &[Garbage] = &[Tables, Products, Quotients];
@@ -131,6 +139,12 @@ impl Strategy {
             Self::new(&[Plane, Search, Ray], ALL),
             Self::new(&[Plane, Body, Search, Sample, Component, Side, Shade], ALL),
             Self::new(&Scope::ALL, ALL),
+            Self::new(&[Plane, Sample, Component, Side, Shade], ALL).recomputing(),
+            Self::new(&[Plane, Body, Ray, Sample, Component, Side, Shade], ALL).recomputing(),
+            Self::new(&[Plane, Search, Ray, Component], ALL).recomputing(),
+            Self::new(&[Plane, Search, Ray, Sample, Component, Side, Shade], ALL).recomputing(),
+            Self::new(&Scope::ALL, ALL).recomputing(),
+            Self::new(&Scope::ALL, ALL).running_again(),
         ]
     };
 
@@ -148,6 +162,42 @@ impl Strategy {
             at += 1;
         }
         strategy
+    }
+
+    /// The same, but that what is cheap is computed anew where it is read, and undone where nobody reads
+    /// it any more.
+    pub const fn recomputing(mut self) -> Self {
+        self.recomputes = true;
+        self
+    }
+
+    /// The same as [`Strategy::recomputing`], and more is undone, by running again what it was computed
+    /// from.
+    pub const fn running_again(mut self) -> Self {
+        self.runs_again = true;
+        self.recomputing()
+    }
+
+    /// Whether what is cheap is computed anew where it is read, and undone where nobody reads it any more.
+    pub const fn recomputes(&self) -> bool {
+        self.recomputes
+    }
+
+    /// Whether more is undone, by running again what it was computed from.
+    pub const fn runs_again(&self) -> bool {
+        self.runs_again
+    }
+
+    /// How many kinds of recordings strategies need.
+    pub(crate) const RECORDINGS: usize = 16;
+
+    /// The number of the kind of recording that it needs, below [`Strategy::RECORDINGS`]: strategies of
+    /// one kind differ in what is made of it.
+    pub(crate) fn recording(self) -> usize {
+        let flags = [self.lean[0], self.lean[1], self.lean[2], self.recomputes];
+        flags
+            .iter()
+            .fold(0, |number, flag| 2 * number + usize::from(*flag))
     }
 
     /// All that are worth trying: the small parts of a ray's way together, everything else apart.
@@ -169,10 +219,13 @@ impl Strategy {
                 .map(|(_, garbage)| garbage)
                 .collect::<Vec<_>>()
         };
-        let pairs = (0..1 << parts.len()).flat_map(|s| (0..8).map(move |l| (s, l)));
-        pairs
-            .map(|(s, l)| Self::new(&chosen(s), &lean(l)))
-            .collect()
+        let scopes = 0..1 << parts.len();
+        let pairs = scopes.clone().flat_map(|s| (0..8).map(move |l| (s, l)));
+        let kept = pairs.map(|(s, l)| Self::new(&chosen(s), &lean(l)));
+        // Computed anew, what leaves garbage would leave it as often.
+        let anew = scopes.map(|s| Self::new(&chosen(s), &Garbage::ALL));
+        let anew = anew.flat_map(|strategy| [strategy.recomputing(), strategy.running_again()]);
+        kept.chain(anew).collect()
     }
 
     /// How operations are lowered that have this garbage.
@@ -209,10 +262,15 @@ impl std::fmt::Display for Strategy {
             .filter_map(|(lean, name)| lean.then_some(name))
             .collect();
         match (names.as_slice(), lean.as_slice()) {
-            ([], []) => f.write_str("nothing"),
-            (names, []) => f.write_str(&names.join(" ")),
-            ([], lean) => write!(f, "garbage of {}", lean.join(" ")),
-            (names, lean) => write!(f, "{}; garbage of {}", names.join(" "), lean.join(" ")),
+            ([], []) => f.write_str("nothing")?,
+            (names, []) => f.write_str(&names.join(" "))?,
+            ([], lean) => write!(f, "garbage of {}", lean.join(" "))?,
+            (names, lean) => write!(f, "{}; garbage of {}", names.join(" "), lean.join(" "))?,
         }
+        f.write_str(match (self.recomputes, self.runs_again) {
+            (_, true) => "; all that nobody reads",
+            (true, false) => "; what nobody reads",
+            (false, false) => "",
+        })
     }
 }

@@ -163,11 +163,13 @@ impl Builder<'_> {
     /// The register's bits of a node, looked up now if it is a table.
     pub(super) fn word_of(&mut self, node: u32) -> Word {
         let value = &self.values[node as usize];
-        if let Some(word) = value.word {
+        let table = value.table.clone();
+        if let Some(word) = value.word
+            && (table.is_none() || self.is_filled(word.register))
+        {
             return word;
         }
         let range = value.range;
-        let table = value.table.clone();
         let word = match table {
             Some(table) => {
                 let entries: Vec<i64> = table.entries.iter().map(|&e| self.rounded(e)).collect();

@@ -61,8 +61,9 @@ impl Builder<'_> {
         };
         let truth = self.truths[node as usize].clone();
         let bit = match (truth.bit, truth.table) {
-            (Some(bit), _) => bit,
-            (None, Some(table)) => {
+            (Some(bit), None) => bit,
+            (Some(bit), _) if self.is_filled(bit.register) => bit,
+            (_, Some(table)) => {
                 let entries = table.entries.iter().map(|&entry| entry as i64).collect();
                 let bit = Bit {
                     register: self.look_up(&table.address, entries, Type::Bool, 1),

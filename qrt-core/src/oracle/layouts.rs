@@ -1,11 +1,13 @@
 //! What a scene's circuit costs under each strategy: qubits against gates.
 
+use super::recording::{PrimaryHit, Recording};
 use super::{CallCost, Options, Oracle, OracleError};
 use crate::compile::Strategy;
 use crate::scene::Uncompute;
 use crate::valid::ValidScene;
 use qrt_circuit::lower;
 use std::collections::HashMap;
+use std::sync::{Mutex, PoisonError};
 
 /// A way to lay out the circuit of a scene's channel, and what one call of it costs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,6 +38,10 @@ impl Layout {
             ..Options::default()
         };
         let oracle = Oracle::new(scene, channel, options)?;
+        Ok(Self::of(&oracle, strategy))
+    }
+
+    fn of(oracle: &Oracle, strategy: Strategy) -> Self {
         let whole = oracle.whole(0);
         let mut known = HashMap::new();
         let (mut toffoli, mut and_measured, mut and_with_ghosts) = (0, 0, 0);
@@ -54,12 +60,12 @@ impl Layout {
             qubits: u64::from(oracle.qubits()),
             toffoli,
         };
-        Ok(Self {
+        Self {
             strategy,
             cost,
             and_measured,
             and_with_ghosts,
-        })
+        }
     }
 
     /// The layout of the most expensive channel, and which that is.
@@ -94,6 +100,50 @@ impl Layout {
     }
 }
 
+/// The layouts of a channel's oracle, which is traced once for all strategies that need the same
+/// recording.
+pub struct Layouts<'a> {
+    scene: &'a ValidScene,
+    channel: usize,
+    recordings: [Mutex<Option<Recording>>; Strategy::RECORDINGS],
+}
+
+impl<'a> Layouts<'a> {
+    /// Those of channel 0 red, 1 green or 2 blue.
+    pub fn new(scene: &'a ValidScene, channel: usize) -> Self {
+        Self {
+            scene,
+            channel,
+            recordings: std::array::from_fn(|_| Mutex::new(None)),
+        }
+    }
+
+    /// The one under `strategy`: as [`Layout::new`].
+    ///
+    /// # Errors
+    /// As [`Oracle::new`].
+    pub fn under(&self, strategy: Strategy) -> Result<Layout, OracleError> {
+        let oracle = {
+            let recording = &self.recordings[strategy.recording()];
+            let mut recording = recording.lock().unwrap_or_else(PoisonError::into_inner);
+            let recording = match &mut *recording {
+                Some(recording) => recording,
+                none => {
+                    let options = Options {
+                        strategy: Some(strategy),
+                        ..Options::default()
+                    };
+                    let traced = PrimaryHit::Traced;
+                    none.insert(Recording::new(self.scene, [self.channel], options, traced)?)
+                }
+            };
+            recording.lay_out(strategy);
+            recording.oracle(&[0])
+        };
+        Ok(Layout::of(&oracle, strategy))
+    }
+}
+
 /// The strategy of a scene's circuits. `auto` is the cheapest of [`Strategy::LADDER`] with which the
 /// dearest channel's oracle fits into `budget.qubits`; the one with the fewest qubits if none does.
 pub(super) fn strategy_of(scene: &ValidScene) -> Result<Strategy, OracleError> {
@@ -110,10 +160,10 @@ pub(super) fn strategy_of(scene: &ValidScene) -> Result<Strategy, OracleError> {
     if keep.cost.qubits <= most {
         return Ok(Strategy::KEEP);
     }
+    let all = Layouts::new(scene, channel);
     let others = Strategy::LADDER.iter();
-    let layouts: Result<Vec<Layout>, OracleError> = others
-        .map(|&strategy| Layout::new(scene, channel, strategy))
-        .collect();
+    let layouts: Result<Vec<Layout>, OracleError> =
+        others.map(|&strategy| all.under(strategy)).collect();
     let layouts = layouts?.into_iter();
     let fits = layouts.clone().filter(|layout| layout.cost.qubits <= most);
     let cheapest = fits.min_by_key(|layout| (layout.cost.toffoli, layout.cost.qubits));

@@ -184,6 +184,12 @@ impl Recording {
         })
     }
 
+    /// What is recorded is laid out under another strategy from here on, one that needs the same
+    /// recording ([`Strategy::recording`]).
+    pub(super) fn lay_out(&mut self, strategy: Strategy) {
+        self.strategy = strategy;
+    }
+
     /// The oracle of the channels at these places among those recorded.
     pub(super) fn oracle(&mut self, places: &[usize]) -> Oracle {
         let mut outputs: Vec<Channel> = places

@@ -203,6 +203,11 @@ pub trait Arith: Sized {
     fn apart<W: Work<Self>>(&mut self, work: W) -> W::Output {
         work.run(self)
     }
+    /// Whether what was computed in a part that is left is asked for again rather than kept.
+    #[inline(always)]
+    fn recomputes(&self) -> bool {
+        false
+    }
     /// What follows belongs to `part`, until [`Arith::leave`].
     #[inline(always)]
     fn enter(&mut self, _part: Part) {}

@@ -150,8 +150,20 @@ pub fn trace<A: Arith, N: Nearest<A>, const C: usize>(
             None => cx.rows(&stage.frames, hit.face),
         };
         vertex.stand(&frame);
+        let origin = if cx.recomputes() {
+            // Where it starts is a part by itself, after which nobody asks for the ray before it.
+            let origin = start(cx, &ray, hit.distance, &frame);
+            cx.leave();
+            cx.enter(Part::GenerateRay(depth + 1));
+            Some(origin)
+        } else {
+            None
+        };
         let scattered = scatter.scatter(cx, &vertex);
-        let origin = start(cx, &ray, hit.distance, &frame);
+        let origin = match origin {
+            Some(origin) => origin,
+            None => start(cx, &ray, hit.distance, &frame),
+        };
         let from = match known {
             Some((_, from)) => from,
             None => cx.entry(&stage.geometry.plane_of, hit.face),

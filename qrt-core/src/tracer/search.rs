@@ -23,7 +23,7 @@ use super::geometry::{Geometry, NO_FACE, Plane};
 use super::intersect::{constants, meets, within};
 use super::ray::{Hit, Nearest, Ray, Start};
 use super::{Arith, Part, Stage};
-use plan::{Facet, Met, Outer, Plan, Planner, Starts};
+use plan::{Facet, Met, MetBound, Outer, Plan, Planner, Starts};
 
 /// How thick planes are at most, in stage units, where convex bodies are looked for: corners from
 /// files of single precision are that far off.
@@ -127,6 +127,42 @@ impl<A: Arith> Approach<A> {
     }
 }
 
+/// How a ray goes towards a plane that bounds a body.
+struct Passage<A: Arith> {
+    /// Whether the ray starts on the plane.
+    starts: A::Bool,
+    /// Whether it crosses the plane ahead of its start.
+    ahead: A::Bool,
+    distance: A::Real,
+    /// Whether it goes towards the side on which the body is.
+    inwards: A::Bool,
+    /// Whether it starts on the other side.
+    outside: A::Bool,
+}
+
+impl<A: Arith> Passage<A> {
+    fn new(cx: &mut A, bound: &MetBound, ray: &Ray<A>) -> Self {
+        let towards = Approach::new(cx, &bound.plane, ray);
+        let (inwards, outside) = if bound.below {
+            (towards.falls, towards.above)
+        } else {
+            (cx.not(towards.falls), cx.not(towards.above))
+        };
+        let starts = match bound.starts {
+            Starts::None => cx.truth(false),
+            Starts::All => cx.truth(true),
+            Starts::Leaving => cx.is(ray.from, bound.number as u32),
+        };
+        Self {
+            starts,
+            ahead: math!(cx, towards.ahead && !starts),
+            distance: towards.distance,
+            inwards,
+            outside,
+        }
+    }
+}
+
 impl Search<'_> {
     fn plan<A: Arith>(&self, ray: &Ray<A>) -> &Plan {
         match ray.start {
@@ -203,29 +239,24 @@ impl Search<'_> {
         let mut entry = Running::new(cx, ray.reach);
         entry.distance = cx.real(0.0);
         let mut exit = Running::new(cx, ray.reach);
-        let mut exits = Vec::new();
         let mut entered = cx.truth(false);
         let mut missed = cx.truth(false);
+        let mut exits = Vec::new();
         for bound in &body.bounds {
             if !(bound.entered || bound.left || bound.outwards) {
                 continue;
             }
             cx.enter(Part::Plane(bound.number));
-            let towards = Approach::new(cx, &bound.plane, ray);
-            let (inwards, outside) = if bound.below {
-                (towards.falls, towards.above)
-            } else {
-                (cx.not(towards.falls), cx.not(towards.above))
-            };
-            let starts = match bound.starts {
-                Starts::None => cx.truth(false),
-                Starts::All => cx.truth(true),
-                Starts::Leaving => cx.is(ray.from, bound.number as u32),
-            };
-            let ahead = math!(cx, towards.ahead && !starts);
+            let Passage {
+                starts,
+                ahead,
+                distance,
+                inwards,
+                outside,
+            } = Passage::new(cx, bound, ray);
             let label = bound.facet.as_ref().map_or(NO_FACE, Facet::first);
             let mut here = Running {
-                distance: towards.distance,
+                distance,
                 face: cx.index(label),
                 front: cx.truth(true),
             };
@@ -256,7 +287,7 @@ impl Search<'_> {
                     let earlier = math!(cx, leaves && here.distance < exit.distance);
                     exit.take(cx, earlier, &here);
                 } else {
-                    exits.push((leaves, here.distance));
+                    exits.push((bound, leaves, here.distance));
                 }
             }
             cx.leave();
@@ -276,8 +307,17 @@ impl Search<'_> {
             return (meets, exit);
         }
         meets = math!(cx, (meets && entered) && entry.distance < limit);
-        for (leaves, distance) in exits {
+        for (bound, mut leaves, mut distance) in exits {
+            if cx.recomputes() {
+                cx.enter(Part::Plane(bound.number));
+                let again = Passage::new(cx, bound, ray);
+                leaves = math!(cx, again.ahead && !again.inwards);
+                distance = again.distance;
+            }
             meets = math!(cx, meets && !(leaves && distance <= entry.distance));
+            if cx.recomputes() {
+                cx.leave();
+            }
         }
         (meets, entry)
     }

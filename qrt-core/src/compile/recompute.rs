@@ -1,0 +1,413 @@
+//! The order of instructions where qubits cost more than gates: what nobody reads any more is undone.
+//!
+//! A scope is a list of parts: operations, and scopes within. Beyond what [`super::passes`] does at the end
+//! of a scope,
+//!
+//! - parts stand as late as those that read them allow;
+//! - as soon as the last part that reads one has run, it is undone, if what it was computed from is still
+//!   there and that costs little (eager cleanup: Parent, Roetteler & Svore, *Reversible circuit compilation
+//!   with space constraints*, 2015). Of a chain of equal parts, every other one goes;
+//! - if what it was computed from is gone, that may be run again for it, and undone once more: of a chain,
+//!   such as a search's nearest hit so far, one part in three stays, or in four (Bennett 1989);
+//! - parts of which everything is read outside stay as they are, and are not computed twice.
+
+use super::passes::Draft;
+use super::{Label, StageName, Strategy};
+use qrt_circuit::{BlockId, Instruction, Op, Register, RegisterId, Word, lower};
+use std::collections::{BTreeSet, HashMap, HashSet};
+
+/// Narrower parts stay to the end of their scope.
+const LEAST_WIDTH: u32 = 8;
+
+/// Toffolis that undoing a part may take, a qubit that it frees: where nothing is run again for it, and
+/// where something may be.
+const MOST_TOFFOLIS: [u64; 2] = [1000, 3000];
+
+/// So many parts are run again, one for another, to undo a third.
+const MOST_AGAIN: usize = 2;
+
+/// What a scope consists of, in order.
+#[derive(Clone, Debug)]
+enum Item {
+    Op(usize),
+    Block(BlockId),
+}
+
+/// An item that has run.
+struct Part {
+    instructions: Vec<Instruction>,
+    /// What it left: results and copies.
+    outputs: Vec<RegisterId>,
+    /// Whether it left garbage.
+    garbage: bool,
+    /// What it reads of others.
+    inputs: HashSet<RegisterId>,
+    /// The qubits of its outputs.
+    width: u32,
+    toffoli: u64,
+    undone: bool,
+}
+
+struct Scheduler<'a> {
+    draft: &'a mut Draft,
+    strategy: Strategy,
+    items: Vec<Vec<Item>>,
+    /// By register: the operations that read it.
+    readers: HashMap<RegisterId, Vec<usize>>,
+    /// What outlives everything.
+    roots: HashSet<RegisterId>,
+    /// Copies that stand for registers of finished scopes.
+    renamed: HashMap<RegisterId, RegisterId>,
+    /// What copies are copies of.
+    originals: HashMap<RegisterId, RegisterId>,
+    /// By operation.
+    toffoli: HashMap<usize, u64>,
+}
+
+/// As [`super::passes::schedule`].
+pub(super) fn schedule(
+    draft: &mut Draft,
+    strategy: Strategy,
+    roots: &[RegisterId],
+) -> (Vec<Instruction>, HashMap<RegisterId, RegisterId>) {
+    let mut readers: HashMap<RegisterId, Vec<usize>> = HashMap::new();
+    let mut items: Vec<Vec<Item>> = vec![Vec::new(); draft.blocks.len()];
+    let mut placed: HashSet<BlockId> = HashSet::new();
+    for (op, (code, block)) in draft.ops.iter().enumerate() {
+        for read in code.reads() {
+            readers.entry(read).or_default().push(op);
+        }
+        for pair in draft.ancestors(*block).windows(2) {
+            if placed.insert(pair[0]) {
+                items[pair[1].index()].push(Item::Block(pair[0]));
+            }
+        }
+        items[block.index()].push(Item::Op(op));
+    }
+    let mut scheduler = Scheduler {
+        draft,
+        strategy,
+        items,
+        readers,
+        roots: roots.iter().copied().collect(),
+        renamed: HashMap::new(),
+        originals: HashMap::new(),
+        toffoli: HashMap::new(),
+    };
+    let instructions = scheduler.block(BlockId::ROOT);
+    (instructions, scheduler.renamed)
+}
+
+/// `second` after `first`; what meets its own inverse there is left out.
+fn join(first: &mut Vec<Instruction>, second: impl IntoIterator<Item = Instruction>) {
+    for next in second {
+        match first.last() {
+            Some(last) if last.op == next.op && last.inverse != next.inverse => {
+                first.pop();
+            }
+            _ => first.push(next),
+        }
+    }
+}
+
+fn inverse(instructions: &[Instruction]) -> impl Iterator<Item = Instruction> {
+    instructions.iter().rev().map(|instruction| Instruction {
+        inverse: !instruction.inverse,
+        ..*instruction
+    })
+}
+
+impl Scheduler<'_> {
+    fn block(&mut self, block: BlockId) -> Vec<Instruction> {
+        let items = std::mem::take(&mut self.items[block.index()]);
+        let stage = Label::of(&self.draft.blocks[block.index()]).stage;
+        let parent = self.draft.blocks[block.index()].parent;
+        let is_scope = self.strategy.is_scope(stage);
+        let parent = is_scope.then_some(parent.unwrap_or(BlockId::ROOT));
+        let chains = [
+            StageName::Oracle,
+            StageName::FindIntersection,
+            StageName::Shadow,
+        ];
+        let again = self.strategy.runs_again() && chains.contains(&stage);
+        self.scope(items, block, parent, again)
+    }
+
+    /// The operations of an item.
+    fn operations(&self, item: &Item, all: &mut Vec<usize>) {
+        match item {
+            Item::Op(op) => all.push(*op),
+            Item::Block(block) => {
+                for item in &self.items[block.index()] {
+                    self.operations(item, all);
+                }
+            }
+        }
+    }
+
+    /// The items, each as late as those that read it allow, and by operation its item's place.
+    fn sunk(&self, items: Vec<Item>) -> (Vec<Item>, HashMap<usize, usize>) {
+        let operations: Vec<Vec<usize>> = items
+            .iter()
+            .map(|item| {
+                let mut all = Vec::new();
+                self.operations(item, &mut all);
+                all
+            })
+            .collect();
+        let mut item_of: HashMap<usize, usize> = HashMap::new();
+        for (item, operations) in operations.iter().enumerate() {
+            item_of.extend(operations.iter().map(|&op| (op, item)));
+        }
+        let mut order: Vec<usize> = Vec::with_capacity(items.len());
+        for item in (0..items.len()).rev() {
+            let targets = operations[item].iter();
+            let targets = targets.flat_map(|&op| self.draft.ops[op].0.targets());
+            let read_by: HashSet<usize> = targets
+                .filter_map(|target| self.readers.get(&target))
+                .flatten()
+                .filter_map(|reader| item_of.get(reader).copied())
+                .filter(|&reader| reader != item)
+                .collect();
+            let place = order.iter().position(|later| read_by.contains(later));
+            order.insert(place.unwrap_or(0), item);
+        }
+        let mut places = vec![0; items.len()];
+        for (place, &item) in order.iter().enumerate() {
+            places[item] = place;
+        }
+        let item_of = item_of.into_iter();
+        let place_of = item_of.map(|(op, item)| (op, places[item])).collect();
+        let mut items: Vec<Option<Item>> = items.into_iter().map(Some).collect();
+        let sunk = order.iter().filter_map(|&item| items[item].take());
+        (sunk.collect(), place_of)
+    }
+
+    /// The instructions of these items of `block`. If they are a scope, within `parent`, all that they
+    /// leave is what is read outside. `again`: parts may be run again to undo others.
+    fn scope(
+        &mut self,
+        items: Vec<Item>,
+        block: BlockId,
+        parent: Option<BlockId>,
+        again: bool,
+    ) -> Vec<Instruction> {
+        let (items, place_of) = self.sunk(items);
+        let last = items.len().saturating_sub(1);
+        let mut parts: Vec<Part> = Vec::with_capacity(items.len());
+        // The parts in the order in which they are run, or undone.
+        let mut steps: Vec<(usize, bool)> = Vec::new();
+        for (place, item) in items.into_iter().enumerate() {
+            let instructions = match item {
+                Item::Op(op) => {
+                    let renamed = |read| self.renamed.get(&read).copied().unwrap_or(read);
+                    let at = &mut self.draft.ops[op].0;
+                    *at = at.clone().map(renamed, |computed| computed);
+                    vec![Instruction {
+                        op: op as u32,
+                        inverse: false,
+                        block,
+                    }]
+                }
+                Item::Block(inner) => self.block(inner),
+            };
+            let part = self.part(instructions);
+            parts.push(part);
+            steps.push((place, false));
+            if place < last {
+                self.clean_up(&mut parts, &mut steps, &place_of, again);
+            }
+        }
+        let mut forward = Vec::new();
+        for &(place, undone) in &steps {
+            let part = &parts[place].instructions;
+            if undone {
+                join(&mut forward, inverse(part));
+            } else {
+                join(&mut forward, part.iter().copied());
+            }
+        }
+        let Some(parent) = parent else {
+            return forward;
+        };
+        let mut stays = vec![false; parts.len()];
+        let mut copied = Vec::new();
+        for (part, stays) in parts
+            .iter()
+            .zip(&mut stays)
+            .filter(|(part, _)| !part.undone)
+        {
+            let outside = |register: &RegisterId| self.is_read_outside(*register, &place_of);
+            let (read, unread): (Vec<RegisterId>, Vec<RegisterId>) =
+                part.outputs.iter().partition(|register| outside(register));
+            *stays = unread.is_empty() && !part.garbage;
+            if !*stays {
+                copied.extend(read);
+            }
+        }
+        for register in copied {
+            let copy = self.copy(register, parent);
+            forward.push(copy);
+        }
+        for &(place, undone) in steps.iter().rev().filter(|(place, _)| !stays[*place]) {
+            let part = &parts[place].instructions;
+            if undone {
+                join(&mut forward, part.iter().copied());
+            } else {
+                join(&mut forward, inverse(part));
+            }
+        }
+        forward
+    }
+
+    fn part(&mut self, instructions: Vec<Instruction>) -> Part {
+        let mut outputs: Vec<RegisterId> = Vec::new();
+        let mut garbage = 0;
+        let mut inputs: HashSet<RegisterId> = HashSet::new();
+        let mut own: HashSet<RegisterId> = HashSet::new();
+        let mut toffoli = 0;
+        for instruction in &instructions {
+            let op = &self.draft.ops[instruction.op as usize].0;
+            let width = |id: RegisterId| self.draft.registers[id.index()].width;
+            inputs.extend(op.reads());
+            own.extend(op.targets());
+            let left = op.scratch().map_or(0, |scratch| i64::from(width(scratch)));
+            if instruction.inverse {
+                let targets = op.targets();
+                outputs.retain(|output| !targets.contains(output));
+                garbage -= left;
+            } else {
+                outputs.extend(op.targets());
+                garbage += left;
+            }
+            let cost = self.toffoli.entry(instruction.op as usize);
+            toffoli += *cost.or_insert_with(|| lower::cost(op, false, width).toffoli);
+        }
+        let width = |id: &RegisterId| self.draft.registers[id.index()].width;
+        Part {
+            width: outputs.iter().map(width).sum(),
+            inputs: inputs.difference(&own).copied().collect(),
+            outputs,
+            garbage: garbage > 0,
+            instructions,
+            toffoli,
+            undone: false,
+        }
+    }
+
+    /// Undoes what nobody reads any more, the latest parts first.
+    fn clean_up(
+        &self,
+        parts: &mut [Part],
+        steps: &mut Vec<(usize, bool)>,
+        place_of: &HashMap<usize, usize>,
+        again: bool,
+    ) {
+        let now = parts.len() - 1;
+        let undone = parts.iter().enumerate().filter(|(_, part)| part.undone);
+        // By register: the part that left it, where that is undone.
+        let mut gone: HashMap<RegisterId, usize> = undone
+            .flat_map(|(place, part)| part.outputs.iter().map(move |output| (*output, place)))
+            .collect();
+        for place in (0..parts.len()).rev() {
+            let part = &parts[place];
+            let idle = || {
+                self.last_read(part, place_of)
+                    .is_some_and(|read| read <= now)
+            };
+            if part.undone || part.width < LEAST_WIDTH || !idle() {
+                continue;
+            }
+            let mut needed = BTreeSet::new();
+            let depth = if again { MOST_AGAIN } else { 0 };
+            if !find_again(parts, &gone, part, depth, &mut needed) {
+                continue;
+            }
+            let more = needed.iter().map(|&place| 2 * parts[place].toffoli);
+            let most = MOST_TOFFOLIS[usize::from(again)] * u64::from(part.width);
+            if part.toffoli + more.sum::<u64>() > most {
+                continue;
+            }
+            steps.extend(needed.iter().map(|&place| (place, false)));
+            steps.push((place, true));
+            steps.extend(needed.iter().rev().map(|&place| (place, true)));
+            gone.extend(part.outputs.iter().map(|output| (*output, place)));
+            parts[place].undone = true;
+        }
+    }
+
+    /// What a register is a copy of, if it is one.
+    fn original(&self, register: RegisterId) -> RegisterId {
+        self.originals.get(&register).copied().unwrap_or(register)
+    }
+
+    fn is_read_outside(&self, register: RegisterId, place_of: &HashMap<usize, usize>) -> bool {
+        let original = self.original(register);
+        let mut readers = self.readers.get(&original).into_iter().flatten();
+        self.roots.contains(&original) || readers.any(|reader| !place_of.contains_key(reader))
+    }
+
+    /// The place of the last item of a scope that reads what a part left; none if that is read outside.
+    fn last_read(&self, part: &Part, place_of: &HashMap<usize, usize>) -> Option<usize> {
+        let mut last = 0;
+        for output in &part.outputs {
+            let original = self.original(*output);
+            if self.roots.contains(&original) {
+                return None;
+            }
+            for reader in self.readers.get(&original).into_iter().flatten() {
+                last = last.max(*place_of.get(reader)?);
+            }
+        }
+        Some(last)
+    }
+
+    fn copy(&mut self, register: RegisterId, parent: BlockId) -> Instruction {
+        let held = self.draft.registers[register.index()].clone();
+        let original = self.original(register);
+        let id = RegisterId(self.draft.registers.len() as u32);
+        let width = held.width;
+        self.draft.registers.push(Register {
+            name: format!("{}'", held.name),
+            block: parent,
+            ..held
+        });
+        self.originals.insert(id, original);
+        self.renamed.insert(original, id);
+        let a = Word {
+            register,
+            offset: 0,
+            width,
+            signed: false,
+            shift: 0,
+        };
+        self.draft.ops.push((Op::Copy { a, target: id }, parent));
+        Instruction {
+            op: self.draft.ops.len() as u32 - 1,
+            inverse: false,
+            block: parent,
+        }
+    }
+}
+
+/// Finds the parts that have to run again before `part` can be undone, each found by way of at most
+/// `depth` others; whether that is all.
+fn find_again(
+    parts: &[Part],
+    gone: &HashMap<RegisterId, usize>,
+    part: &Part,
+    depth: usize,
+    needed: &mut BTreeSet<usize>,
+) -> bool {
+    let missing: BTreeSet<usize> = part
+        .inputs
+        .iter()
+        .filter_map(|input| gone.get(input).copied())
+        .collect();
+    missing.into_iter().all(|place| {
+        needed.contains(&place)
+            || depth > 0
+                && find_again(parts, gone, &parts[place], depth - 1, needed)
+                && needed.insert(place)
+    })
+}

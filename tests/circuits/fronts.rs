@@ -1,0 +1,126 @@
+//! What `uncompute: auto` and fronts promise of random scenes: each circuit, gate by gate, counts what `keep` does
+//! on integers, returns every qubit, and has as many qubits and Toffolis as its cost says.
+
+use super::paths::{film, paths};
+use super::random_scenes;
+use crate::common::numbers::Numbers;
+use crate::common::scene::from_file;
+use qrt::circuit::{Gate, lower};
+use qrt::core::compile::Strategy;
+use qrt::core::front::parse;
+use qrt::core::oracle::{CallCost, Layout, Layouts, Options, Oracle};
+use qrt::core::valid::ValidScene;
+use qrt::runtime::layouts;
+use qrt::runtime::machines::OracleMachine;
+use qrt::runtime::workers::Workers;
+use std::num::NonZeroUsize;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+const SEED: u64 = 7;
+
+/// Runs all paths of all pixels under every one of these layouts of channel `channel`. `name` says which scene
+/// it is.
+fn check(scene: &ValidScene, channel: usize, layouts: &[Layout], name: &str) {
+    let under = |strategy| {
+        let options = Options {
+            strategy: Some(strategy),
+            ..Options::default()
+        };
+        Arc::new(Oracle::new(scene, channel, options).unwrap())
+    };
+    let keep = under(Strategy::KEEP);
+    let pixels = film(&keep);
+    let expected = paths(&OracleMachine::fixed(keep, SEED, false), &pixels).unwrap();
+    for layout in layouts {
+        let strategy = layout.strategy;
+        let oracle = under(strategy);
+        let circuit = lower::circuit(&oracle.whole(0));
+        let toffolis = circuit.gates.iter();
+        let toffolis = toffolis.filter(|gate| matches!(gate, Gate::Ccx(..)));
+        let emitted = CallCost {
+            qubits: circuit.qubits.into(),
+            toffoli: toffolis.count() as u64,
+        };
+        assert_eq!(emitted, layout.cost, "{strategy}: {name}");
+        // The machine refuses a circuit that leaves a qubit behind.
+        let gates = OracleMachine::gates(oracle, SEED, false);
+        let gates = gates.unwrap_or_else(|defect| panic!("{strategy}: {defect}: {name}"));
+        let traced = paths(&gates, &pixels);
+        let traced = traced.unwrap_or_else(|defect| panic!("{strategy}: {defect}: {name}"));
+        assert!(traced == expected, "{strategy} counts otherwise: {name}");
+    }
+}
+
+/// The layouts that `uncompute: auto` chooses from.
+fn ladder(scene: &ValidScene, channel: usize) -> Vec<Layout> {
+    let all = Layouts::new(scene, channel);
+    let ladder = Strategy::LADDER.map(|strategy| all.under(strategy).unwrap());
+    ladder.to_vec()
+}
+
+/// Of all strategies, those that no other beats.
+fn front(scene: &ValidScene, channel: usize) -> Vec<Layout> {
+    let workers = Workers {
+        threads: NonZeroUsize::new(1),
+        ..Workers::default()
+    };
+    layouts::front(scene, channel, &workers).unwrap()
+}
+
+/// Checks these layouts of so many random scenes that are scenes, on a thread of each core.
+fn random(scenes: usize, seed: u64, layouts: fn(&ValidScene, usize) -> Vec<Layout>) {
+    let next = AtomicUsize::new(0);
+    let checked = AtomicUsize::new(0);
+    let circuits = AtomicUsize::new(0);
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    std::thread::scope(|scope| {
+        for _ in 0..threads {
+            scope.spawn(|| {
+                while checked.load(Ordering::Relaxed) < scenes {
+                    let number = next.fetch_add(1, Ordering::Relaxed);
+                    let text = random_scenes::scene(&mut Numbers(seed + number as u64));
+                    // Some have surfaces without area; that is told, and no panic.
+                    let Ok(loaded) = parse(&text, "random.yaml", &[], "".as_ref()) else {
+                        continue;
+                    };
+                    let layouts = layouts(&loaded.valid, number % 3);
+                    check(&loaded.valid, number % 3, &layouts, &text);
+                    circuits.fetch_add(layouts.len(), Ordering::Relaxed);
+                    checked.fetch_add(1, Ordering::Relaxed);
+                }
+            });
+        }
+    });
+    let (checked, circuits) = (checked.into_inner(), circuits.into_inner());
+    println!("{checked} scenes, {circuits} circuits");
+    assert!(circuits > 5 * checked, "fronts are longer");
+}
+
+#[test]
+fn all_that_auto_chooses_from_count_the_same_in_eight_random_scenes() {
+    random(8, 0, ladder);
+}
+
+#[test]
+#[ignore = "takes about an hour on two cores"]
+fn all_on_the_fronts_of_two_hundred_random_scenes_count_the_same() {
+    random(200, 1_000_000, front);
+}
+
+#[test]
+#[ignore = "takes a few minutes"]
+fn so_do_all_on_the_fronts_of_three_example_scenes() {
+    let small = [
+        "film={ width: 3, height: 2 }",
+        "sampling.path_bits=5",
+        "precision.fraction=9",
+        "comparator.bits=5",
+    ];
+    for file in ["cornell-box", "lit-box", "cornell-mirror"] {
+        let scene = from_file(&format!("scenes-yaml/{file}.yaml"), &small);
+        let layouts = front(&scene, 0);
+        check(&scene, 0, &layouts, file);
+        println!("{file}: {} circuits", layouts.len());
+    }
+}
