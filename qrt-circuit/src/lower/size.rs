@@ -1,6 +1,7 @@
 //! How many qubits circuits have, and their Toffoli depth.
 
 use super::super::{Circuit, Gate, Program, Qubit};
+use super::figures::KnownFigures;
 use super::place::each_instruction;
 
 /// The size of a program's circuit in qubits and in Toffoli depth.
@@ -32,7 +33,7 @@ pub fn size(program: &Program) -> Size {
 
 /// The qubits of [`size`] alone.
 pub fn most_qubits(program: &Program) -> u32 {
-    each_instruction(program, |_, _| {})
+    KnownFigures::default().most_qubits(program)
 }
 
 /// The Toffoli depth of a circuit: each gate runs as early as its qubits allow, and only Toffolis
