@@ -51,6 +51,8 @@
 #[doc = include_str!("../README.md")]
 struct Readme;
 
+/// Points and directions: the vectors that scenes are written with, in the version that qrt uses.
+pub use glam;
 /// Reversible circuits: registers, operations, programs, gates and their costs.
 pub use qrt_circuit as circuit;
 pub use qrt_core as core;
@@ -63,23 +65,4 @@ pub use qrt_macros::qrt_with_terms as __qrt_with_terms;
 pub use qrt_macros::reversible;
 pub use qrt_runtime as runtime;
 
-/// What it takes to load a scene, render it and save the picture.
-pub mod prelude {
-    pub use qrt_circuit::format::{Bool, Fixed, Format, Int, Reg, UFixed, UInt};
-    pub use qrt_circuit::{Bit, Machine, Operand, Program, Recorder, Style, When, Word};
-    pub use qrt_core::front::{Loaded, load, parse};
-    pub use qrt_core::oracle::compiled::CompiledOracle;
-    pub use qrt_core::oracle::paths::PathScene;
-    pub use qrt_core::oracle::{Marks, Predicate};
-    pub use qrt_core::scene::{Estimator, Scene};
-    pub use qrt_core::syntax::Report;
-    pub use qrt_core::valid::{ValidScene, validate};
-    pub use qrt_macros::{qrt, reversible};
-    pub use qrt_runtime::image::{Encoding, Image, ImageError, Metadata, save, write_counts};
-    pub use qrt_runtime::machines::{NativeOracle, State, run};
-    pub use qrt_runtime::predicates::{count_where, render_where, trace_path};
-    pub use qrt_runtime::render::{
-        CompiledError, Model, Options, RenderError, Rendered, render, render_compiled,
-    };
-    pub use qrt_runtime::workers::{Progress, Workers};
-}
+pub mod prelude;

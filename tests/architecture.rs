@@ -3,4 +3,5 @@
 
 mod architecture {
     mod rooms_import_downwards;
+    mod the_prelude_has_examples;
 }

@@ -8,6 +8,7 @@ mod circuits {
     mod paths;
     mod rays;
 
+    mod bound_programs;
     mod every_width;
     mod export_command;
     mod fronts;

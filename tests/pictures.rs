@@ -14,6 +14,7 @@ mod pictures {
     mod knot_mesh_is_a_closed_tube;
     mod lamps;
     mod one_run_colour;
+    mod own_estimators;
     mod physics;
     mod references;
     mod same_picture;

@@ -16,6 +16,8 @@ mod scenes {
     mod good_scenes;
     mod mutated_scenes_never_panic;
     mod schema_agrees_with_types;
+    #[cfg(feature = "serde")]
+    mod serde_agrees_with_yaml;
     mod yaml_agrees_with_serde_yaml;
 
     /// So many cases, or as many as `PROPTEST_CASES` says.

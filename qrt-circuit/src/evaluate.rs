@@ -14,6 +14,23 @@ pub struct Unclean {
     pub expected: u64,
 }
 
+impl std::fmt::Display for Unclean {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self {
+            register,
+            held,
+            expected,
+        } = self;
+        write!(
+            f,
+            "register {} is undone while it holds {held}, and its operation computes {expected}",
+            register.0
+        )
+    }
+}
+
+impl std::error::Error for Unclean {}
+
 /// The contents of a program's registers, one path's.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Contents {

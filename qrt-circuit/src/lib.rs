@@ -186,7 +186,7 @@ pub use gate::{Circuit, Gate, Gates, Qubit};
 pub use machine::{Call, Declaration, Machine};
 pub use multiples::Multiples;
 pub use op::{Argument, Op, Style, When};
-pub use program::{Instruction, Parameter, Program};
+pub use program::{Instruction, Parameter, Program, WordError};
 pub use record::{Recorded, Recorder};
 pub use register::{Bit, Block, BlockId, Operand, Register, RegisterId, Tag, Type, Word};
 pub use routine::Routine;

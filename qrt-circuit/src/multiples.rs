@@ -9,8 +9,11 @@
 //! there is taken; of the others, one that brings as many of them as possible to one addition.
 //!
 //! All sums are exact, and a product drops its lowest bits afterwards.
+//!
+//! The search is a part of what `qrt!` does while a program is compiled, in a build of it that nobody
+//! optimised: hence plain loops, and sets that hash by one multiplication.
 
-use std::collections::{BTreeMap, HashSet};
+use std::collections::BTreeMap;
 
 /// So many candidates are compared by what they leave to do, at most.
 const COMPARED: usize = 64;
@@ -69,44 +72,137 @@ pub struct Multiples {
 }
 
 /// Calls `found` with all sums of `known` and another multiple that are `multiple`, as far as their
-/// terms are at most `most`.
-fn partners(multiple: i64, known: i64, most: i64, mut found: impl FnMut(i64, Sum)) {
+/// terms are at most `most`: the other multiple, the sum without its zeros, the term of `known`, and
+/// which of the two is subtracted from which.
+fn partners(multiple: i64, known: i64, most: i64, mut found: impl FnMut(Partner)) {
     let mut offer = |whole: i64, term: Term| {
-        let zeros = whole.trailing_zeros();
         let shifted = term.factor << term.shift;
         let difference = whole - shifted;
         if difference != 0 {
-            let other = Term::of(difference.abs());
-            let (a, b) = if difference > 0 {
-                (other, term)
-            } else {
-                (term, other)
-            };
-            let subtract = difference < 0;
-            let sum = Sum {
-                a,
-                b,
-                subtract,
-                zeros,
-            };
-            found(other.factor, sum);
+            found(Partner {
+                whole,
+                term,
+                other: if difference < 0 {
+                    -difference
+                } else {
+                    difference
+                },
+                minus: difference < 0,
+                from_other: false,
+            });
         }
-        let other = Term::of(whole + shifted);
-        let sum = Sum {
-            a: other,
-            b: term,
-            subtract: true,
-            zeros,
-        };
-        found(other.factor, sum);
+        found(Partner {
+            whole,
+            term,
+            other: whole + shifted,
+            minus: true,
+            from_other: true,
+        });
     };
-    let shifts = |number: i64| (0..CONSTANT_BITS).take_while(move |shift| number << shift <= most);
-    for shift in shifts(known) {
+    let mut shift = 0;
+    while shift < CONSTANT_BITS && known << shift <= most {
         let factor = known;
         offer(multiple, Term { factor, shift });
+        shift += 1;
     }
-    for shift in shifts(multiple).skip(1) {
-        offer(multiple << shift, Term::of(known));
+    let term = Term::of(known);
+    let mut shift = 1;
+    while shift < CONSTANT_BITS && multiple << shift <= most {
+        offer(multiple << shift, term);
+        shift += 1;
+    }
+}
+
+/// Two terms whose sum or difference is `whole`.
+#[derive(Clone, Copy)]
+struct Partner {
+    whole: i64,
+    term: Term,
+    /// The other term's number.
+    other: i64,
+    /// Whether one of the two is subtracted: the other one from `term`, unless `from_other`.
+    minus: bool,
+    from_other: bool,
+}
+
+impl Partner {
+    /// The other term's multiple.
+    fn factor(&self) -> i64 {
+        self.other >> self.other.trailing_zeros()
+    }
+
+    fn sum(&self) -> Sum {
+        let other = Term::of(self.other);
+        let (a, b) = if self.minus && !self.from_other {
+            (self.term, other)
+        } else {
+            (other, self.term)
+        };
+        Sum {
+            a,
+            b,
+            subtract: self.minus,
+            zeros: self.whole.trailing_zeros(),
+        }
+    }
+}
+
+/// A set of odd numbers.
+struct Set {
+    /// 0 where there is none; a power of two of them.
+    places: Vec<i64>,
+    held: usize,
+}
+
+impl Set {
+    fn new() -> Self {
+        Self {
+            places: vec![0; 64],
+            held: 0,
+        }
+    }
+
+    /// Where the number is, or would be.
+    fn place(places: &[i64], number: i64) -> usize {
+        let bits = places.len().trailing_zeros();
+        let hash = number.cast_unsigned().wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        let mut place = (hash >> (64 - bits)) as usize;
+        while places[place] != 0 && places[place] != number {
+            place = (place + 1) & (places.len() - 1);
+        }
+        place
+    }
+
+    fn contains(&self, number: i64) -> bool {
+        self.places[Self::place(&self.places, number)] == number
+    }
+
+    fn insert(&mut self, number: i64) {
+        let place = Self::place(&self.places, number);
+        if self.places[place] == number {
+            return;
+        }
+        self.places[place] = number;
+        self.held += 1;
+        if 2 * self.held > self.places.len() {
+            let larger = vec![0; 4 * self.places.len()];
+            let old = std::mem::replace(&mut self.places, larger);
+            for number in old {
+                if number != 0 {
+                    let place = Self::place(&self.places, number);
+                    self.places[place] = number;
+                }
+            }
+        }
+    }
+
+    /// All of them, in no order.
+    fn each(&self, mut see: impl FnMut(i64)) {
+        for &number in &self.places {
+            if number != 0 {
+                see(number);
+            }
+        }
     }
 }
 
@@ -131,9 +227,11 @@ impl Multiples {
             most: odd().max().map_or(1, |most| most << 2),
             width,
             known: vec![1],
-            near: HashSet::new(),
+            is_known: Set::new(),
+            near: Set::new(),
             wanted: BTreeMap::new(),
         };
+        search.is_known.insert(1);
         search.reach(1);
         odd().for_each(|multiple| search.want(multiple));
         let sums = std::iter::from_fn(|| search.step()).collect();
@@ -163,32 +261,53 @@ struct Search {
     most: i64,
     width: u32,
     known: Vec<i64>,
+    is_known: Set,
     /// What is one sum away from those that are known.
-    near: HashSet<i64>,
-    /// What is still to do, and from which further multiples it would be one sum.
-    wanted: BTreeMap<i64, HashSet<i64>>,
+    near: Set,
+    /// What is still to do.
+    wanted: BTreeMap<i64, Wanted>,
+}
+
+/// A multiple that is still to do.
+struct Wanted {
+    /// From which further multiples it would be one sum.
+    from: Set,
+    /// Whether one of them is known.
+    is_near: bool,
+}
+
+impl Wanted {
+    fn insert(&mut self, other: i64, known: &Set) {
+        self.is_near |= known.contains(other);
+        self.from.insert(other);
+    }
 }
 
 impl Search {
     fn want(&mut self, multiple: i64) {
-        if self.known.contains(&multiple) || self.wanted.contains_key(&multiple) {
+        if self.is_known.contains(multiple) || self.wanted.contains_key(&multiple) {
             return;
         }
-        let mut from: HashSet<i64> = HashSet::new();
+        let mut wanted = Wanted {
+            from: Set::new(),
+            is_near: false,
+        };
         for &known in &self.known {
-            partners(multiple, known, self.most, |other, _| {
-                from.insert(other);
+            partners(multiple, known, self.most, |partner| {
+                wanted.insert(partner.factor(), &self.is_known);
             });
         }
         // The sum of a multiple with itself, shifted.
-        for shift in 1..CONSTANT_BITS {
+        let mut shift = 1;
+        while shift < CONSTANT_BITS && (1 << shift) - 1 <= multiple {
             for factor in [(1 << shift) - 1, (1 << shift) + 1] {
                 if factor > 1 && multiple % factor == 0 {
-                    from.insert(multiple / factor);
+                    wanted.insert(multiple / factor, &self.is_known);
                 }
             }
+            shift += 1;
         }
-        self.wanted.insert(multiple, from);
+        self.wanted.insert(multiple, wanted);
     }
 
     /// Adds what is one sum away from `multiple` and those that are known.
@@ -196,13 +315,18 @@ impl Search {
         let most = self.most;
         for &known in &self.known {
             for [a, b] in [[multiple, known], [known, multiple]] {
-                for shifted in (0..CONSTANT_BITS)
-                    .map(|shift| a << shift)
-                    .take_while(|&s| s <= most)
-                {
-                    let sums = [shifted + b, (shifted - b).abs()].into_iter();
-                    let sums = sums.filter(|&sum| sum > 0).map(|sum| Term::of(sum).factor);
-                    self.near.extend(sums.filter(|&sum| sum <= most));
+                let mut shift = 0;
+                while shift < CONSTANT_BITS && a << shift <= most {
+                    let shifted = a << shift;
+                    for sum in [shifted + b, shifted - b, b - shifted] {
+                        if sum > 0 {
+                            let factor = sum >> sum.trailing_zeros();
+                            if factor <= most {
+                                self.near.insert(factor);
+                            }
+                        }
+                    }
+                    shift += 1;
                 }
             }
         }
@@ -211,19 +335,25 @@ impl Search {
     fn add(&mut self, multiple: i64) -> Option<(i64, Sum)> {
         let mut best: Option<(u32, Sum)> = None;
         for &known in &self.known {
-            partners(multiple, known, self.most, |other, sum| {
-                let price = sum.price(multiple, self.width);
-                if self.known.contains(&other) && best.is_none_or(|(least, _)| price < least) {
-                    best = Some((price, sum));
+            partners(multiple, known, self.most, |partner| {
+                let other = partner.factor();
+                if self.is_known.contains(other) {
+                    let sum = partner.sum();
+                    let price = sum.price(multiple, self.width);
+                    if best.is_none_or(|(least, _)| price < least) {
+                        best = Some((price, sum));
+                    }
                 }
             });
         }
         self.known.push(multiple);
+        self.is_known.insert(multiple);
         self.reach(multiple);
         self.wanted.remove(&multiple);
-        for (&wanted, from) in &mut self.wanted {
-            partners(wanted, multiple, self.most, |other, _| {
-                from.insert(other);
+        for (&number, wanted) in &mut self.wanted {
+            wanted.is_near |= wanted.from.contains(multiple);
+            partners(number, multiple, self.most, |partner| {
+                wanted.insert(partner.factor(), &self.is_known);
             });
         }
         best.map(|(_, sum)| (multiple, sum))
@@ -231,8 +361,7 @@ impl Search {
 
     fn step(&mut self) -> Option<(i64, Sum)> {
         loop {
-            let known = |from: &HashSet<i64>| self.known.iter().any(|known| from.contains(known));
-            let there = self.wanted.iter().find(|(_, from)| known(from));
+            let there = self.wanted.iter().find(|(_, wanted)| wanted.is_near);
             if let Some((&multiple, _)) = there {
                 return self.add(multiple);
             }
@@ -244,10 +373,12 @@ impl Search {
             }
             // Nothing is two sums away: what has the fewest digits of all that would help is wanted, too.
             let mut helpful: BTreeMap<i64, u32> = BTreeMap::new();
-            for from in self.wanted.values() {
-                for &other in from.iter().filter(|&&other| other <= self.most) {
-                    *helpful.entry(other).or_default() += 1;
-                }
+            for wanted in self.wanted.values() {
+                wanted.from.each(|other| {
+                    if other <= self.most {
+                        *helpful.entry(other).or_default() += 1;
+                    }
+                });
             }
             let simplest =
                 |&(&other, &helps): &(&i64, &u32)| (digits(other), std::cmp::Reverse(helps), other);
@@ -258,34 +389,47 @@ impl Search {
 
     /// Of what is one sum away, that from which most of what is wanted is one sum.
     fn between(&self) -> Option<i64> {
-        let mut helps: BTreeMap<i64, usize> = BTreeMap::new();
-        for from in self.wanted.values() {
-            for &other in from.iter().filter(|other| self.near.contains(other)) {
-                *helps.entry(other).or_default() += 1;
+        let mut helpful = Vec::new();
+        for wanted in self.wanted.values() {
+            wanted.from.each(|other| {
+                if self.near.contains(other) {
+                    helpful.push(other);
+                }
+            });
+        }
+        helpful.sort_unstable();
+        // Those that help most, in ascending order.
+        let (mut most, mut best) = (0, Vec::new());
+        for run in helpful.chunk_by(i64::eq) {
+            if run.len() > most {
+                most = run.len();
+                best.clear();
+            }
+            if run.len() == most {
+                best.push(run[0]);
             }
         }
-        let most = *helps.values().max()?;
-        let mut best = helps.into_iter().filter(|&(_, helps)| helps == most);
-        if most == self.wanted.len() {
-            return best.next().map(|(between, _)| between);
+        if most == self.wanted.len() || best.is_empty() {
+            return best.first().copied();
         }
         // What the others would then need, by the digits of the simplest multiple that would help.
-        let left = |&between: &i64| -> u32 {
-            let far = self
-                .wanted
-                .iter()
-                .filter(|(_, from)| !from.contains(&between));
-            far.map(|(&wanted, _)| {
-                let mut fewest = u32::MAX;
-                partners(wanted, between, self.most, |other, _| {
-                    fewest = fewest.min(digits(other));
-                });
-                fewest
-            })
-            .sum()
-        };
-        let compared = best.take(COMPARED).map(|(between, _)| between);
-        compared.min_by_key(|between| (left(between), *between))
+        let mut least: Option<(u32, i64)> = None;
+        for &between in best.iter().take(COMPARED) {
+            let mut left = 0;
+            for (&number, wanted) in &self.wanted {
+                if !wanted.from.contains(between) {
+                    let mut fewest = u32::MAX;
+                    partners(number, between, self.most, |partner| {
+                        fewest = fewest.min(digits(partner.factor()));
+                    });
+                    left += fewest;
+                }
+            }
+            if least.is_none_or(|(fewest, _)| left < fewest) {
+                least = Some((left, between));
+            }
+        }
+        least.map(|(_, between)| between)
     }
 }
 
@@ -293,6 +437,7 @@ impl Search {
 mod tests {
     use super::*;
     use proptest::prelude::*;
+    use std::collections::HashSet;
 
     /// Checks that each sum is what it says, of what was made before it, and returns how many there are.
     fn checked(wanted: &[i64]) -> usize {

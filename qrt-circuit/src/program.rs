@@ -1,6 +1,7 @@
 //! Programs: operations in the order in which they run.
 
-use super::{Block, BlockId, Op, Register, RegisterId};
+use super::{Block, BlockId, Circuit, Op, Operand, Register, RegisterId, lower};
+use std::fmt;
 
 /// A classical parameter: a word that whoever runs the program supplies. In a circuit it is built
 /// in: it is loaded by Xs.
@@ -72,4 +73,139 @@ impl Program {
     pub fn width(&self, register: RegisterId) -> u32 {
         self.registers[register.index()].width
     }
+
+    /// The program with its classical parameters built in: those of the list have these words, and
+    /// the result has none. Constants take their places, so that it computes the same with the same
+    /// registers, and every machine runs it, inverse and export included, without being told of words.
+    ///
+    /// ```
+    /// use qrt_circuit::{BlockId, Instruction, Op, Parameter, Program, Register, RegisterId, Type};
+    ///
+    /// let load = Program {
+    ///     registers: vec![Register::new("loaded", Type::UInt, 4)],
+    ///     blocks: vec![Default::default()],
+    ///     parameters: vec![Parameter { name: "pixel".into(), width: 4 }],
+    ///     ops: vec![Op::Load { parameter: 0, target: RegisterId(0) }],
+    ///     instructions: vec![Instruction { op: 0, inverse: false, block: BlockId::ROOT }],
+    ///     ..Program::default()
+    /// };
+    /// let bound = load.bound(&[9])?;
+    /// assert!(bound.parameters.is_empty());
+    /// // 9 is 1001: two Xs.
+    /// assert_eq!(bound.circuit().gates.len(), 2);
+    /// assert!(load.bound(&[16]).is_err());
+    /// # Ok::<(), qrt_circuit::WordError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Another number of words than parameters, or a word with more bits than its parameter.
+    pub fn bound(&self, words: &[u64]) -> Result<Self, WordError> {
+        if words.len() != self.parameters.len() {
+            return Err(WordError::Number {
+                given: words.len(),
+                expected: self.parameters.len(),
+            });
+        }
+        for (parameter, &word) in self.parameters.iter().zip(words) {
+            if word.checked_shr(parameter.width).unwrap_or(0) != 0 {
+                let parameter = parameter.name.clone();
+                return Err(WordError::TooWide { parameter, word });
+            }
+        }
+        let constant = |parameter: u32| {
+            let unused = 64 - self.parameters[parameter as usize].width.min(64);
+            // All that is wanted are the lowest bits.
+            Operand::Constant((words[parameter as usize] << unused).cast_signed() >> unused)
+        };
+        let mut bound = self.clone();
+        bound.parameters.clear();
+        // By operation: the one that follows it, in place.
+        let mut shifts = vec![None; self.ops.len()];
+        for (place, op) in self.ops.iter().enumerate() {
+            match *op {
+                Op::Load { parameter, target } => {
+                    bound.ops[place] = Op::Add {
+                        a: constant(parameter),
+                        b: Operand::Constant(0),
+                        subtract: false,
+                        target,
+                    };
+                }
+                Op::Parity {
+                    parameter: Some(parameter),
+                    target,
+                    ..
+                } => {
+                    if let Op::Parity { parameter, .. } = &mut bound.ops[place] {
+                        *parameter = None;
+                    }
+                    shifts[place] = Some(bound.ops.len() as u32);
+                    bound.ops.push(Op::XorInto {
+                        a: constant(parameter),
+                        when: None,
+                        target,
+                    });
+                }
+                _ => {}
+            }
+        }
+        bound.instructions.clear();
+        for &instruction in &self.instructions {
+            let shift = shifts[instruction.op as usize].map(|op| Instruction { op, ..instruction });
+            // What comes last is undone first.
+            bound
+                .instructions
+                .extend(shift.filter(|_| instruction.inverse));
+            bound.instructions.push(instruction);
+            bound
+                .instructions
+                .extend(shift.filter(|_| !instruction.inverse));
+        }
+        Ok(bound)
+    }
+
+    /// The program as gates: [`lower::circuit`]. For more gates than memory holds, see
+    /// [`lower::each_instruction`].
+    pub fn circuit(&self) -> Circuit {
+        lower::circuit(self)
+    }
 }
+
+/// Why words are not those of a program's classical parameters.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum WordError {
+    /// Another number of words than parameters.
+    Number {
+        /// How many words were given.
+        given: usize,
+        /// How many parameters the program has.
+        expected: usize,
+    },
+    /// A word has more bits than its parameter.
+    TooWide {
+        /// The parameter's name.
+        parameter: String,
+        /// The word.
+        word: u64,
+    },
+}
+
+impl fmt::Display for WordError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Number { given, expected } => write!(
+                f,
+                "{given} words were given for {expected} classical parameters: give one for each"
+            ),
+            Self::TooWide { parameter, word } => {
+                write!(
+                    f,
+                    "the word {word} does not fit into the parameter `{parameter}`"
+                )
+            }
+        }
+    }
+}
+
+impl std::error::Error for WordError {}

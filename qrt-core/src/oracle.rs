@@ -18,6 +18,7 @@
 //! One program serves all pixels of a film: what differs between them are classical parameters
 //! ([`crate::compile::PixelWord`]), loaded by Xs.
 
+mod bound;
 mod budget;
 pub mod compiled;
 mod layouts;
@@ -27,6 +28,7 @@ mod phase;
 mod predicate;
 mod recording;
 
+pub use bound::BoundProgram;
 pub use budget::{CallCost, call_cost, check_budget};
 pub use layouts::{Layout, Layouts};
 pub use nearest::{MOST_FACES, NearestOracle};
@@ -221,10 +223,27 @@ impl Oracle {
     /// # Errors
     /// As [`Oracle::new`].
     pub fn all(scene: &ValidScene) -> Result<([Self; 3], Self), OracleError> {
+        let (channels, rgb, _) = Self::all_recorded(scene)?;
+        Ok((channels, rgb))
+    }
+
+    /// The oracle of all three channels together, and what a call of that of the most expensive
+    /// channel costs: [`call_cost`] of [`Oracle::all`], sooner.
+    ///
+    /// # Errors
+    /// As [`Oracle::new`].
+    pub fn rgb_and_cost(scene: &ValidScene) -> Result<(Self, CallCost), OracleError> {
+        let (channels, rgb, mut recording) = Self::all_recorded(scene)?;
+        let cost = budget::call_cost_by(&channels, recording.figures());
+        Ok((rgb, cost))
+    }
+
+    fn all_recorded(scene: &ValidScene) -> Result<([Self; 3], Self, Recording), OracleError> {
         let options = Options::default();
         let mut recording = Recording::new(scene, [0, 1, 2], options, PrimaryHit::Traced)?;
         let channels = [0, 1, 2].map(|channel| recording.oracle(&[channel]));
-        Ok((channels, recording.oracle(&[0, 1, 2])))
+        let rgb = recording.oracle(&[0, 1, 2]);
+        Ok((channels, rgb, recording))
     }
 
     /// The oracle of the luminance alone: see [`luminance`].
@@ -263,12 +282,17 @@ impl Oracle {
 
     /// How many qubits a call needs: the most in use at any time, channel number 0 being compared.
     pub fn qubits(&self) -> u32 {
+        self.qubits_by(&mut lower::KnownFigures::default())
+    }
+
+    /// As [`Oracle::qubits`], by what is known of operations.
+    fn qubits_by(&self, known: &mut lower::KnownFigures) -> u32 {
         // Uncompute holds at each instruction what compute does.
         let mut upto = self.flip(0);
         let compute = self.program.instructions.iter().copied();
         upto.instructions.splice(0..0, compute);
         upto.inputs.clone_from(&self.program.inputs);
-        lower::most_qubits(&upto)
+        known.most_qubits(&upto)
     }
 
     /// How many qubits the comparator has.

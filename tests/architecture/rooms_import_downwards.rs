@@ -52,7 +52,7 @@ const MODULES: &[(&str, &[&str])] = &[
             "trade",
         ],
     ),
-    ("src", &["cli"]),
+    ("src", &["prelude", "cli"]),
 ];
 
 #[test]

@@ -1,7 +1,8 @@
 //! What operations cost: their gates, counted instead of kept.
 
 use super::super::{Gate, Op, Program, RegisterId};
-use super::place::alone;
+use super::figures::Figures;
+use super::place::{canonical, placed};
 use std::collections::HashMap;
 use std::iter::Sum;
 use std::ops::Add;
@@ -43,7 +44,13 @@ impl Sum for Cost {
 /// Of the ANDs into clean bits, those that an operation returns itself are undone by measurement
 /// within it; those that stay are undone by measurement in its inverse.
 pub fn costs(op: &Op, width: impl Fn(RegisterId) -> u32) -> [Cost; 2] {
-    let (op, mut lowering) = alone(op, width);
+    let (op, widths) = canonical(op, width);
+    counted(&op, &widths).costs
+}
+
+/// The figures of an operation on registers of these widths, by their numbers.
+pub(super) fn counted(op: &Op, widths: &[u32]) -> Figures {
+    let mut lowering = placed(widths);
     let own = lowering.pool.made();
     let mut clean = vec![Clean::No; own as usize];
     for fresh in op.fresh() {
@@ -51,7 +58,7 @@ pub fn costs(op: &Op, width: impl Fn(RegisterId) -> u32) -> [Cost; 2] {
             clean[*qubit as usize] = Clean::Kept;
         }
     }
-    lowering.lower(&op);
+    lowering.lower(op);
     clean.resize(lowering.pool.made() as usize, Clean::Borrowed);
     for qubit in &lowering.garbage {
         clean[*qubit as usize] = Clean::Kept;
@@ -93,10 +100,15 @@ pub fn costs(op: &Op, width: impl Fn(RegisterId) -> u32) -> [Cost; 2] {
         }
     }
     let forward = cost.toffoli - returned - carries / 2;
-    [forward, forward - kept].map(|and_measured| Cost {
+    let costs = [forward, forward - kept].map(|and_measured| Cost {
         and_measured,
         ..cost
-    })
+    });
+    Figures {
+        costs,
+        scratch: lowering.garbage.len() as u32,
+        borrowed: lowering.pool.most_lent(),
+    }
 }
 
 /// What is known of a qubit, as far as Toffolis go.

@@ -25,6 +25,7 @@ mod adder;
 mod choose;
 mod cost;
 mod divide;
+mod figures;
 mod ghosts;
 mod multiply;
 mod place;
@@ -39,6 +40,9 @@ mod walk;
 mod wire;
 
 pub use cost::{Cost, cost, costs, tally, toffoli};
+#[doc(hidden)]
+pub use figures::Quick;
+pub use figures::{Figures, KnownFigures};
 pub use ghosts::with_ghosts;
 pub use place::{
     circuit, each_instruction, parts, parts_between, scratch_width, try_each_instruction,

@@ -2,6 +2,7 @@
 
 use super::super::{Circuit, Gate, Op, Program, Qubit, RegisterId};
 use super::Lowering;
+use std::cell::RefCell;
 use std::convert::Infallible;
 
 /// The pool of qubits that nobody owns, and from which ancillas are allocated.
@@ -9,6 +10,9 @@ use std::convert::Infallible;
 pub(super) struct Pool {
     idle: Vec<Qubit>,
     made: u32,
+    /// Qubits that were allocated and not freed, and the most of them.
+    lent: u32,
+    most_lent: u32,
     /// The most qubits that have been in use since this was last set.
     pub(super) peak: u32,
 }
@@ -17,6 +21,8 @@ impl Pool {
     /// Allocates a qubit, which is zero.
     pub(super) fn allocate(&mut self) -> Qubit {
         let qubit = self.idle.pop().unwrap_or_else(|| self.make());
+        self.lent += 1;
+        self.most_lent = self.most_lent.max(self.lent);
         self.peak = self.peak.max(self.in_use());
         qubit
     }
@@ -30,12 +36,19 @@ impl Pool {
 
     /// Frees a qubit, which is zero.
     pub(super) fn free(&mut self, qubit: Qubit) {
+        self.lent -= 1;
         self.idle.push(qubit);
     }
 
     /// How many qubits there are.
     pub(super) fn made(&self) -> u32 {
         self.made
+    }
+
+    /// The most qubits that were allocated at a time, beside those of registers that were placed
+    /// before.
+    pub(super) fn most_lent(&self) -> u32 {
+        self.most_lent
     }
 
     pub(super) fn in_use(&self) -> u32 {
@@ -106,45 +119,43 @@ pub fn scratch_width(op: &Op, width: impl Fn(RegisterId) -> u32) -> u32 {
     if op.scratch().is_none() {
         return 0;
     }
-    let (op, mut lowering) = alone(op, width);
+    let (op, widths) = canonical(op, width);
+    let mut lowering = placed(&widths);
     lowering.lower(&op);
     lowering.garbage.len() as u32
 }
 
-/// How many ancillas `op` borrows beyond its own registers, at most, given their widths.
-pub(super) fn ancillas(op: &Op, width: impl Fn(RegisterId) -> u32) -> u32 {
-    let (op, mut lowering) = placed(op, width);
-    let scratch = op.scratch().map(|id| lowering.register(id));
-    lowering.scratch = Some(scratch.unwrap_or_default());
-    let own = lowering.pool.in_use();
-    lowering.pool.peak = own;
-    lowering.lower(&op);
-    lowering.pool.peak - own
-}
-
-/// An operation with its registers, other than its garbage, placed on qubits of its own.
-pub(super) fn alone(op: &Op, width: impl Fn(RegisterId) -> u32) -> (Op, Lowering) {
+/// An operation on registers that are numbered in the order in which it names them, and the widths of
+/// these; that of its garbage register, which is still to be found, is 0.
+pub(super) fn canonical(op: &Op, width: impl Fn(RegisterId) -> u32) -> (Op, Vec<u32>) {
     let scratch = op.scratch();
-    placed(op, |id| if Some(id) == scratch { 0 } else { width(id) })
+    // Shared by what is read and what is written.
+    let known = RefCell::new((Vec::new(), Vec::new()));
+    let number = |id: RegisterId| {
+        let (ids, widths) = &mut *known.borrow_mut();
+        let place = ids.iter().position(|known| *known == id);
+        let place = place.unwrap_or_else(|| {
+            ids.push(id);
+            widths.push(if Some(id) == scratch { 0 } else { width(id) });
+            ids.len() - 1
+        });
+        RegisterId(place as u32)
+    };
+    let op = op.clone().map(number, number);
+    (op, known.into_inner().1)
 }
 
-/// An operation with its registers placed on qubits of its own.
-fn placed(op: &Op, width: impl Fn(RegisterId) -> u32) -> (Op, Lowering) {
-    let mut lowering = Lowering::default();
-    let mut ids: Vec<RegisterId> = Vec::new();
-    for id in op.reads().into_iter().chain(op.fresh()) {
-        if !ids.contains(&id) {
-            lowering.registers.push(Vec::new());
-            lowering.place(RegisterId(ids.len() as u32), width(id));
-            ids.push(id);
-        }
-    }
-    let own = |id| {
-        let place = ids.iter().position(|known| *known == id);
-        RegisterId(place.unwrap_or_default() as u32)
+/// A lowering with registers of these widths on qubits of their own.
+pub(super) fn placed(widths: &[u32]) -> Lowering {
+    let mut lowering = Lowering {
+        registers: vec![Vec::new(); widths.len()],
+        ..Lowering::default()
     };
-    let op = op.clone().map(own, own);
-    (op, lowering)
+    for (place, width) in widths.iter().enumerate() {
+        lowering.place(RegisterId(place as u32), *width);
+    }
+    (lowering.pool.lent, lowering.pool.most_lent) = (0, 0);
+    lowering
 }
 
 /// Lowers a program. The qubits of a register are allocated when it is computed, and freed, zero

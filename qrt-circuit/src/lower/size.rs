@@ -1,7 +1,8 @@
 //! How many qubits circuits have, and their Toffoli depth.
 
 use super::super::{Circuit, Gate, Program, Qubit};
-use super::place::{ancillas, each_instruction};
+use super::figures::KnownFigures;
+use super::place::each_instruction;
 
 /// The size of a program's circuit in qubits and in Toffoli depth.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -30,36 +31,9 @@ pub fn size(program: &Program) -> Size {
     }
 }
 
-/// The qubits of [`size`] alone: each operation is lowered once, however often it runs.
+/// The qubits of [`size`] alone.
 pub fn most_qubits(program: &Program) -> u32 {
-    let width = |register| program.width(register);
-    let mut borrowed: Vec<Option<u32>> = vec![None; program.ops.len()];
-    let mut placed = vec![false; program.registers.len()];
-    let mut held = 0;
-    for input in &program.inputs {
-        if !std::mem::replace(&mut placed[input.index()], true) {
-            held += width(*input);
-        }
-    }
-    let mut most = held;
-    for instruction in &program.instructions {
-        let op = &program.ops[instruction.op as usize];
-        let fresh = op.fresh();
-        for register in &fresh {
-            if !std::mem::replace(&mut placed[register.index()], true) {
-                held += width(*register);
-            }
-        }
-        let borrowed = &mut borrowed[instruction.op as usize];
-        most = most.max(held + *borrowed.get_or_insert_with(|| ancillas(op, width)));
-        if instruction.inverse {
-            for register in &fresh {
-                placed[register.index()] = false;
-                held -= width(*register);
-            }
-        }
-    }
-    most
+    KnownFigures::default().most_qubits(program)
 }
 
 /// The Toffoli depth of a circuit: each gate runs as early as its qubits allow, and only Toffolis

@@ -51,8 +51,10 @@ use crate::syntax::{Circuit, What};
 use crate::tracer::{Coordinate, Named, Segment, WideValue};
 use names::Nameable;
 use passes::Draft;
+use qrt_circuit::lower::Quick;
 use qrt_circuit::{Bit, Block, BlockId, Op, Operand, Register, RegisterId, Type, Word};
 use std::collections::HashMap;
+use std::hash::BuildHasherDefault;
 use value::{Affine, Choice, Truth, Value};
 
 use number::negative as negative_range;
@@ -189,7 +191,7 @@ pub struct Builder<'a> {
     values: Vec<Value>,
     truths: Vec<Truth>,
     choices: Vec<Choice>,
-    known: HashMap<Op<RegisterId, u32>, usize>,
+    known: HashMap<Op<RegisterId, u32>, usize, BuildHasherDefault<Quick>>,
     coordinates: HashMap<Coordinate, Index>,
     names: Vec<(Named, usize, Nameable)>,
     /// By ray: what it starts with and what it meets, as the tracer told.
@@ -234,7 +236,7 @@ impl<'a> Builder<'a> {
             values: Vec::new(),
             truths: Vec::new(),
             choices: Vec::new(),
-            known: HashMap::new(),
+            known: HashMap::default(),
             coordinates: HashMap::new(),
             names: Vec::new(),
             segments: Vec::new(),

@@ -29,14 +29,14 @@ pub(super) struct Draft {
 /// Constants and what their products drop, and the bits of the number.
 type Products = (Vec<(i64, u32)>, u32);
 
-/// What was found out about operations, by their targets: of use to programs that are assembled
-/// from parts of one recording.
+/// What was found out about operations: of use to programs that are assembled from parts of one
+/// recording.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Known {
     /// [`lower::best_low`]
     lows: HashMap<Box<[RegisterId]>, u32>,
-    /// [`lower::scratch_width`]
-    widths: HashMap<Box<[RegisterId]>, u32>,
+    /// What operations cost, and the width of their garbage.
+    pub(crate) figures: lower::KnownFigures,
     /// [`Multiples::new`]
     multiples: HashMap<Products, Option<Arc<Multiples>>>,
 }
@@ -65,11 +65,8 @@ impl Draft {
         for (op, _) in &self.ops {
             let registers = &self.registers;
             if let Some(scratch) = op.scratch() {
-                let width = known.widths.entry(op.targets().into());
-                let width = *width.or_insert_with(|| {
-                    lower::scratch_width(op, |id: RegisterId| registers[id.index()].width)
-                });
-                self.registers[scratch.index()].width = width;
+                let figures = known.figures.of(op, |id| registers[id.index()].width);
+                self.registers[scratch.index()].width = figures.scratch;
             }
         }
     }
@@ -249,9 +246,10 @@ fn share_multiples(draft: &mut Draft, strategy: Strategy, known: &mut Known) {
                 scratch,
             };
             let width = |id: RegisterId| draft.registers[id.index()].width;
-            let toffoli = |op: &Op| lower::cost(op, false, width).toffoli;
+            let mut toffoli = |op: &Op| known.figures.of(op, width).costs[0].toffoli;
             let apart = places.iter().map(|&place| toffoli(&draft.ops[place].0));
-            if toffoli(&together) < apart.sum() {
+            let apart: u64 = apart.sum();
+            if toffoli(&together) < apart {
                 draft.ops[places[0]].0 = together;
                 gone.extend(&places[1..]);
             }

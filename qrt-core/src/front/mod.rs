@@ -8,7 +8,7 @@ pub mod yaml;
 use crate::scene::Scene;
 use crate::scene::shape::Part;
 use crate::syntax::tree::Node;
-use crate::syntax::{File, Place, Problem, Problems, Report, Source};
+use crate::syntax::{File, InvalidScene, Place, Problem, Problems, Report, Source};
 use crate::valid::{self, ValidScene};
 pub use files::Files;
 pub(crate) use files::Unread;
@@ -195,6 +195,15 @@ fn read_file(
 }
 
 impl Scene {
+    /// Checks the scene, with the meshes that it names in `folder`.
+    ///
+    /// # Errors
+    /// Everything that is wrong with it.
+    pub fn validate(self, folder: &std::path::Path) -> Result<ValidScene, InvalidScene> {
+        let meshes = obj::load_all(&self, Files::of_folder(folder));
+        valid::validate(self, &meshes)
+    }
+
     /// The scene of a YAML text called `name`, read but not checked.
     ///
     /// ```

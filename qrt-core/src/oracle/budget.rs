@@ -5,8 +5,7 @@ use crate::compile::BuildError;
 use crate::scene::{Nearest, Uncompute};
 use crate::syntax::{Circuit, Path, Problem, Problems, Sampling};
 use crate::valid::ValidScene;
-use qrt_circuit::{Op, RegisterId, lower};
-use std::collections::HashMap;
+use qrt_circuit::lower;
 
 /// What one call of an oracle costs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,30 +18,26 @@ pub struct CallCost {
 
 /// The cost of a call of the most expensive of these oracles, each of which is of one channel.
 pub fn call_cost(channels: &[Oracle]) -> CallCost {
-    // Oracles of one scene share most of their operations.
-    let mut known: HashMap<RegisterId, (Op, u64)> = HashMap::new();
+    call_cost_by(channels, &mut lower::KnownFigures::default())
+}
+
+/// As [`call_cost`], by what is known of operations.
+pub(super) fn call_cost_by(channels: &[Oracle], known: &mut lower::KnownFigures) -> CallCost {
     let mut dearest = None;
     for oracle in channels {
-        let mut toffoli = lower::toffoli(&oracle.flip(0));
         let program = &oracle.program;
+        let mut toffoli = lower::toffoli(&oracle.flip(0));
         for instruction in &program.instructions {
             let op = &program.ops[instruction.op as usize];
-            let cost = || lower::cost(op, false, |register| program.width(register)).toffoli;
-            let Some(target) = op.targets().first().copied() else {
-                toffoli += 2 * cost();
-                continue;
-            };
-            let found = known.get(&target).filter(|(other, _)| other == op);
-            let cost = found.map_or_else(cost, |(_, cost)| *cost);
-            known.entry(target).or_insert_with(|| (op.clone(), cost));
-            toffoli += 2 * cost;
+            let figures = known.of(op, |register| program.width(register));
+            toffoli += 2 * figures.costs[0].toffoli;
         }
         if dearest.is_none_or(|(most, _)| most < toffoli) {
             dearest = Some((toffoli, oracle));
         }
     }
     CallCost {
-        qubits: dearest.map_or(0, |(_, oracle)| u64::from(oracle.qubits())),
+        qubits: dearest.map_or(0, |(_, oracle)| u64::from(oracle.qubits_by(known))),
         toffoli: dearest.map_or(0, |(toffoli, _)| toffoli),
     }
 }

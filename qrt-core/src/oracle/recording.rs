@@ -12,7 +12,7 @@ use crate::tracer::{
     self, Arith, FaceTable, PrimaryHitGiven, Quantity, Records, Search, Stage, trace,
 };
 use crate::valid::ValidScene;
-use qrt_circuit::{Operand, Program, RegisterId, Type, Word};
+use qrt_circuit::{Operand, Program, RegisterId, Type, Word, lower};
 use std::collections::HashSet;
 
 /// Channels by number.
@@ -188,6 +188,11 @@ impl Recording {
     /// recording ([`Strategy::recording`]).
     pub(super) fn lay_out(&mut self, strategy: Strategy) {
         self.strategy = strategy;
+    }
+
+    /// What is known of operations.
+    pub(super) fn figures(&mut self) -> &mut lower::KnownFigures {
+        &mut self.ops.figures
     }
 
     /// The oracle of the channels at these places among those recorded.

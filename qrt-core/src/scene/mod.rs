@@ -5,15 +5,19 @@
 //! against anything else: [`crate::valid::validate`] turns a [`Scene`] into the
 //! [`crate::valid::ValidScene`] that everything downstream demands.
 
+mod builder;
 pub(crate) mod decode;
 pub(crate) mod finalize;
 pub mod meshes;
 mod record;
+#[cfg(feature = "serde")]
+mod serde;
 pub(crate) mod shape;
 pub mod text;
 
 use crate::syntax::tree::{Node, Span, Value};
 use crate::syntax::{Datum, Place, Problems};
+pub use builder::SceneBuilder;
 use glam::DVec3;
 pub use qrt_circuit::quantum::Window;
 use record::{keyword, record, variant};

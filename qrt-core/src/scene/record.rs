@@ -122,6 +122,12 @@ macro_rules! variant {
             }
         }
 
+        $( impl From<$part> for $name {
+            fn from(part: $part) -> Self {
+                Self::$kind(part)
+            }
+        } )*
+
         impl $crate::scene::shape::Part for $name {
             fn decode(
                 node: &$crate::syntax::tree::Node,

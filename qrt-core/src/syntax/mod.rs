@@ -5,6 +5,7 @@
 //! scenes: a [`Problem`] is a variant with arguments, which each front end puts into its own words.
 
 pub mod codes;
+mod invalid;
 mod kinds;
 mod name;
 mod number;
@@ -13,6 +14,7 @@ mod problem;
 mod report;
 pub mod tree;
 
+pub use invalid::InvalidScene;
 pub use kinds::*;
 pub use name::{listed, nearest};
 pub use number::{grouped, number};

@@ -21,6 +21,7 @@ use crate::scene::meshes::Meshes;
 use crate::scene::shape::Part;
 use crate::scene::text::Fingerprint;
 use crate::scene::{Bsdf, Dielectric, Ggx, Lambertian, Material, Mirror, Phong, Rgb, Scene};
+pub use crate::syntax::InvalidScene;
 use crate::syntax::{self, Path, Place, Problem, Problems};
 use glam::DVec3;
 use std::path::PathBuf;
@@ -187,31 +188,20 @@ impl ValidScene {
 /// Everything that is wrong with it.
 ///
 /// ```
-/// use qrt_core::scene::*;
-/// let scene = Scene {
-///     name: "dark".into(),
-///     camera: Camera::Perspective(Perspective {
-///         eye: [0.0, 0.0, 5.0].into(),
-///         target: [0.0; 3].into(),
-///         up: [0.0, 1.0, 0.0].into(),
-///         vfov: 40.0,
-///     }),
-///     film: Film { width: 4, height: 0 },
-///     materials: vec![],
-///     geometry: vec![],
-///     sampling: Sampling::default(),
-///     precision: Precision::default(),
-///     comparator: Comparator::default(),
-///     counting: Counting::default(),
-///     circuit: Circuit::default(),
-///     accuracy: None,
-///     budget: None,
-/// };
-/// let problems = qrt_core::valid::validate(scene, &Default::default()).unwrap_err();
-/// assert_eq!(problems[0].path().unwrap().to_string(), "film.height");
+/// use qrt_core::scene::{Film, Scene};
+/// use qrt_core::valid::validate;
+///
+/// let scene = Scene { film: Film { width: 4, height: 4 }, ..Scene::default() };
+/// let valid = validate(scene.clone(), &Default::default())?;
+/// assert_eq!(valid.scene(), &scene);
+///
+/// let faulty = Scene { film: Film { width: 4, height: 0 }, ..scene };
+/// let invalid = validate(faulty, &Default::default()).unwrap_err();
+/// assert_eq!(invalid[0].path().unwrap().to_string(), "film.height");
+/// # Ok::<(), qrt_core::valid::InvalidScene>(())
 /// ```
-pub fn validate(scene: Scene, meshes: &Meshes) -> Result<ValidScene, Vec<Problem>> {
-    check(scene, meshes, Problems::default())
+pub fn validate(scene: Scene, meshes: &Meshes) -> Result<ValidScene, InvalidScene> {
+    check(scene, meshes, Problems::default()).map_err(InvalidScene::new)
 }
 
 /// As [`validate`], of a scene in which `problems` were found as it was read.

@@ -20,7 +20,7 @@ pub(crate) use stub::stub;
 use crate::scene::Parsed;
 use names::Names;
 use proc_macro2::TokenStream;
-use qrt_core::oracle::{CallCost, Oracle, call_cost, check_budget};
+use qrt_core::oracle::{CallCost, Oracle, check_budget};
 use qrt_core::syntax::Problem;
 use qrt_core::valid::ValidScene;
 use quote::ToTokens as _;
@@ -63,8 +63,8 @@ fn text(
     conditions: &str,
     (labels, valid): (&[Option<String>], &ValidScene),
 ) -> Result<String, Vec<Problem>> {
-    let (channels, oracle) = Oracle::all(valid).map_err(|error| vec![error.problem()])?;
-    let cost = call_cost(&channels);
+    let recorded = Oracle::rgb_and_cost(valid);
+    let (oracle, cost) = recorded.map_err(|error| vec![error.problem()])?;
     check_budget(valid, cost)?;
     let mut out = format!("{conditions}\n");
     out.push_str(&figures(scene, public, valid, &oracle, cost));

@@ -26,6 +26,9 @@ pub enum EstimatorError {
     /// More Grover iterations between preparation and measurement than can be told apart.
     #[error("{0} Grover iterations before a measurement; at most {MAX_ITERATIONS}")]
     TooManyIterations(u64),
+    /// An estimator of one's own cannot do what is asked, and says why.
+    #[error("{0}")]
+    Own(&'static str),
     /// A reference from which amplitudes are measured that is not in [0, 1].
     #[error("a reference of {0} is not in [0, 1]")]
     Reference(f64),

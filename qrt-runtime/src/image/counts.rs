@@ -3,7 +3,7 @@
 use super::ImageError;
 use crate::replace_file::replace_file;
 use std::fmt;
-use std::io::{self, Write};
+use std::io::Write;
 use std::path::Path;
 
 /// One channel of one pixel.
@@ -34,40 +34,51 @@ pub fn write_counts(
     path: &Path,
     counts: impl IntoIterator<Item = Count>,
 ) -> Result<(), ImageError> {
-    let result = replace_file(path, |out| {
-        writeln!(out, "x,y,channel,value,good,total,scale")?;
-        for count in counts {
-            let Count {
+    replace_file(path, |out| write_counts_to(out, counts)).map_err(|error| error.at(path))
+}
+
+/// As [`write_counts`], to whatever takes bytes.
+///
+/// # Errors
+/// An error of `out`, as [`ImageError::Write`], or [`ImageError::NotFinite`].
+///
+/// ```
+/// use qrt_runtime::image::{Count, write_counts_to};
+/// let count = Count { x: 2, y: 0, channel: 1, value: 0.25, good: Some(4), total: 16, scale: 1.0 };
+/// let mut text = Vec::new();
+/// write_counts_to(&mut text, [count])?;
+/// assert_eq!(
+///     String::from_utf8_lossy(&text),
+///     "x,y,channel,value,good,total,scale\n\
+///      2,0,g,2.5000000000000000e-1,4,16,1.0000000000000000e0\n",
+/// );
+/// # Ok::<(), qrt_runtime::image::ImageError>(())
+/// ```
+pub fn write_counts_to(
+    mut out: impl Write,
+    counts: impl IntoIterator<Item = Count>,
+) -> Result<(), ImageError> {
+    writeln!(out, "x,y,channel,value,good,total,scale")?;
+    for count in counts {
+        let Count {
+            x,
+            y,
+            channel,
+            value,
+            scale,
+            ..
+        } = count;
+        if let Some(value) = [value, scale].into_iter().find(|value| !value.is_finite()) {
+            return Err(ImageError::NotFinite {
                 x,
                 y,
                 channel,
                 value,
-                ..
-            } = count;
-            if !value.is_finite() || !count.scale.is_finite() {
-                let value = if value.is_finite() {
-                    count.scale
-                } else {
-                    value
-                };
-                return Err(Failure::Image(ImageError::NotFinite {
-                    x,
-                    y,
-                    channel,
-                    value,
-                }));
-            }
-            writeln!(out, "{count}")?;
+            });
         }
-        Ok(())
-    });
-    result.map_err(|failure| match failure {
-        Failure::Io(source) => ImageError::Io {
-            path: path.to_path_buf(),
-            source,
-        },
-        Failure::Image(error) => error,
-    })
+        writeln!(out, "{count}")?;
+    }
+    Ok(())
 }
 
 impl fmt::Display for Count {
@@ -87,16 +98,5 @@ impl fmt::Display for Count {
             write!(f, "{good}")?;
         }
         write!(f, ",{total},{scale:.16e}")
-    }
-}
-
-enum Failure {
-    Io(io::Error),
-    Image(ImageError),
-}
-
-impl From<io::Error> for Failure {
-    fn from(error: io::Error) -> Self {
-        Self::Io(error)
     }
 }

@@ -13,7 +13,7 @@ mod srgb;
 #[cfg(test)]
 mod tests;
 
-pub use counts::{Count, write_counts};
+pub use counts::{Count, write_counts, write_counts_to};
 pub use metadata::Metadata;
 pub use png_file::read_png_metadata;
 pub use srgb::decode as linear_of_srgb;
@@ -133,26 +133,49 @@ pub fn save_layers(
     metadata: &Metadata,
     encoding: Encoding,
 ) -> Result<u64, ImageError> {
+    let mut clipped = 0;
+    replace_file(path, |out| {
+        clipped = write_to(out, image, layers, metadata, encoding)?;
+        Ok(())
+    })
+    .map_err(|error: ImageError| error.at(path))?;
+    Ok(clipped)
+}
+
+/// Writes a picture to whatever takes bytes, as [`save_layers`] does to a file: a buffer, a socket, a
+/// part of another file. What was written when an error came is not taken back.
+///
+/// # Errors
+/// As [`save_layers`]; an error of `out` is [`ImageError::Write`].
+///
+/// ```
+/// use qrt_runtime::image::{Encoding, Image, Metadata, write_to};
+/// let image = Image { width: 1, height: 1, pixels: vec![[0.0, 0.5, 1.0]], window: None };
+/// let mut bytes = Vec::new();
+/// write_to(&mut bytes, &image, &[], &Metadata::new(), Encoding::Png { exposure: 0.0 })?;
+/// assert_eq!(&bytes[1..4], b"PNG");
+/// # Ok::<(), qrt_runtime::image::ImageError>(())
+/// ```
+pub fn write_to(
+    mut out: impl io::Write,
+    image: &Image,
+    layers: &[Layer],
+    metadata: &Metadata,
+    encoding: Encoding,
+) -> Result<u64, ImageError> {
     image.check(encoding)?;
     check_layers(image, layers, encoding)?;
-    let io = |source| ImageError::Io {
-        path: path.to_path_buf(),
-        source,
-    };
-    let mut clipped = 0;
-    replace_file(path, |out| match encoding {
+    let written = match encoding {
         Encoding::Png { exposure } => {
             let scale = libm::exp2(exposure);
-            clipped = png_file::write(out, image, metadata, scale).map_err(|e| match e {
-                png::EncodingError::IoError(e) => e,
+            png_file::write(out, image, metadata, scale).map_err(|error| match error {
+                png::EncodingError::IoError(error) => error,
                 other => io::Error::other(other),
-            })?;
-            Ok(())
+            })
         }
-        Encoding::Exr => exr_file::write(out, image, layers, metadata),
-    })
-    .map_err(io)?;
-    Ok(clipped)
+        Encoding::Exr => exr_file::write(&mut out, image, layers, metadata).map(|()| 0),
+    };
+    Ok(written?)
 }
 
 fn check_layers(image: &Image, layers: &[Layer], encoding: Encoding) -> Result<(), ImageError> {
@@ -310,7 +333,21 @@ pub enum ImageError {
     /// The file system refused.
     #[error("`{}`: {source}", .path.display())]
     Io { path: PathBuf, source: io::Error },
+    /// What the picture or the counts are written to refused.
+    #[error("{0}")]
+    Write(#[from] io::Error),
     /// Not a file that can be read as a picture.
     #[error("`{}`: {reason}", .path.display())]
     Decode { path: PathBuf, reason: String },
+}
+
+impl ImageError {
+    /// The same of a file, where it is that of a writer.
+    fn at(self, path: &Path) -> Self {
+        let path = path.to_path_buf();
+        match self {
+            Self::Write(source) => Self::Io { path, source },
+            other => other,
+        }
+    }
 }

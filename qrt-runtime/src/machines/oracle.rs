@@ -116,11 +116,12 @@ impl OracleMachine {
     }
 
     /// The native machine: the oracle's program as code, `C`, which gives the same bits as the
-    /// fixed machine. Where there are no vectors for it (there are for AVX-512 and AVX2) but the
-    /// fixed machine has some, such as NEON, this is the fixed machine itself.
+    /// fixed machine. Where there is no code ([`NativeOracle::WRITTEN`]), or no vectors for it (there are
+    /// for AVX-512 and AVX2) but the fixed machine has some, such as NEON, this is the fixed machine
+    /// itself.
     pub fn native<C: NativeOracle>(oracle: Arc<Oracle>, seed: u64, colours: bool) -> Self {
         let widest = InstructionSet::widest();
-        if widest == InstructionSet::Neon {
+        if !C::WRITTEN || widest == InstructionSet::Neon {
             Self::fixed(oracle, seed, colours)
         } else {
             Self::native_on::<C>(widest, oracle, seed, colours)
@@ -129,6 +130,9 @@ impl OracleMachine {
 
     /// The native machine, with the instruction set that is given: there is code for AVX-512, for
     /// AVX2, and for a path at a time, which takes the place of all others.
+    ///
+    /// # Panics
+    /// When it runs, if there is no code: see [`NativeOracle::WRITTEN`].
     pub fn native_on<C: NativeOracle>(
         instructions: InstructionSet,
         oracle: Arc<Oracle>,

@@ -20,9 +20,15 @@
 //! assert_eq!(run::on_gates(&program, &states)?, [[3, 7], [9, 2]]);
 //! # Ok::<(), run::RunError>(())
 //! ```
+//!
+//! A scene's program in a pixel, a [`BoundProgram`], is run by [`paths_on_definition`],
+//! [`paths_on_fixed`] and [`paths_on_gates`].
 
-use super::{Fixed, Gates, InvalidGate};
-use qrt_circuit::{Contents, Op, Operand, Program, Qubit, RegisterId, Word, lower};
+use super::{Defect, Fixed, Gates, InvalidGate, OracleMachine};
+use qrt_circuit::{Contents, Op, Operand, Program, Qubit, RegisterId, Unclean, Word, lower};
+use qrt_core::oracle::BoundProgram;
+use std::ops::Range;
+use std::sync::Arc;
 
 /// Why a program did not run as a routine does.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -181,6 +187,68 @@ pub fn on_gates(
         }
         Ok(outputs)
     })
+}
+
+/// The paths `ids` of a scene's program in a pixel, by the definition of its operations: by path, how
+/// many of its comparators are good in each channel.
+///
+/// # Errors
+/// If an inverse does not find what its operation computes.
+pub fn paths_on_definition(
+    bound: &BoundProgram,
+    ids: Range<u64>,
+) -> Result<Vec<Vec<u64>>, Unclean> {
+    ids.map(|id| {
+        let mut contents = Contents::new(bound, &[id, 0], &[]);
+        for instruction in &bound.instructions {
+            contents.follow(bound, *instruction)?;
+        }
+        Ok(bound.good(&contents.registers))
+    })
+    .collect()
+}
+
+/// As [`paths_on_definition`], on the fixed machine. The program is one of three channels.
+///
+/// # Errors
+/// The first defect that shows.
+pub fn paths_on_fixed(bound: &BoundProgram, ids: Range<u64>) -> Result<Vec<Vec<u64>>, Defect> {
+    let oracle = Arc::new(bound.oracle().clone());
+    paths_on(
+        &OracleMachine::fixed(oracle, bound.seed(), false),
+        bound,
+        ids,
+    )
+}
+
+/// As [`paths_on_fixed`], on the gates machine: every gate of compute, flip and uncompute, and all
+/// ancillas looked at between paths.
+///
+/// # Errors
+/// The first defect that shows.
+pub fn paths_on_gates(bound: &BoundProgram, ids: Range<u64>) -> Result<Vec<Vec<u64>>, Defect> {
+    let oracle = Arc::new(bound.oracle().clone());
+    paths_on(
+        &OracleMachine::gates(oracle, bound.seed(), false)?,
+        bound,
+        ids,
+    )
+}
+
+fn paths_on(
+    machine: &OracleMachine,
+    bound: &BoundProgram,
+    ids: Range<u64>,
+) -> Result<Vec<Vec<u64>>, Defect> {
+    let mut paths = Vec::new();
+    machine.trace(&[bound.pixel()], ids, |run| {
+        let channels = run.good.iter().filter(|good| !good.is_empty());
+        let channels: Vec<&[i64]> = channels.copied().collect();
+        let count = channels.first().map_or(0, |good| good.len());
+        let path = |place: usize| channels.iter().map(move |good| good[place].cast_unsigned());
+        paths.extend((0..count).map(|place| path(place).collect()));
+    })?;
+    Ok(paths)
 }
 
 fn name(program: &Program, register: RegisterId) -> String {

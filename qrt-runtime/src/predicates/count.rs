@@ -1,7 +1,7 @@
 //! The fraction of paths on which a predicate holds.
 
 use super::check;
-use crate::estimators::{Device, Estimate, Noise, Problem, Settings, estimator};
+use crate::estimators::{Device, Estimate, Noise, Problem, Settings};
 use crate::image::{Image, Window};
 use crate::machines::{OracleMachine, Real};
 use crate::random::Stream;
@@ -176,9 +176,7 @@ pub fn count_where<S: PathScene>(
     let predicate = Predicate::of::<S>(predicate)?;
     check(&predicate, options)?;
     let scene = predicate.scene();
-    let name = options
-        .estimator
-        .unwrap_or(scene.scene().counting.estimator);
+    let name = options.counted_by(scene.scene())?;
     if name == Estimator::Exact && options.noise != Noise::NONE {
         return Err(RenderError::NothingNoisy);
     }
@@ -239,7 +237,7 @@ pub fn count_where<S: PathScene>(
         strata: None,
         ..Settings::of(&scene.scene().counting)?
     };
-    let estimator = estimator(name, &settings)?;
+    let estimator = options.estimator_of(name, &settings)?;
     let estimated = pixels.into_iter().zip(good).map(|(pixel, good)| {
         let channel = PREDICATE_CHANNEL as u8;
         let mut stream = Stream::new(options.seed, pixel[0], pixel[1], channel);

@@ -134,6 +134,27 @@ pub enum RenderError {
          by path: use `exact`, or find primary hits classically"
     )]
     SearchEstimator(Estimator),
+    /// A name that pictures cannot tell.
+    #[error(
+        "`{name}` is no name of an estimator: 1 to 64 letters, digits, `_`, `-` or `.` of ASCII"
+    )]
+    OwnName {
+        /// The name.
+        name: String,
+    },
+    /// An estimator of one's own, where every path is searched by itself.
+    #[error(
+        "an estimator of one's own counts paths in superposition, and primary hits are searched for \
+         path by path: find primary hits classically"
+    )]
+    OwnSearches,
+    /// An estimator of one's own, with a scene whose parameters follow from what is known of those
+    /// that there are.
+    #[error(
+        "the scene asks for an `accuracy`, which takes what is known of an estimator's error, and of \
+         one of one's own nothing is: write the parameters into the scene"
+    )]
+    OwnAccuracy,
     /// A search that cannot be made.
     #[error(transparent)]
     Search(#[from] RoundsError),

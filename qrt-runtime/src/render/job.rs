@@ -95,6 +95,7 @@ impl<'a> Job<'a> {
                     searched: None,
                     crop,
                     estimator,
+                    own_estimator: options.own_estimator.map(|own| own.name().to_owned()),
                     colour: options.colour,
                     noise: options.noise,
                     seed: options.seed,
@@ -190,7 +191,7 @@ pub(super) fn header(request: &Request<'_>) -> Header {
     let Request { scene, options, .. } = *request;
     let decisive = [
         ("model", options.model.name().to_owned()),
-        ("estimator", request.estimator.name().to_owned()),
+        ("estimator", options.estimator_name(request.estimator)),
         ("colour", options.colour.name().to_owned()),
         ("noise", options.noise.to_string()),
         ("version", env!("CARGO_PKG_VERSION").to_owned()),

@@ -1,6 +1,7 @@
 //! What a picture says of its own making.
 
 use super::Rendered;
+use super::own::PREFIX;
 use crate::image::{ImageError, Metadata};
 use qrt_core::scene::Estimator;
 
@@ -21,7 +22,10 @@ impl Rendered {
         for (key, value) in self.visibility.written() {
             metadata.set(&key, value)?;
         }
-        metadata.set("estimator", self.estimator.name())?;
+        match &self.own_estimator {
+            Some(own) => metadata.set("estimator", format!("{PREFIX}{own}"))?,
+            None => metadata.set("estimator", self.estimator.name())?,
+        }
         metadata.set("seed", self.seed.to_string())?;
         metadata.set("sequence", sampling.sequence.name())?;
         metadata.set("path_bits", sampling.path_bits.to_string())?;

@@ -56,6 +56,7 @@ mod job;
 mod layers;
 mod metadata;
 mod one_run;
+mod own;
 mod parts;
 mod picture_part;
 mod pixel;
@@ -66,6 +67,7 @@ mod visibility;
 pub use allowed::check_circuit;
 pub use classes::Scales;
 pub use error::{CompiledError, PredicateRefusal, RenderError};
+pub use own::{BoxedEstimator, OwnEstimator};
 pub use picture_part::{Merge, MergeError, PicturePart, render_part};
 pub use portion::{Portion, PortionError};
 pub use visibility::{DEFAULT_FAILURE, Searched, Visibility};
@@ -128,6 +130,8 @@ pub struct Options<'a> {
     pub model: Model,
     /// The estimator, in place of the scene's.
     pub estimator: Option<Estimator>,
+    /// An estimator of one's own, in place of all others.
+    pub own_estimator: Option<OwnEstimator<'a>>,
     /// How pixels get their colours.
     pub colour: Colour,
     /// Noise of the device that counts; none unless set.
@@ -162,6 +166,10 @@ impl<'a> Options<'a> {
         }
     }
 }
+
+/// Which of the known estimators those of one's own are like, in what pictures tell of: it counts the
+/// comparator as a whole, and decides itself when it ends.
+pub const OWN_LIKE: Estimator = Estimator::MonteCarlo;
 
 /// A picture, and how it came about.
 #[derive(Clone, Debug, PartialEq)]
@@ -198,8 +206,10 @@ pub struct Rendered {
     pub searched: Option<Searched>,
     /// x, y, width and height on the film, in pixels.
     pub crop: [u32; 4],
-    /// What estimated the amplitudes of its pixels.
+    /// What estimated the amplitudes of its pixels, unless it is one's own; [`OWN_LIKE`] then.
     pub estimator: Estimator,
+    /// The name of the estimator of one's own, if that did.
+    pub own_estimator: Option<String>,
     /// How its pixels got their colours.
     pub colour: Colour,
     /// Noise of the device that counted.
@@ -301,6 +311,9 @@ fn render_portion<T>(
 ) -> Result<(Rendered, T, Option<Checkpoint>), RenderError> {
     let crop = crop_of(scene, options)?;
     options.memory.keep_picture([crop[2], crop[3]])?;
+    if options.own_estimator.is_some() && scene.scene().accuracy.is_some() {
+        return Err(RenderError::OwnAccuracy);
+    }
     let planned;
     let chosen = match (scene.scene().accuracy, options.plan) {
         (None, _) => None,

@@ -8,6 +8,7 @@
 
 use super::film::Film;
 use super::job::{PORTION, header};
+use super::own::PREFIX;
 use super::tiles::{Tiles, rows};
 use super::{
     Colour, Model, Options, Portion, RenderError, Rendered, Request, Scales, Searched, Visibility,
@@ -659,6 +660,11 @@ fn rendered(header: &Header, ending: &Ending) -> Option<Rendered> {
         searched,
         crop: header.crop,
         estimator,
+        own_estimator: {
+            let own = header.options.get("estimator");
+            own.and_then(|name| name.strip_prefix(PREFIX))
+                .map(str::to_owned)
+        },
         colour,
         noise: Noise {
             depolarising,

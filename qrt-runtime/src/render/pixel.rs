@@ -2,10 +2,10 @@
 
 use super::one_run::{OneRun, Segments};
 use super::parts::Parts;
-use super::{Colour, Options, RenderError};
+use super::{BoxedEstimator, Colour, Options, RenderError};
 use crate::counting::{Comparators, Octaves};
 use crate::estimators::{
-    AmplitudeEstimator, Device, Estimate, EstimatorError, Noise, Problem, Settings, estimator,
+    AmplitudeEstimator, Device, Estimate, EstimatorError, Noise, Problem, Settings,
 };
 use crate::machines::{Defect, OracleMachine, PathBlock, Real};
 use crate::random::Stream;
@@ -100,7 +100,7 @@ pub(super) struct Pixels {
 struct Counter {
     comparators: [Comparators; 3],
     /// Of each channel; of the luminance alone where that is counted.
-    estimators: Vec<Box<dyn AmplitudeEstimator + Send + Sync>>,
+    estimators: Vec<BoxedEstimator>,
     /// Whether strata may be counted one by one.
     by_strata: bool,
     noise: Noise,
@@ -164,7 +164,7 @@ impl Pixels {
                 0.0 => Settings::of(&scene.counting),
                 scale => Settings::of_channel(&scene.counting, scale),
             });
-            let estimators = settings.map(|settings| estimator(estimate, &settings?));
+            let estimators = settings.map(|settings| options.estimator_of(estimate, &settings?));
             Some(Counter {
                 comparators: Comparators::rgb(bound, scene.comparator)?,
                 estimators: estimators.collect::<Result<_, _>>()?,

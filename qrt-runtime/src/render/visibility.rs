@@ -89,8 +89,11 @@ impl Visibility {
         options: &Options<'_>,
         scene: &Scene,
     ) -> Result<Estimator, RenderError> {
+        if self != Self::Classical && options.own_estimator.is_some() {
+            return Err(RenderError::OwnSearches);
+        }
         match (self, options.estimator) {
-            (Self::Classical, asked) => Ok(asked.unwrap_or(scene.counting.estimator)),
+            (Self::Classical, _) => options.counted_by(scene),
             (_, None | Some(Estimator::Exact)) => Ok(Estimator::Exact),
             (_, Some(other)) => Err(RenderError::SearchEstimator(other)),
         }

@@ -4,7 +4,7 @@ use super::super::super::{
     Bit, BlockId, Contents, Gate, Instruction, Multiples, Op, Operand, RegisterId, Style, When,
     Word,
 };
-use super::super::{circuit, depth, tally};
+use super::super::{KnownFigures, circuit, costs, depth, most_qubits, scratch_width, tally};
 use super::simulate::{Bench, program};
 use proptest::prelude::*;
 
@@ -230,6 +230,11 @@ proptest! {
             })
             .collect();
         bench.check(&lanes);
+        let program = &bench.program;
+        prop_assert_eq!(most_qubits(program), circuit(program).qubits);
+        let figures = KnownFigures::default().of(&op, |id| program.width(id));
+        prop_assert_eq!(figures.costs, costs(&op, |id| program.width(id)));
+        prop_assert_eq!(figures.scratch, scratch_width(&op, |id| program.width(id)));
     }
 }
 
@@ -300,6 +305,7 @@ fn registers_take_qubits_that_others_have_left() {
     let total: u64 = both.iter().map(|cost| cost.toffoli).sum();
     assert!(depth(&lowered) <= total && depth(&lowered) > 0);
     assert_eq!(lowered.in_use.iter().max(), Some(&lowered.qubits));
+    assert_eq!(most_qubits(&all), lowered.qubits);
     let fresh: u32 = all.registers.iter().map(|register| register.width).sum();
     assert!(lowered.qubits <= fresh + 6, "no qubit is left to nobody");
     for number in 0..64_u64 {

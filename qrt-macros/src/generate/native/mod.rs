@@ -27,8 +27,32 @@ enum Variable {
     Number(Number),
 }
 
+/// Where there is code. Without optimisation it takes seconds to compile, and runs no sooner than the
+/// fixed machine; a crate's tests have it, so that they run what its users run.
+const WRITTEN: &str = "#[cfg(any(not(debug_assertions), test))]";
+const LEFT_OUT: &str = "#[cfg(not(any(not(debug_assertions), test)))]";
+
 /// Writes the trait's implementation.
 pub(super) fn write(out: &mut String, oracle: &Oracle, names: &Names) {
+    let _ = writeln!(
+        out,
+        "{WRITTEN}
+        const _: () = {{
+        {}
+        }};
+        {LEFT_OUT}
+        impl NativeOracle for __Scene {{
+            const WRITTEN: bool = false;
+            fn native<V: Vectors>(_: V, _: &[u64], _: V::Longs) -> [[V::Longs; 3]; 2] {{
+                ::core::unreachable!(\"no native code without optimisation\")
+            }}
+        }}",
+        code(oracle, names),
+    );
+}
+
+/// The tables, and the implementation that looks them up.
+fn code(oracle: &Oracle, names: &Names) -> String {
     let mut coder = Coder {
         program: &oracle.program,
         names,
@@ -79,8 +103,7 @@ pub(super) fn write(out: &mut String, oracle: &Oracle, names: &Names) {
     let uses = lines::last_uses(&lines);
     let needed = |name: &str, after: usize| uses.get(name).is_some_and(|&last| last > after);
     let code = lines::blocks(&lines[..body], Around::Inlined, needed);
-    let _ = writeln!(
-        out,
+    format!(
         "{}
         impl NativeOracle for __Scene {{
             #[inline(always)]
@@ -90,7 +113,7 @@ pub(super) fn write(out: &mut String, oracle: &Oracle, names: &Names) {
             }}
         }}",
         coder.statics,
-    );
+    )
 }
 
 struct Coder<'a> {

@@ -583,53 +583,64 @@ const _: () = {
                 applied
             }
         }
-        static N31: [i32; 16] = [7, 39, 7, 7, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0];
+        #[cfg(any(not(debug_assertions), test))]
+        const _: () = {
+            static N31: [i32; 16] = [7, 39, 7, 7, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0];
 
+            impl NativeOracle for __Scene {
+                #[inline(always)]
+                fn native<V: Vectors>(v: V, words: &[u64], ids: V::Longs) -> [[V::Longs; 3]; 2] {
+                    let (t21, t24, t26, t29, t31, t34) = block(
+                        #[cfg_attr(not(debug_assertions), inline(always))]
+                        || {
+                            let t1 = ids;
+                            let t2 = v.narrow(t1);
+                            let t3 = v.ints(word(words, 0, 1, false) as i32);
+                            let t4 =
+                                v.table16(&[0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1], t2);
+                            let t5 = t4.xor(t3);
+                            let ray0_sample_u_3 = t5.has(1);
+                            let t7 = v.ints(1).choose(ray0_sample_u_3, v.ints(0));
+                            let table6 = v.marks(2, t7);
+                            let t9 = v.ints(1).choose(table6, v.ints(0));
+                            let ray1_origin_x_33 = t9.has(1);
+                            let load25 = v.ints(word(words, 5, 3, true) as i32);
+                            let t12 = v.ints(1).choose(ray1_origin_x_33, v.ints(0));
+                            let t13 = t12.left(1);
+                            let add26 = load25.add(t13);
+                            let t15 = add26.less(v.ints(0));
+                            let t16 = t15.not();
+                            let select28 = v.ints(1).choose(t16, v.ints(2));
+                            let colour_b_29 = v.marks(2, select28);
+                            let table31 = v.table16(&N31, select28);
+                            let t20 = table31.right(4);
+                            let t21 = v.widen(t20);
+                            let t22 = v.ints(1).choose(colour_b_29, v.ints(0));
+                            let t23 = t22.left(5);
+                            let t24 = v.widen(t23);
+                            let t25 = table31.right(4);
+                            let t26 = v.widen(t25);
+                            let t27 = v.ints(1).choose(colour_b_29, v.ints(0));
+                            let t28 = t27.left(5);
+                            let t29 = v.widen(t28);
+                            let t30 = table31.right(4);
+                            let t31 = v.widen(t30);
+                            let t32 = v.ints(1).choose(colour_b_29, v.ints(0));
+                            let t33 = t32.left(5);
+                            let t34 = v.widen(t33);
+                            (t21, t24, t26, t29, t31, t34)
+                        },
+                    );
+
+                    [[t21, t26, t31], [t24, t29, t34]]
+                }
+            }
+        };
+        #[cfg(not(any(not(debug_assertions), test)))]
         impl NativeOracle for __Scene {
-            #[inline(always)]
-            fn native<V: Vectors>(v: V, words: &[u64], ids: V::Longs) -> [[V::Longs; 3]; 2] {
-                let (t21, t24, t26, t29, t31, t34) = block(
-                    #[cfg_attr(not(debug_assertions), inline(always))]
-                    || {
-                        let t1 = ids;
-                        let t2 = v.narrow(t1);
-                        let t3 = v.ints(word(words, 0, 1, false) as i32);
-                        let t4 = v.table16(&[0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1], t2);
-                        let t5 = t4.xor(t3);
-                        let ray0_sample_u_3 = t5.has(1);
-                        let t7 = v.ints(1).choose(ray0_sample_u_3, v.ints(0));
-                        let table6 = v.marks(2, t7);
-                        let t9 = v.ints(1).choose(table6, v.ints(0));
-                        let ray1_origin_x_33 = t9.has(1);
-                        let load25 = v.ints(word(words, 5, 3, true) as i32);
-                        let t12 = v.ints(1).choose(ray1_origin_x_33, v.ints(0));
-                        let t13 = t12.left(1);
-                        let add26 = load25.add(t13);
-                        let t15 = add26.less(v.ints(0));
-                        let t16 = t15.not();
-                        let select28 = v.ints(1).choose(t16, v.ints(2));
-                        let colour_b_29 = v.marks(2, select28);
-                        let table31 = v.table16(&N31, select28);
-                        let t20 = table31.right(4);
-                        let t21 = v.widen(t20);
-                        let t22 = v.ints(1).choose(colour_b_29, v.ints(0));
-                        let t23 = t22.left(5);
-                        let t24 = v.widen(t23);
-                        let t25 = table31.right(4);
-                        let t26 = v.widen(t25);
-                        let t27 = v.ints(1).choose(colour_b_29, v.ints(0));
-                        let t28 = t27.left(5);
-                        let t29 = v.widen(t28);
-                        let t30 = table31.right(4);
-                        let t31 = v.widen(t30);
-                        let t32 = v.ints(1).choose(colour_b_29, v.ints(0));
-                        let t33 = t32.left(5);
-                        let t34 = v.widen(t33);
-                        (t21, t24, t26, t29, t31, t34)
-                    },
-                );
-
-                [[t21, t26, t31], [t24, t29, t34]]
+            const WRITTEN: bool = false;
+            fn native<V: Vectors>(_: V, _: &[u64], _: V::Longs) -> [[V::Longs; 3]; 2] {
+                ::core::unreachable!("no native code without optimisation")
             }
         }
     };

@@ -34,6 +34,11 @@ use std::marker::PhantomData;
     note = "`qrt!` writes code for circuits of at most 20,000 operations"
 )]
 pub trait NativeOracle: CompiledOracle {
+    /// Whether the code is there. `qrt!` writes it where it is optimised, and for tests: in other
+    /// builds with `debug_assertions` it would take longer to compile than the rest of the program, and
+    /// run no sooner than the fixed machine, which takes its place.
+    const WRITTEN: bool = true;
+
     /// Computes the paths with these indices in a pixel that has these classical parameters: by
     /// channel, how many thresholds their colours exceed, before that is cut to `2^c`, and the
     /// colours.

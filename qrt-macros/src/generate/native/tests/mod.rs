@@ -68,8 +68,7 @@ fn check(mut maker: Maker, id: u32) {
     let any: [RegisterId; 3] = std::array::from_fn(|_| last(dice.below(registers)));
     let read = [last(0), last(1), last(2), any[0], any[1], any[2]];
     let oracle = oracle(&maker.program, id, read);
-    let mut text = String::new();
-    write(&mut text, &oracle, &Names::new(&oracle));
+    let text = code(&oracle, &Names::new(&oracle));
     let code = syn::parse_str(&text).unwrap_or_else(|error| panic!("{error}:\n{text}"));
     for path in contents_of(dice, id, 12) {
         let bits = 64 - dice.below(64);

@@ -1,0 +1,142 @@
+//! What operations cost and how many qubits they take, found once for all that are alike.
+
+use super::super::{Op, Program, RegisterId};
+use super::cost::{Cost, counted};
+use super::place::canonical;
+use std::collections::HashMap;
+use std::hash::{BuildHasherDefault, Hasher};
+
+/// What the lowering of an operation tells.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Figures {
+    /// What the operation costs, and its inverse: [`super::costs`].
+    pub costs: [Cost; 2],
+    /// The width in qubits of its garbage register: [`super::scratch_width`].
+    pub scratch: u32,
+    /// The most qubits that it borrows at a time, beside its registers, and returns.
+    pub borrowed: u32,
+}
+
+/// The figures of operations, each found once: those of an operation follow from what it does, the
+/// widths of its registers and which of these are one, not from their numbers.
+///
+/// ```
+/// use qrt_circuit::lower::{KnownFigures, costs};
+/// use qrt_circuit::{Op, Operand, RegisterId, Word};
+///
+/// let read = |id| Operand::Word(Word::unsigned(RegisterId(id), 0, 8));
+/// let sum = |a, b, target| Op::Add {
+///     a: read(a), b: read(b), subtract: false, target: RegisterId(target),
+/// };
+/// let mut known = KnownFigures::default();
+/// let figures = known.of(&sum(0, 1, 2), |_| 8);
+/// assert_eq!(figures.costs, costs(&sum(0, 1, 2), |_| 8));
+/// assert_eq!(known.of(&sum(5, 3, 4), |_| 8), figures);
+/// assert_eq!(known.len(), 1);
+/// // A number added to itself is shifted, which takes no Toffoli.
+/// assert_eq!(known.of(&sum(5, 5, 4), |_| 8).costs[0].toffoli, 0);
+/// ```
+#[derive(Clone, Debug, Default)]
+pub struct KnownFigures {
+    found: HashMap<Shape, Figures, BuildHasherDefault<Quick>>,
+}
+
+/// An operation on registers that are numbered in the order in which it names them, and their
+/// widths.
+type Shape = (Op, Box<[u32]>);
+
+impl KnownFigures {
+    /// The figures of an operation, given the widths of its registers.
+    pub fn of(&mut self, op: &Op, width: impl Fn(RegisterId) -> u32) -> Figures {
+        let (op, widths) = canonical(op, width);
+        let found = self.found.entry((op, widths.into()));
+        *found.or_insert_with_key(|(op, widths)| counted(op, widths))
+    }
+
+    /// How many operations there are that differ.
+    pub fn len(&self) -> usize {
+        self.found.len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.found.is_empty()
+    }
+
+    /// How many qubits a program has: the most in use at any time. As [`super::most_qubits`].
+    pub fn most_qubits(&mut self, program: &Program) -> u32 {
+        let mut held = vec![false; program.registers.len()];
+        let (mut in_use, mut most) = (0, 0);
+        for input in &program.inputs {
+            if !std::mem::replace(&mut held[input.index()], true) {
+                in_use += program.width(*input);
+            }
+        }
+        most = most.max(in_use);
+        for instruction in &program.instructions {
+            let op = &program.ops[instruction.op as usize];
+            let fresh = op.fresh();
+            for register in &fresh {
+                if !std::mem::replace(&mut held[register.index()], true) {
+                    in_use += program.width(*register);
+                }
+            }
+            let borrowed = self.of(op, |register| program.width(register)).borrowed;
+            most = most.max(in_use + borrowed);
+            if instruction.inverse {
+                for register in &fresh {
+                    if std::mem::replace(&mut held[register.index()], false) {
+                        in_use -= program.width(*register);
+                    }
+                }
+            }
+        }
+        most
+    }
+}
+
+/// A hash that takes one multiplication a word: of use where nobody chooses the keys to collide, and
+/// where nothing is optimised.
+#[doc(hidden)]
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Quick(u64);
+
+impl Quick {
+    fn word(&mut self, word: u64) {
+        self.0 = (self.0.rotate_left(5) ^ word).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    }
+}
+
+impl Hasher for Quick {
+    fn finish(&self) -> u64 {
+        // The map looks at the lowest bits and at the highest.
+        self.0 ^ (self.0 >> 32)
+    }
+    fn write(&mut self, bytes: &[u8]) {
+        let (words, rest) = bytes.as_chunks::<8>();
+        for word in words {
+            self.word(u64::from_le_bytes(*word));
+        }
+        for byte in rest {
+            self.word(u64::from(*byte));
+        }
+    }
+    fn write_u8(&mut self, value: u8) {
+        self.word(u64::from(value));
+    }
+    fn write_u32(&mut self, value: u32) {
+        self.word(u64::from(value));
+    }
+    fn write_u64(&mut self, value: u64) {
+        self.word(value);
+    }
+    fn write_i64(&mut self, value: i64) {
+        self.word(value.cast_unsigned());
+    }
+    fn write_usize(&mut self, value: usize) {
+        self.word(value as u64);
+    }
+    fn write_isize(&mut self, value: isize) {
+        self.word(value.cast_unsigned() as u64);
+    }
+}

@@ -1,0 +1,98 @@
+//! Everything that the prelude exports shows how it is used, in an example that `cargo test --doc`
+//! runs: beside its export, or in the documentation that it has itself.
+
+use std::path::Path;
+
+/// What `prelude.rs` exports together: its names, and the documentation.
+fn exports(prelude: &str) -> Vec<(Vec<String>, String)> {
+    let (mut docs, mut path, mut found) = (String::new(), String::new(), Vec::new());
+    for line in prelude.lines() {
+        if let Some(doc) = line.strip_prefix("///") {
+            docs.push_str(doc);
+            docs.push('\n');
+        } else if !line.starts_with("//!") {
+            path.push_str(line.trim());
+        }
+        let Some(whole) = path
+            .strip_prefix("pub use ")
+            .and_then(|path| path.strip_suffix(';'))
+        else {
+            continue;
+        };
+        let names = match whole.split_once('{') {
+            Some((_, names)) => names.trim_end_matches('}'),
+            None => whole.rsplit("::").next().unwrap(),
+        };
+        let names = names
+            .split(',')
+            .map(str::trim)
+            .filter(|name| !name.is_empty());
+        found.push((
+            names.map(str::to_owned).collect(),
+            std::mem::take(&mut docs),
+        ));
+        path.clear();
+    }
+    found
+}
+
+/// The code of all listings that are run.
+fn examples(docs: &str) -> String {
+    // `None` outside of a listing; whether it is run.
+    let (mut listing, mut code) = (None, String::new());
+    for line in docs.lines().map(str::trim) {
+        if let Some(language) = line.strip_prefix("```") {
+            listing = match listing {
+                None => Some(matches!(language, "" | "rust")),
+                Some(_) => None,
+            };
+        } else if listing == Some(true) {
+            code.push_str(line);
+            code.push('\n');
+        }
+    }
+    code
+}
+
+fn has_word(code: &str, word: &str) -> bool {
+    let inside = |c: char| c.is_alphanumeric() || c == '_';
+    code.split(|c| !inside(c)).any(|found| found == word)
+}
+
+#[test]
+fn all_that_the_prelude_exports_has_an_example() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let text = |file: &str| std::fs::read_to_string(root.join(file)).unwrap();
+    let exports = exports(&text("src/prelude.rs"));
+    let count: usize = exports.iter().map(|(names, _)| names.len()).sum();
+    assert!(count > 40, "{exports:?}");
+    // The macros' own documentation.
+    let macros = [
+        ("qrt", "src/scene_macro.md"),
+        ("reversible", "src/reversible.md"),
+    ];
+    let mut lacking = Vec::new();
+    for (names, docs) in &exports {
+        for name in names {
+            let own = macros.iter().find(|(known, _)| known == name);
+            let code = examples(&own.map_or_else(|| docs.clone(), |(_, file)| text(file)));
+            if !has_word(&code, name) {
+                lacking.push(name);
+            }
+        }
+    }
+    assert!(lacking.is_empty(), "no example that runs: {lacking:?}");
+}
+
+#[test]
+fn what_has_no_example_is_found() {
+    let prelude = "//! What it takes.\n\n/// ```\n/// b();\n/// ```\npub use a::b;\n\
+                   pub use a::c::{D, E,\n    f};\n";
+    let found = exports(prelude);
+    assert_eq!(found[0].0, ["b"]);
+    assert!(has_word(&examples(&found[0].1), "b"));
+    assert_eq!(found[1].0, ["D", "E", "f"]);
+    assert_eq!(examples(&found[1].1), "");
+    assert_eq!(examples("```text\nnothing\n```\n```\na()\n```\n"), "a()\n");
+    assert!(!has_word("about()", "b"));
+}
