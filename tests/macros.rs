@@ -8,4 +8,5 @@ mod macros {
     mod macro_scene;
     mod predicates;
     mod reversible;
+    mod textbook;
 }

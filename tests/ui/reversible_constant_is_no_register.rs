@@ -2,7 +2,7 @@ use qrt::prelude::*;
 
 #[reversible]
 fn width<const W: u32>(out: &mut UInt<W>) {
-    out += W;
+    W += out;
 }
 
 fn main() {}

@@ -1,9 +1,7 @@
 use qrt::prelude::*;
 
-const WIDTH: u32 = 4;
-
 #[reversible]
-fn count(a: &mut UInt<WIDTH>) {
+fn count(a: &mut UInt<width>) {
     a += 1;
 }
 

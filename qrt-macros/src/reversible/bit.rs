@@ -1,12 +1,11 @@
 //! Expressions that are true or false.
 
 use super::dim::Linear;
-use super::ir::{Bit, Kind, Number, NumberKind, Place, Size};
+use super::ir::{Bit, Kind, Number, NumberKind, Place, Register};
 use super::scope::Scope;
-use proc_macro2::TokenStream;
 use qrt_core::syntax::codes;
 use std::rc::Rc;
-use syn::{BinOp, Expr, Ident, Lit, UnOp};
+use syn::{BinOp, Expr, Lit, UnOp};
 
 impl Scope {
     /// Whether an expression is true or false, by its form, and not a number.
@@ -16,10 +15,17 @@ impl Scope {
             Expr::Group(inner) => self.is_bit(&inner.expr),
             Expr::Lit(literal) => matches!(literal.lit, Lit::Bool(_)),
             Expr::Unary(unary) => matches!(unary.op, UnOp::Not(_)),
-            Expr::Index(index) => !matches!(*index.index, Expr::Range(_)),
+            Expr::Index(index) => match &*index.expr {
+                Expr::Path(path) if self.array(path).is_some() => {
+                    self.array(path) == Some(Kind::Bool)
+                }
+                _ => !matches!(*index.index, Expr::Range(_)),
+            },
             Expr::Path(path) => path.path.get_ident().is_some_and(|name| {
                 let mut known = self.registers.iter();
-                known.any(|known| known.name == *name && known.format.kind == Kind::Bool)
+                let is_bit =
+                    |known: &Register| known.format.kind == Kind::Bool && !known.is_array();
+                known.any(|known| known.name == *name && is_bit(known))
             }),
             Expr::Binary(binary) => match binary.op {
                 BinOp::Eq(_)
@@ -37,6 +43,14 @@ impl Scope {
             },
             _ => false,
         }
+    }
+
+    /// What the registers of an array are.
+    fn array(&self, path: &syn::ExprPath) -> Option<Kind> {
+        let name = path.path.get_ident()?;
+        let mut known = self.registers.iter();
+        let array = known.find(|known| known.name == *name && known.is_array())?;
+        Some(array.format.kind)
     }
 
     /// Understands an expression that must be true or false.
@@ -112,23 +126,8 @@ impl Scope {
         Some((Box::new(a?), Box::new(b?)))
     }
 
-    /// One side of a comparison: a number, or a constant that the routine is generic over.
-    fn side(&mut self, expression: &Expr) -> Option<Number> {
-        match expression {
-            Expr::Paren(inner) => self.side(&inner.expr),
-            Expr::Group(inner) => self.side(&inner.expr),
-            Expr::Path(path) => match path.path.get_ident() {
-                Some(name) if self.constants.contains(name) => {
-                    Some(given(name, quote::quote!(#expression)))
-                }
-                _ => self.number(expression),
-            },
-            _ => self.number(expression),
-        }
-    }
-
     fn compared(&mut self, binary: &syn::ExprBinary) -> Option<(Box<Number>, Box<Number>)> {
-        let (a, b) = (self.side(&binary.left), self.side(&binary.right));
+        let (a, b) = (self.number(&binary.left), self.number(&binary.right));
         let (a, b) = (a?, b?);
         let source = quote::quote!(#binary);
         // They meet at the fraction that their sum would have.
@@ -136,22 +135,6 @@ impl Scope {
         self.check_bits(&sum.width, &source)?;
         Some((Box::new(a), Box::new(b)))
     }
-}
-
-/// How many bits a constant has that a routine is generic over: those of a `u32`.
-const GIVEN: i64 = 32;
-
-/// A constant that the routine is generic over, as one side of a comparison.
-fn given(name: &Ident, source: TokenStream) -> Number {
-    let size = Size {
-        width: GIVEN.into(),
-        signed: false,
-        fraction: 0.into(),
-        fixed: false,
-        floors: false,
-    };
-    let kind = NumberKind::Given(name.clone());
-    Number { kind, size, source }
 }
 
 pub(super) fn not(bit: Bit) -> Bit {
@@ -163,6 +146,10 @@ pub(super) fn not(bit: Bit) -> Bit {
 }
 
 impl Bit {
+    pub(super) fn is_negated(&self) -> bool {
+        matches!(self, Self::Not(_))
+    }
+
     /// Calls `visit` with every place that it reads.
     pub(super) fn reads(&self, visit: &mut impl FnMut(Place)) {
         match self {

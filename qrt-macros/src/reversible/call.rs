@@ -6,7 +6,7 @@ use proc_macro2::TokenStream;
 use qrt_core::syntax::codes;
 use quote::ToTokens;
 use std::rc::Rc;
-use syn::{Expr, ExprCall, Ident};
+use syn::{Expr, ExprCall, Ident, Path};
 
 impl Scope {
     pub(super) fn call(&mut self, call: &ExprCall, source: TokenStream) -> Option<Statement> {
@@ -17,17 +17,15 @@ impl Scope {
                 .add(codes::REV_CALL, &call.func, message, help);
             return None;
         };
-        let path = &function.path;
-        if path.is_ident("swap") {
+        if function.path.is_ident("swap") {
             return self.swap(call, source);
         }
-        if path.get_ident().is_some_and(|name| {
-            let name = name.to_string();
-            self.routine == name.strip_suffix("_inverse").unwrap_or(&name)
-        }) {
+        let (path, inverse) = forward(&function.path);
+        if self.is_routine(&path) {
             let message = "a reversible function cannot call itself";
             let help = "write `for` over constants";
-            self.problems.add(codes::REV_CALL, path, message, help);
+            self.problems
+                .add(codes::REV_CALL, &function.path, message, help);
             return None;
         }
         let mut arguments: Vec<(Rc<Register>, bool, Ident)> = Vec::new();
@@ -51,11 +49,18 @@ impl Scope {
             }
         }
         let kind = K::Call {
-            path: path.clone(),
-            inverse: false,
+            path,
+            inverse,
             arguments,
         };
         complete.then_some(Statement { kind, source })
+    }
+
+    /// Whether a path names the function that is read here.
+    fn is_routine(&self, path: &Path) -> bool {
+        let names: Vec<String> = path.segments.iter().map(|s| s.ident.to_string()).collect();
+        let routine = self.routine.to_string();
+        names == [routine.as_str()] || names == ["Self", routine.as_str()]
     }
 
     /// A register, whether it may be changed, and its name.
@@ -77,16 +82,24 @@ impl Scope {
         };
         let name = match &*reference.expr {
             Expr::Path(path) => path.path.get_ident().cloned(),
+            Expr::Index(index) => match &*index.expr {
+                Expr::Path(path) => path.path.get_ident().cloned(),
+                _ => None,
+            },
             _ => None,
         };
-        let Some(name) = name else {
+        let place = match &*reference.expr {
+            _ if name.is_none() => None,
+            whole @ Expr::Path(_) => Some(self.any_place(whole)?),
+            element => Some(self.place(element)?),
+        };
+        let (Some(name), Some(place @ Place { part: None, .. })) = (name, place) else {
             let message = "an argument is a whole register";
             let help = "compute it into a scratch register in `within!`, and call in `apply!`";
             self.problems
                 .add(codes::REV_ARGUMENT, &reference.expr, message, help);
             return None;
         };
-        let place = self.place(&reference.expr)?;
         let change = reference.mutability.is_some();
         if change {
             self.may_change(&place, argument);
@@ -102,9 +115,9 @@ impl Scope {
         place: impl ToTokens,
     ) {
         let mut earlier = earlier.iter();
-        if earlier.any(|(other, changed, _)| other.name == register.name && (change || *changed)) {
-            let name = &register.name;
-            let message = format!("`{name}` is handed over twice, and may be changed");
+        let twice = |other: &Register| !other.is_apart(register, &self.loops);
+        if earlier.any(|(other, changed, _)| (change || *changed) && twice(other)) {
+            let message = format!("`{register}` is handed over twice, and may be changed");
             let help = "hand over another register, such as a copy in a scratch register";
             self.problems
                 .add(codes::REV_CHANGE_TWICE, place, &message, help);
@@ -134,8 +147,8 @@ impl Scope {
             places.push(place.register);
         }
         let [first, second] = [places[0].clone(), places[1].clone()];
-        if first.name == second.name {
-            let message = format!("`{}` is swapped with itself", first.name);
+        if !first.is_apart(&second, &self.loops) {
+            let message = format!("`{first}` is swapped with itself");
             let help = "name another register, or remove the statement";
             self.problems
                 .add(codes::REV_CHANGE_TWICE, b, &message, help);
@@ -168,4 +181,21 @@ impl Scope {
         let kind = K::Swap(first, second);
         Some(Statement { kind, source })
     }
+}
+
+/// The function that a path names, and whether it is called to be undone.
+fn forward(path: &Path) -> (Path, bool) {
+    let mut path = path.clone();
+    let Some(last) = path.segments.last_mut() else {
+        return (path, false);
+    };
+    let name = last.ident.to_string();
+    let Some(forward) = name
+        .strip_suffix("_inverse")
+        .filter(|name| !name.is_empty())
+    else {
+        return (path, false);
+    };
+    last.ident = Ident::new(forward, last.ident.span());
+    (path, true)
 }

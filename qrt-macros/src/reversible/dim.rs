@@ -7,11 +7,26 @@ use std::collections::BTreeMap;
 use syn::Ident;
 
 /// `constant + sum of factor * name`. Names stand for numbers that are not negative.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Linear {
     pub(super) constant: i64,
-    terms: BTreeMap<Ident, i64>,
+    terms: BTreeMap<String, Term>,
 }
+
+/// What a name is multiplied by, and how the generated code writes it.
+#[derive(Clone, Debug)]
+struct Term {
+    factor: i64,
+    tokens: TokenStream,
+}
+
+impl PartialEq for Linear {
+    fn eq(&self, other: &Self) -> bool {
+        self.minus(other).is_zero()
+    }
+}
+
+impl Eq for Linear {}
 
 impl From<i64> for Linear {
     fn from(constant: i64) -> Self {
@@ -23,32 +38,41 @@ impl From<i64> for Linear {
 }
 
 impl Linear {
+    /// A constant of the function's generics, or a loop's variable.
     pub(super) fn name(name: &Ident) -> Self {
+        Self::named(name.to_string(), quote!(#name))
+    }
+
+    /// What is called so in messages, and is a `u32` of the generated code.
+    pub(super) fn named(text: String, tokens: TokenStream) -> Self {
+        let factor = 1;
         Self {
             constant: 0,
-            terms: [(name.clone(), 1)].into(),
+            terms: [(text, Term { factor, tokens })].into(),
         }
     }
 
     pub(super) fn plus(&self, other: &Self) -> Self {
         let mut sum = self.clone();
         sum.constant = sum.constant.saturating_add(other.constant);
-        for (name, factor) in &other.terms {
-            let own = sum.terms.entry(name.clone()).or_default();
-            *own = own.saturating_add(*factor);
+        for (name, term) in &other.terms {
+            match sum.terms.get_mut(name) {
+                Some(own) => own.factor = own.factor.saturating_add(term.factor),
+                None => drop(sum.terms.insert(name.clone(), term.clone())),
+            }
         }
-        sum.terms.retain(|_, factor| *factor != 0);
+        sum.terms.retain(|_, term| term.factor != 0);
         sum
     }
 
     pub(super) fn times(&self, factor: i64) -> Self {
-        let terms = self.terms.iter().filter(|_| factor != 0);
-        Self {
-            constant: self.constant.saturating_mul(factor),
-            terms: terms
-                .map(|(name, own)| (name.clone(), own.saturating_mul(factor)))
-                .collect(),
+        let mut product = self.clone();
+        product.constant = product.constant.saturating_mul(factor);
+        for term in product.terms.values_mut() {
+            term.factor = term.factor.saturating_mul(factor);
         }
+        product.terms.retain(|_, term| term.factor != 0);
+        product
     }
 
     pub(super) fn minus(&self, other: &Self) -> Self {
@@ -62,7 +86,7 @@ impl Linear {
 
     /// Whether it is known not to be negative, whatever the names stand for.
     pub(super) fn never_negative(&self) -> bool {
-        self.constant >= 0 && self.terms.values().all(|factor| *factor >= 0)
+        self.constant >= 0 && self.terms.values().all(|term| term.factor >= 0)
     }
 
     pub(super) fn is_zero(&self) -> bool {
@@ -70,41 +94,44 @@ impl Linear {
     }
 
     pub(super) fn factor(&self, name: &Ident) -> i64 {
-        self.terms.get(name).copied().unwrap_or(0)
+        self.terms
+            .get(&name.to_string())
+            .map_or(0, |term| term.factor)
     }
 
     /// The same sum with `value` in place of `name`.
     pub(super) fn with(&self, name: &Ident, value: &Self) -> Self {
         let factor = self.factor(name);
         let mut rest = self.clone();
-        rest.terms.remove(name);
+        rest.terms.remove(&name.to_string());
         rest.plus(&value.times(factor))
     }
 
     /// Its parts that are added and those that are subtracted.
     fn sides(&self) -> [Self; 2] {
-        let side = |sign: i64| Self {
-            constant: (self.constant * sign).max(0),
-            terms: self
-                .terms
-                .iter()
-                .filter(|(_, factor)| **factor * sign > 0)
-                .map(|(name, factor)| (name.clone(), factor * sign))
-                .collect(),
-        };
-        [side(1), side(-1)]
+        [1, -1].map(|sign| {
+            let mut side = self.times(sign);
+            side.constant = side.constant.max(0);
+            side.terms.retain(|_, term| term.factor > 0);
+            side
+        })
     }
 
     /// As a `u32` of the generated code.
     pub(super) fn tokens(&self) -> TokenStream {
         let [plus, minus] = self.sides();
-        let mut all = plus.sum();
-        if minus != Self::from(0) {
-            for part in minus.parts() {
-                all = quote!(#all - #part);
-            }
+        let plus = plus.sum();
+        let minus = minus.parts();
+        quote!(#plus #(- #minus)*)
+    }
+
+    /// The same, so that an operator may follow.
+    pub(super) fn grouped(&self) -> TokenStream {
+        let tokens = self.tokens();
+        if tokens.clone().into_iter().count() == 1 {
+            return tokens;
         }
-        all
+        quote!((#tokens))
     }
 
     /// That it is not negative, as a condition of the generated code without a negative number.
@@ -119,17 +146,16 @@ impl Linear {
         let Some((first, rest)) = parts.split_first() else {
             return quote!(0);
         };
-        rest.iter()
-            .fold(first.clone(), |sum, part| quote!(#sum + #part))
+        quote!(#first #(+ #rest)*)
     }
 
     fn parts(&self) -> Vec<TokenStream> {
-        let terms = self.terms.iter().map(|(name, factor)| {
+        let terms = self.terms.values().map(|Term { factor, tokens }| {
             if *factor == 1 {
-                return quote!(#name);
+                return tokens.clone();
             }
             let factor = Literal::i64_unsuffixed(*factor);
-            quote!(#factor * #name)
+            quote!(#factor * #tokens)
         });
         let mut parts: Vec<TokenStream> = terms.collect();
         if self.constant != 0 {
@@ -142,8 +168,55 @@ impl Linear {
 
 impl std::fmt::Display for Linear {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(&self.tokens().to_string())
+        let mut parts: Vec<(bool, String)> = Vec::new();
+        for (name, Term { factor, .. }) in &self.terms {
+            let shown = match factor.unsigned_abs() {
+                1 => name.clone(),
+                factor => format!("{factor} * {name}"),
+            };
+            parts.push((*factor < 0, shown));
+        }
+        if self.constant != 0 || parts.is_empty() {
+            parts.push((self.constant < 0, self.constant.unsigned_abs().to_string()));
+        }
+        // What is added comes first.
+        parts.sort_by_key(|(subtracted, _)| *subtracted);
+        for (place, (subtracted, part)) in parts.iter().enumerate() {
+            match (place, subtracted) {
+                (0, false) => f.write_str(part)?,
+                (0, true) => write!(f, "-{part}")?,
+                (_, false) => write!(f, " + {part}")?,
+                (_, true) => write!(f, " - {part}")?,
+            }
+        }
+        Ok(())
     }
+}
+
+/// A loop's variable, and from where to where it runs.
+pub(super) type Loop = (Ident, [Linear; 2]);
+
+/// The least that a number can be in these loops, the outer ones first.
+pub(super) fn least(number: &Linear, loops: &[Loop]) -> Linear {
+    let mut least = number.clone();
+    for (variable, [first, end]) in loops.iter().rev() {
+        let worst = if least.factor(variable) > 0 {
+            first.clone()
+        } else {
+            end.minus(&1.into())
+        };
+        least = least.with(variable, &worst);
+    }
+    least
+}
+
+/// Whether two runs of bits, each a first bit and a number of bits, have none in common for
+/// certain.
+pub(super) fn apart(a: &[Linear; 2], b: &[Linear; 2], loops: &[Loop]) -> bool {
+    let before = |[first, width]: &[Linear; 2], [other, _]: &[Linear; 2]| {
+        least(&other.minus(&first.plus(width)), loops).never_negative()
+    };
+    before(a, b) || before(b, a)
 }
 
 /// A number of bits: the greatest of some [`Linear`]s.

@@ -1,16 +1,20 @@
 //! The generated Rust: the function, its inverse, and the program that both are.
 
 use super::ir::{
-    Bit, NumberKind, Place, Register, Routine, Signature, Statement, StatementKind as K, Term,
-    Update, inverse,
+    Array, Bit, NumberKind, Place, Register, Routine, Signature, Statement, StatementKind as K,
+    Term, Update, inverse,
 };
 use super::value::{Temporaries, own};
-use proc_macro2::{Span, TokenStream, TokenTree};
+use proc_macro2::{Delimiter, Group, Span, TokenStream, TokenTree};
 use quote::{ToTokens, format_ident, quote, quote_spanned};
-use std::collections::BTreeSet;
+use std::rc::Rc;
 use syn::{Ident, Path, PathArguments};
 
 /// All Rust that a routine expands to.
+///
+/// The function itself holds both directions: within others it is called in either, by its own
+/// name. Its inverse and its program repeat one of them each, and name no other item: a macro does
+/// not see whether they stand in a module or in an `impl`.
 pub(super) fn routine(routine: &Routine) -> TokenStream {
     let demands = routine.demands.iter().map(|demand| {
         let (condition, message) = (&demand.condition, &demand.message);
@@ -18,32 +22,84 @@ pub(super) fn routine(routine: &Routine) -> TokenStream {
         quote_spanned!(span=> const { ::core::assert!(#condition, #message) };)
     });
     let demands: TokenStream = demands.collect();
-    let calls = calls(&routine.body);
-    let body = |statements: &[Statement], name: String| {
-        let mut emitter = Emitter::default();
-        let body = emitter.block(statements);
-        let used = used(&body);
-        let (constants, running) = (&routine.signature.constants, own("routine"));
-        let entered = calls.then(|| {
+    let frame = calls(&routine.body).then(|| frame(&routine.signature.name));
+    let directions = [routine.body.clone(), inverse(&routine.body)];
+    let body = |host: &TokenStream, code: &dyn Fn([TokenStream; 2]) -> TokenStream| {
+        let [forward, backward] = [0, 1].map(|way| {
+            let mut emitter = Emitter {
+                temporaries: 0,
+                host: host.clone(),
+            };
+            emitter.block(&directions[way])
+        });
+        let code = code([forward, backward]);
+        let used = uses(&code).then(|| {
+            quote!(
+                use ::qrt::circuit as __qrt;
+            )
+        });
+        let ends = frame.as_ref().map(|(frame, message)| {
             quote! {
-                let #running = ::qrt::circuit::Routine::enter(
-                    ::core::concat!(::core::module_path!(), "::", #name),
-                    [::core::line!(), ::core::column!()],
-                    &[#(#constants),*],
-                );
+                #frame
+                const {
+                    let running = <__Frame<#host> as __qrt::Frame>::RUNNING;
+                    ::core::assert!(!running.repeats(), #message);
+                }
             }
         });
-        quote!(#used #demands #entered #body)
+        quote!(#used #demands #ends #code)
     };
+    let kind = machine_name(&routine.signature.constants);
+    let kind = quote!(#kind);
+    let (host, machine) = (own("host"), own("machine"));
+    let both = body(&kind, &|[forward, backward]| {
+        quote! {
+            let #machine = #host.machine();
+            if #kind::UNDONE { #backward } else { #forward }
+        }
+    });
     let name = &routine.signature.name;
-    functions(
-        &routine.signature,
-        &body(&routine.body, name.to_string()),
-        &body(&inverse(&routine.body), format!("{name}_inverse")),
-    )
+    let renamed =
+        format!("QRT0812: `{name}_inverse` has another name here, by which it cannot be undone");
+    let backward = body(&kind, &|[_, backward]| {
+        quote! {
+            const { ::core::assert!(!#kind::UNDONE, #renamed) };
+            let #machine = #host.machine();
+            #backward
+        }
+    });
+    let forward = body(&quote!(::qrt::circuit::Recorder), &|[forward, _]| {
+        quote! {
+            use ::qrt::circuit::Machine as _;
+            let #machine = #host;
+            #forward
+        }
+    });
+    functions(&routine.signature, &both, &backward, &forward)
 }
 
-/// Whether a routine calls another, which may call it.
+/// The function as its callees know it, which are not to call it; and what is said if they do.
+fn frame(name: &Ident) -> (TokenStream, String) {
+    let text = name.to_string();
+    let message = format!(
+        "QRT0812: `{name}` calls itself, by way of what it calls, and would never end: write `for` \
+         over constants"
+    );
+    let frame = quote! {
+        #[allow(dead_code, reason = "it is a type, and never a value")]
+        struct __Frame<H>(::core::marker::PhantomData<H>);
+        impl<H: __qrt::Host> __qrt::Frame for __Frame<H> {
+            const RUNNING: &'static __qrt::Running = &__qrt::Running {
+                function: ::core::concat!(::core::module_path!(), "::", #text),
+                place: [::core::line!(), ::core::column!()],
+                from: H::RUNNING,
+            };
+        }
+    };
+    (frame, message)
+}
+
+/// Whether a routine calls another.
 fn calls(statements: &[Statement]) -> bool {
     statements.iter().any(|statement| match &statement.kind {
         K::Call { .. } => true,
@@ -53,10 +109,19 @@ fn calls(statements: &[Statement]) -> bool {
     })
 }
 
+/// Whether generated code names anything of the circuit's.
+fn uses(code: &TokenStream) -> bool {
+    code.clone().into_iter().any(|token| match token {
+        TokenTree::Ident(name) => name == "__qrt",
+        TokenTree::Group(group) => uses(&group.stream()),
+        TokenTree::Punct(_) | TokenTree::Literal(_) => false,
+    })
+}
+
 /// The functions of a routine that was not understood: whoever calls them sees no more errors.
 pub(super) fn unfinished(signature: &Signature) -> TokenStream {
-    let body = quote!(::core::unreachable!());
-    let functions = functions(signature, &body, &body);
+    let body = quote!(::core::unreachable!(););
+    let functions = functions(signature, &body, &body, &body);
     let allowed = quote!(#[allow(unused, clippy::all, clippy::pedantic)]);
     let items = syn::parse2::<syn::File>(functions.clone());
     items.map_or(functions, |file| {
@@ -65,7 +130,12 @@ pub(super) fn unfinished(signature: &Signature) -> TokenStream {
     })
 }
 
-fn functions(signature: &Signature, forward: &TokenStream, backward: &TokenStream) -> TokenStream {
+fn functions(
+    signature: &Signature,
+    both: &TokenStream,
+    backward: &TokenStream,
+    forward: &TokenStream,
+) -> TokenStream {
     let Signature {
         attributes,
         visibility,
@@ -81,16 +151,18 @@ fn functions(signature: &Signature, forward: &TokenStream, backward: &TokenStrea
         .filter(|attribute| !attribute.path().is_ident("doc"));
     let other: Vec<_> = other.collect();
     let kind = machine_name(constants);
-    let machine = own("machine");
-    let generics = quote!(<#(const #constants: u32,)* #kind: ::qrt::circuit::Machine>);
+    let (host, recorder) = (own("host"), own("recorder"));
+    let reference = |parameter: &Register| reference(parameter.mutable);
     let named = parameters.iter().map(|parameter| {
-        let Register { name, ty, .. } = &**parameter;
-        let reference = if parameter.mutable {
-            quote!(&mut)
-        } else {
-            quote!(&)
-        };
-        quote!(#name: #reference ::qrt::circuit::format::Reg<#kind::Register, #ty>)
+        let Register {
+            name, ty, array, ..
+        } = &**parameter;
+        let reference = reference(parameter);
+        let one = quote!(::qrt::circuit::format::Reg<#kind::Register, #ty>);
+        let written = array.iter().map(|array| &array.written);
+        let many = quote!(#([#one; #written])*);
+        let ty = if many.is_empty() { one } else { many };
+        quote!(#name: #reference #ty)
     });
     let named: Vec<TokenStream> = named.collect();
     // The machine is one argument more than the author has written.
@@ -99,38 +171,43 @@ fn functions(signature: &Signature, forward: &TokenStream, backward: &TokenStrea
     let program_doc =
         format!(" [`{name}`] as a program, whose inputs are its registers in their order.");
     let some = (!constants.is_empty()).then(|| quote!(<#(const #constants: u32),*>));
-    let given = (!constants.is_empty()).then(|| quote!(::<#(#constants,)* _>));
-    let recorder = own("recorder");
     let style = own("style");
     let inputs = parameters.iter().map(|parameter| {
-        let Register { name, ty, .. } = &**parameter;
-        let text = name.to_string();
-        let mutable = parameter.mutable.then(|| quote!(mut));
-        quote! {
-            let #mutable #name: Reg<_, #ty> = Reg::input(&mut #recorder, #text);
+        let Register {
+            name, ty, array, ..
+        } = &**parameter;
+        let (text, reference) = (name.to_string(), reference(parameter));
+        if let Some(Array { written, .. }) = array {
+            return quote! {
+                let #name: #reference [::qrt::circuit::format::Reg<_, #ty>; #written] = #reference
+                    ::core::array::from_fn(|_| {
+                        ::qrt::circuit::format::Reg::input(&mut #recorder, #text)
+                    });
+            };
         }
-    });
-    let handed = parameters.iter().map(|parameter| {
-        let name = &parameter.name;
-        let reference = if parameter.mutable {
-            quote!(&mut)
-        } else {
-            quote!(&)
-        };
-        quote!(#reference #name)
+        quote! {
+            let #name: #reference ::qrt::circuit::format::Reg<_, #ty> =
+                #reference ::qrt::circuit::format::Reg::input(&mut #recorder, #text);
+        }
     });
     quote! {
         #(#attributes)*
         #many
-        #visibility fn #name #generics (#machine: &mut #kind, #(#named),*) {
-            #forward
+        #visibility fn #name<#(const #constants: u32,)* #kind: ::qrt::circuit::Host>(
+            #host: &mut #kind,
+            #(#named),*
+        ) {
+            #both
         }
 
         #[doc = #inverse_doc]
         #(#other)*
         #many
         #[allow(dead_code, reason = "not every author needs it")]
-        #visibility fn #inverse_name #generics (#machine: &mut #kind, #(#named),*) {
+        #visibility fn #inverse_name<#(const #constants: u32,)* #kind: ::qrt::circuit::Host>(
+            #host: &mut #kind,
+            #(#named),*
+        ) {
             #backward
         }
 
@@ -141,10 +218,10 @@ fn functions(signature: &Signature, forward: &TokenStream, backward: &TokenStrea
         #visibility fn #program_name #some (
             #style: ::qrt::circuit::Style,
         ) -> ::qrt::circuit::Program {
-            use ::qrt::circuit::format::Reg;
             let mut #recorder = ::qrt::circuit::Recorder::new(#style);
             #(#inputs)*
-            #name #given (&mut #recorder, #(#handed),*);
+            let #host = &mut #recorder;
+            #forward
             #recorder.finish()
         }
     }
@@ -155,43 +232,6 @@ fn machine_name(constants: &[Ident]) -> Ident {
     let names = ["M", "Machine", "AnyMachine"].map(|name| format_ident!("{name}"));
     let free = names.into_iter().find(|name| !constants.contains(name));
     free.unwrap_or_else(|| format_ident!("TheMachine"))
-}
-
-/// Imports of what a body names.
-fn used(body: &TokenStream) -> TokenStream {
-    let mut seen = BTreeSet::new();
-    collect(body.clone(), &mut seen);
-    let all = [
-        "Bit",
-        "Declaration",
-        "Operand",
-        "Type",
-        "When",
-        "Word",
-        "controlled",
-        "unconditional",
-    ];
-    let names = all.iter().filter(|name| seen.contains(**name));
-    let names: Vec<Ident> = names.map(|name| format_ident!("{name}")).collect();
-    let circuit = (!names.is_empty()).then(|| quote!(use ::qrt::circuit::{#(#names),*};));
-    let reg = seen.contains("Reg").then(|| {
-        quote!(
-            use ::qrt::circuit::format::Reg;
-        )
-    });
-    quote!(#reg #circuit)
-}
-
-fn collect(tokens: TokenStream, seen: &mut BTreeSet<String>) {
-    for token in tokens {
-        match token {
-            TokenTree::Ident(name) => {
-                seen.insert(name.to_string());
-            }
-            TokenTree::Group(group) => collect(group.stream(), seen),
-            TokenTree::Punct(_) | TokenTree::Literal(_) => {}
-        }
-    }
 }
 
 /// The function that a call names, or its inverse, whose names differ by their ends.
@@ -210,9 +250,13 @@ pub(super) fn function(path: &Path, inverse: bool) -> Path {
     path
 }
 
-#[derive(Default)]
+/// As many registers are handed over by [`qrt_circuit::Caller::call`].
+const MOST_CHECKED: usize = 16;
+
 struct Emitter {
     temporaries: usize,
+    /// What the function runs on.
+    host: TokenStream,
 }
 
 impl Emitter {
@@ -231,7 +275,13 @@ impl Emitter {
                 terms.collect()
             }
             K::Swap(a, b) => {
-                let (a, b) = (&a.name, &b.name);
+                if a.name == b.name {
+                    let (both, names) = from_array(&a.name, &[a, b]);
+                    let (a, b) = (&names[0], &names[1]);
+                    let swap = quote!(#machine.swap(#a.register_mut(), #b.register_mut(), None););
+                    return quote!({ #both #swap });
+                }
+                let (a, b) = (a.tokens(), b.tokens());
                 quote!(#machine.swap(#a.register_mut(), #b.register_mut(), None);)
             }
             K::Call {
@@ -239,20 +289,38 @@ impl Emitter {
                 inverse,
                 arguments,
             } => {
-                let mut function = function(path, *inverse);
+                let mut function = path.clone();
                 if let Some(last) = function.segments.last_mut()
                     && let PathArguments::AngleBracketed(given) = &mut last.arguments
                 {
                     given.args.push(syn::parse_quote!(_));
                 }
-                let arguments = arguments.iter().map(|(register, change, name)| {
-                    match (register.parameter, *change) {
-                        (true, _) => quote!(#name),
-                        (false, true) => quote!(&mut #name),
-                        (false, false) => quote!(&#name),
+                let register_count = arguments.len();
+                let (taken, arguments) = handed(arguments);
+                let host = &self.host;
+                // Errors about them underline the function.
+                let mut arguments = Group::new(Delimiter::Parenthesis, quote!(#(#arguments,)*));
+                let name = function.segments.last().map(|last| last.ident.span());
+                arguments.set_span(name.unwrap_or_else(Span::call_site));
+                // A call of more registers is checked by the compiler alone.
+                let call = if register_count > MOST_CHECKED {
+                    let arguments = arguments.stream();
+                    quote! {
+                        #function(
+                            &mut __qrt::Caller::<_, __Frame<#host>, #inverse>::new(#machine),
+                            #arguments
+                        );
                     }
-                });
-                quote!(#function(#machine, #(#arguments),*);)
+                } else {
+                    quote! {
+                        __qrt::Caller::<_, __Frame<#host>, #inverse>::new(#machine)
+                            .call(#function, #arguments);
+                    }
+                };
+                if taken.is_empty() {
+                    return call;
+                }
+                quote!({ #taken #call })
             }
             K::If(condition, holds, fails) => self.branch(condition, holds, fails),
             K::For {
@@ -275,17 +343,30 @@ impl Emitter {
                 let apply = self.block(apply);
                 let undo = self.block(&inverse(within));
                 quote! {
-                    unconditional(#machine, |#machine| { #compute });
+                    __qrt::unconditional(#machine, |#machine| { #compute });
                     #apply
-                    unconditional(#machine, |#machine| { #undo });
+                    __qrt::unconditional(#machine, |#machine| { #undo });
                 }
             }
             K::Scratch(register, body) => {
-                let Register { name, ty, .. } = &**register;
+                let Register {
+                    name, ty, array, ..
+                } = &**register;
                 let text = name.to_string();
                 let body = self.block(body);
+                if let Some(Array { written, .. }) = array {
+                    return quote! {
+                        let mut #name: [__qrt::format::Reg<_, #ty>; #written] =
+                            ::core::array::from_fn(|_| __qrt::format::Reg::zero(#machine, #text));
+                        #body
+                        for register in #name {
+                            register.free(#machine);
+                        }
+                    };
+                }
                 quote! {
-                    let mut #name: Reg<_, #ty> = Reg::zero(#machine, #text);
+                    let mut #name: __qrt::format::Reg<_, #ty> =
+                        __qrt::format::Reg::zero(#machine, #text);
                     #body
                     #name.free(#machine);
                 }
@@ -309,7 +390,7 @@ impl Emitter {
 
     fn update(&mut self, place: &Place, update: Update, term: &Term) -> TokenStream {
         let machine = own("machine");
-        let target = &place.register.name;
+        let target = place.register.tokens();
         let target = quote!(#target.register_mut());
         let first = place
             .part
@@ -325,12 +406,12 @@ impl Emitter {
                 temporaries.operand_at(&one, &first)
             }
             Term::Bit(Bit::Constant(false), _) => return TokenStream::new(),
-            // A Toffoli, with nothing computed before.
-            Term::Bit(Bit::And(a, b), source) if matches!(**a, Bit::At(..)) => {
-                let control = temporaries.bit(b);
+            // One Toffoli: of the two bits, one is read and one controls.
+            Term::Bit(Bit::And(a, b), _) if !(a.is_negated() && b.is_negated()) => {
+                let (read, control) = if a.is_negated() { (b, a) } else { (a, b) };
+                let control = temporaries.bit(control);
                 when = quote!(Some(#control));
-                let a = super::number::truth((**a).clone(), source.clone());
-                temporaries.operand_at(&a, &first)
+                temporaries.bit_operand(read, &first)
             }
             Term::Bit(bit, source) => {
                 let number = self::number(bit, source);
@@ -349,7 +430,7 @@ impl Emitter {
             Update::Xor => quote!(#machine.xor_into(#target, #operand, #when);),
             Update::Add | Update::Subtract => {
                 let subtract = update == Update::Subtract;
-                quote!(#machine.add_into(#target, #operand, #subtract, When::Always);)
+                quote!(#machine.add_into(#target, #operand, #subtract, __qrt::When::Always);)
             }
         };
         self.finish(&temporaries, &used)
@@ -366,7 +447,7 @@ impl Emitter {
         let mut part = |statements: &[Statement], bit: TokenStream| {
             (!statements.is_empty()).then(|| {
                 let body = self.block(statements);
-                quote!(controlled(#machine, #bit, |#machine| { #body });)
+                quote!(__qrt::controlled(#machine, #bit, |#machine| { #body });)
             })
         };
         let then = part(holds, bit.clone());
@@ -374,6 +455,65 @@ impl Emitter {
         let (computed, undone) = (&temporaries.computed, temporaries.undone());
         quote!(#(#computed)* #then #other #undone)
     }
+}
+
+fn reference(mutable: bool) -> TokenStream {
+    if mutable { quote!(&mut) } else { quote!(&) }
+}
+
+/// Borrows registers of one array, all at once; and what they are called then.
+fn from_array(array: &Ident, registers: &[&Register]) -> (TokenStream, Vec<Ident>) {
+    let names: Vec<Ident> = (0..registers.len())
+        .map(|place| own(&format!("{array}{place}")))
+        .collect();
+    let places = registers.iter().filter_map(|register| {
+        let place = register.element.as_ref()?.grouped();
+        Some(quote!(#place as ::core::primitive::usize))
+    });
+    let message = format!("two of these registers of `{array}` are one [QRT0831]");
+    let taken = quote! {
+        let [#(#names),*] = #array.get_disjoint_mut([#(#places),*]).expect(#message);
+    };
+    (taken, names)
+}
+
+/// The arguments of a call, and what must be taken out of arrays before.
+fn handed(arguments: &[(Rc<Register>, bool, Ident)]) -> (TokenStream, Vec<TokenStream>) {
+    let mut taken = TokenStream::new();
+    let mut borrowed: Vec<(&Register, Ident)> = Vec::new();
+    for (register, ..) in arguments {
+        let known = |(other, _): &(&Register, Ident)| other.name == register.name;
+        if register.element.is_none() || borrowed.iter().any(known) {
+            continue;
+        }
+        let mut same: Vec<(&Register, bool)> = Vec::new();
+        for (other, change, _) in arguments.iter().filter(|(r, ..)| r.name == register.name) {
+            if same.iter().all(|(known, _)| known.element != other.element) {
+                same.push((other, *change));
+            }
+        }
+        // Registers that are only read are borrowed one by one.
+        if same.len() > 1 && same.iter().any(|(_, change)| *change) {
+            let registers: Vec<&Register> = same.iter().map(|(register, _)| *register).collect();
+            let (all, names) = from_array(&register.name, &registers);
+            taken.extend(all);
+            borrowed.extend(registers.into_iter().zip(names));
+        }
+    }
+    let arguments = arguments.iter().map(|(register, change, name)| {
+        let same = |(other, _): &&(&Register, Ident)| {
+            other.name == register.name && other.element == register.element
+        };
+        let reference = reference(*change);
+        if let Some((_, name)) = borrowed.iter().find(same) {
+            return quote!(#reference *#name);
+        }
+        let place = register.tokens_at(name);
+        // A parameter is a reference itself.
+        let through = (register.parameter && register.element.is_none()).then(|| quote!(*));
+        quote!(#reference #through #place)
+    });
+    (taken, arguments.collect())
 }
 
 fn number(bit: &Bit, source: &TokenStream) -> super::ir::Number {

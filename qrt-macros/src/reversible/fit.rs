@@ -16,6 +16,7 @@
 
 use super::dim::{Dim, Linear};
 use super::ir::{Bit, Kind, Number, NumberKind, Place, Size, Term, Update};
+use super::number::GIVEN;
 use super::scope::{Scope, begin, text, type_text};
 use qrt_core::syntax::codes;
 use quote::{ToTokens, quote};
@@ -61,7 +62,7 @@ impl Scope {
                 }
             };
             if alias {
-                let name = &target.register.name;
+                let name = &target.register;
                 let message = format!("`{name}` is read by the statement that changes it");
                 let help = "copy what is read into a scratch register in `within!`, and use that";
                 self.problems.add(codes::REV_ALIAS, source, &message, help);
@@ -111,6 +112,7 @@ impl Scope {
         terms: &mut Vec<(Update, Term)>,
     ) -> Option<()> {
         match expression {
+            _ if self.given(expression).is_some() => {}
             Expr::Paren(inner) => {
                 return self.number_terms(update, target, &inner.expr, asked, terms);
             }
@@ -173,7 +175,7 @@ impl Scope {
         };
         let name = match &target.part {
             None => format!("`{}`", type_text(&target.register.ty)),
-            Some([_, bits]) => format!("{bits} bits of `{}`", target.register.name),
+            Some([_, bits]) => format!("{bits} bits of `{}`", target.register),
         };
         let Number { size, source, kind } = &number;
         let shown = text(source);
@@ -235,6 +237,24 @@ impl Scope {
     ) -> Option<()> {
         let shown = text(&number.source);
         let sign = i64::from(signed && !number.size.signed);
+        if let NumberKind::Given(value) = &number.kind {
+            let greatest = self.greatest(value);
+            if greatest.known().is_none() {
+                let room = width.minus(&(sign - GIVEN).into());
+                let room = aligned
+                    .parts()
+                    .iter()
+                    .fold(room, |room, part| room.minus(part));
+                let room = self.least(&room);
+                let message = format!("QRT0806: `{shown}` is too large a constant for its target");
+                if self.holds(&room, &message) {
+                    let (greatest, room) = (greatest.grouped(), room.grouped());
+                    let fits = quote!(#greatest as ::core::primitive::u64 >> #room == 0);
+                    self.demand(fits, &message);
+                    return Some(());
+                }
+            }
+        }
         for part in aligned.parts() {
             let room = width.minus(part).minus(&sign.into());
             let message = format!("QRT0806: `{shown}` has more bits than its target");
@@ -268,11 +288,6 @@ impl Scope {
         self.problems
             .add(codes::REV_WIDTH, &number.source, &message, help);
         None
-    }
-
-    /// The most that a number can be in the loops around.
-    fn greatest(&self, number: &Linear) -> Linear {
-        self.least(&number.times(-1)).times(-1)
     }
 }
 

@@ -1,7 +1,10 @@
 //! A routine that has been understood: names are resolved, widths are known.
 
-use super::dim::{Dim, Linear};
+use super::dim::{self, Dim, Linear, Loop};
+use super::scope::{text, type_text};
 use proc_macro2::{Span, TokenStream};
+use quote::quote;
+use std::fmt;
 use std::rc::Rc;
 use syn::{Ident, Path, Type};
 
@@ -22,9 +25,11 @@ pub(super) struct Signature {
     pub(super) parameters: Vec<Rc<Register>>,
     /// Names of parameters that are not registers.
     pub(super) unusable: Vec<Ident>,
+    pub(super) demands: Vec<Demand>,
 }
 
-/// What must hold of the constants that a routine is generic over.
+/// What must hold of the constants that a routine is generic over, or that its module has.
+#[derive(Clone)]
 pub(super) struct Demand {
     pub(super) condition: TokenStream,
     pub(super) message: String,
@@ -32,14 +37,74 @@ pub(super) struct Demand {
     pub(super) span: Span,
 }
 
-/// A register, as it is declared.
+/// A register, as it is declared; one of an array's, or all of them.
+#[derive(Clone)]
 pub(super) struct Register {
     pub(super) name: Ident,
+    /// The type of one register.
     pub(super) ty: Type,
+    /// How many registers an array has.
+    pub(super) array: Option<Array>,
+    /// Which of the array's registers is meant.
+    pub(super) element: Option<Linear>,
     pub(super) format: Format,
     /// Whether it is a parameter, which is a reference, and no scratch register, which is a value.
     pub(super) parameter: bool,
     pub(super) mutable: bool,
+}
+
+/// How many registers an array has, and how that is written.
+#[derive(Clone)]
+pub(super) struct Array {
+    pub(super) length: Linear,
+    pub(super) written: TokenStream,
+}
+
+impl Register {
+    /// Whether this is all of an array's registers.
+    pub(super) fn is_array(&self) -> bool {
+        self.array.is_some() && self.element.is_none()
+    }
+
+    /// Whether the two are different registers for certain, in these loops.
+    pub(super) fn is_apart(&self, other: &Self, loops: &[Loop]) -> bool {
+        if self.name != other.name {
+            return true;
+        }
+        let one = |element: &Linear| [element.clone(), 1.into()];
+        let elements = self.element.as_ref().zip(other.element.as_ref());
+        elements.is_some_and(|(a, b)| dim::apart(&one(a), &one(b), loops))
+    }
+
+    /// The type that its declaration gives.
+    pub(super) fn type_text(&self) -> String {
+        let ty = type_text(&self.ty);
+        match &self.array {
+            Some(array) => format!("[{ty}; {}]", text(&array.written)),
+            None => ty,
+        }
+    }
+
+    /// The register in the generated code.
+    pub(super) fn tokens(&self) -> TokenStream {
+        self.tokens_at(&self.name)
+    }
+
+    /// The same, by its name as it stands somewhere.
+    pub(super) fn tokens_at(&self, name: &Ident) -> TokenStream {
+        let element = self.element.as_ref().map(Linear::grouped);
+        let element = element.map(|place| quote!([#place as ::core::primitive::usize]));
+        quote!(#name #element)
+    }
+}
+
+impl fmt::Display for Register {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.element {
+            Some(element) => write!(f, "{}[{element}]", self.name),
+            None => write!(f, "{}", self.name),
+        }
+    }
 }
 
 /// What a register's bits mean.
@@ -93,8 +158,8 @@ pub(super) struct Size {
 pub(super) enum NumberKind {
     /// A constant, in units of the lowest fraction bit.
     Constant(i64),
-    /// A constant that the routine is generic over, which is a `u32`.
-    Given(Ident),
+    /// A number that is known where the program is built: constants and loops' variables.
+    Given(Linear),
     /// Bits of a register from the first on, as many as the number has.
     Word(Rc<Register>, Linear),
     Truth(Box<Bit>),

@@ -12,6 +12,7 @@ mod emit;
 mod fit;
 mod ir;
 mod number;
+mod outside;
 mod problem;
 mod scope;
 mod signature;
@@ -27,7 +28,6 @@ use problem::Problems;
 use proc_macro2::{Delimiter, Group, Span, TokenStream, TokenTree};
 use qrt_core::syntax::codes;
 use scope::Scope;
-use track::Tracker;
 
 /// What the attribute expands an item to.
 pub(crate) fn expand(arguments: &TokenStream, item: TokenStream) -> TokenStream {
@@ -52,7 +52,7 @@ fn expanded(arguments: &TokenStream, item: TokenStream) -> (TokenStream, Problem
             return (item, problems);
         }
         Err(error) => {
-            problems.raw(error);
+            problems.raw(&error);
             return (without_body(item), problems);
         }
     };
@@ -73,7 +73,7 @@ fn understood(function: &syn::ItemFn, problems: &mut Problems) -> Option<Routine
         unusable: signature.unusable.clone(),
         constants: signature.constants.clone(),
         loops: Vec::new(),
-        demands: Vec::new(),
+        demands: signature.demands.clone(),
         problems: std::mem::take(problems),
         writes: Vec::new(),
         fraction: None,
@@ -82,7 +82,7 @@ fn understood(function: &syn::ItemFn, problems: &mut Problems) -> Option<Routine
     let body = scope.block(&function.block);
     *problems = scope.problems;
     if problems.count() == 0 {
-        Tracker::new(problems).body(&body);
+        track::check(&signature.parameters, &body, problems);
     }
     (problems.count() == 0).then_some(Routine {
         signature,

@@ -21,10 +21,16 @@ use qrt_core::syntax::codes;
 use quote::quote;
 use syn::{BinOp, Expr, Lit, UnOp};
 
+/// How many bits a constant has whose value is not known here: those of a `u32`.
+pub(super) const GIVEN: i64 = 32;
+
 impl Scope {
     /// Understands an expression as a number.
     pub(super) fn number(&mut self, expression: &Expr) -> Option<Number> {
         let source = quote!(#expression);
+        if let Some(value) = self.given(expression) {
+            return Some(self.given_number(value, source));
+        }
         match expression {
             Expr::Paren(inner) => self.number(&inner.expr),
             Expr::Group(inner) => self.number(&inner.expr),
@@ -33,6 +39,11 @@ impl Scope {
                 Some(truth(bit, source))
             }
             Expr::Lit(literal) => self.literal(&literal.lit, source),
+            Expr::Unary(unary) if matches!(unary.op, UnOp::Deref(_)) => {
+                // Reports the star.
+                self.place(expression)?;
+                None
+            }
             Expr::Path(_) | Expr::Index(_) => {
                 let place = self.place(expression)?;
                 Some(word(place, source))
@@ -47,6 +58,31 @@ impl Scope {
                 None
             }
         }
+    }
+
+    /// A number of constants and loops' variables, if an expression is one, and never negative.
+    pub(super) fn given(&mut self, expression: &Expr) -> Option<Linear> {
+        if !matches!(expression, Expr::Path(_) | Expr::Binary(_)) {
+            return None;
+        }
+        let value = self.linear(expression)?;
+        let negative = self.least(&value).known().is_some_and(|least| least < 0);
+        (value.known().is_none() && !negative).then_some(value)
+    }
+
+    fn given_number(&mut self, value: Linear, source: TokenStream) -> Number {
+        let message = format!("QRT0808: `{}` is negative", text(&source));
+        self.holds(&value, &message);
+        let greatest = self.greatest(&value).known();
+        let size = Size {
+            width: greatest.map_or(GIVEN, |most| bits(most.into())).into(),
+            signed: false,
+            fraction: 0.into(),
+            fixed: false,
+            floors: false,
+        };
+        let kind = NumberKind::Given(value);
+        Number { kind, size, source }
     }
 
     pub(super) fn not_an_expression(&mut self, expression: &Expr) {
@@ -195,7 +231,7 @@ impl Scope {
     }
 
     fn product(&mut self, a: Number, b: Number, source: TokenStream) -> Option<Number> {
-        use NumberKind::{Constant, Product, Square};
+        use NumberKind::{Constant, Given, Product, Square};
         if let (Constant(x), Constant(y)) = (&a.kind, &b.kind) {
             let fraction = a.size.fraction.plus(&b.size.fraction).known();
             let (Some(units), Some(fraction)) = (x.checked_mul(*y), fraction) else {
@@ -207,10 +243,9 @@ impl Scope {
             };
             return Some(constant(units, fraction as u32, source));
         }
-        let (a, b) = if let Constant(_) = b.kind {
-            (b, a)
-        } else {
-            (a, b)
+        let (a, b) = match b.kind {
+            Constant(_) | Given(_) => (b, a),
+            _ => (a, b),
         };
         self.check_operand(&a)?;
         self.check_operand(&b)?;

@@ -1,7 +1,8 @@
 //! What is wrong with a routine: a code, a place, the right thing to write. All of it is said at
 //! once.
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Ident, TokenStream};
+use qrt_core::syntax::codes;
 use quote::ToTokens;
 
 /// Everything that has been found wrong so far.
@@ -22,10 +23,16 @@ impl Problems {
 
     /// Adds an error of the parser's.
     #[cfg_attr(test, track_caller)]
-    pub(super) fn raw(&mut self, error: syn::Error) {
-        #[cfg(test)]
-        crate::tests::checks::reached(std::panic::Location::caller(), "", &error.to_string());
-        self.found.push(error);
+    pub(super) fn raw(&mut self, error: &syn::Error) {
+        let place = Ident::new("_", error.span());
+        let message = format!("this is not read as Rust: {error}");
+        let help = "write updates such as `a += b;`, `if`, `for`, calls and blocks";
+        self.add(codes::REV_STATEMENT, place, &message, help);
+    }
+
+    /// Adds problems that were found elsewhere.
+    pub(super) fn append(&mut self, other: Self) {
+        self.found.extend(other.found);
     }
 
     pub(super) fn count(&self) -> usize {

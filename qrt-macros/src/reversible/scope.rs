@@ -1,8 +1,10 @@
 //! What a statement can see: registers, constants, the loops around it.
 
-use super::dim::Linear;
+use super::dim::{self, Linear, Loop};
 use super::ir::{Demand, Place, Register};
+use super::outside;
 use super::problem::Problems;
+use super::statement::bare;
 use proc_macro2::{Span, TokenStream};
 use qrt_core::syntax::{codes, nearest};
 use quote::{ToTokens, quote};
@@ -17,7 +19,7 @@ pub(super) struct Scope {
     pub(super) unusable: Vec<Ident>,
     pub(super) constants: Vec<Ident>,
     /// Variables of the loops around, and from where to where they run.
-    pub(super) loops: Vec<(Ident, [Linear; 2])>,
+    pub(super) loops: Vec<Loop>,
     pub(super) demands: Vec<Demand>,
     pub(super) problems: Problems,
     /// Everything that has been written to so far, in the order of the text.
@@ -43,10 +45,7 @@ impl Scope {
         let help;
         if self.is_number(name) {
             message = format!("`{name}` is a constant, not a register");
-            help =
-                "constants stand in bounds, places of bits and shifts, as in `1 << i`; those of \
-                    the function's generics in comparisons, too"
-                    .into();
+            help = "constants can be added, compared and counted to, and never changed".into();
         } else {
             message = format!("no register `{name}` is known here");
             let known: Vec<String> = self.registers.iter().map(|r| r.name.to_string()).collect();
@@ -58,6 +57,12 @@ impl Scope {
         }
         self.problems.add(codes::REV_NAME, name, &message, &help);
         None
+    }
+
+    /// Whether a name has been given to a register, or to what was meant as one.
+    fn is_known(&self, name: &Ident) -> bool {
+        let mut registers = self.registers.iter();
+        registers.any(|register| register.name == *name) || self.unusable.contains(name)
     }
 
     fn is_number(&self, name: &Ident) -> bool {
@@ -80,10 +85,11 @@ impl Scope {
         match expression {
             Expr::Paren(inner) => self.linear(&inner.expr),
             Expr::Group(inner) => self.linear(&inner.expr),
-            Expr::Path(path) => {
-                let name = path.path.get_ident()?;
-                self.is_number(name).then(|| Linear::name(name))
-            }
+            Expr::Path(path) if path.qself.is_none() => match path.path.get_ident() {
+                Some(name) if self.is_number(name) => Some(Linear::name(name)),
+                Some(name) if self.is_known(name) => None,
+                _ => outside::constant(&path.path, &mut self.demands),
+            },
             Expr::Binary(binary) => {
                 let (a, b) = (self.linear(&binary.left)?, self.linear(&binary.right)?);
                 match binary.op {
@@ -107,7 +113,7 @@ impl Scope {
         let read = self.linear(expression);
         if read.is_none() {
             let message = format!("{what} must be known where the routine is compiled");
-            let help = "write a number, a `const` parameter, a loop's variable, or a sum of these";
+            let help = "write a number, a constant, a loop's variable, or a sum of these";
             self.problems
                 .add(codes::REV_INDEX, expression, &message, help);
         }
@@ -135,18 +141,14 @@ impl Scope {
         })
     }
 
+    /// The most that a number can be in the loops around.
+    pub(super) fn greatest(&self, number: &Linear) -> Linear {
+        self.least(&number.times(-1)).times(-1)
+    }
+
     /// The least that a number can be in the loops around.
     pub(super) fn least(&self, number: &Linear) -> Linear {
-        let mut least = number.clone();
-        for (variable, [first, end]) in self.loops.iter().rev() {
-            let worst = if least.factor(variable) > 0 {
-                first.clone()
-            } else {
-                end.minus(&1.into())
-            };
-            least = least.with(variable, &worst);
-        }
-        least
+        dim::least(number, &self.loops)
     }
 
     /// Whether a number is never negative. Where that depends on the routine's constants, it is
@@ -157,17 +159,22 @@ impl Scope {
             return known >= 0;
         }
         if !least.never_negative() {
-            let condition = least.never_negative_tokens();
-            let same = |known: &Demand| known.condition.to_string() == condition.to_string();
-            if !self.demands.iter().any(same) {
-                self.demands.push(Demand {
-                    condition,
-                    message: message.to_owned(),
-                    span: self.here,
-                });
-            }
+            self.demand(least.never_negative_tokens(), message);
         }
         true
+    }
+
+    /// Demands of the routine's constants that a condition holds.
+    pub(super) fn demand(&mut self, condition: TokenStream, message: &str) {
+        let (message, span) = (message.to_owned(), self.here);
+        outside::demand(
+            &mut self.demands,
+            Demand {
+                condition,
+                message,
+                span,
+            },
+        );
     }
 
     /// Whether a number is never negative, whatever the constants are.
@@ -177,20 +184,33 @@ impl Scope {
 
     /// Whether two places have no bit in common for certain.
     pub(super) fn apart(&self, a: &Place, b: &Place) -> bool {
-        if a.register.name != b.register.name {
+        if a.register.is_apart(&b.register, &self.loops) {
             return true;
         }
-        let (Some([a_first, a_width]), Some([b_first, b_width])) = (&a.part, &b.part) else {
+        let (Some(a), Some(b)) = (&a.part, &b.part) else {
             return false;
         };
-        self.certain(&b_first.minus(&a_first.plus(a_width)))
-            || self.certain(&a_first.minus(&b_first.plus(b_width)))
+        dim::apart(a, b, &self.loops)
     }
 
     /// The place that an expression names: a register, a bit of one, or some bits.
     pub(super) fn place(&mut self, expression: &Expr) -> Option<Place> {
+        let place = self.any_place(expression)?;
+        if place.register.is_array() {
+            let name = &place.register.name;
+            let message = format!("`{name}` is an array of registers");
+            let help = format!("name one of them, `{name}[0]`; a call takes all, `&{name}`");
+            self.problems
+                .add(codes::REV_ARGUMENT, expression, &message, &help);
+            return None;
+        }
+        Some(place)
+    }
+
+    /// The same, or an array of registers.
+    pub(super) fn any_place(&mut self, expression: &Expr) -> Option<Place> {
         match expression {
-            Expr::Paren(inner) => self.place(&inner.expr),
+            Expr::Paren(inner) => self.any_place(&inner.expr),
             Expr::Path(path) if path.path.get_ident().is_some() => {
                 let register = self.register(path.path.get_ident()?)?;
                 Some(Place {
@@ -199,7 +219,12 @@ impl Scope {
                 })
             }
             Expr::Index(index) => {
-                let whole = self.place(&index.expr)?;
+                let whole = self.any_place(&index.expr)?;
+                if whole.register.is_array() {
+                    let register = Rc::new(self.element(&whole.register, &index.index)?);
+                    let part = None;
+                    return Some(Place { register, part });
+                }
                 if whole.part.is_some() {
                     let message = "these are bits of bits";
                     let help = "count from the register's first bit, in one pair of brackets";
@@ -215,15 +240,39 @@ impl Scope {
                 })
             }
             _ => {
-                self.problems.add(
-                    codes::REV_EXPRESSION,
-                    expression,
-                    "a register is needed here",
-                    "name a register, a bit of it as in `a[0]`, or bits as in `a[0..4]`",
-                );
+                let message = "a register is needed here";
+                let help = match expression {
+                    Expr::Unary(unary) if matches!(unary.op, UnOp::Deref(_)) => {
+                        format!("write `{}`: a register needs no `*`", bare(&unary.expr))
+                    }
+                    _ => {
+                        "name a register, a bit of it as in `a[0]`, or bits as in `a[0..4]`".into()
+                    }
+                };
+                self.problems
+                    .add(codes::REV_EXPRESSION, expression, message, &help);
                 None
             }
         }
+    }
+
+    /// One register of an array.
+    fn element(&mut self, array: &Register, index: &Expr) -> Option<Register> {
+        let place = self.must_be_known(index, "the place of a register")?;
+        let length = array.array.as_ref().map(|array| array.length.clone())?;
+        let name = &array.name;
+        let message = format!("QRT0819: a register beyond the last of `{name}`");
+        let last = length.minus(&1.into());
+        if !self.holds(&place, &message) || !self.holds(&last.minus(&place), &message) {
+            let shown = format!("`{name}` has {length} registers, and none there");
+            let help = format!("they are `{name}[0]` to `{name}[{last}]`");
+            self.problems.add(codes::REV_INDEX, index, &shown, &help);
+            return None;
+        }
+        Some(Register {
+            element: Some(place),
+            ..array.clone()
+        })
     }
 
     /// The first of some bits, and their number.
@@ -236,7 +285,7 @@ impl Scope {
             let end = bit.plus(&1.into());
             [bit, end]
         };
-        let name = &register.name;
+        let name = register;
         let message = format!("QRT0819: bits beyond the last of `{name}`");
         let bits = end.minus(&first);
         let some = self.holds(&bits.minus(&1.into()), "QRT0819: an empty range of bits");
@@ -297,7 +346,8 @@ pub(super) fn text(source: impl ToTokens) -> String {
         (" ,", ","),
         (" ;", ";"),
         (" :: ", "::"),
-        ("& ", "&"),
+        ("(& ", "(&"),
+        (", & ", ", &"),
         ("- (", "-("),
         ("* - ", "* -"),
         ("(- ", "(-"),
@@ -307,10 +357,15 @@ pub(super) fn text(source: impl ToTokens) -> String {
     ] {
         text = text.replace(from, to);
     }
-    match text.strip_prefix("- ") {
-        Some(number) => format!("-{number}"),
-        None => text,
+    for sign in ["-", "&"] {
+        if let Some(rest) = text
+            .strip_prefix(sign)
+            .and_then(|rest| rest.strip_prefix(' '))
+        {
+            return format!("{sign}{rest}");
+        }
     }
+    text
 }
 
 /// A type, as it is usually written.

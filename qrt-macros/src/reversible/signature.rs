@@ -1,12 +1,18 @@
 //! A function's signature: registers by reference, constants as its only generics.
 
 use super::dim::Linear;
-use super::ir::{Format, Kind, Register, Signature};
+use super::ir::{Array, Demand, Format, Kind, Register, Signature};
+use super::outside;
 use super::problem::Problems;
-use super::scope::type_text;
+use super::scope::{text, type_text};
+use proc_macro2::TokenTree;
 use qrt_core::syntax::codes;
+use quote::quote;
 use std::rc::Rc;
-use syn::{FnArg, GenericArgument, GenericParam, Ident, ItemFn, Pat, PathArguments, Type};
+use syn::{
+    BinOp, Expr, FnArg, GenericArgument, GenericParam, Ident, ItemFn, Pat, PathArguments, Stmt,
+    Type,
+};
 
 /// Reads the signature. What is wrong with it is left out of the result.
 pub(super) fn read(function: &ItemFn, problems: &mut Problems) -> Signature {
@@ -52,10 +58,11 @@ pub(super) fn read(function: &ItemFn, problems: &mut Problems) -> Signature {
         );
     }
     let constants = constants(function, problems);
+    let mut demands = Vec::new();
     let mut parameters: Vec<Rc<Register>> = Vec::new();
     let mut unusable = Vec::new();
     for input in &signature.inputs {
-        let Some(register) = parameter(input, &constants, problems) else {
+        let Some(register) = parameter(input, &constants, &mut demands, problems) else {
             if let FnArg::Typed(input) = input
                 && let Pat::Ident(name) = &*input.pat
             {
@@ -84,6 +91,7 @@ pub(super) fn read(function: &ItemFn, problems: &mut Problems) -> Signature {
         constants,
         parameters,
         unusable,
+        demands,
     }
 }
 
@@ -119,14 +127,19 @@ fn constants(function: &ItemFn, problems: &mut Problems) -> Vec<Ident> {
     constants
 }
 
-fn parameter(input: &FnArg, constants: &[Ident], problems: &mut Problems) -> Option<Register> {
+fn parameter(
+    input: &FnArg,
+    constants: &[Ident],
+    demands: &mut Vec<Demand>,
+    problems: &mut Problems,
+) -> Option<Register> {
     let input = match input {
         FnArg::Receiver(receiver) => {
             problems.add(
                 codes::REV_SIGNATURE,
                 receiver,
                 "a method cannot be reversible: there is no register in `self`",
-                "write a function of registers",
+                "leave it out, and call the function by its type's path: `Adder::add(&x, &mut y)`",
             );
             return None;
         }
@@ -172,18 +185,47 @@ fn parameter(input: &FnArg, constants: &[Ident], problems: &mut Problems) -> Opt
         let message = "a register's lifetime has no name";
         problems.add(codes::REV_PARAMETER, lifetime, message, "remove it");
     }
-    let format = format(&reference.elem, constants, problems)?;
+    let (array, ty) = array(&reference.elem, constants, demands, problems)?;
+    let format = format(ty, constants, demands, problems)?;
     Some(Register {
         name: name.clone(),
-        ty: (*reference.elem).clone(),
+        ty: ty.clone(),
+        array,
+        element: None,
         format,
         parameter: true,
         mutable: reference.mutability.is_some(),
     })
 }
 
+/// How many registers a type stands for, if it is an array's, and the type of one.
+pub(super) fn array<'a>(
+    ty: &'a Type,
+    constants: &[Ident],
+    demands: &mut Vec<Demand>,
+    problems: &mut Problems,
+) -> Option<(Option<Array>, &'a Type)> {
+    let Type::Array(array) = ty else {
+        return Some((None, ty));
+    };
+    let length = &array.len;
+    let Some(known) = width(length, constants, demands) else {
+        let message = "how many registers an array has is a number or a constant of a module";
+        let help = "write `[UInt<8>; 4]`, or `[UInt<8>; N]` with `const N: usize` in the module";
+        problems.add(codes::REV_FORMAT_NAME, length, message, help);
+        return None;
+    };
+    let written = quote!(#length);
+    let length = known;
+    Some((Some(Array { length, written }), &array.elem))
+}
+
 /// A type as a register's: another format for what is none.
 fn register_text(ty: &Type) -> String {
+    if let Type::Array(array) = ty {
+        let length = &array.len;
+        return format!("[{}; {}]", register_text(&array.elem), text(length));
+    }
     let formats = ["Bool", "UInt", "Int", "UFixed", "Fixed"];
     let last = match ty {
         Type::Path(path) => path.path.segments.last(),
@@ -196,26 +238,38 @@ fn register_text(ty: &Type) -> String {
 }
 
 /// The format that a type is.
-pub(super) fn format(ty: &Type, constants: &[Ident], problems: &mut Problems) -> Option<Format> {
-    let last = match ty {
-        Type::Path(path) => path.path.segments.last(),
+pub(super) fn format(
+    ty: &Type,
+    constants: &[Ident],
+    demands: &mut Vec<Demand>,
+    problems: &mut Problems,
+) -> Option<Format> {
+    let path = match ty {
+        Type::Path(path) => path.path.segments.last().map(|last| (&path.path, last)),
         _ => None,
     };
-    let Some(last) = last else {
+    let Some((path, last)) = path else {
         return no_format(ty, problems);
     };
     let sizes: Vec<&GenericArgument> = match &last.arguments {
         PathArguments::AngleBracketed(arguments) => arguments.args.iter().collect(),
         _ => Vec::new(),
     };
-    let read: Option<Vec<Linear>> = sizes.iter().map(|size| bits(size, constants)).collect();
+    let read: Option<Vec<Linear>> = sizes
+        .iter()
+        .map(|size| bits(size, constants, demands))
+        .collect();
     let Some(read) = read else {
-        problems.add(
-            codes::REV_FORMAT_NAME,
-            ty,
-            "the widths of registers are numbers, or constants of this function",
-            "write `UInt<8>`, or `UInt<W>` with `const W: u32` among the function's generics",
-        );
+        let computed = sizes.iter().any(|size| computes(size, constants));
+        let help = if computed {
+            "Rust computes no width from a function's constants: take it as a constant of its own, \
+             `const V: u32`; what must hold of it follows from the statements"
+        } else {
+            "write `UInt<8>`, or `UInt<W>` with `const W: u32` among the function's generics or in \
+             its module"
+        };
+        let message = "the widths of registers are numbers or constants";
+        problems.add(codes::REV_FORMAT_NAME, ty, message, help);
         return None;
     };
     let (kind, width, fraction) = match (last.ident.to_string().as_str(), read.as_slice()) {
@@ -224,6 +278,7 @@ pub(super) fn format(ty: &Type, constants: &[Ident], problems: &mut Problems) ->
         ("Int", [width]) => (Kind::Int, width.clone(), 0.into()),
         ("UFixed", [whole, part]) => (Kind::UFixed, whole.plus(part), part.clone()),
         ("Fixed", [whole, part]) => (Kind::Fixed, whole.plus(part), part.clone()),
+        (_, []) if is_alias(ty) => (Kind::UInt, outside::width(path, demands), 0.into()),
         _ => return no_format(ty, problems),
     };
     if width
@@ -254,15 +309,81 @@ fn no_format<T>(ty: &Type, problems: &mut Problems) -> Option<T> {
     None
 }
 
-fn bits(size: &GenericArgument, constants: &[Ident]) -> Option<Linear> {
+/// Whether a type may be another name of a format.
+fn is_alias(ty: &Type) -> bool {
+    let Type::Path(path) = ty else {
+        return false;
+    };
+    let formats = ["Bool", "UInt", "Int", "UFixed", "Fixed"];
+    let last = path.path.segments.last();
+    let named = |last: &syn::PathSegment| {
+        outside::is_type(&last.ident) && formats.iter().all(|format| last.ident != format)
+    };
+    path.qself.is_none() && last.is_some_and(named)
+}
+
+fn bits(size: &GenericArgument, constants: &[Ident], demands: &mut Vec<Demand>) -> Option<Linear> {
     match size {
-        GenericArgument::Const(expression) => {
-            super::scope::integer(expression).map(|n| i64::try_from(n).map(Linear::from).ok())?
+        GenericArgument::Const(expression) => width(expression, constants, demands),
+        GenericArgument::Type(Type::Path(path)) => match path.path.get_ident() {
+            Some(name) if constants.contains(name) => Some(Linear::name(name)),
+            _ => outside::constant(&path.path, demands),
+        },
+        _ => None,
+    }
+}
+
+/// A width that Rust computes: of numbers and the module's constants, or one constant alone.
+fn width(expression: &Expr, constants: &[Ident], demands: &mut Vec<Demand>) -> Option<Linear> {
+    if let Some(number) = super::scope::integer(expression) {
+        return i64::try_from(number).map(Linear::from).ok();
+    }
+    match expression {
+        Expr::Paren(inner) => width(&inner.expr, constants, demands),
+        Expr::Block(block) => match block.block.stmts.as_slice() {
+            [Stmt::Expr(Expr::Path(path), None)]
+                if path
+                    .path
+                    .get_ident()
+                    .is_some_and(|name| constants.contains(name)) =>
+            {
+                path.path.get_ident().map(Linear::name)
+            }
+            [Stmt::Expr(inner, None)] => width(inner, constants, demands),
+            _ => None,
+        },
+        Expr::Path(path)
+            if path
+                .path
+                .get_ident()
+                .is_none_or(|name| !constants.contains(name)) =>
+        {
+            outside::constant(&path.path, demands)
         }
-        GenericArgument::Type(Type::Path(path)) => {
-            let name = path.path.get_ident()?;
-            constants.contains(name).then(|| Linear::name(name))
+        Expr::Binary(binary) => {
+            let a = width(&binary.left, constants, demands)?;
+            let b = width(&binary.right, constants, demands)?;
+            match (binary.op, a.known(), b.known()) {
+                (BinOp::Add(_), ..) => Some(a.plus(&b)),
+                (BinOp::Sub(_), ..) => Some(a.minus(&b)),
+                (BinOp::Mul(_), Some(factor), _) => Some(b.times(factor)),
+                (BinOp::Mul(_), _, Some(factor)) => Some(a.times(factor)),
+                _ => None,
+            }
         }
         _ => None,
     }
+}
+
+/// Whether a width is computed from the function's own constants.
+fn computes(size: &GenericArgument, constants: &[Ident]) -> bool {
+    let names = |token: TokenTree| match token {
+        TokenTree::Ident(name) => constants.contains(&name),
+        TokenTree::Group(group) => {
+            let mut inner = group.stream().into_iter();
+            inner.any(|token| matches!(token, TokenTree::Ident(name) if constants.contains(&name)))
+        }
+        _ => false,
+    };
+    quote!(#size).into_iter().any(names)
 }

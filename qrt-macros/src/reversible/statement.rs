@@ -2,7 +2,7 @@
 
 use super::dim::Linear;
 use super::ir::{Bit, Place, Register, Statement, StatementKind as K};
-use super::scope::{Scope, begin, text, type_text};
+use super::scope::{Scope, begin, text};
 use super::signature;
 use proc_macro2::TokenStream;
 use qrt_core::syntax::codes;
@@ -65,8 +65,12 @@ impl Scope {
             return self.no_scratch(local, "a scratch register begins as 0");
         };
         let value = &init.expr;
-        let zero = super::scope::integer(value) == Some(0)
-            || matches!(&**value, Expr::Lit(lit) if quote!(#lit).to_string() == "false");
+        let begin = match (&**value, &*typed.ty) {
+            (Expr::Repeat(all), Type::Array(_)) => &all.expr,
+            _ => value,
+        };
+        let zero = super::scope::integer(begin) == Some(0)
+            || matches!(&**begin, Expr::Lit(lit) if quote!(#lit).to_string() == "false");
         if !zero || init.diverge.is_some() {
             return self.no_scratch(value, "a scratch register begins as 0");
         }
@@ -79,10 +83,14 @@ impl Scope {
         }
         self.check_free(&name);
         let constants = self.constants.clone();
-        let format = signature::format(&typed.ty, &constants, &mut self.problems)?;
+        let (demands, problems) = (&mut self.demands, &mut self.problems);
+        let (array, ty) = signature::array(&typed.ty, &constants, demands, problems)?;
+        let format = signature::format(ty, &constants, demands, problems)?;
         Some(Register {
             name,
-            ty: Type::clone(&typed.ty),
+            ty: ty.clone(),
+            array,
+            element: None,
             format,
             parameter: false,
             mutable: true,
@@ -126,7 +134,7 @@ impl Scope {
         let mut part = |call: &StmtMacro| match call.mac.parse_body_with(Block::parse_within) {
             Ok(statements) => self.statements(&statements),
             Err(error) => {
-                self.problems.raw(error);
+                self.problems.raw(&error);
                 Vec::new()
             }
         };
@@ -213,7 +221,8 @@ impl Scope {
             }
             Expr::MethodCall(call) => {
                 let place = call.method.to_token_stream();
-                let help = "call functions marked `#[reversible]` by name: `add(&x, &mut y)`";
+                let help = "call functions marked `#[reversible]` by name: `add(&x, &mut y)`, those of \
+                            a type by its path: `Adder::add(&x, &mut y)`";
                 (codes::REV_CALL, place, "a method is not reversible", help)
             }
             Expr::Match(choice) => (
@@ -313,7 +322,7 @@ impl Scope {
     pub(super) fn may_change(&mut self, target: &Place, source: impl ToTokens) {
         if !target.register.mutable {
             let name = &target.register.name;
-            let ty = type_text(&target.register.ty);
+            let ty = target.register.type_text();
             let message = format!("`{name}` can only be read");
             let help = format!("take it as `{name}: &mut {ty}`");
             self.problems
@@ -343,7 +352,7 @@ impl Scope {
             let (written, source) = self.writes[place].clone();
             if let Some(read) = reads.iter().find(|read| !self.apart(read, &written)) {
                 let shown = text(&branch.cond);
-                let message = format!("`{}` decides whether this runs", read.register.name);
+                let message = format!("`{}` decides whether this runs", read.register);
                 let help =
                     format!("change it after the `if`, or copy `{shown}` into a scratch register");
                 self.problems
@@ -435,7 +444,7 @@ impl Scope {
 
 /// The text of an expression without the `*` that other Rust would need: a register is named as it
 /// is.
-fn bare(expression: &Expr) -> String {
+pub(super) fn bare(expression: &Expr) -> String {
     match expression {
         Expr::Unary(unary) if matches!(unary.op, syn::UnOp::Deref(_)) => bare(&unary.expr),
         Expr::Paren(inner) => match bare(&inner.expr) {

@@ -153,26 +153,257 @@ fn neighbouring_additions_are_taken_back_in_any_order_and_nothing_else_is() {
     let apart = quote!(t += x; t ^= y; t += x;);
     assert_eq!(undone(apart, quote!(t -= x; t -= x; t ^= y;)), ["QRT0804"]);
 
-    // A branch and a loop stand where they stand, whatever is in them.
-    for inner in [
+    // What is in a branch or a loop is added, too.
+    let inner = quote!(if z { t += y; } for _ in 0..2 { t += x; });
+    let last = quote!(t -= x; for _ in 0..2 { t -= x; } if z { t -= y; });
+    assert_eq!(undone(quote!(t += x; #inner), last.clone()), [""; 0]);
+    assert_eq!(undone(inner, last), ["QRT0804"]);
+}
+
+/// Bits are undone one by one, in parts and by other statements, wherever they were computed.
+#[test]
+fn bits_are_taken_back_in_any_legal_order() {
+    let undone = |done: TokenStream, last: TokenStream| {
+        codes(quote! {
+            fn f(x: &UInt<4>, y: &UInt<4>, z: &Bool, out: &mut UInt<4>) {
+                let mut t: UInt<4> = 0;
+                let mut c: Bool = false;
+                #done
+                if t[3] & c { out += t; }
+                #last
+            }
+        })
+    };
+    let both = |done: TokenStream, undo: TokenStream, less: TokenStream| {
+        assert_eq!(undone(done.clone(), undo.clone()), [""; 0], "{undo}");
+        let wrong = undone(done, less.clone());
+        assert!(
+            !wrong.is_empty() && wrong.iter().all(|code| code == "QRT0804"),
+            "{less}"
+        );
+    };
+    // A word, bit by bit, and bits as a word.
+    both(
+        quote!(t ^= x; c ^= z;),
+        quote!(c ^= z; for i in 0..4 { t[i] ^= x[i]; }),
+        quote!(c ^= z; for i in 0..3 { t[i] ^= x[i]; }),
+    );
+    both(
+        quote!(for i in (0..4).rev() { t[i] ^= x[i] & y[3 - i]; } c ^= t[0];),
+        quote!(c ^= t[0]; for i in 0..2 { t[i] ^= x[i] & y[3 - i]; }
+            t[3] ^= y[0] & x[3]; t[2] ^= x[2] && y[1];),
+        quote!(for i in 0..4 { t[i] ^= x[i] & y[3 - i]; } c ^= t[0];),
+    );
+    // A sum is what has been added, whatever its bits have done in between.
+    both(
+        quote!(t += x; t[1] ^= z; c ^= t[2]; t[1] ^= z; t += y;),
+        quote!(t -= x; t -= y; t += x; c ^= t[2]; t -= x;),
+        quote!(t -= x; t -= y; c ^= t[2];),
+    );
+    // A branch in pieces, on one side and the other.
+    both(
         quote!(if z {
-            t += y;
+            t ^= x;
+            c ^= y[0];
+        } else {
+            t ^= y;
         }),
-        quote!(for _ in 0..2 {
-            t += y;
-        }),
+        quote!(t ^= y; c ^= z & y[0]; if z { t ^= y; t ^= x; }),
+        quote!(t ^= y; c ^= z & y[0]; if z { t ^= x; }),
+    );
+    // What was read has been other in between, in other bits.
+    both(
+        quote!(t[0] ^= x[0]; c ^= t[0]; t[1] ^= x[1];),
+        quote!(c ^= t[0]; t[1] ^= x[1]; t[0] ^= x[0];),
+        quote!(t[0] ^= x[0]; c ^= t[0]; t[1] ^= x[1];),
+    );
+    // A swap of scratch is a swap of what is in it.
+    both(
+        quote!(let mut s: UInt<4> = 0; s += x; t += y; swap(s, t);),
+        quote!(t -= x; swap(s, t); t -= y; c ^= z; c ^= z;),
+        quote!(t -= y; swap(s, t); t -= x; c ^= z; c ^= z;),
+    );
+}
+
+/// Ripple-carry addition in place, by majorities (Cuccaro et al. 2004): the carry is borrowed.
+#[test]
+fn an_ancilla_of_an_adder_by_hand_is_returned() {
+    let adder = |last: TokenStream| {
+        codes(quote! {
+            fn add(a: &mut UInt<8>, b: &mut UInt<8>) {
+                let mut carry: Bool = false;
+                b[0] ^= a[0]; carry ^= a[0]; a[0] ^= carry & b[0];
+                for i in 1..8 { b[i] ^= a[i]; a[i - 1] ^= a[i]; a[i] ^= a[i - 1] & b[i]; }
+                for i in (1..8).rev() { a[i] ^= a[i - 1] & b[i]; a[i - 1] ^= a[i]; b[i] ^= a[i - 1]; }
+                #last
+            }
+        })
+    };
+    assert_eq!(
+        adder(quote!(a[0] ^= carry & b[0]; carry ^= a[0]; b[0] ^= carry;)),
+        [""; 0]
+    );
+    assert_eq!(
+        adder(quote!(carry ^= a[0]; a[0] ^= carry & b[0]; b[0] ^= carry;)),
+        ["QRT0804"]
+    );
+}
+
+/// Over constants, too: parts of a register, and loops that add, in any legal order.
+#[test]
+fn parts_are_taken_back_over_constants() {
+    let root = |undo: TokenStream| {
+        codes(quote! {
+            fn root<const N: u32, const W: u32>(x: &mut UInt<W>, root: &mut UInt<N>) {
+                for i in 0..N {
+                    let mut step: UInt<W> = 0;
+                    step[2 * i] ^= true;
+                    for j in i + 1..N { step[i + j + 1] ^= root[j]; }
+                    root[i] ^= x >= step;
+                    if root[i] { x -= step; }
+                    #undo
+                }
+            }
+        })
+    };
+    let rest = quote!(step[2 * i] ^= true;);
+    let all = quote!(for j in (i + 1..N).rev() {
+        step[i + j + 1] ^= root[j];
+    });
+    assert_eq!(root(quote!(#all #rest)), [""; 0]);
+    assert_eq!(root(quote!(#rest #all)), [""; 0]);
+    assert_eq!(
+        root(quote!(#rest for j in i + 1..N { step[i + j + 1] ^= root[j]; })),
+        [""; 0]
+    );
+    assert_eq!(root(quote!(#rest)), ["QRT0804"]);
+    assert_eq!(root(quote!(#rest root[N - 1] ^= true; #all)), ["QRT0804"]);
+    assert_eq!(
+        root(quote!(#rest for j in i + 2..N { step[i + j + 1] ^= root[j]; })),
+        ["QRT0804"]
+    );
+    // What is computed on the way has its order.
+    let way = |undo: TokenStream| {
+        codes(quote! {
+            fn f<const W: u32>(x: &UInt<W>, y: &UInt<W>, z: &mut UInt<W>) {
+                let mut t: UInt<W> = 0;
+                for i in 0..4 { z += x; t ^= z; z -= x; t ^= y; }
+                #undo
+            }
+        })
+    };
+    assert_eq!(
+        way(quote!(for i in (0..4).rev() {
+            t ^= y;
+            z += x;
+            t ^= z;
+            z -= x;
+        })),
+        [""; 0]
+    );
+    assert_eq!(
+        way(quote!(for i in 0..4 {
+            t ^= y;
+            z -= x;
+            t ^= z;
+            z += x;
+        })),
+        ["QRT0804"]
+    );
+    let chain = |undo: TokenStream| {
+        codes(quote! {
+            fn f<const W: u32>(x: &UInt<W>) {
+                let mut t: UInt<W> = 0;
+                t ^= x;
+                for i in 1..W { t[i] ^= t[i - 1]; }
+                #undo
+                t ^= x;
+            }
+        })
+    };
+    assert_eq!(
+        chain(quote!(for i in (1..W).rev() {
+            t[i] ^= t[i - 1];
+        })),
+        [""; 0]
+    );
+    assert_eq!(
+        chain(quote!(for i in 1..W {
+            t[i] ^= t[i - 1];
+        })),
+        ["QRT0804"]
+    );
+}
+
+/// Sums of many branches, and bits of many products.
+#[test]
+fn many_branches_are_followed_bit_by_bit() {
+    let found = codes(quote! {
+        fn f(x: &UInt<32>, y: &UInt<32>, out: &mut UInt<32>) {
+            let mut t: UInt<32> = 0;
+            let mut s: UInt<32> = 0;
+            for _ in 0..2 {
+                for i in 0..32 { if x[i] { t ^= y; s += y; } }
+                for i in 0..32 { t[i] ^= x[i] & y[31 - i]; }
+            }
+            out += s;
+            for _ in 0..2 {
+                for i in 0..32 { t[i] ^= x[i] & y[31 - i]; }
+                for i in 0..32 { if x[i] { t ^= y; s -= y; } }
+            }
+        }
+    });
+    assert_eq!(found, [""; 0]);
+}
+
+/// What is too long to be followed bit by bit is followed as wholes.
+#[test]
+fn long_loops_are_followed_as_wholes() {
+    let long = |undo: TokenStream| {
+        codes(quote! {
+            fn f(x: &UInt<32>, out: &mut UInt<32>) {
+                let mut t: UInt<32> = 0;
+                for i in 0..1000 { t += x; }
+                out += t;
+                #undo
+            }
+        })
+    };
+    assert_eq!(
+        long(quote!(for i in (0..1000).rev() {
+            t -= x;
+        })),
+        [""; 0]
+    );
+    assert_eq!(
+        long(quote!(for i in (0..999).rev() {
+            t -= x;
+        })),
+        ["QRT0804"]
+    );
+}
+
+/// Constants of the module, aliases of formats and loops' variables are numbers like others.
+#[test]
+fn names_of_the_module_are_left_to_the_compiler() {
+    let (tokens, problems) = expanded(
+        &TokenStream::new(),
+        quote! {
+            fn f(x: &Word, y: &UInt<{ 2 * W - 1 }>, out: &mut UInt<W>) {
+                out += wrapping(x) + OFFSET;
+                for i in 1..4 { out[..2] ^= i; out += wrapping(i * y); }
+            }
+        },
+    );
+    assert_eq!(problems.messages(), [""; 0]);
+    let tokens = tokens.to_string();
+    for part in [
+        ":: core :: matches ! (< Word as :: qrt :: circuit :: format :: Format > :: TYPE",
+        "(OFFSET as :: core :: primitive :: u32) as :: core :: primitive :: u64 >> (W as",
+        ":: core :: primitive :: i64 :: from (i)) , None)",
+        "2 * (W as :: core :: primitive :: u32) <= 64",
     ] {
-        let undo = match inner.clone().into_iter().next() {
-            Some(first) if first.to_string() == "if" => quote!(if z {
-                t -= y;
-            }),
-            _ => quote!(for _ in (0..2).rev() {
-                t -= y;
-            }),
-        };
-        let done = quote!(t += x; #inner);
-        assert_eq!(undone(done.clone(), quote!(#undo t -= x;)), [""; 0]);
-        assert_eq!(undone(done, quote!(t -= x; #undo)), ["QRT0804"]);
+        assert!(tokens.contains(part), "{part}: {tokens}");
     }
 }
 

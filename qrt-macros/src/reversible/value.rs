@@ -58,8 +58,8 @@ impl View {
         let width = self.width.tokens();
         let word = match &self.whole {
             Some(whole) => whole.clone(),
-            None if self.signed => quote!(Word::signed(#register, #first, #width)),
-            None => quote!(Word::unsigned(#register, #first, #width)),
+            None if self.signed => quote!(__qrt::Word::signed(#register, #first, #width)),
+            None => quote!(__qrt::Word::unsigned(#register, #first, #width)),
         };
         if self.shift.is_zero() {
             return word;
@@ -72,7 +72,7 @@ impl View {
 impl Value {
     fn operand(&self) -> TokenStream {
         match self {
-            Self::Constant(units) => quote!(Operand::Constant(#units)),
+            Self::Constant(units) => quote!(__qrt::Operand::Constant(#units)),
             Self::Word(view) => {
                 let word = view.tokens();
                 quote!(#word.into())
@@ -90,7 +90,7 @@ impl Value {
                     let units = Literal::i64_unsuffixed(units);
                     quote!(#units)
                 } else {
-                    let by = distance(by);
+                    let by = by.grouped();
                     quote!(#units << #by)
                 })
             }
@@ -158,14 +158,17 @@ impl Temporaries {
                 let units = Literal::i64_unsuffixed(*units);
                 Value::Constant(quote!(#units))
             }
-            NumberKind::Given(name) => Value::Constant(quote!(::core::primitive::i64::from(#name))),
+            NumberKind::Given(value) => {
+                let value = value.tokens();
+                Value::Constant(quote!(::core::primitive::i64::from(#value)))
+            }
             NumberKind::Word(register, first) => Value::Word(self.read(register, first, number)),
             NumberKind::Truth(bit) => {
                 let when = self.bit(bit);
                 let declared = declaration(number, width);
                 let name = self.operation(
                     "select",
-                    &quote!(#declared, #when, Operand::Constant(1), Operand::Constant(0),),
+                    &quote!(#declared, #when, __qrt::Operand::Constant(1), __qrt::Operand::Constant(0),),
                 );
                 Value::Word(View::temporary(&name, 1.into(), false))
             }
@@ -184,7 +187,7 @@ impl Temporaries {
     }
 
     fn read(&mut self, register: &Register, first: &Linear, number: &Number) -> View {
-        let name = &register.name;
+        let name = register.tokens();
         let Size { width, signed, .. } = &number.size;
         let all = first.is_zero() && *width == register.format.width.clone().into();
         let view = View {
@@ -195,7 +198,7 @@ impl Temporaries {
             signed: *signed,
             shift: 0.into(),
         };
-        if !self.copied.contains(name) {
+        if !self.copied.contains(&register.name) {
             return view;
         }
         let (declared, word) = (declaration(number, width), view.tokens());
@@ -212,7 +215,7 @@ impl Temporaries {
         let view = match self.value(inner) {
             Value::Word(view) => view,
             Value::Constant(units) => {
-                let by = distance(by);
+                let by = by.grouped();
                 return Value::Constant(quote!(#units >> #by));
             }
         };
@@ -255,8 +258,7 @@ impl Temporaries {
                 self.operation("square", &quote!(#declared, #a, #drop))
             }
             NumberKind::Product(a, b) => {
-                if let NumberKind::Constant(factor) = a.kind {
-                    let factor = Literal::i64_unsuffixed(factor);
+                if let Value::Constant(factor) = self.value(a) {
                     let b = self.word(b);
                     return self.operation("scale", &quote!(#declared, #b, #factor, #drop));
                 }
@@ -271,7 +273,7 @@ impl Temporaries {
     fn sum(&mut self, terms: &[(bool, Number)], result: &Number) -> Ident {
         let declared = declaration(result, &result.size.width);
         let fraction = &result.size.fraction;
-        let mut sum = quote!(Operand::Constant(0));
+        let mut sum = quote!(__qrt::Operand::Constant(0));
         let mut name = None;
         for (place, (subtract, term)) in terms.iter().enumerate() {
             let below = fraction.minus(&term.size.fraction);
@@ -298,22 +300,22 @@ impl Temporaries {
                 let units = Literal::i64_unsuffixed(i64::from(*value));
                 let name = self.operation(
                     "add",
-                    &quote!(#declared, Operand::Constant(#units), Operand::Constant(0),),
+                    &quote!(#declared, __qrt::Operand::Constant(#units), __qrt::Operand::Constant(0),),
                 );
-                quote!(Bit::at(&#name, 0))
+                quote!(__qrt::Bit::at(&#name, 0))
             }
             Bit::At(register, index) => {
-                let name = &register.name;
+                let name = register.tokens();
                 let index = index.tokens();
-                if !self.copied.contains(name) {
-                    return quote!(Bit::at(#name.register(), #index));
+                if !self.copied.contains(&register.name) {
+                    return quote!(__qrt::Bit::at(#name.register(), #index));
                 }
-                let declared = bit_declaration(&format!("{name}[{index}]"));
+                let declared = bit_declaration(&format!("{register}[{index}]"));
                 let copy = self.operation(
                     "copy",
-                    &quote!(#declared, Word::unsigned(#name.register(), #index, 1)),
+                    &quote!(#declared, __qrt::Word::unsigned(#name.register(), #index, 1)),
                 );
-                quote!(Bit::at(&#copy, 0))
+                quote!(__qrt::Bit::at(&#copy, 0))
             }
             Bit::Not(inner) => {
                 let inner = self.bit(inner);
@@ -323,18 +325,18 @@ impl Temporaries {
                 let (a, b) = (self.bit(a), self.bit(b));
                 let declared = bit_declaration("and");
                 let name = self.operation("and", &quote!(#declared, #a, #b));
-                quote!(Bit::at(&#name, 0))
+                quote!(__qrt::Bit::at(&#name, 0))
             }
             Bit::Xor(a, b) => {
                 let (a, b) = (self.bit(a), self.bit(b));
                 let declared = bit_declaration("xor");
                 let name = self.operation("xor", &quote!(#declared, #a, #b));
-                quote!(Bit::at(&#name, 0))
+                quote!(__qrt::Bit::at(&#name, 0))
             }
             Bit::Less(a, b) => {
                 let [a, b] = self.aligned(a, b);
                 let name = self.less(&a, &b);
-                quote!(Bit::at(&#name, 0))
+                quote!(__qrt::Bit::at(&#name, 0))
             }
             Bit::Equal(a, b) => {
                 let [a, b] = self.aligned(a, b);
@@ -343,12 +345,27 @@ impl Temporaries {
                 let name = self.operation(
                     "and",
                     &quote!(#declared,
-                        Bit::at(&#less, 0).inverted(),
-                        Bit::at(&#greater, 0).inverted(),),
+                        __qrt::Bit::at(&#less, 0).inverted(),
+                        __qrt::Bit::at(&#greater, 0).inverted(),),
                 );
-                quote!(Bit::at(&#name, 0))
+                quote!(__qrt::Bit::at(&#name, 0))
             }
         }
+    }
+
+    /// A bit that is not negated, as an operand, shifted up to the first bit of a place.
+    pub(super) fn bit_operand(&mut self, bit: &Bit, first: &Linear) -> TokenStream {
+        if let Bit::At(..) | Bit::Constant(_) | Bit::Not(_) = bit {
+            let number = super::number::truth(bit.clone(), TokenStream::new());
+            return self.operand_at(&number, first);
+        }
+        self.bit(bit);
+        let computed = self
+            .names
+            .last()
+            .map(|name| View::temporary(name, 1.into(), false));
+        let computed = computed.map(|view| Value::Word(view).shifted(first).operand());
+        computed.unwrap_or_default()
     }
 
     fn less(&mut self, a: &TokenStream, b: &TokenStream) -> Ident {
@@ -374,29 +391,19 @@ impl Number {
     }
 }
 
-/// How far a constant is shifted.
-fn distance(by: &Linear) -> TokenStream {
-    let tokens = by.tokens();
-    if tokens.clone().into_iter().count() == 1 {
-        tokens
-    } else {
-        quote!((#tokens))
-    }
-}
-
 fn bit_declaration(name: &str) -> TokenStream {
-    quote!(&Declaration::work(#name, Type::Bool, 1))
+    quote!(&__qrt::Declaration::work(#name, __qrt::Type::Bool, 1))
 }
 
 fn declaration(number: &Number, width: &Dim) -> TokenStream {
     let name = text(&number.source);
     let fraction = number.size.fraction.tokens();
     let ty = match (number.size.fixed, number.size.signed) {
-        (false, false) => quote!(Type::UInt),
-        (false, true) => quote!(Type::Int),
-        (true, false) => quote!(Type::UFixed { fraction: #fraction }),
-        (true, true) => quote!(Type::Fixed { fraction: #fraction }),
+        (false, false) => quote!(__qrt::Type::UInt),
+        (false, true) => quote!(__qrt::Type::Int),
+        (true, false) => quote!(__qrt::Type::UFixed { fraction: #fraction }),
+        (true, true) => quote!(__qrt::Type::Fixed { fraction: #fraction }),
     };
     let width = width.tokens();
-    quote!(&Declaration::work(#name, #ty, #width))
+    quote!(&__qrt::Declaration::work(#name, #ty, #width))
 }

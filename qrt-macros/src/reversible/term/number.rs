@@ -22,8 +22,13 @@ impl Meaning<'_> {
             NumberKind::Constant(units) => {
                 Value::constant(*units as f64 * 2_f64.powi(-(fraction as i32)))
             }
-            // A function with constants is no term, which its signature has been told.
-            NumberKind::Given(_) => None,
+            NumberKind::Given(value) => {
+                if let Some(value) = self.known(value) {
+                    return Value::constant(value as f64);
+                }
+                let message = format!("what `{value}` is, is not known in a term");
+                self.meaningless(&number.source, &message, "write the number out")
+            }
             NumberKind::Word(register, first) => {
                 let width = number.size.width.known();
                 let whole = first.is_zero() && width == register.format.width.known();

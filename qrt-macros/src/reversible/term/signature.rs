@@ -22,6 +22,12 @@ pub(super) fn domain(signature: &Signature, problems: &mut Problems) -> Option<D
     }
     for register in &signature.parameters {
         let name = &register.name;
+        if register.is_array() {
+            let message = format!("`{name}` is an array of registers, and a BSDF's value is none");
+            let help = "take registers of their own: `r`, `g` and `b`";
+            problems.add(codes::TERM_SIGNATURE, name, &message, help);
+            continue;
+        }
         match variable(name) {
             None if !register.mutable => unknown(name, signature, problems),
             Some(known) if !register.format.fixed() => {

@@ -1,8 +1,8 @@
 use qrt::prelude::*;
 
 #[reversible]
-fn count(a: &mut [UInt<4>; 2]) {
-    a += 1;
+fn add(n: &u32, out: &mut UInt<4>) {
+    out += n;
 }
 
 fn main() {}

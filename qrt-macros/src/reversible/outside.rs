@@ -1,0 +1,75 @@
+//! Constants and types of the author's module. A macro does not see what they are: that is left to
+//! the compiler, and so is what must hold of them.
+
+use super::dim::Linear;
+use super::ir::Demand;
+use super::scope::{begin, text};
+use quote::quote;
+use syn::{Ident, Path};
+
+/// A constant of the module, by its path, if it is written like one.
+pub(super) fn constant(path: &Path, demands: &mut Vec<Demand>) -> Option<Linear> {
+    let name = &path.segments.last()?.ident;
+    if !is_constant(name) {
+        return None;
+    }
+    let shown = text(path);
+    let condition = quote! {
+        (#path as ::core::primitive::u32) as ::core::primitive::f64
+            == #path as ::core::primitive::f64
+    };
+    let message = format!("QRT0823: `{shown}` is not a whole number from 0 to 4294967295");
+    let span = begin(&quote!(#path));
+    demand(
+        demands,
+        Demand {
+            condition,
+            message,
+            span,
+        },
+    );
+    Some(Linear::named(
+        shown,
+        quote!((#path as ::core::primitive::u32)),
+    ))
+}
+
+/// How many bits an integer has whose format has a name of its own.
+pub(super) fn width(path: &Path, demands: &mut Vec<Demand>) -> Linear {
+    let shown = text(path);
+    let format = quote!(<#path as ::qrt::circuit::format::Format>);
+    let condition = quote!(::core::matches!(#format::TYPE, ::qrt::circuit::Type::UInt));
+    let message = format!("QRT0827: `{shown}` is not an alias of `UInt<W>`: write its format out");
+    let span = begin(&quote!(#path));
+    demand(
+        demands,
+        Demand {
+            condition,
+            message,
+            span,
+        },
+    );
+    Linear::named(format!("{shown}::WIDTH"), quote!(#format::WIDTH))
+}
+
+/// Adds a demand that has not been made.
+pub(super) fn demand(demands: &mut Vec<Demand>, new: Demand) {
+    let condition = new.condition.to_string();
+    if demands
+        .iter()
+        .all(|known| known.condition.to_string() != condition)
+    {
+        demands.push(new);
+    }
+}
+
+/// Whether a name is written like a constant's.
+fn is_constant(name: &Ident) -> bool {
+    let name = name.to_string();
+    name.contains(|letter: char| letter.is_uppercase()) && !name.contains(char::is_lowercase)
+}
+
+/// Whether a name is written like a type's.
+pub(super) fn is_type(name: &Ident) -> bool {
+    name.to_string().starts_with(char::is_uppercase)
+}
