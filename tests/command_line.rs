@@ -9,6 +9,7 @@ mod command_line {
     mod hostile_scenes;
     mod inspect_command;
     mod other_renderers;
+    mod parts_of_other_work;
     mod parts_of_pictures;
     mod pictures_by_circuits;
     mod playground_command;

@@ -274,6 +274,12 @@ fn render(args: &RenderArgs, cancel: &AtomicBool, files: &mut Vec<PathBuf>) -> R
         resume: args.resume,
         ..Options::default()
     };
+    // Before anything that takes long, or is told to take long.
+    let film = scene.scene().film;
+    let [_, _, width, height] = args.crop.unwrap_or([0, 0, film.width, film.height]);
+    let size = [width.min(film.width), height.min(film.height)];
+    let fits = options.memory.keep_picture(size);
+    fits.map_err(|error| memory::refused(&error))?;
     memory::keep_plan(options.memory, scene)?;
     let planned = plan::of(scene, &options.planning(), args.quiet)?;
     options.plan = planned.as_ref();

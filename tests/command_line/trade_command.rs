@@ -3,7 +3,7 @@
 use crate::common::command::Folder;
 
 /// A lamp over a floor; two rays.
-const LIT: &str = "
+pub(super) const LIT: &str = "
 name: lit
 camera: { perspective: { eye: [0, 1, 2], target: [0, 0.4, 0], vfov: 60 } }
 film: { width: 6, height: 4 }

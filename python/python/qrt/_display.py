@@ -35,7 +35,7 @@ def _picture_html(self: Any) -> str:
 def _array(self: Any, dtype: Any = None, copy: bool | None = None) -> numpy.ndarray:
     """The pixels, so that numpy takes a picture for an array. They are the picture's own memory, unless
     `copy` is True or `dtype` is another than float64; then copy=False is a ValueError."""
-    pixels = self.pixels
+    pixels: numpy.ndarray = self.pixels
     if dtype is not None and numpy.dtype(dtype) != pixels.dtype:
         if copy is False:
             raise ValueError(f"pixels are {pixels.dtype}, and {numpy.dtype(dtype)} takes a copy")

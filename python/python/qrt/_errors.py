@@ -37,10 +37,10 @@ class SceneError(Error, ValueError):
         self.problems = tuple(problems)
 
     def __str__(self) -> str:
-        return self.args[0]
+        return str(self.args[0])
 
-    def __reduce__(self):
-        return type(self), (self.args[0], self.problems)
+    def __reduce__(self) -> tuple[type, tuple[str, tuple[Problem, ...]]]:
+        return type(self), (str(self), self.problems)
 
 
 class RequestError(Error, ValueError):

@@ -25,7 +25,7 @@ __all__ = ["render"]
 _TICK = 0.05
 
 
-def _work(scene: _qrt.Scene, number: int, tiles: int, attempt: int, options: dict) -> bytes:
+def _work(scene: _qrt.Scene, number: int, tiles: int, attempt: int, options: dict[str, Any]) -> bytes:
     """A part. A pool that takes equal calls for one, as Dask does, sees that another attempt is
     another call."""
     del attempt
@@ -62,7 +62,7 @@ def render(
         crop = options.get("crop")
         width, height = crop[2:] if crop else (scene.width, scene.height)
         tiles = max(1, min(64, width * height))
-    every = dict(options, threads=threads, progress=False)
+    every: dict[str, Any] = dict(options, threads=threads, progress=False)
     parts: dict[int, bytes] = {}
     failures = [0] * tiles
 
