@@ -43,6 +43,16 @@
 //!
 //! [`core`] holds what needs no machine: the scene, its checks, the sequences of paths and the
 //! tracer. [`runtime`] holds what runs: machines, counting, rendering, files. [`drawing`] draws.
+//!
+//! Where to go from here:
+//!
+//! * [`prelude`]: what it takes to load a scene, render it and save the picture;
+//! * [`qrt!`]: a scene as a type, with its circuit's cost as constants;
+//! * [`reversible`]: a function that becomes gates, with the inverse that nobody wrote;
+//! * [`circuit::quantum`]: phase oracles, Grover's iterate and counting, gate by gate;
+//! * [the book](https://github.com/qrt-rs/qrt/tree/main/book), which `cargo book serve` builds. Its
+//!   chapter "One pixel, from nothing" writes a quantum ray tracer of a hundred lines, which is
+//!   [`examples/one_pixel.rs`](https://github.com/qrt-rs/qrt/blob/main/examples/one_pixel.rs).
 
 #![forbid(unsafe_code)]
 

@@ -136,6 +136,15 @@
     draw();
   }
 
+  // The others need a web server, which a page that is opened as a file has not.
+  if (location.protocol === "file:") {
+    for (const figure of document.querySelectorAll("figure.qrt-interactive")) {
+      figure.dataset.state = "static";
+      const told = "A still picture of an interactive figure, which needs a web server: cargo book serve.";
+      figure.querySelector("img")?.after(element("p", { class: "qrt-note" }, told));
+    }
+  }
+
   const FIGURES = { call, grover };
   for (const figure of document.querySelectorAll("figure.qrt-still")) FIGURES[figure.dataset.still]?.(figure);
 })();

@@ -188,20 +188,18 @@ fn ball(rings: u32, sectors: u32) -> String {
         ];
         format!("[{x:.6}, {y:.6}, {z:.6}]")
     };
-    let mut lines = String::new();
-    for (ring, sector) in (0..rings).flat_map(|ring| (0..sectors).map(move |s| (ring, s))) {
-        let [a, b, c, d] =
-            [(0, 0), (0, 1), (1, 1), (1, 0)].map(|(r, s)| corner(ring + r, sector + s));
+    let cells = (0..rings).flat_map(|ring| (0..sectors).map(move |sector| (ring, sector)));
+    let triangles = cells.flat_map(|(ring, sector)| {
+        let at = |[r, s]: [u32; 2]| corner(ring + r, sector + s);
+        let [a, b, c, d] = [[0, 0], [0, 1], [1, 1], [1, 0]].map(at);
         // At the poles one of the two has no area. The front is outside.
-        let both = [(ring + 1 < rings, [&a, &c, &d]), (ring > 0, [&a, &b, &c])];
-        for [p, q, r] in both
-            .into_iter()
-            .filter_map(|(there, corners)| there.then_some(corners))
-        {
-            lines += &format!("  - triangle: {{ vertices: [{p}, {q}, {r}], material: shown }}\n");
-        }
-    }
-    lines
+        let lower = (ring + 1 < rings).then(|| format!("{a}, {c}, {d}"));
+        let upper = (ring > 0).then(|| format!("{a}, {b}, {c}"));
+        lower.into_iter().chain(upper)
+    });
+    let lines = triangles
+        .map(|corners| format!("  - triangle: {{ vertices: [{corners}], material: shown }}\n"));
+    lines.collect::<Vec<_>>().concat()
 }
 
 /// A ball of each material.

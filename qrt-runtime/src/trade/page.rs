@@ -31,7 +31,7 @@ figure{margin:0;min-width:0}.wide{overflow-x:auto}.wide svg{display:block;min-wi
 table{border-collapse:collapse;font-size:.875rem;font-variant-numeric:tabular-nums}
 th,td{padding:.25rem .6rem;text-align:right;border-bottom:1px solid $grid;white-space:nowrap}
 th{font-weight:600;text-align:right;color:$soft}.left,th.left{text-align:left}
-.range{color:$soft;font-size:.8em}details{margin:.5rem 0}summary{cursor:pointer;padding:.3rem 0}
+.says{white-space:normal;min-width:8rem}.range{color:$soft;font-size:.8em}details{margin:.5rem 0}summary{cursor:pointer;padding:.3rem 0}
 code{font-size:.9em}";
 
 pub(super) fn html(trade: &Trade, figures: &[Figure]) -> String {
@@ -136,7 +136,7 @@ fn own(out: &mut String, row: &Row) {
         let _ = writeln!(
             out,
             "<tr><td class=\"left\"><code>{name}</code></td><td>{}</td><td class=\"range\">{} to \
-             {}</td><td class=\"left\">{meaning}</td></tr>",
+             {}</td><td class=\"left says\">{meaning}</td></tr>",
             percent(band.value),
             percent(band.low),
             percent(band.high)

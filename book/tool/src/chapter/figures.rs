@@ -13,6 +13,7 @@
 use super::traced::Traced;
 use super::{Chapter, Workshop};
 use std::collections::BTreeMap;
+use std::fmt::Write as _;
 
 /// What a caption begins with.
 const CAPTION: &str = ": ";
@@ -115,7 +116,8 @@ impl Workshop {
                 page => page.replace(".md", ".html"),
             };
             if let Some(number) = self.figures.0.get(&format!("{page}#{id}")) {
-                out.push_str(&format!("[Figure {number}]("));
+                // Writing to a string cannot fail.
+                let _ = write!(out, "[Figure {number}](");
             } else {
                 self.complain(chapter, 1, format!("`{LINK}{target})` leads to no figure"));
                 out.push_str(LINK);
