@@ -25,7 +25,7 @@ fn collected() -> BTreeMap<String, String> {
         // Those of scenes before the compiler's.
         let size = |text: &str| {
             (
-                text.starts_with("error: "),
+                text.starts_with("error: ") || text.starts_with("error[E"),
                 text.lines().count(),
                 text.len(),
             )
