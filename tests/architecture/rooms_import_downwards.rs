@@ -12,6 +12,17 @@ const CRATES: &[(&str, &[&str])] = &[
     ("qrt-macros", &["qrt-circuit", "qrt-core"]),
     ("drawing", &[]),
     ("qrt-runtime", &["qrt-circuit", "qrt-core", "qrt-drawing"]),
+    (
+        ".",
+        &[
+            "qrt-circuit",
+            "qrt-core",
+            "qrt-drawing",
+            "qrt-macros",
+            "qrt-runtime",
+        ],
+    ),
+    ("python", &["qrt-circuit", "qrt-core", "qrt-runtime"]),
 ];
 
 /// Sources of a crate, and its modules, each above all those before it.
@@ -52,6 +63,10 @@ const MODULES: &[(&str, &[&str])] = &[
             "trade",
         ],
     ),
+    (
+        "qrt-macros/src",
+        &["dependency", "generate", "reversible", "scene", "expand"],
+    ),
     ("src", &["prelude", "cli"]),
 ];
 
@@ -59,9 +74,7 @@ const MODULES: &[(&str, &[&str])] = &[
 fn no_crate_uses_one_above_it() {
     let mut wrong = Vec::new();
     for (name, below) in CRATES {
-        let Ok(manifest) = fs::read_to_string(Path::new(name).join("Cargo.toml")) else {
-            continue;
-        };
+        let manifest = fs::read_to_string(Path::new(name).join("Cargo.toml")).unwrap();
         let sections = manifest.split("\n[").skip(1);
         for line in sections
             .filter(|section| section.starts_with("dependencies]"))

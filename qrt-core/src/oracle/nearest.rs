@@ -92,8 +92,8 @@ impl NearestOracle {
         let cx = &mut builder;
         let width = index_bits(list.len());
         let (primitive, face) = cx.given_index("primitive", Role::Id, width);
-        let reach = stage.camera.reach;
-        let t_max = cx.t_max(reach);
+        let t_max = stage.camera.t_max;
+        let t_max = cx.t_max(t_max);
         let most = cx.operand_of(t_max).1[1];
         let units = (1_u64 << fraction) as f64;
         let (best_distance, least) =

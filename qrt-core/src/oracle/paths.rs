@@ -233,7 +233,7 @@ impl PathFormats {
         let starts = stage.starts.iter();
         let starts = starts.map(|p| (*p / scale + geometry.centre).abs().max_element());
         let farthest = starts.fold(vertices, f64::max);
-        let reach = stage.reach.max(stage.camera.reach).max(1.0) / scale;
+        let t_max = stage.t_max.max(stage.camera.t_max).max(1.0) / scale;
         let bound = stage.bound().into_iter().fold(0.0, f64::max);
         let colour = if bound > 0.0 { above(bound) } else { 0 };
         let faces = scene.polygons().len() as u32;
@@ -243,7 +243,7 @@ impl PathFormats {
             rays: stage.traced_rays(),
             point: PathFormat::number(true, above(farthest), fraction + steps)?,
             // Twice the distance that anything can be met at.
-            distance: PathFormat::number(false, above(2.0 * reach), fraction + steps)?,
+            distance: PathFormat::number(false, above(2.0 * t_max), fraction + steps)?,
             unit: PathFormat::number(true, 1, fraction)?,
             face: count(faces),
             material: count(materials),

@@ -23,7 +23,7 @@ pub struct CameraStage {
     /// Whether primary directions must have unit length.
     pub unit: bool,
     /// A bound on the distance of whatever a primary ray meets, in lengths of its direction.
-    pub reach: f64,
+    pub t_max: f64,
 }
 
 struct Basis {
@@ -167,7 +167,7 @@ impl CameraStage {
             column: (column * per_pixel).to_array(),
             row: (row * per_pixel).to_array(),
             unit: unit && perspective,
-            reach: far,
+            t_max: far,
         }
     }
 
@@ -194,7 +194,7 @@ impl CameraStage {
             origin,
             direction,
             from: cx.index(NO_PLANE),
-            reach: self.reach,
+            t_max: self.t_max,
             start: Start::Camera,
         }
     }

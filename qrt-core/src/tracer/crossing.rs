@@ -27,8 +27,8 @@ pub struct AxisPermuted<A: Arith> {
     pub origin_across: [A::Real; 2],
     /// The direction's components along the next axis and the one after it.
     pub direction_across: [A::Real; 2],
-    /// A bound on the distance of whatever the ray meets: see [`Ray::reach`].
-    pub reach: f64,
+    /// A bound on the distance of whatever the ray meets: see [`Ray::t_max`].
+    pub t_max: f64,
 }
 
 impl<A: Arith> AxisPermuted<A> {
@@ -40,7 +40,7 @@ impl<A: Arith> AxisPermuted<A> {
             direction: ray.direction[AXIS],
             origin_across: across(&ray.origin),
             direction_across: across(&ray.direction),
-            reach: ray.reach,
+            t_max: ray.t_max,
         }
     }
 
@@ -73,7 +73,7 @@ impl<A: Arith> AxisPermuted<A> {
             direction: turn(&ray.direction, 0),
             origin_across: [turn(&ray.origin, 1), turn(&ray.origin, 2)],
             direction_across: [turn(&ray.direction, 1), turn(&ray.direction, 2)],
-            reach: ray.reach,
+            t_max: ray.t_max,
         }
     }
 }
@@ -117,7 +117,7 @@ pub fn cross<A: Arith>(
 ) -> Crossing<A> {
     let slope = slope(cx, form, ray);
     let rise = rise(cx, form, offset, ray);
-    let (ahead, distance) = cx.ahead(rise, slope, ray.reach);
+    let (ahead, distance) = cx.ahead(rise, slope, ray.t_max);
     let point = vector!(cx, ray.origin_across + ray.direction_across * distance);
     Crossing {
         ahead,

@@ -176,7 +176,7 @@ pub fn trace<A: Arith, N: Nearest<A>, const C: usize>(
             origin,
             direction: scattered.direction,
             from,
-            reach: stage.reach,
+            t_max: stage.t_max,
             start: Start::Surface,
         };
         throughput = Some(match throughput {

@@ -110,8 +110,8 @@ impl Geometry {
     ) -> (A::Bool, A::Real) {
         let face = &self.faces[number];
         let plane = self.plane_of[face.label as usize] as usize;
-        let turned = AxisPermuted::along(self.planes[plane].axis, ray);
-        let crossing = self.cross(cx, plane, &turned, ray.from);
+        let permuted = AxisPermuted::along(self.planes[plane].axis, ray);
+        let crossing = self.cross(cx, plane, &permuted, ray.from);
         (meets(cx, &crossing, &*face.edge_tests), crossing.distance)
     }
 
@@ -173,7 +173,7 @@ impl Geometry {
     /// Whether it is `hidden` already, or one of these faces of plane `number` stands between the start
     /// of `ray` and its end, one length of its direction away, on emitting face number `lamp`.
     #[inline(always)]
-    #[allow(clippy::too_many_arguments)] // The ray is turned once for many planes.
+    #[allow(clippy::too_many_arguments)] // The ray is permuted once for many planes.
     pub(super) fn occluded_by<'f, A: Arith>(
         &self,
         cx: &mut A,
@@ -235,7 +235,7 @@ impl Geometry {
     /// Whether it is `hidden` already, or one of these faces of plane `number` hides an emitter at this
     /// distance.
     #[inline(always)]
-    #[allow(clippy::too_many_arguments)] // The ray is turned once for many planes.
+    #[allow(clippy::too_many_arguments)] // The ray is permuted once for many planes.
     pub(super) fn hidden_by<'f, A: Arith>(
         &self,
         cx: &mut A,
@@ -270,9 +270,9 @@ struct Running<A: Arith> {
 
 impl<A: Arith> Running<A> {
     #[inline(always)]
-    fn new(cx: &mut A, reach: f64) -> Self {
+    fn new(cx: &mut A, t_max: f64) -> Self {
         Self {
-            distance: cx.t_max(reach),
+            distance: cx.t_max(t_max),
             face: cx.index(NO_FACE),
         }
     }
@@ -292,7 +292,7 @@ impl Geometry {
     /// The nearest emitter on the ray, hidden or not.
     #[inline(always)]
     pub fn nearest_emitter<A: Arith>(&self, cx: &mut A, ray: &Ray<A>, wanted: A::Bool) -> Hit<A> {
-        let mut nearest = Running::new(cx, ray.reach);
+        let mut nearest = Running::new(cx, ray.t_max);
         self.emitters_along::<A, 0>(cx, ray, &mut nearest);
         self.emitters_along::<A, 1>(cx, ray, &mut nearest);
         self.emitters_along::<A, 2>(cx, ray, &mut nearest);
@@ -304,7 +304,7 @@ impl<A: Arith> Nearest<A> for Geometry {
     /// All planes in turn.
     #[inline(always)]
     fn nearest(&self, cx: &mut A, ray: &Ray<A>, wanted: A::Bool) -> Hit<A> {
-        let mut nearest = Running::new(cx, ray.reach);
+        let mut nearest = Running::new(cx, ray.t_max);
         self.nearest_along::<A, 0>(cx, ray, &mut nearest);
         self.nearest_along::<A, 1>(cx, ray, &mut nearest);
         self.nearest_along::<A, 2>(cx, ray, &mut nearest);

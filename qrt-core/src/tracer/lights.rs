@@ -545,7 +545,7 @@ impl<A: Arith, N: Nearest<A>, const C: usize> Work<A> for Lighting<'_, A, N, C> 
             origin: *origin,
             direction: point.to,
             from: leaves.from,
-            reach: 1.0,
+            t_max: 1.0,
             start: Start::Surface,
         };
         let hidden = nearest.occluded(cx, &ray, point.lamp, wanted);

@@ -18,7 +18,7 @@ impl<A: Arith, const C: usize> Nearest<A> for Records<'_, C> {
         let stage = self.0;
         let zero = cx.real(0.0);
         let mut nearest: Record<A> = [zero; 8];
-        nearest[0] = cx.t_max(ray.reach);
+        nearest[0] = cx.t_max(ray.t_max);
         let mut face = cx.index(NO_FACE);
         // In the order of the running nearest: of faces equally far, the first is kept.
         for number in 0..stage.geometry.faces.len() {

@@ -13,7 +13,7 @@ pub struct Ray<A: Arith> {
     /// The number of the plane that the ray leaves; [`super::NO_PLANE`] from the camera.
     pub from: A::Index,
     /// A bound on the distance of whatever the ray meets, in lengths of its direction.
-    pub reach: f64,
+    pub t_max: f64,
     /// Where it starts, on all paths.
     pub start: Start,
 }

@@ -77,9 +77,9 @@ struct Running<A: Arith> {
 }
 
 impl<A: Arith> Running<A> {
-    fn new(cx: &mut A, reach: f64) -> Self {
+    fn new(cx: &mut A, t_max: f64) -> Self {
         Self {
-            distance: cx.t_max(reach),
+            distance: cx.t_max(t_max),
             face: cx.index(NO_FACE),
             front: cx.truth(true),
         }
@@ -117,7 +117,7 @@ impl<A: Arith> Approach<A> {
         let slope = slope(cx, form, &ray);
         let offset = cx.real(plane.offset);
         let rise = rise(cx, form, offset, &ray);
-        let (ahead, distance) = cx.ahead(rise, slope, ray.reach);
+        let (ahead, distance) = cx.ahead(rise, slope, ray.t_max);
         Self {
             ahead,
             distance,
@@ -195,9 +195,9 @@ impl Search<'_> {
         };
         let plane = &self.geometry.planes[up.0.plane];
         cx.enter(Part::Plane(up.0.plane));
-        let turned = AxisPermuted::along(plane.axis, ray);
+        let permuted = AxisPermuted::along(plane.axis, ray);
         let form = constants(cx, plane.form);
-        let slope = slope(cx, form, &turned);
+        let slope = slope(cx, form, &permuted);
         let falls = math!(cx, slope < 0.0);
         let [a, b] = [down, up].map(|(side, falls)| {
             let falls = cx.truth(falls);
@@ -210,8 +210,8 @@ impl Search<'_> {
         });
         let offset = cx.select(falls, a.0, b.0);
         let left = cx.select_truth(falls, a.1, b.1);
-        let rise = rise(cx, form, offset, &turned);
-        let (ahead, distance) = cx.ahead(rise, slope, ray.reach);
+        let rise = rise(cx, form, offset, &permuted);
+        let (ahead, distance) = cx.ahead(rise, slope, ray.t_max);
         let hit = math!(cx, (ahead && !left) && distance < nearest.distance);
         let here = Running {
             distance,
@@ -236,9 +236,9 @@ impl Search<'_> {
         body: &Met,
         limit: A::Real,
     ) -> (A::Bool, Running<A>) {
-        let mut entry = Running::new(cx, ray.reach);
+        let mut entry = Running::new(cx, ray.t_max);
         entry.distance = cx.real(0.0);
-        let mut exit = Running::new(cx, ray.reach);
+        let mut exit = Running::new(cx, ray.t_max);
         let mut entered = cx.truth(false);
         let mut missed = cx.truth(false);
         let mut exits = Vec::new();
@@ -333,10 +333,10 @@ impl Search<'_> {
         for (number, faces) in planes {
             cx.enter(Part::Plane(*number));
             let plane = &self.geometry.planes[*number];
-            let turned = AxisPermuted::along(plane.axis, ray);
-            let crossing = self.geometry.cross(cx, *number, &turned, ray.from);
+            let permuted = AxisPermuted::along(plane.axis, ray);
+            let crossing = self.geometry.cross(cx, *number, &permuted, ray.from);
             let form = constants(cx, plane.form);
-            let slope = slope(cx, form, &turned);
+            let slope = slope(cx, form, &permuted);
             let falls = math!(cx, slope < 0.0);
             for &place in faces {
                 let face = &self.geometry.faces[place];
@@ -393,7 +393,7 @@ impl Search<'_> {
 impl<A: Arith> Nearest<A> for Search<'_> {
     fn nearest(&self, cx: &mut A, ray: &Ray<A>, wanted: A::Bool) -> Hit<A> {
         let plan = self.plan(ray);
-        let mut nearest = Running::new(cx, ray.reach);
+        let mut nearest = Running::new(cx, ray.t_max);
         let mut gone = cx.truth(false);
         for outer in &plan.outer {
             let outwards = self.outer(cx, ray, outer, &mut nearest);
@@ -414,7 +414,7 @@ impl<A: Arith> Nearest<A> for Search<'_> {
 
     fn emitter(&self, cx: &mut A, ray: &Ray<A>, wanted: A::Bool) -> Hit<A> {
         let plan = self.plan(ray);
-        let mut nearest = Running::new(cx, ray.reach);
+        let mut nearest = Running::new(cx, ray.t_max);
         self.planes(cx, ray, &plan.emitting, &mut nearest);
         let mut hit = nearest.hit(cx, wanted);
         let mut hidden = cx.truth(false);
@@ -426,11 +426,11 @@ impl<A: Arith> Nearest<A> for Search<'_> {
         }
         for (number, places) in &plan.before_lamps {
             let faces = places.iter().map(|&place| &self.geometry.faces[place]);
-            let turned = AxisPermuted::along(self.geometry.planes[*number].axis, ray);
+            let permuted = AxisPermuted::along(self.geometry.planes[*number].axis, ray);
             let (from, lamp) = (ray.from, hit.distance);
             hidden = self
                 .geometry
-                .hidden_by(cx, *number, faces, &turned, from, lamp, hidden);
+                .hidden_by(cx, *number, faces, &permuted, from, lamp, hidden);
         }
         hit.found = math!(cx, hit.found && !hidden);
         hit
@@ -448,10 +448,10 @@ impl<A: Arith> Nearest<A> for Search<'_> {
         }
         for (number, places) in &plan.before_lamps {
             let faces = places.iter().map(|&place| &self.geometry.faces[place]);
-            let turned = AxisPermuted::along(self.geometry.planes[*number].axis, ray);
+            let permuted = AxisPermuted::along(self.geometry.planes[*number].axis, ray);
             hidden = self
                 .geometry
-                .occluded_by(cx, *number, faces, &turned, ray.from, lamp, hidden);
+                .occluded_by(cx, *number, faces, &permuted, ray.from, lamp, hidden);
         }
         hidden
     }

@@ -32,7 +32,7 @@ pub struct Stage<const C: usize> {
     /// What scatters towards each ray but the first.
     pub(crate) scatters: Vec<ScatterStage<C>>,
     /// A bound on the distance between two points of the geometry.
-    pub(crate) reach: f64,
+    pub(crate) t_max: f64,
     /// Where primary rays start, or the corners of the area that they start from, in stage units.
     pub(crate) starts: Vec<DVec3>,
     /// Whether paths may go on beyond each face.
@@ -152,7 +152,7 @@ impl<const C: usize> Stage<C> {
             direct,
             every_hit: false,
             bound,
-            reach: 2.0 * geometry.radius(),
+            t_max: 2.0 * geometry.radius(),
             geometry,
         }
     }

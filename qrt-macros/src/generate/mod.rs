@@ -17,30 +17,29 @@ mod tests;
 
 pub(crate) use stub::stub;
 
-use crate::scene::Parsed;
 use names::Names;
 use proc_macro2::TokenStream;
 use qrt_core::oracle::{CallCost, Oracle, check_budget};
 use qrt_core::syntax::Problem;
 use qrt_core::valid::ValidScene;
-use quote::ToTokens as _;
 use std::fmt::Write as _;
 
 /// The most operations of a circuit that becomes code. Beyond, the code would take minutes to
 /// compile.
 const MOST: usize = 20_000;
 
-/// What stands beside the struct of a scene and its function `scene()`.
+/// What stands beside the struct of a scene and its function `scene()`: of the scene's name, its
+/// visibility, the `cfg`s on it, and by primitive the label that its author gave it.
 ///
 /// # Errors
 /// A scene without a circuit, or with one that goes beyond its budget.
-pub(crate) fn scene(parsed: &Parsed, valid: &ValidScene) -> Result<TokenStream, Vec<Problem>> {
-    let name = parsed.header.name.to_string();
-    let public = parsed.header.visibility.to_token_stream().to_string();
-    let conditions = parsed.header.conditions().to_string();
-    let labels = parsed.primitives.iter();
-    let labels: Vec<Option<String>> = labels.map(|origin| origin.label.clone()).collect();
-    let text = text(&name, &public, &conditions, (&labels, valid))?;
+pub(crate) fn scene(
+    name: &str,
+    visibility: &str,
+    conditions: &str,
+    (labels, valid): (&[Option<String>], &ValidScene),
+) -> Result<TokenStream, Vec<Problem>> {
+    let text = text(name, visibility, conditions, (labels, valid))?;
     Ok(parsed_text(&text))
 }
 

@@ -9,10 +9,10 @@ use super::values::{entry, scalar};
 use super::{Parsed, REFUSED, check, emit};
 use proc_macro2::{Delimiter, Ident, TokenStream, TokenTree};
 use qrt_core::front::load_below;
-use qrt_core::syntax::codes;
 use qrt_core::syntax::tree::{Entry, Node, Span, Value};
+use qrt_core::syntax::{Problem, codes};
 use qrt_core::valid::ValidScene;
-use quote::quote;
+use quote::{ToTokens as _, quote};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -38,7 +38,7 @@ pub(crate) fn expand(asked: Asked, root: &Path) -> TokenStream {
                 out.extend(quote!(#conditions #shown));
             }
         }
-        let generated = valid.and_then(|valid| match crate::generate::scene(&parsed, &valid) {
+        let generated = valid.and_then(|valid| match generated(&parsed, &valid) {
             Ok(code) => Some(emit::expansion(&parsed, &valid, root, &code)),
             Err(problems) => {
                 parsed.report(problems, &mut faults);
@@ -51,6 +51,19 @@ pub(crate) fn expand(asked: Asked, root: &Path) -> TokenStream {
         out.extend(compile_error(&fault.text(&table), fault.ends(&table)));
     }
     out
+}
+
+/// A scene's circuit as Rust.
+fn generated(parsed: &Parsed, valid: &ValidScene) -> Result<TokenStream, Vec<Problem>> {
+    let header = &parsed.header;
+    let labels = parsed.primitives.iter();
+    let labels: Vec<Option<String>> = labels.map(|origin| origin.label.clone()).collect();
+    crate::generate::scene(
+        &header.name.to_string(),
+        &header.visibility.to_token_stream().to_string(),
+        &header.conditions().to_string(),
+        (&labels, valid),
+    )
 }
 
 /// The scenes of `input`, which may name these terms.

@@ -86,7 +86,7 @@ impl WithSimd for NearestOf<'_> {
                 origin,
                 direction,
                 from,
-                reach: f64::INFINITY,
+                t_max: f64::INFINITY,
                 start: Start::Surface,
             };
             let wanted = cx.is(wanted, 1);

@@ -230,7 +230,7 @@ fn camera_ray(stage: &Stage<3>, chance: &mut Chance) -> Ray<Scalar> {
         origin,
         direction,
         from: NO_PLANE,
-        reach: camera.reach,
+        t_max: camera.t_max,
         start: Start::Camera,
     }
 }
@@ -310,7 +310,7 @@ impl Comparison<'_> {
         }
         let ray = Ray {
             direction: direction.to_array(),
-            reach: 1.0,
+            t_max: 1.0,
             ..*ray
         };
         let cx = &mut Scalar::default();
@@ -344,7 +344,7 @@ impl Comparison<'_> {
                     origin: start(&mut Scalar::default(), &ray, distance, frame),
                     direction: direction.to_array(),
                     from: self.stage.geometry.plane_of[face as usize],
-                    reach: self.stage.reach,
+                    t_max: self.stage.t_max,
                     start: Start::Surface,
                 };
                 if !transmits {

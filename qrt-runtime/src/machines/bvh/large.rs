@@ -79,7 +79,7 @@ impl LargeFace {
             direction: d[axis],
             origin_across: [o[first], o[second]],
             direction_across: [d[first], d[second]],
-            reach: f64::INFINITY,
+            t_max: f64::INFINITY,
         };
         let form = [cx.real(self.form[0]), cx.real(self.form[1])];
         let offset = cx.real(self.offset);

@@ -134,7 +134,7 @@ impl Packet {
             direction: cx.real(d[axis][lane]),
             origin_across: [cx.real(o[axis + 1][lane]), cx.real(o[axis + 2][lane])],
             direction_across: [cx.real(d[axis + 1][lane]), cx.real(d[axis + 2][lane])],
-            reach: f64::INFINITY,
+            t_max: f64::INFINITY,
         };
         let form = [real(&self.form[0]), real(&self.form[1])];
         let crossing = cross(cx, form, real(&self.offset), &ray);
