@@ -193,7 +193,7 @@ fn portions_of_a_table_make_the_table_and_what_is_lost_is_measured_again() {
         let rows = timeless(&folder, &out).len() - 1;
         let expected = format!("{out}/trade.csv: {rows} rows, portion {tile} of the settings\n");
         assert_eq!(said, expected);
-        assert!(!folder.path(&format!("{out}/index.html")).exists());
+        assert!(!folder.path(format!("{out}/index.html")).exists());
     }
     trade(&folder, "merged", &["--parts", "part2", "part0", "part1"]);
     assert_eq!(timeless(&folder, "merged"), timeless(&folder, "whole"));
