@@ -7,6 +7,7 @@ use super::memory::{self, refused};
 use super::picture::{self, BesideArgs, Outputs};
 use super::terminal;
 use clap::Args;
+use qrt_runtime::disk::read_regular;
 use qrt_runtime::image::Encoding;
 use qrt_runtime::memory::Memory;
 use qrt_runtime::render::Merge;
@@ -72,7 +73,7 @@ pub(crate) fn run(args: &MergeArgs) -> Result<(), Failure> {
     memory.keep_parts(length).map_err(|error| refused(&error))?;
     let mut merge = Merge::default();
     for path in &args.parts {
-        let bytes = fs::read(path).map_err(|error| Failure::file(path, &error))?;
+        let bytes = read_regular(path).map_err(|error| Failure::file(path, &error))?;
         merge.add(&path.display().to_string(), &bytes)?;
     }
     let rendered = merge.finish()?;

@@ -323,6 +323,13 @@ fn pictures_are_compared_and_their_errors_shown() {
     let shown = diff(&["exact.png", "counted.png"]);
     assert_eq!(shown["of"], "display");
     assert!(shown["flip"].as_f64().unwrap() > 0.0);
+    for names in [["exact.png", "counted.png"], ["exact.exr", "counted.exr"]] {
+        let errors = folder.fails(2, &[&["diff", "--max-memory", "10k"], &names[..]].concat());
+        assert!(
+            errors.contains("comparing pictures of 13 x 11 pixels would take"),
+            "{errors}"
+        );
+    }
     let text = folder.works(&["diff", "exact.png", "counted.png"]);
     for part in [
         "counted.png against exact.png: 13 x 11 pixels",

@@ -193,6 +193,54 @@ fn verify_holds_where_a_channel_is_dark() {
     }
 }
 
+/// Bounds that saturate are negated, too.
+#[test]
+fn numbers_at_the_end_of_what_there_is_are_refused() {
+    let text = r"
+name: far
+camera: { perspective: { eye: [0, 0, 1e10], target: [1e30, 1e15, -1], vfov: 179.999999 } }
+film: { width: 3, height: 2 }
+materials: { lamp: { emitter: { radiance: [1, 1, 1] } }, m: { lambertian: { albedo: [0.7, 0.6, 0.5] } } }
+geometry:
+  - quad: { vertices: [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], material: m }
+  - quad: { vertices: [[-1, 1, 1e6], [1, 1, 1e6], [1, -1, 1e6], [-1, -1, 1e6]], material: lamp }
+precision: { fraction: 30 }
+sampling: { path_bits: 4, depths: [{ bits: [2, 2] }, { bits: [2, 2] }] }
+";
+    let folder = Folder::with("far.yaml", text);
+    let errors = folder.fails(2, &["inspect", "far.yaml"]);
+    assert!(errors.contains("QRT0611"), "{errors}");
+}
+
+/// What a command reads beside a scene is a regular file: a pipe is not waited for, and a device not read
+/// until memory ends.
+#[cfg(unix)]
+#[test]
+fn parts_and_pictures_are_regular_files() {
+    let shape =
+        "{ quad: { vertices: [[-9, -9, 0], [9, -9, 0], [9, 9, 0], [-9, 9, 0]], material: lamp } }";
+    let folder = Folder::with("s.yaml", &scene("", shape));
+    let made = std::process::Command::new("mkfifo")
+        .args(["pipe", "pipe.png", "pipe.exr"])
+        .current_dir(folder.path(""))
+        .status();
+    assert!(made.unwrap().success());
+    fs::create_dir(folder.path("part")).unwrap();
+    std::os::unix::fs::symlink("/dev/zero", folder.path("part/trade.csv")).unwrap();
+    std::os::unix::fs::symlink("/dev/zero", folder.path("zero")).unwrap();
+    for arguments in [
+        &["merge", "pipe", "-o", "m.png"][..],
+        &["merge", "zero", "-o", "m.png"],
+        &["diff", "pipe.png", "pipe.png"],
+        &["diff", "pipe.exr", "pipe.exr"],
+        &["verify", "s.yaml", "--parts", "pipe"],
+        &["trade", "s.yaml", "-o", "out", "--quick", "--parts", "part"],
+    ] {
+        let errors = folder.fails(1, arguments);
+        assert!(errors.contains("it is no regular file"), "{errors}");
+    }
+}
+
 /// An operand that no register can hold is told, at whatever width.
 #[test]
 fn a_function_of_an_overwide_number_is_refused() {

@@ -2,6 +2,7 @@
 
 use crate::common::scene::written;
 use qrt::prelude::*;
+use qrt::runtime::memory::Memory;
 use std::f64::consts::PI;
 
 const FURNACE: &str = include_str!("../scenes/furnace.yaml");
@@ -156,9 +157,17 @@ fn what_cannot_be_rendered_is_refused_before_it_costs_anything() {
         assert!(error.is_refusal(), "{error}");
         assert!(error.to_string().contains(words), "{error}");
     };
-    let default = Options::default();
     let film = "film={ width: 65536, height: 65536 }";
-    refused(&[film, "sampling.path_bits=52"], &default, "2^64");
+    let unlimited = Options {
+        memory: Memory::of(Some(u64::MAX)),
+        ..Options::default()
+    };
+    refused(&[film, "sampling.path_bits=52"], &unlimited, "2^64");
+    let little = Options {
+        memory: Memory::of(Some(1 << 30)),
+        ..Options::default()
+    };
+    refused(&[film], &little, "would take about 447 GB of memory");
     for crop in [
         [0, 0, 0, 1],
         [0, 0, 1, 0],

@@ -39,9 +39,12 @@ impl Builder<'_> {
             && bit.register == word.register;
         let [low, high] = plain.range;
         let range = if own_sign && !bit.inverted {
-            [0, high.max(-low)]
+            [0, high.max(low.saturating_neg())]
         } else {
-            [low.min(-high), high.max(-low)]
+            [
+                low.min(high.saturating_neg()),
+                high.max(low.saturating_neg()),
+            ]
         };
         let (ty, width, signed) = self.shape(range);
         let target = self.emit(Op::Negate {

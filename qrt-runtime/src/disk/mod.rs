@@ -143,6 +143,46 @@ pub(crate) fn open(path: &Path, write: bool) -> io::Result<DiskFile> {
     Ok(DiskFile::new(file, path))
 }
 
+/// Opens a regular file to be read. Pipes, which may never end, and devices are refused, before they are
+/// opened.
+///
+/// ```
+/// # #[cfg(unix)] {
+/// let refused = qrt_runtime::disk::open_regular("/dev/zero".as_ref()).unwrap_err();
+/// assert_eq!(refused.to_string(), "it is no regular file");
+/// # }
+/// ```
+///
+/// # Errors
+/// It cannot be opened, or is no regular file.
+pub fn open_regular(path: &Path) -> io::Result<File> {
+    let irregular = || {
+        Err(io::Error::new(
+            ErrorKind::InvalidInput,
+            "it is no regular file",
+        ))
+    };
+    if !fs::metadata(path)?.is_file() {
+        return irregular();
+    }
+    let file = File::open(path)?;
+    if file.metadata()?.is_file() {
+        Ok(file)
+    } else {
+        irregular()
+    }
+}
+
+/// The bytes of a regular file: [`open_regular`].
+///
+/// # Errors
+/// It cannot be read, or is no regular file.
+pub fn read_regular(path: &Path) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    open_regular(path)?.read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
 /// Removes a file.
 pub(crate) fn remove(path: &Path) -> io::Result<()> {
     begin(Operation::Remove, path)?;

@@ -11,6 +11,8 @@ use std::time::Instant;
 const OF_FACE: u64 = 1000;
 /// Bytes of a pixel in tiles, picture and files: 83 of a tile.
 const OF_PIXEL: u64 = 104;
+/// Bytes of a pixel while two pictures are compared: both, their difference, and what FLIP filters.
+const OF_COMPARED_PIXEL: u64 = 120;
 /// Up to so many faces a circuit is compiled without an estimate before it, which takes as long.
 const FEW_FACES: usize = 400;
 /// Faces of the two parts of a scene from which the whole is estimated.
@@ -96,6 +98,20 @@ impl Memory {
             allowed: self.bytes,
             lower,
         })
+    }
+
+    /// That the comparison of two pictures of this width and height in pixels fits.
+    ///
+    /// # Errors
+    /// It does not.
+    pub fn keep_compared(self, [width, height]: [u64; 2]) -> Result<(), MemoryError> {
+        let pixels = width as f64 * height as f64;
+        let what = format!("comparing pictures of {width} x {height} pixels");
+        self.keep(
+            &what,
+            pixels * OF_COMPARED_PIXEL as f64,
+            "compare crops of them",
+        )
     }
 
     /// That a picture of this width and height in pixels fits.

@@ -207,13 +207,15 @@ fn measure(scene: &ValidScene, folder: &Path, options: &Options<'_>) -> Result<T
     bench.check()?;
     let own = folder.join("trade.csv");
     let parts = options.parts.iter().map(|part| part.join("trade.csv"));
-    let there = own.exists().then(|| own.clone());
-    let tables: Vec<PathBuf> = parts.chain(there).collect();
+    let parts: Vec<PathBuf> = parts.collect();
     let read = |path: &PathBuf| table::read(path, &header, &settings);
-    let mut taken = tables.iter().map(read).collect::<Result<Vec<_>, _>>()?;
-    table::agree(&tables, &taken, &settings)?;
-    taken.truncate(options.parts.len());
+    let taken = parts.iter().map(read).collect::<Result<Vec<_>, _>>()?;
+    let rows = taken.iter().map(|part| &*part.rows);
+    let mut tables: Vec<_> = parts.iter().map(PathBuf::as_path).zip(rows).collect();
+    table::agree(&tables, &settings)?;
     let mut table = table::Table::open(&own, &header, &settings)?;
+    tables.push((&own, &table.found));
+    table::agree(&tables, &settings)?;
     let found = std::mem::take(&mut table.found);
     table.damaged += taken.iter().map(|part| part.damaged).sum::<usize>();
     // By setting: the first part that has its row.

@@ -10,7 +10,6 @@ use super::setting::{KEY, Setting};
 use crate::disk::{self, DiskFile};
 use crate::replace_file::replaced;
 use qrt_core::oracle::CallCost;
-use std::fs;
 use std::io::{self, Read as _, Seek as _, SeekFrom, Write as _};
 use std::path::{Path, PathBuf};
 
@@ -135,14 +134,13 @@ pub(super) fn read(
     header: &Header,
     settings: &[Setting],
 ) -> Result<Contents, TradeError> {
-    let bytes = fs::read(path).map_err(failed(path))?;
+    let bytes = disk::read_regular(path).map_err(failed(path))?;
     Contents::read(&bytes, path, header, settings)
 }
 
 /// That these tables have the same row of a setting wherever two have one, but for the time that it took.
 pub(super) fn agree(
-    paths: &[PathBuf],
-    tables: &[Contents],
+    tables: &[(&Path, &[Option<Row>])],
     settings: &[Setting],
 ) -> Result<(), TradeError> {
     for (at, setting) in settings.iter().enumerate() {
@@ -150,15 +148,15 @@ pub(super) fn agree(
             seconds: 0.0,
             ..row
         };
-        let rows = tables.iter().map(|table| table.rows[at].map(timeless));
-        let mut rows = paths.iter().zip(rows).filter(|(_, row)| row.is_some());
+        let rows = tables.iter();
+        let mut rows = rows.filter_map(|(path, rows)| Some((path, rows[at].map(timeless)?)));
         let Some((first, row)) = rows.next() else {
             continue;
         };
         if let Some((path, _)) = rows.find(|(_, other)| *other != row) {
             return Err(TradeError::Disagree {
-                path: path.clone(),
-                first: first.clone(),
+                path: path.to_path_buf(),
+                first: first.to_path_buf(),
                 setting: setting.values().join(","),
             });
         }

@@ -4,13 +4,14 @@ mod read;
 
 use super::failure::Failure;
 use super::files::{Output, keep_apart};
-use super::terminal;
+use super::{memory, terminal};
 use clap::Args;
 use qrt_runtime::image::compare::{
     Difference, ErrorMap, PIXELS_PER_DEGREE, SizesDiffer, difference, flip_of_display,
     flip_of_radiance,
 };
 use qrt_runtime::image::{Encoding, Image, Metadata, save};
+use qrt_runtime::memory::Memory;
 use serde_json::json;
 use std::path::{Path, PathBuf};
 
@@ -46,6 +47,10 @@ pub(crate) struct DiffArgs {
     /// JSON instead of text
     #[arg(long)]
     json: bool,
+    /// The memory that the work may take, such as 500M or 4G: what would take more is refused before it
+    /// begins [default: three quarters of what the machine has]
+    #[arg(long, value_name = "SIZE", value_parser = memory::size)]
+    max_memory: Option<u64>,
 }
 
 /// So many that filters stay smaller than most pictures.
@@ -75,7 +80,8 @@ pub(crate) fn run(args: &DiffArgs) -> Result<(), Failure> {
         return Err(Failure::Usage(message.to_owned()));
     }
     let read = if radiance { read::exr } else { read::png };
-    let (reference, picture) = (read(&args.reference)?, read(&args.picture)?);
+    let memory = Memory::of(args.max_memory);
+    let (reference, picture) = (read(&args.reference, memory)?, read(&args.picture, memory)?);
     let refused = |error: SizesDiffer| Failure::Usage(error.to_string());
     let found = difference(&reference, &picture).map_err(refused)?;
     let flip = if radiance {

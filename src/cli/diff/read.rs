@@ -5,42 +5,37 @@ use exr::error::Error as ExrError;
 use exr::meta::MetaData;
 use exr::prelude::{FlatSamples, read_first_flat_layer_from_file};
 use png::{ColorType, DecodingError, Transformations};
+use qrt_runtime::disk::open_regular;
 use qrt_runtime::image::{Image, linear_of_srgb};
-use std::fs::File;
+use qrt_runtime::memory::Memory;
 use std::io::BufReader;
 use std::path::Path;
-
-/// Pixels of the largest picture that is read: some 15 GiB once it is compared.
-const MOST_PIXELS: u64 = 1 << 27;
 
 /// Why a file is no picture.
 fn refused(path: &Path, why: &str) -> Failure {
     Failure::Job(format!("`{}`: {why}", path.display()))
 }
 
-fn check_size(path: &Path, width: u64, height: u64) -> Result<(), Failure> {
-    if width.saturating_mul(height) <= MOST_PIXELS {
-        return Ok(());
-    }
-    let why = format!("{width} x {height} pixels; at most {MOST_PIXELS} are compared");
-    Err(refused(path, &why))
+fn check_size(path: &Path, size: [u64; 2], memory: Memory) -> Result<(), Failure> {
+    let kept = memory.keep_compared(size);
+    kept.map_err(|error| Failure::Usage(format!("`{}`: {error}", path.display())))
 }
 
 /// What a display shows of a PNG, as linear light from 0 to 1.
 ///
 /// # Errors
 /// No PNG, or one with transparent pixels.
-pub(super) fn png(path: &Path) -> Result<Image, Failure> {
+pub(super) fn png(path: &Path, memory: Memory) -> Result<Image, Failure> {
     let failed = |error: DecodingError| match error {
         DecodingError::IoError(error) => Failure::file(path, &error),
         error => refused(path, &error.to_string()),
     };
-    let file = File::open(path).map_err(|error| Failure::file(path, &error))?;
+    let file = open_regular(path).map_err(|error| Failure::file(path, &error))?;
     let mut decoder = png::Decoder::new(BufReader::new(file));
     decoder.set_transformations(Transformations::normalize_to_color8());
     let mut reader = decoder.read_info().map_err(failed)?;
     let (width, height) = reader.info().size();
-    check_size(path, width.into(), height.into())?;
+    check_size(path, [width.into(), height.into()], memory)?;
     let size = reader.output_buffer_size();
     let size = size.ok_or_else(|| refused(path, "it is too large"))?;
     let mut levels = vec![0; size];
@@ -76,20 +71,18 @@ pub(super) fn png(path: &Path) -> Result<Image, Failure> {
 ///
 /// # Errors
 /// No OpenEXR, one without these channels, or with a value that is no number.
-pub(super) fn exr(path: &Path) -> Result<Image, Failure> {
+pub(super) fn exr(path: &Path, memory: Memory) -> Result<Image, Failure> {
     let failed = |error: ExrError| match error {
         ExrError::Io(error) => Failure::file(path, &error),
         error => refused(path, &error.to_string()),
     };
+    open_regular(path).map_err(|error| Failure::file(path, &error))?;
     let headers = MetaData::read_from_file(path, false)
         .map_err(failed)?
         .headers;
     for header in &headers {
-        check_size(
-            path,
-            header.layer_size.width() as u64,
-            header.layer_size.height() as u64,
-        )?;
+        let size = header.layer_size;
+        check_size(path, [size.width() as u64, size.height() as u64], memory)?;
     }
     let read = read_first_flat_layer_from_file(path).map_err(failed)?;
     let layer = read.layer_data;

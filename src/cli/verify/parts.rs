@@ -3,11 +3,11 @@
 use super::super::failure::Failure;
 use super::Found;
 use qrt_core::valid::ValidScene;
+use qrt_runtime::disk::read_regular;
 use qrt_runtime::render::Portion;
 use qrt_runtime::verify::{Mismatch, Options, Report, pixels};
 use serde_json::Value;
 use std::collections::BTreeMap;
-use std::fs;
 use std::path::{Path, PathBuf};
 
 /// As many missing portions are named.
@@ -26,7 +26,7 @@ pub(super) fn put_together(
     let mut parts: BTreeMap<u32, (&Path, Found)> = BTreeMap::new();
     let mut first: Option<(&Path, Portion)> = None;
     for file in files {
-        let bytes = fs::read(file).map_err(|error| Failure::file(file, &error))?;
+        let bytes = read_regular(file).map_err(|error| Failure::file(file, &error))?;
         let (portion, found) = part(file, &bytes, scene, options)?;
         let shown = file.display();
         let (other, expected) = *first.get_or_insert((file, portion));
