@@ -752,12 +752,12 @@ fn arrays_of_registers() {
         |s| {
             let mut all = s[..4].to_vec();
             let mut sum = s[4] + all.iter().max().unwrap();
-            sum = (sum + 16 - (all[0] + all[1])) % 16 ^ (all[2] + all[3]) << 1;
+            sum = ((sum + 16 - (all[0] + all[1])) % 16) ^ ((all[2] + all[3]) << 1);
             for i in 1..4 {
-                all[i] = (all[i] + all[0]) % 4 ^ all[0];
+                all[i] = ((all[i] + all[0]) % 4) ^ all[0];
             }
             all[0] = (all[0] + all[3]) % 4;
-            all[1] ^= all[2] >> 1 & all[0] >> 1;
+            all[1] ^= (all[2] >> 1) & (all[0] >> 1);
             all.push(sum % 16);
             all
         },

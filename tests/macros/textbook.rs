@@ -7,9 +7,9 @@ use qrt::prelude::*;
 
 #[allow(dead_code, reason = "its `main` is the example's")]
 #[path = "../../examples/textbook.rs"]
-mod textbook;
+mod routines;
 
-use textbook::*;
+use routines::*;
 
 /// The program backwards.
 macro_rules! undone {
@@ -109,7 +109,7 @@ fn products_are_added() {
 #[test]
 fn the_book_shows_what_they_cost() {
     let book = std::fs::read_to_string("book/src/macros.md").unwrap();
-    for (name, program, published, _) in textbook::rows() {
+    for (name, program, published, _) in routines::rows() {
         let cost: lower::Cost = lower::tally(&program).into_iter().sum();
         let (toffoli, measured) = (cost.toffoli, cost.and_measured);
         let row = format!("| {name} | {toffoli} | {measured} | {published} |");

@@ -249,10 +249,11 @@ impl Interval {
         if other.lo == 0.0 && other.hi == 0.0 {
             return None;
         }
-        if other.lo < 0.0 && other.hi > 0.0 {
+        // A difference that is zero is 0.0 and not -0.0, also where it is at most zero.
+        if other.lo < 0.0 && other.hi >= 0.0 {
             return Some(Self::ALL);
         }
-        if other.hi <= 0.0 {
+        if other.hi < 0.0 {
             return (-self).over(-other);
         }
         // Now 0 <= other.lo and 0 < other.hi.

@@ -168,9 +168,14 @@ impl<'t> Input<'t> {
     fn scene(&mut self, root: &Path) -> Option<Read> {
         let start = self.at;
         while self.peek().is_some_and(|token| token.is_sign('#')) {
-            let body = self.tokens.get(self.at + 1);
-            let is_whole = body.is_some_and(|token| token.group(Delimiter::Bracket).is_some());
-            self.at += 1 + usize::from(is_whole);
+            self.at += 1;
+            let body = self
+                .peek()
+                .and_then(|token| token.group(Delimiter::Bracket));
+            if body.is_none() {
+                return self.fail(codes::MACRO_SCENE, "`[ ... ]` after `#`");
+            }
+            self.at += 1;
         }
         let attributes = self.since(start);
         let start = self.at;
