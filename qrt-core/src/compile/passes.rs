@@ -42,6 +42,35 @@ pub(crate) struct Known {
 }
 
 impl Draft {
+    /// A copy of a register, in `parent`, and the instruction that makes it.
+    pub(super) fn copy(
+        &mut self,
+        register: RegisterId,
+        parent: BlockId,
+    ) -> (RegisterId, Instruction) {
+        let original = self.registers[register.index()].clone();
+        let a = Word {
+            register,
+            offset: 0,
+            width: original.width,
+            signed: false,
+            shift: 0,
+        };
+        let id = RegisterId(self.registers.len() as u32);
+        self.registers.push(Register {
+            name: format!("{}'", original.name),
+            block: parent,
+            ..original
+        });
+        self.ops.push((Op::Copy { a, target: id }, parent));
+        let instruction = Instruction {
+            op: self.ops.len() as u32 - 1,
+            inverse: false,
+            block: parent,
+        };
+        (id, instruction)
+    }
+
     /// Blocks from `block` to the root.
     pub(super) fn ancestors(&self, block: BlockId) -> Vec<BlockId> {
         let mut path = vec![block];
@@ -423,14 +452,7 @@ impl Scheduler<'_> {
     }
 
     fn copy(&mut self, register: RegisterId, parent: BlockId) -> Instruction {
-        let original = self.draft.registers[register.index()].clone();
-        let id = RegisterId(self.draft.registers.len() as u32);
-        let width = original.width;
-        self.draft.registers.push(Register {
-            name: format!("{}'", original.name),
-            block: parent,
-            ..original
-        });
+        let (id, instruction) = self.draft.copy(register, parent);
         // Earlier names lead to the newest copy.
         for copy in self.renamed.values_mut() {
             if *copy == register {
@@ -438,19 +460,7 @@ impl Scheduler<'_> {
             }
         }
         self.renamed.insert(register, id);
-        let a = Word {
-            register,
-            offset: 0,
-            width,
-            signed: false,
-            shift: 0,
-        };
-        self.draft.ops.push((Op::Copy { a, target: id }, parent));
-        Instruction {
-            op: self.draft.ops.len() as u32 - 1,
-            inverse: false,
-            block: parent,
-        }
+        instruction
     }
 }
 

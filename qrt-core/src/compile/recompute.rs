@@ -13,7 +13,7 @@
 
 use super::passes::Draft;
 use super::{Label, StageName, Strategy};
-use qrt_circuit::{BlockId, Instruction, Op, Register, RegisterId, Word, lower};
+use qrt_circuit::{BlockId, Instruction, RegisterId, lower};
 use std::collections::{BTreeSet, HashMap, HashSet};
 
 /// Narrower parts stay to the end of their scope.
@@ -363,30 +363,11 @@ impl Scheduler<'_> {
     }
 
     fn copy(&mut self, register: RegisterId, parent: BlockId) -> Instruction {
-        let held = self.draft.registers[register.index()].clone();
         let original = self.original(register);
-        let id = RegisterId(self.draft.registers.len() as u32);
-        let width = held.width;
-        self.draft.registers.push(Register {
-            name: format!("{}'", held.name),
-            block: parent,
-            ..held
-        });
+        let (id, instruction) = self.draft.copy(register, parent);
         self.originals.insert(id, original);
         self.renamed.insert(original, id);
-        let a = Word {
-            register,
-            offset: 0,
-            width,
-            signed: false,
-            shift: 0,
-        };
-        self.draft.ops.push((Op::Copy { a, target: id }, parent));
-        Instruction {
-            op: self.draft.ops.len() as u32 - 1,
-            inverse: false,
-            block: parent,
-        }
+        instruction
     }
 }
 
