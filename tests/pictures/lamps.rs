@@ -5,6 +5,7 @@ use crate::common::scene::{from_file, written};
 use qrt::core::syntax::Problem;
 use qrt::core::tracer::{PixelClass, PixelClasses};
 use qrt::core::valid::ValidScene;
+use qrt::prelude::{Estimator, Options, render};
 use qrt::runtime::machines::Real;
 use qrt::runtime::random::Stream;
 use std::fmt::Write as _;
@@ -269,6 +270,41 @@ sampling: {{ path_bits: 8, lights: {lights}, depths: [{{ bits: [6, 6] }}, {depth
 }
 
 /// A closed block of glass multiplies no light, however many times a path refracts.
+/// A camera that is all but on a lit wall sees the wall's light, at a scale that holds it.
+#[test]
+fn a_camera_close_to_a_wall_sees_what_lights_it() {
+    let seen = |distance: f64| {
+        let text = format!(
+            "name: close
+camera: {{ perspective: {{ eye: [0, 0, {distance:e}], target: [0, 0, -1], vfov: 40 }} }}
+film: {{ width: 1, height: 1 }}
+materials:
+  lamp: {{ emitter: {{ radiance: [1, 1, 1] }} }}
+  wall: {{ lambertian: {{ albedo: [0.7, 0.6, 0.5] }} }}
+geometry:
+  - quad: {{ vertices: [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], material: wall }}
+  - quad: {{ vertices: [[-1, 1, 4], [1, 1, 4], [1, -1, 4], [-1, -1, 4]], material: lamp }}
+sampling: {{ path_bits: 10, depths: [{{ bits: [6, 6] }}, {{ bits: [6, 6], light: [6, 6] }}] }}
+"
+        );
+        let exact = Options {
+            estimator: Some(Estimator::Exact),
+            ..Options::default()
+        };
+        render(&written(&text, &[]), &exact).unwrap().image.pixels[0]
+    };
+    let far = seen(1e-3);
+    assert!(far[0] > 0.01, "{far:?}");
+    for distance in [1e-12, 1e-10, 1e-9, 1e-6] {
+        for (close, far) in seen(distance).into_iter().zip(far) {
+            assert!(
+                (close / far - 1.0).abs() < 1e-3,
+                "{distance}: {close} and {far}"
+            );
+        }
+    }
+}
+
 #[test]
 fn closed_glass_does_not_multiply_the_scale() {
     let scene = |depths: usize| {

@@ -70,7 +70,8 @@ impl Places {
             let met = sides.clone().filter(meets);
             met.map(|place| place as u32).collect()
         };
-        let first = |place| before(geometry, place, starts);
+        // A camera almost on a plane may see the face from either side.
+        let first = |place| beyond(geometry, place, starts, -SLACK);
         Self {
             surfaces: sides.clone().map(|place| surface_of[place / 2]).collect(),
             seen: Some((
@@ -137,8 +138,13 @@ impl Places {
 
 /// Whether one of the points is before this side of a face.
 fn before(geometry: &Geometry, place: usize, points: &[DVec3]) -> bool {
+    beyond(geometry, place, points, SLACK)
+}
+
+/// Whether one of the points is further than `least` from the plane, towards this side of the face.
+fn beyond(geometry: &Geometry, place: usize, points: &[DVec3], least: f64) -> bool {
     let frame = &geometry.frames[place / 2];
     let side = if place.is_multiple_of(2) { 1.0 } else { -1.0 };
     let rise = |point: &DVec3| side * frame.normal.dot(*point - frame.centre);
-    points.iter().any(|point| rise(point) > SLACK)
+    points.iter().any(|point| rise(point) > least)
 }
