@@ -46,16 +46,21 @@ pub(crate) fn mesh(
     [around, along]: [u32; 2],
     path_bits: u32,
 ) -> ValidScene {
-    let folder = std::env::temp_dir().join(format!("qrt-bench-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).expect("a temporary folder");
-    let obj = folder.join("knot.obj");
-    std::fs::write(&obj, knot::torus_knot(around, along)).expect("a mesh file");
-    let mut sets = sets(4, path_bits);
     let [scene, rotate, translate] = view;
-    sets.push(format!("geometry[2].mesh.obj={}", obj.display()));
+    let mut sets = sets(4, path_bits);
     sets.push(format!("geometry[2].mesh.rotate={rotate}"));
     sets.push(format!("geometry[2].mesh.translate={translate}"));
-    let scene = load(root, scene, &sets);
+    with_obj(root, scene, &knot::torus_knot(around, along), sets)
+}
+
+/// The scene at `path` with this mesh in the knot's place.
+pub(crate) fn with_obj(root: &Path, path: &str, mesh: &str, mut sets: Vec<String>) -> ValidScene {
+    let folder = std::env::temp_dir().join(format!("qrt-bench-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a temporary folder");
+    let obj = folder.join("mesh.obj");
+    std::fs::write(&obj, mesh).expect("a mesh file");
+    sets.push(format!("geometry[2].mesh.obj={}", obj.display()));
+    let scene = load(root, path, &sets);
     std::fs::remove_dir_all(&folder).expect("the folder is ours");
     scene
 }

@@ -153,6 +153,26 @@ fn bombs_are_refused_in_a_gigabyte() {
     }
 }
 
+/// The circuit of a polygon of 12,000 corners, each of whose triangles is looked up by its number.
+#[cfg(unix)]
+#[test]
+fn circuits_of_many_faces_fit_in_a_gigabyte() {
+    let folder = Folder::new();
+    let mut polygon = String::new();
+    for corner in 0..12_000 {
+        let (sin, cos) = (f64::from(corner) * std::f64::consts::TAU / 12_000.0).sin_cos();
+        let _ = writeln!(polygon, "v {cos} {sin} 0");
+    }
+    polygon += "f";
+    for corner in 1..=12_000 {
+        let _ = write!(polygon, " {corner}");
+    }
+    fs::write(folder.path("polygon.obj"), polygon).unwrap();
+    fs::write(folder.path("s.yaml"), mesh("polygon.obj")).unwrap();
+    let (status, errors) = confined(&folder, "render s.yaml --model fixed -o s.png");
+    assert_eq!(status, Some(0), "{errors}");
+}
+
 #[test]
 fn values_below_zero_are_refused_or_zero() {
     let folder = Folder::new();

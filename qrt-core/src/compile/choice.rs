@@ -14,9 +14,14 @@ fn bits_below(bound: u32) -> u32 {
 impl Builder<'_> {
     /// The integer that `word` holds.
     pub(super) fn choice_of(&mut self, word: Word) -> Index {
-        let table = (word.width <= MAX_ADDRESS).then(|| Tabulated {
-            address: Self::bits(word).collect(),
-            entries: (0..1_u32 << word.width).map(f64::from).collect(),
+        let table = (word.width <= MAX_ADDRESS).then(|| {
+            // Each face's is as long as there are faces: they share it.
+            let counted = || (0..1_u32 << word.width).map(f64::from).collect();
+            let entries = self.counted.entry(word.width).or_insert_with(counted);
+            Tabulated {
+                address: Self::bits(word).collect(),
+                entries: entries.clone(),
+            }
         });
         let bound = 1_u64.checked_shl(word.width).unwrap_or(u64::MAX);
         self.choices.push(Choice {

@@ -55,6 +55,7 @@ use qrt_circuit::lower::Quick;
 use qrt_circuit::{Bit, Block, BlockId, Op, Operand, Register, RegisterId, Type, Word};
 use std::collections::HashMap;
 use std::hash::BuildHasherDefault;
+use std::rc::Rc;
 use value::{Affine, Choice, Truth, Value};
 
 use number::negative as negative_range;
@@ -193,6 +194,8 @@ pub struct Builder<'a> {
     choices: Vec<Choice>,
     known: HashMap<Op<RegisterId, u32>, usize, BuildHasherDefault<Quick>>,
     coordinates: HashMap<Coordinate, Index>,
+    /// By width: the entries of the table of an integer that is its own address.
+    counted: HashMap<u32, Rc<[f64]>>,
     names: Vec<(Named, usize, Nameable)>,
     /// By ray: what it starts with and what it meets, as the tracer told.
     segments: Vec<Segment<Self>>,
@@ -238,6 +241,7 @@ impl<'a> Builder<'a> {
             choices: Vec::new(),
             known: HashMap::default(),
             coordinates: HashMap::new(),
+            counted: HashMap::new(),
             names: Vec::new(),
             segments: Vec::new(),
             surface: None,

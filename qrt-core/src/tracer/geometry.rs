@@ -4,7 +4,7 @@
 //! by a power of two so that its largest half extent lies in `(1/2, 1]`. A scene a million units
 //! across or at a billion from the origin is traced with the same precision as one at home.
 
-use super::overlap::Outlines;
+use super::overlap::{Outlines, fill_once};
 use super::polygon::{edge_tests, frame, plane_of, stage_units};
 use crate::valid::Polygon;
 use glam::DVec3;
@@ -279,11 +279,15 @@ impl Geometry {
         let Some(&last) = emitting.last() else {
             return;
         };
-        let outlines = emitting.iter().map(|&n| outline(&faces[n]));
-        let outlines = Outlines::new(axis, outlines.collect());
+        let overlap = !fill_once(axis, faces.iter().map(outline));
+        let outlines = || emitting.iter().map(|&n| outline(&faces[n])).collect();
+        let outlines = overlap.then(|| Outlines::new(axis, outlines()));
         for (number, face) in faces.iter_mut().enumerate() {
             let earlier = emitting.partition_point(|&other| other <= number);
-            let covered = outlines.first_overlapped(earlier, &self.corners[face.label as usize]);
+            let outline = &self.corners[face.label as usize];
+            let covered = outlines
+                .as_ref()
+                .and_then(|outlines| outlines.first_overlapped(earlier, outline));
             face.covers = covered.map(|covered| covered as u32);
             face.hides_emitter = !face.emits && number < last;
         }

@@ -1,7 +1,9 @@
 //! Convex polygons of one plane, of which some cover others.
 
 use super::geometry::SAME_PLANE;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
+use std::collections::{HashMap, HashSet};
+use std::f64::consts::TAU;
 
 /// Polygons of one plane, in a tree of rectangles around them, so that those that a polygon overlaps are
 /// found without asking all.
@@ -128,6 +130,63 @@ impl<'a> Outlines<'a> {
     }
 }
 
+/// Whether polygons of a plane whose main axis is `axis` lie side by side and fill a convex region, as
+/// the triangles of a fan or of a grid do: then no two have more than edges in common. If it is not
+/// seen that they do, they may.
+///
+/// All must go around in one direction. How often a point is covered is then the winding number about
+/// it of the edges that no two polygons share. If these are one convex loop that goes around once, it
+/// is 1 within the loop, and 0 outside.
+pub(super) fn fill_once<'a>(axis: usize, polygons: impl Iterator<Item = &'a [DVec3]>) -> bool {
+    let flat = |corner: DVec3| DVec2::new(corner[(axis + 1) % 3], corner[(axis + 2) % 3]);
+    let key = |corner: DVec2| (corner + DVec2::ZERO).to_array().map(f64::to_bits);
+    let (mut edges, mut around) = (HashSet::new(), None);
+    for polygon in polygons {
+        let corners: Vec<DVec2> = polygon.iter().map(|&corner| flat(corner)).collect();
+        let pairs = || corners.iter().zip(corners.iter().cycle().skip(1));
+        let area: f64 = pairs().map(|(a, b)| a.perp_dot(*b)).sum();
+        if *around.get_or_insert(area > 0.0) != (area > 0.0) {
+            return false;
+        }
+        if !pairs().all(|(a, b)| edges.insert([key(*a), key(*b)])) {
+            return false;
+        }
+    }
+    let outer = edges.iter().filter(|[a, b]| !edges.contains(&[*b, *a]));
+    let mut next = HashMap::new();
+    if !outer
+        .map(|[a, b]| next.insert(*a, *b))
+        .all(|two| two.is_none())
+    {
+        return false;
+    }
+    let Some(&start) = next.keys().next() else {
+        return false;
+    };
+    let mut outline = Vec::new();
+    let mut at = start;
+    while let Some(to) = next.remove(&at) {
+        outline.push(DVec2::from_array(at.map(f64::from_bits)));
+        at = to;
+    }
+    at == start && next.is_empty() && turns_once(&outline, around == Some(true))
+}
+
+/// Whether a closed line turns to one side alone, and once around: to the left if `left`.
+fn turns_once(outline: &[DVec2], left: bool) -> bool {
+    let corner = |k: usize| outline[k % outline.len()];
+    let mut whole = 0.0;
+    for k in 0..outline.len() {
+        let [a, b] = [k, k + 1].map(|k| (corner(k + 1) - corner(k)).normalize());
+        let turn = if left { a.perp_dot(b) } else { b.perp_dot(a) };
+        if turn < -SAME_PLANE {
+            return false;
+        }
+        whole += a.angle_to(b).abs();
+    }
+    (whole - TAU).abs() < 1.0
+}
+
 /// Whether two convex polygons of one plane have more than edges in common.
 fn overlap(a: &[DVec3], b: &[DVec3]) -> bool {
     let apart = |a: &[DVec3], b: &[DVec3]| {
@@ -157,6 +216,67 @@ mod tests {
         let (x, y, size) = (next(), next(), 0.02 + 0.2 * next() * next());
         let corner = |x: f64, y: f64| DVec3::new(x, y, 1.0);
         vec![corner(x, y), corner(x + size, y), corner(x, y + size)]
+    }
+
+    /// Corners on a circle of the plane z = 1, and their number.
+    fn around(corners: usize) -> Vec<DVec3> {
+        let corner = |k: usize| {
+            let (sin, cos) = (TAU * k as f64 / corners as f64).sin_cos();
+            DVec3::new(cos, sin, 1.0)
+        };
+        (0..corners).map(corner).collect()
+    }
+
+    fn fill(polygons: &[Vec<DVec3>]) -> bool {
+        fill_once(2, polygons.iter().map(Vec::as_slice))
+    }
+
+    #[test]
+    fn polygons_side_by_side_are_seen_to_fill_a_region() {
+        let circle = around(50);
+        let fan: Vec<Vec<DVec3>> = (1..49)
+            .map(|k| vec![circle[0], circle[k], circle[k + 1]])
+            .collect();
+        let turned = |fan: &[Vec<DVec3>]| -> Vec<Vec<DVec3>> {
+            let turned = fan.iter().map(|one| one.iter().rev().copied().collect());
+            turned.collect()
+        };
+        let corner = |i: usize, j: usize| DVec3::new(i as f64 / 7.0, j as f64 / 7.0, 1.0);
+        let cell = |n: usize| {
+            let (i, j) = (n % 7, n / 7);
+            vec![
+                corner(i, j),
+                corner(i + 1, j),
+                corner(i + 1, j + 1),
+                corner(i, j + 1),
+            ]
+        };
+        let grid: Vec<Vec<DVec3>> = (0..49).map(cell).collect();
+        for tiles in [&fan, &turned(&fan), &grid, &turned(&grid)] {
+            assert!(fill(tiles));
+            let pairs = (0..tiles.len()).flat_map(|a| (0..a).map(move |b| (a, b)));
+            assert!(
+                pairs
+                    .into_iter()
+                    .all(|(a, b)| !overlap(&tiles[a], &tiles[b]))
+            );
+        }
+        // A hole, an outline that is not convex, two regions, one that is turned over or there twice,
+        // a fan around its hub twice, and one that only comes from elsewhere.
+        let without = |n: usize| [&grid[..n], &grid[n + 1..]].concat();
+        assert!(!fill(&without(24)) && !fill(&without(0)) && !fill(&without(3)));
+        let far: Vec<DVec3> = fan[0].iter().map(|c| *c + DVec3::X * 9.0).collect();
+        assert!(!fill(&[&fan[..], &[far][..]].concat()));
+        assert!(!fill(&[&fan[1..], &turned(&fan[..1])].concat()));
+        assert!(!fill(&[&fan[..], &fan[4..5]].concat()));
+        let hub = DVec3::new(0.0, 0.0, 1.0);
+        let twice = |k: usize| vec![hub, circle[2 * k % 50], circle[(2 * k + 2) % 50]];
+        let twice = (0..25).map(twice).chain((0..24).map(|k| {
+            let k = 2 * k + 1;
+            vec![hub, circle[k], circle[k + 2]]
+        }));
+        assert!(!fill(&twice.collect::<Vec<_>>()));
+        assert!(!fill(&[]));
     }
 
     #[test]
