@@ -2,6 +2,7 @@
 
 use super::terminal;
 use qrt_core::valid::ValidScene;
+use qrt_runtime::machines::OracleCircuits;
 use qrt_runtime::memory::CircuitSize;
 use qrt_runtime::render::Model;
 
@@ -10,6 +11,8 @@ const PATHS: f64 = 1e6;
 /// Gates of a path that a thread is taken to run in a second, and operations: round figures, too.
 const GATES: f64 = 2e10;
 const OPERATIONS: f64 = 2e8;
+/// Gates that are not held, but made as they run.
+const GATES_ANEW: f64 = 2e9;
 /// Of so few, circuits are not looked at.
 const FEW_PATHS: f64 = 65_536.0;
 /// Less is not told of.
@@ -20,7 +23,10 @@ fn seconds(size: Option<CircuitSize>, model: Model) -> f64 {
     match model {
         Model::Real => 1.0 / PATHS,
         Model::Fixed => size.map_or(0.0, |size| size.operations / OPERATIONS),
-        Model::Gates => size.map_or(0.0, |size| size.gates / GATES),
+        Model::Gates => size.map_or(0.0, |size| {
+            let held = size.bits <= OracleCircuits::MOST_BITS as f64;
+            size.gates / if held { GATES } else { GATES_ANEW }
+        }),
     }
 }
 
@@ -42,8 +48,21 @@ pub(crate) fn tell_of_paths(
     let seconds = paths * of_path.sum::<f64>() / threads as f64;
     let plural = if pixels == 1.0 { "" } else { "s" };
     let what = format!("{pixels} pixel{plural} of 2^{bits} paths each");
-    let less = "lower `sampling.path_bits` takes less, such as `--set sampling.path_bits=12`";
-    tell(&what, seconds, less);
+    tell(&what, seconds, &less(bits, seconds));
+}
+
+/// What takes less than so many seconds for paths of so many bits.
+fn less(bits: u32, seconds: f64) -> String {
+    // Each bit halves the time.
+    let fewer = libm::ceil(libm::log2(seconds / (60.0 * MINUTES)));
+    let enough = f64::from(bits) - fewer;
+    if enough >= 1.0 {
+        format!(
+            "lower `sampling.path_bits` takes less, such as `--set sampling.path_bits={enough}`"
+        )
+    } else {
+        "fewer pixels of fewer paths take less".to_owned()
+    }
 }
 
 /// Tells that `what` takes so long, if that is long, and what takes less.
@@ -80,6 +99,17 @@ fn number(value: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn fewer_bits_take_less_than_is_told_of() {
+        for (bits, seconds, fewer) in [(12, 601.0, 11), (52, 600.0 * 1024.5, 41), (2, 1000.0, 1)] {
+            let less = less(bits, seconds);
+            assert!(less.contains(&format!("path_bits={fewer}`")), "{less}");
+        }
+        for (bits, seconds) in [(1, 601.0), (8, 600.0 * 300.0), (8, f64::INFINITY)] {
+            assert!(!less(bits, seconds).contains("--set"));
+        }
+    }
 
     #[test]
     fn long_times_are_told_in_words() {

@@ -306,6 +306,43 @@ fn an_interrupted_pixel_goes_on_within_itself() {
     }
 }
 
+/// A tile is not finished before it is interrupted, be its pixels traced together or one by one.
+#[test]
+fn an_interrupted_tile_goes_on_within_itself() {
+    for (model, path_bits, estimator) in [
+        (Model::Real, 13, Estimator::Sine),
+        (Model::Fixed, 9, Estimator::Exact),
+        (Model::Gates, 9, Estimator::Sine),
+        (Model::Gates, 12, Estimator::Exact),
+    ] {
+        let bits_of_paths = format!("sampling.path_bits={path_bits}");
+        let scene = scene(&[&bits_of_paths, "film={ width: 8, height: 8 }"]);
+        let options = Options {
+            model,
+            ..with(estimator)
+        };
+        let expected = bits(&render(&scene, &options).unwrap());
+        let partial = Partial::new(&format!("tile-{model:?}-{path_bits}"));
+        let options = Options {
+            checkpoint: Some(partial.0.clone()),
+            resume: true,
+            tile: Some([8, 8]),
+            ..options
+        };
+        let mut kept = 0;
+        for _ in 0..2 {
+            let more = 20 << path_bits;
+            assert_eq!(interrupt(&scene, &options, more), 0);
+            let resumed = resumed(&scene, &options);
+            assert!(resumed >= kept + more, "{model:?}: {resumed} after {kept}");
+            kept = resumed;
+        }
+        let last = render(&scene, &options).unwrap();
+        assert_eq!(last.resumed_paths, kept);
+        assert_eq!(bits(&last), expected, "{model:?}");
+    }
+}
+
 /// Paths that a checkpoint has.
 fn resumed(scene: &ValidScene, options: &Options<'_>) -> u64 {
     let cancel = AtomicBool::new(true);

@@ -31,6 +31,7 @@ use super::span::Span;
 use qrt_circuit::{Operand, Word};
 use qrt_core::oracle::{Channel, LUMINANCE_CHANNEL, Oracle};
 use std::ops::Range;
+use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, PoisonError};
 
 /// With more qubits than these, gates that are not held run on one thread: there are rows for one.
@@ -225,6 +226,21 @@ impl OracleMachine {
         &self,
         pixels: &[[u32; 2]],
         ids: Range<u64>,
+        finished: impl FnMut(Finished<'_>),
+    ) -> Result<(), Defect> {
+        self.trace_until(None, pixels, ids, finished)
+    }
+
+    /// As [`OracleMachine::trace`], unless `cancel` is set, from any thread: paths that run together on
+    /// a circuit of very many gates may take a minute.
+    ///
+    /// # Errors
+    /// The first defect that shows; [`Defect::Cancelled`].
+    pub fn trace_until(
+        &self,
+        cancel: Option<&AtomicBool>,
+        pixels: &[[u32; 2]],
+        ids: Range<u64>,
         mut finished: impl FnMut(Finished<'_>),
     ) -> Result<(), Defect> {
         let parameters: Vec<Vec<u64>> = pixels.iter().map(|&pixel| self.words(pixel)).collect();
@@ -255,7 +271,7 @@ impl OracleMachine {
                 first += count;
                 let last = pixel + 1 == pixels.len() && first == ids.end;
                 if block.ids.len() == most || last {
-                    self.run(&mut block, &parameters)?;
+                    self.run(cancel, &mut block, &parameters)?;
                     self.hand_over(&block, &mut finished);
                     block.ids.clear();
                     block.runs.clear();
@@ -293,7 +309,7 @@ impl OracleMachine {
             queries: Vec::new(),
             values: vec![vec![0]; words.len()],
         };
-        self.run(&mut block, &[self.words(pixel)])?;
+        self.run(None, &mut block, &[self.words(pixel)])?;
         Ok(block.values.iter().map(|values| values[0]).collect())
     }
 
@@ -335,7 +351,12 @@ impl OracleMachine {
         }
     }
 
-    fn run(&self, block: &mut OracleBlock, parameters: &[Vec<u64>]) -> Result<(), Defect> {
+    fn run(
+        &self,
+        cancel: Option<&AtomicBool>,
+        block: &mut OracleBlock,
+        parameters: &[Vec<u64>],
+    ) -> Result<(), Defect> {
         self.find_primary_hits(block)?;
         let spans: Vec<Span<'_>> = block
             .runs
@@ -371,7 +392,7 @@ impl OracleMachine {
                 let _turn = turn.map(|turn| turn.lock().unwrap_or_else(PoisonError::into_inner));
                 rows.lend(
                     || gates.rows(),
-                    |own| self.run_gates(gates, parts, own, block, &spans),
+                    |own| self.run_gates(gates, parts, own, block, (&spans, cancel)),
                 )?;
             }
         }

@@ -1,6 +1,8 @@
 //! Pixels by class: those that may meet a lamp at once have another colour scale than others.
 
-use super::pixel::{Pixels, Stop, Totals};
+use super::parts::Parts;
+use super::pixel::{Pixels, Stop};
+use super::totals::Totals;
 use super::{RenderError, Request, Searched};
 use crate::workers::Workers;
 use qrt_core::tracer::{PixelClass, PixelClasses};
@@ -51,7 +53,7 @@ impl Classes {
         }
     }
 
-    /// Whether the paths of one pixel are enough to occupy all threads.
+    /// Whether pixels are traced one by one: see [`Pixels::splits`].
     pub(super) fn splits(&self) -> bool {
         self.pixels.iter().any(|(_, pixels)| pixels.splits())
     }
@@ -61,9 +63,10 @@ impl Classes {
         &self,
         places: &[[u32; 2]],
         workers: &Workers<'_>,
+        kept: &Parts<'_>,
     ) -> Result<Vec<Totals>, Stop> {
         self.of.apart(places, |_, mine| match mine {
-            [first, ..] => self.at(*first).few(mine, workers),
+            [first, ..] => self.at(*first).few(mine, workers, kept),
             [] => Ok(Vec::new()),
         })
     }

@@ -89,9 +89,12 @@ impl Film {
         Ok((finished, kept))
     }
 
-    /// Takes in what a part of an unfinished pixel adds up to.
-    pub(super) fn keep_part(&mut self, part: Part) -> Result<(), RenderError> {
-        self.pending.push(part);
+    /// Takes in what parts of unfinished pixels add up to.
+    pub(super) fn keep_parts(
+        &mut self,
+        parts: impl IntoIterator<Item = Part>,
+    ) -> Result<(), RenderError> {
+        self.pending.extend(parts);
         if self.flushed.elapsed() >= AT_STAKE {
             self.flush()?;
         }

@@ -4,8 +4,9 @@ use super::classes::Classes;
 use super::film::Film;
 use super::parts::{Kept, Parts};
 use super::picture_part::counts_good;
-use super::pixel::{Stop, Totals, go_on};
+use super::pixel::{Stop, go_on};
 use super::tiles::{self, Tiles};
+use super::totals::Totals;
 use super::{RenderError, Rendered, Request};
 use crate::checkpoint::{Checkpoint, CheckpointError, Header, Tile};
 use crate::workers::Progress;
@@ -148,12 +149,11 @@ impl<'a> Job<'a> {
                 self.finish(&mut tile, place, &totals)?;
             }
         } else {
-            for (&place, totals) in places.iter().zip(&self.pixels.few(&places, workers)?) {
+            let totals = self.pixels.few(&places, workers, &self.parts())?;
+            for (&place, totals) in places.iter().zip(&totals) {
                 go_on(workers)?;
                 self.finish(&mut tile, place, totals)?;
             }
-            let paths = places.len() as u64 * self.request.paths;
-            workers.report(Progress::Finished(paths));
         }
         let mut film = self.film.lock().unwrap_or_else(PoisonError::into_inner);
         film.keep(&tile, start.elapsed())?;

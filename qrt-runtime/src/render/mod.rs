@@ -62,6 +62,7 @@ mod picture_part;
 mod pixel;
 mod portion;
 mod tiles;
+mod totals;
 mod visibility;
 
 pub use allowed::check_circuit;

@@ -15,12 +15,11 @@
 //! Its luminance is as good as counting makes it. Its colour has the error of so many samples as
 //! good indices were measured, which is none where all paths have one colour.
 
-use super::pixel::{Pixels, Source, Stop, go_on};
+use super::pixel::{Pixels, Source, Stop, ended, go_on};
 use crate::counting::{Comparators, CountingError, Octaves, Stratum};
 use crate::estimators::{
     AmplitudeEstimator, CountedStratum, Device, Estimate, EstimatorError, Noise, Problem,
 };
-use crate::machines::Defect;
 use crate::random::Stream;
 use crate::workers::Workers;
 use qrt_core::oracle::{LUMINANCE_CHANNEL, luminance};
@@ -280,9 +279,8 @@ impl OneRun {
                 let mut before = first;
                 let mut run = start;
                 while run < end {
-                    go_on(places.workers)?;
                     let next = (run + pixels.run()).min(end);
-                    self.trace(pixels, pixel, run..next, |count, rgb| {
+                    self.trace(pixels, pixel, run..next, places.workers, |count, rgb| {
                         let good = places.stratum.good(count);
                         while ids.next_if(|&id| id < before + good).is_some() {
                             colour(rgb);
@@ -303,8 +301,10 @@ impl OneRun {
         pixels: &Pixels,
         pixel: [u32; 2],
         paths: Range<u64>,
+        workers: &Workers<'_>,
         mut path: impl FnMut(u64, [f64; 3]),
-    ) -> Result<(), Defect> {
+    ) -> Result<(), Stop> {
+        go_on(workers)?;
         match pixels.source() {
             Source::Real(real) => {
                 real.trace_range(&[pixel], paths, |block| {
@@ -318,14 +318,15 @@ impl OneRun {
             Source::Oracle(machine) => {
                 let unit = 1.0 / (1_u64 << machine.oracle().fraction) as f64;
                 let bound = pixels.bound();
-                machine.trace(&[pixel], paths, |finished| {
+                let traced = machine.trace_until(workers.cancel, &[pixel], paths, |finished| {
                     let [r, g, b] = finished.colours;
                     for (place, good) in finished.luminance.iter().enumerate() {
                         let parts = [r[place], g[place], b[place]];
                         let rgb = [0, 1, 2].map(|c| bound[c] * (parts[c] as f64 * unit));
                         path(good.cast_unsigned(), rgb);
                     }
-                })
+                });
+                traced.map_err(ended)
             }
         }
     }

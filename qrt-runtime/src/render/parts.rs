@@ -18,11 +18,9 @@ pub(super) struct Parts<'a> {
     pub(super) film: Option<&'a Mutex<Film>>,
 }
 
-/// Keeps one part while it is traced.
+/// Keeps parts while they are traced.
 pub(super) struct Keeper<'a> {
     film: Option<&'a Mutex<Film>>,
-    pixel: [u32; 2],
-    number: u64,
     kept: Instant,
 }
 
@@ -33,47 +31,30 @@ impl<'a> Parts<'a> {
         Some((part.paths, &part.totals))
     }
 
-    pub(super) fn keeper(&self, pixel: [u32; 2], number: u64) -> Keeper<'a> {
+    pub(super) fn keeper(&self) -> Keeper<'a> {
         Keeper {
             film: self.film,
-            pixel,
-            number,
             kept: Instant::now(),
         }
     }
 }
 
 impl Keeper<'_> {
-    /// After a run of paths: so many of the part are traced, perhaps all, and add up to `totals`.
-    pub(super) fn traced(
-        &mut self,
-        paths: u64,
-        all: bool,
-        totals: impl FnOnce() -> Vec<u64>,
-    ) -> Result<(), RenderError> {
-        if all || self.kept.elapsed() >= AT_STAKE {
-            self.interrupted(paths, totals)?;
-        }
-        Ok(())
+    /// Whether as much would be lost as may be.
+    pub(super) fn is_due(&self) -> bool {
+        self.kept.elapsed() >= AT_STAKE
     }
 
-    /// So many paths are traced, and no more for now.
-    pub(super) fn interrupted(
+    /// Keeps these parts, or what is traced of them.
+    pub(super) fn keep(
         &mut self,
-        paths: u64,
-        totals: impl FnOnce() -> Vec<u64>,
+        parts: impl IntoIterator<Item = Part>,
     ) -> Result<(), RenderError> {
-        let Some(film) = self.film.filter(|_| paths > 0) else {
+        self.kept = Instant::now();
+        let Some(film) = self.film else {
             return Ok(());
         };
-        self.kept = Instant::now();
-        let part = Part {
-            pixel: self.pixel,
-            number: self.number,
-            paths,
-            totals: totals(),
-        };
         let mut film = film.lock().unwrap_or_else(PoisonError::into_inner);
-        film.keep_part(part)
+        film.keep_parts(parts)
     }
 }

@@ -1,15 +1,16 @@
 //! From the paths of a pixel to its colour.
 
-use super::one_run::{OneRun, Segments};
+use super::one_run::OneRun;
 use super::parts::Parts;
+use super::totals::Totals;
 use super::{BoxedEstimator, Colour, Options, RenderError};
+use crate::checkpoint::Part;
 use crate::counting::{Comparators, Octaves};
 use crate::estimators::{
     AmplitudeEstimator, Device, Estimate, EstimatorError, Noise, Problem, Settings,
 };
 use crate::machines::{Defect, OracleMachine, PathBlock, Real};
 use crate::random::Stream;
-use crate::sample::Sum;
 use crate::workers::{Progress, Workers};
 use qrt_core::oracle::luminance;
 use qrt_core::scene::{Estimator, Scene};
@@ -26,21 +27,6 @@ const RUN: u64 = 1 << 16;
 const SPLIT: u64 = 1 << 18;
 /// Parts of a pixel, at most.
 const PARTS: u64 = 1 << 12;
-
-/// What the paths of a pixel add up to, per channel.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Totals {
-    colour: [Sum; 3],
-    good: [u64; 3],
-    /// The same by octave of their thresholds, where strata may be counted one by one.
-    octaves: [Octaves; 3],
-    /// The counts of the luminance, where it is counted.
-    segments: Segments,
-    /// Queries that primary hits took.
-    queries: u64,
-    /// Paths out of bounds, and the colour of the first.
-    stray: [(u64, f64); 3],
-}
 
 /// A finished pixel: its colour, its counts and its queries.
 pub(super) struct Pixel {
@@ -113,6 +99,14 @@ pub(super) fn go_on(workers: &Workers<'_>) -> Result<(), Stop> {
         return Err(Stop::Cancelled);
     }
     Ok(())
+}
+
+/// Why a run of paths ended early.
+pub(super) fn ended(defect: Defect) -> Stop {
+    match defect {
+        Defect::Cancelled => Stop::Cancelled,
+        defect => defect.into(),
+    }
 }
 
 fn report(workers: &Workers<'_>, paths: u64) {
@@ -214,9 +208,13 @@ impl Pixels {
         self.bound
     }
 
-    /// Whether the paths of one pixel are enough to occupy all threads.
+    /// Whether a pixel is traced by itself: its paths are enough to occupy all threads, or more than are
+    /// run together on a circuit.
     pub(super) fn splits(&self) -> bool {
-        self.paths > SPLIT
+        match &self.source {
+            Source::Real(_) => self.paths > SPLIT,
+            Source::Oracle(machine) => self.paths > machine.paths_at_once(),
+        }
     }
 
     /// Paths that are traced without looking up.
@@ -227,33 +225,87 @@ impl Pixels {
         }
     }
 
-    /// The totals of all paths of `pixels`, which have few each.
+    /// The totals of all paths of `pixels`, which have few each, as many pixels at a time as are run
+    /// together; `workers` are told of them, and they are handed to `kept`, of which those are that were
+    /// there before.
     pub(super) fn few(
         &self,
         pixels: &[[u32; 2]],
         workers: &Workers<'_>,
+        kept: &Parts<'_>,
     ) -> Result<Vec<Totals>, Stop> {
-        let mut totals = vec![self.none(); pixels.len()];
+        let before = pixels.iter().map_while(|&pixel| {
+            let before = self.before(kept, pixel, 0, self.paths);
+            before.filter(|(paths, _)| *paths == self.paths)
+        });
+        let mut all: Vec<Totals> = before.map(|(_, totals)| totals).collect();
+        let mut keeper = kept.keeper();
+        let mut new = all.len();
         let together = (self.run() / self.paths).max(1) as usize;
-        for (pixels, totals) in pixels.chunks(together).zip(totals.chunks_mut(together)) {
+        for group in pixels[new..].chunks(together) {
+            let mut totals = vec![self.none(); group.len()];
             let mut first = 0;
             while first < self.paths {
-                go_on(workers)?;
                 let end = (first + self.run()).min(self.paths);
-                self.trace(pixels, first..end, totals)?;
+                if let Err(stop) = self.trace(group, first..end, &mut totals, workers) {
+                    keeper.keep(self.whole(pixels, &all, new))?;
+                    return Err(stop);
+                }
+                report(workers, (end - first) * group.len() as u64);
                 first = end;
             }
+            all.append(&mut totals);
+            if keeper.is_due() {
+                keeper.keep(self.whole(pixels, &all, new))?;
+                new = all.len();
+            }
         }
-        Ok(totals)
+        Ok(all)
     }
 
-    /// Adds the paths `ids` of `pixels` to their `totals`.
+    /// The pixels from `new` on whose totals are there, to be kept.
+    fn whole<'a>(
+        &'a self,
+        pixels: &'a [[u32; 2]],
+        totals: &'a [Totals],
+        new: usize,
+    ) -> impl Iterator<Item = Part> + 'a {
+        let whole = pixels.iter().zip(totals).skip(new);
+        whole.map(|(&pixel, totals)| Part {
+            pixel,
+            number: 0,
+            paths: self.paths,
+            totals: totals.words(),
+        })
+    }
+
+    /// What was kept of part `number` of a pixel, which has `most` paths: how many of them were traced, in
+    /// whole runs, and what they add up to.
+    fn before(
+        &self,
+        kept: &Parts<'_>,
+        pixel: [u32; 2],
+        number: u64,
+        most: u64,
+    ) -> Option<(u64, Totals)> {
+        let (paths, words) = kept.before(pixel, number)?;
+        let whole_runs = paths.is_multiple_of(self.run()) || paths == most;
+        let totals = self
+            .none()
+            .with_words(words, self.one_run())
+            .filter(|_| whole_runs && paths <= most)?;
+        Some((paths, totals))
+    }
+
+    /// Adds the paths `ids` of `pixels` to their `totals`. If it ends early, no run of paths is in them by half.
     fn trace(
         &self,
         pixels: &[[u32; 2]],
         ids: Range<u64>,
         totals: &mut [Totals],
-    ) -> Result<(), Defect> {
+        workers: &Workers<'_>,
+    ) -> Result<(), Stop> {
+        go_on(workers)?;
         match &self.source {
             Source::Real(real) => {
                 real.trace_range(pixels, ids, |block| {
@@ -261,23 +313,26 @@ impl Pixels {
                 });
                 Ok(())
             }
-            Source::Oracle(machine) => machine.trace(pixels, ids, |finished| {
-                let totals = &mut totals[finished.pixel];
-                if let Some(one_run) = self.one_run() {
-                    one_run.take_counts(&mut totals.segments, finished.luminance);
-                }
-                totals.queries += finished.queries;
-                for (total, good) in totals.good.iter_mut().zip(finished.good) {
-                    *total += good.iter().sum::<i64>().cast_unsigned();
-                }
-                if self.by_octaves() {
-                    for (octaves, good) in totals.octaves.iter_mut().zip(finished.good) {
-                        for good in good {
-                            octaves.add(good.cast_unsigned());
+            Source::Oracle(machine) => {
+                let traced = machine.trace_until(workers.cancel, pixels, ids, |finished| {
+                    let totals = &mut totals[finished.pixel];
+                    if let Some(one_run) = self.one_run() {
+                        one_run.take_counts(&mut totals.segments, finished.luminance);
+                    }
+                    totals.queries += finished.queries;
+                    for (total, good) in totals.good.iter_mut().zip(finished.good) {
+                        *total += good.iter().sum::<i64>().cast_unsigned();
+                    }
+                    if self.by_octaves() {
+                        for (octaves, good) in totals.octaves.iter_mut().zip(finished.good) {
+                            for good in good {
+                                octaves.add(good.cast_unsigned());
+                            }
                         }
                     }
-                }
-            }),
+                });
+                traced.map_err(ended)
+            }
         }
     }
 
@@ -293,24 +348,29 @@ impl Pixels {
         let parts = (0..self.paths.div_ceil(part)).into_par_iter();
         let totals = parts.map(|n| {
             let ids = n * part..((n + 1) * part).min(self.paths);
-            let before = kept.before(pixel, n).and_then(|(paths, words)| {
-                let whole_runs = paths.is_multiple_of(self.run()) && paths <= ids.end - ids.start;
-                let totals = self.of_words(words).filter(|_| whole_runs)?;
-                Some((ids.start + paths, totals))
-            });
-            let (mut first, totals) = before.unwrap_or((ids.start, self.none()));
+            let before = self.before(kept, pixel, n, ids.end - ids.start);
+            let (paths, totals) = before.unwrap_or((0, self.none()));
             let mut totals = [totals];
-            let mut keeper = kept.keeper(pixel, n);
+            let mut first = ids.start + paths;
+            let mut keeper = kept.keeper();
+            let part_of = |first: u64, totals: &Totals| Part {
+                pixel,
+                number: n,
+                paths: first - ids.start,
+                totals: totals.words(),
+            };
             while first < ids.end {
-                if let Err(stop) = go_on(workers) {
-                    keeper.interrupted(first - ids.start, || totals[0].words())?;
+                let end = (first + self.run()).min(ids.end);
+                if let Err(stop) = self.trace(&[pixel], first..end, &mut totals, workers) {
+                    let traced = (first > ids.start).then(|| part_of(first, &totals[0]));
+                    keeper.keep(traced)?;
                     return Err(stop);
                 }
-                let end = (first + self.run()).min(ids.end);
-                self.trace(&[pixel], first..end, &mut totals)?;
                 report(workers, end - first);
                 first = end;
-                keeper.traced(first - ids.start, first == ids.end, || totals[0].words())?;
+                if first == ids.end || keeper.is_due() {
+                    keeper.keep([part_of(first, &totals[0])])?;
+                }
             }
             let [totals] = totals;
             Ok(totals)
@@ -322,24 +382,6 @@ impl Pixels {
             whole.append(later);
         }
         Ok(whole)
-    }
-
-    /// The totals that these words are of; none of words that are of none.
-    fn of_words(&self, words: &[u64]) -> Option<Totals> {
-        let mut words = words.iter().copied();
-        let words = &mut words;
-        let mut totals = self.none();
-        totals.queries = words.next()?;
-        for channel in 0..3 {
-            let sum: Vec<u64> = words.by_ref().take(Sum::WORDS).collect();
-            totals.colour[channel] = Sum::of_words(sum.as_array()?)?;
-            totals.good[channel] = words.next()?;
-            totals.stray[channel] = (words.next()?, f64::from_bits(words.next()?));
-            let none = &totals.octaves[channel];
-            totals.octaves[channel] = none.with_lengths(|| Some((words.next()?, words.next()?)))?;
-        }
-        totals.segments = Segments::of_words(words, self.one_run())?;
-        words.next().is_none().then_some(totals)
     }
 
     fn take(&self, totals: &mut Totals, block: &PathBlock<'_>) {
@@ -478,40 +520,6 @@ impl Pixels {
     }
 }
 
-impl Totals {
-    /// What they are, to go on from.
-    fn words(&self) -> Vec<u64> {
-        let mut words = vec![self.queries];
-        for channel in 0..3 {
-            let (paths, colour) = self.stray[channel];
-            words.extend(self.colour[channel].words());
-            words.extend([self.good[channel], paths, colour.to_bits()]);
-            for (paths, sum) in self.octaves[channel].by_length() {
-                words.extend([paths, sum]);
-            }
-        }
-        self.segments.words(&mut words);
-        words
-    }
-
-    /// Adds the totals of later path indices.
-    fn append(&mut self, later: &Self) {
-        self.segments.append(&later.segments);
-        self.queries += later.queries;
-        for channel in 0..3 {
-            self.colour[channel].append(&later.colour[channel]);
-            self.good[channel] += later.good[channel];
-            self.octaves[channel].append(&later.octaves[channel]);
-            let (paths, colour) = later.stray[channel];
-            let stray = &mut self.stray[channel];
-            if stray.0 == 0 {
-                stray.1 = colour;
-            }
-            stray.0 += paths;
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -536,7 +544,8 @@ sampling: { path_bits: 5 }
     }
 
     fn few(pixels: &Pixels) -> Vec<Totals> {
-        pixels.few(&[[1, 0]], &Workers::default()).ok().unwrap()
+        let few = pixels.few(&[[1, 0]], &Workers::default(), &Parts::default());
+        few.ok().unwrap()
     }
 
     fn finish(pixels: &Pixels, totals: &Totals) -> Result<Pixel, Stop> {

@@ -239,6 +239,7 @@ fn verify_pixels(
                     fixed: &fixed,
                     gates: &gates,
                     at: scene.scene().comparator.at,
+                    cancel: options.workers.cancel,
                 };
                 report.compare(&trio, &options.workers)?;
             }

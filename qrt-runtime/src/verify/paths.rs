@@ -5,6 +5,7 @@ use crate::machines::{Defect, OracleMachine, Real};
 use qrt_core::oracle::Oracle;
 use qrt_core::scene::ComparatorAt;
 use std::ops::Range;
+use std::sync::atomic::AtomicBool;
 
 /// Sums over paths of a pixel.
 #[derive(Clone, Debug, Default)]
@@ -42,6 +43,7 @@ pub(super) struct Trio<'a> {
     pub(super) fixed: &'a OracleMachine,
     pub(super) gates: &'a OracleMachine,
     pub(super) at: ComparatorAt,
+    pub(super) cancel: Option<&'a AtomicBool>,
 }
 
 impl Trio<'_> {
@@ -53,9 +55,25 @@ impl Trio<'_> {
                 all.extend_from_slice(colours);
             }
         });
-        let fixed = columns(self.fixed, pixel, ids.clone())?;
-        let gates = columns(self.gates, pixel, ids.clone())?;
+        let fixed = self.columns(self.fixed, pixel, ids.clone())?;
+        let gates = self.columns(self.gates, pixel, ids.clone())?;
         Ok(self.compare(pixel, ids.start, &real, &fixed, &gates))
+    }
+
+    fn columns(
+        &self,
+        machine: &OracleMachine,
+        pixel: [u32; 2],
+        ids: Range<u64>,
+    ) -> Result<Columns, Defect> {
+        let mut columns = Columns::default();
+        machine.trace_until(self.cancel, &[pixel], ids, |finished| {
+            for c in 0..3 {
+                columns.good[c].extend_from_slice(finished.good[c]);
+                columns.colours[c].extend_from_slice(finished.colours[c]);
+            }
+        })?;
+        Ok(columns)
     }
 
     fn compare(
@@ -122,15 +140,4 @@ impl Trio<'_> {
 struct Columns {
     good: [Vec<i64>; 3],
     colours: [Vec<i64>; 3],
-}
-
-fn columns(machine: &OracleMachine, pixel: [u32; 2], ids: Range<u64>) -> Result<Columns, Defect> {
-    let mut columns = Columns::default();
-    machine.trace(&[pixel], ids, |finished| {
-        for c in 0..3 {
-            columns.good[c].extend_from_slice(finished.good[c]);
-            columns.colours[c].extend_from_slice(finished.colours[c]);
-        }
-    })?;
-    Ok(columns)
 }

@@ -3,7 +3,8 @@
 use crate::machines::gates::{Dirty, InvalidGate};
 use qrt_circuit::Qubit;
 
-/// A circuit that does not do what an oracle must: a defect of qrt, found while it ran.
+/// Why a run of an oracle ended early: but for [`Defect::Cancelled`], a circuit that does not do what it must,
+/// which is a defect of qrt.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Defect {
@@ -33,6 +34,9 @@ pub enum Defect {
         /// The path's index.
         id: u64,
     },
+    /// It was to stop: see [`super::OracleMachine::trace_until`].
+    #[error("the run was cancelled")]
+    Cancelled,
     /// Paths whose primary hits are inputs of the oracle, with nothing that finds them.
     #[error("the paths' primary hits are inputs of the oracle, and nothing finds them")]
     PrimaryHits,

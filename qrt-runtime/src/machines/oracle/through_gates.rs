@@ -2,9 +2,10 @@
 
 use super::parts::Streamed;
 use super::{Defect, OracleBlock, OracleCircuits, OracleMachine, word_of};
-use crate::machines::gates::{Gates, InvalidGate, Rows};
+use crate::machines::gates::{Gates, Rows};
 use crate::machines::span::Span;
 use qrt_circuit::{Gate, Qubit, Word, lower};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Gates of a streamed circuit that are run together.
 const AT_ONCE: usize = 1 << 14;
@@ -16,7 +17,7 @@ impl OracleMachine {
         parts: &OracleCircuits,
         rows: &mut Rows,
         block: &mut OracleBlock,
-        spans: &[Span<'_>],
+        (spans, cancel): (&[Span<'_>], Option<&AtomicBool>),
     ) -> Result<(), Defect> {
         let count = block.ids.len();
         let id = parts.register(self.oracle.id).to_vec();
@@ -46,7 +47,7 @@ impl OracleMachine {
                 read(rows);
                 gates.run(1 + parts.flips.len(), rows);
             }
-            Some(streamed) => streamed.run(gates, rows, read)?,
+            Some(streamed) => streamed.run(cancel, gates, rows, read)?,
         }
         let place = |lane: usize| {
             let mut start = 0;
@@ -68,35 +69,37 @@ impl Streamed {
     /// called.
     fn run(
         &self,
+        cancel: Option<&AtomicBool>,
         gates: &Gates,
         rows: &mut Rows,
         read: impl FnOnce(&Rows),
-    ) -> Result<(), InvalidGate> {
+    ) -> Result<(), Defect> {
         let mut pending = Vec::with_capacity(2 * AT_ONCE);
         let mut read = Some(read);
-        let mut ran = Ok(());
         let mut step = 0;
-        let mut run = |pending: &mut Vec<Gate>, rows: &mut Rows| {
-            if ran.is_ok() {
-                ran = gates.run_gates(pending, rows);
+        let run = |pending: &mut Vec<Gate>, rows: &mut Rows| {
+            if cancel.is_some_and(|cancel| cancel.load(Ordering::Relaxed)) {
+                return Err(Defect::Cancelled);
             }
+            gates.run_gates(pending, rows)?;
             pending.clear();
+            Ok(())
         };
-        lower::each_instruction(&self.program, |next, _| {
+        lower::try_each_instruction(&self.program, |next, _| {
             if step == self.cut {
-                run(&mut pending, rows);
+                run(&mut pending, rows)?;
                 if let Some(read) = read.take() {
                     read(rows);
                 }
             }
             pending.extend_from_slice(next);
             if pending.len() >= AT_ONCE {
-                run(&mut pending, rows);
+                run(&mut pending, rows)?;
             }
             step += 1;
-        });
-        run(&mut pending, rows);
-        ran
+            Ok::<(), Defect>(())
+        })?;
+        run(&mut pending, rows)
     }
 }
 

@@ -1,0 +1,72 @@
+//! Sums of a pixel's paths.
+
+use super::one_run::{OneRun, Segments};
+use crate::counting::Octaves;
+use crate::sample::Sum;
+
+/// What the paths of a pixel add up to, per channel.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Totals {
+    pub(super) colour: [Sum; 3],
+    pub(super) good: [u64; 3],
+    /// The same by octave of their thresholds, where strata may be counted one by one.
+    pub(super) octaves: [Octaves; 3],
+    /// The counts of the luminance, where it is counted.
+    pub(super) segments: Segments,
+    /// Queries that primary hits took.
+    pub(super) queries: u64,
+    /// Paths out of bounds, and the colour of the first.
+    pub(super) stray: [(u64, f64); 3],
+}
+
+impl Totals {
+    /// What they are, to go on from.
+    pub(super) fn words(&self) -> Vec<u64> {
+        let mut words = vec![self.queries];
+        for channel in 0..3 {
+            let (paths, colour) = self.stray[channel];
+            words.extend(self.colour[channel].words());
+            words.extend([self.good[channel], paths, colour.to_bits()]);
+            for (paths, sum) in self.octaves[channel].by_length() {
+                words.extend([paths, sum]);
+            }
+        }
+        self.segments.words(&mut words);
+        words
+    }
+
+    /// Adds the totals of later path indices.
+    pub(super) fn append(&mut self, later: &Self) {
+        self.segments.append(&later.segments);
+        self.queries += later.queries;
+        for channel in 0..3 {
+            self.colour[channel].append(&later.colour[channel]);
+            self.good[channel] += later.good[channel];
+            self.octaves[channel].append(&later.octaves[channel]);
+            let (paths, colour) = later.stray[channel];
+            let stray = &mut self.stray[channel];
+            if stray.0 == 0 {
+                stray.1 = colour;
+            }
+            stray.0 += paths;
+        }
+    }
+
+    /// Those that these words are of, if these are of no paths yet; none of words that are of none.
+    pub(super) fn with_words(mut self, words: &[u64], one_run: Option<&OneRun>) -> Option<Self> {
+        let mut words = words.iter().copied();
+        let words = &mut words;
+        let totals = &mut self;
+        totals.queries = words.next()?;
+        for channel in 0..3 {
+            let sum: Vec<u64> = words.by_ref().take(Sum::WORDS).collect();
+            totals.colour[channel] = Sum::of_words(sum.as_array()?)?;
+            totals.good[channel] = words.next()?;
+            totals.stray[channel] = (words.next()?, f64::from_bits(words.next()?));
+            let none = &totals.octaves[channel];
+            totals.octaves[channel] = none.with_lengths(|| Some((words.next()?, words.next()?)))?;
+        }
+        totals.segments = Segments::of_words(words, one_run)?;
+        words.next().is_none().then_some(self)
+    }
+}
