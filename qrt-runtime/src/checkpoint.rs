@@ -334,8 +334,8 @@ impl Checkpoint {
     /// another render's that was not replaced yet.
     ///
     /// # Errors
-    /// What the file system says; [`CheckpointError::Lost`] if the file with the tiles was removed or
-    /// replaced.
+    /// What the file system says; [`CheckpointError::Lost`] if the file with the tiles was replaced. One
+    /// that was removed, perhaps with its folder, is made again.
     pub fn close(mut self) -> Result<bool, CheckpointError> {
         if self.waiting.is_some() {
             return Ok(false);
@@ -348,10 +348,26 @@ impl Checkpoint {
         self.sync()?;
         let there = self.file.has_its_name();
         if self.io(there)? {
+            return Ok(true);
+        }
+        let again = self.make_again();
+        if self.io(again)? {
             Ok(true)
         } else {
             Err(CheckpointError::Lost { path: self.path })
         }
+    }
+
+    /// Writes what the file holds, whose name is gone, under that name; not over another file.
+    fn make_again(&mut self) -> io::Result<bool> {
+        if self.path.exists() {
+            return Ok(false);
+        }
+        std::fs::create_dir_all(disk::folder(&self.path))?;
+        self.file.rewind()?;
+        let held = (&mut self.file).take(self.end);
+        self.file = replaced(&self.path, |out| io::copy(&mut { held }, out).map(drop))?;
+        Ok(true)
     }
 
     /// Removes the checkpoint, whose tiles are safe elsewhere. A file that has got its name meanwhile

@@ -389,6 +389,21 @@ fn a_link_is_never_followed() {
 
 #[cfg(unix)]
 #[test]
+fn what_was_removed_is_made_again() {
+    let folder = Scratch::new();
+    let path = folder.path("own/c");
+    fs::create_dir(folder.path("own")).unwrap();
+    let mut checkpoint = Checkpoint::create(&path, &header()).unwrap();
+    checkpoint.append(&tile(6, 1, 1, 1)).unwrap();
+    fs::remove_dir_all(folder.path("own")).unwrap();
+    checkpoint.append(&tile(4, 1, 1, 1)).unwrap();
+    assert!(checkpoint.close().unwrap());
+    let (_, tiles) = Checkpoint::open(&path, &header()).unwrap();
+    assert_eq!(tiles, [tile(6, 1, 1, 1), tile(4, 1, 1, 1)]);
+}
+
+#[cfg(unix)]
+#[test]
 fn what_another_has_put_in_its_place_is_not_removed() {
     let folder = Scratch::new();
     let path = folder.path("c");
@@ -397,6 +412,7 @@ fn what_another_has_put_in_its_place_is_not_removed() {
     fs::remove_file(&path).unwrap();
     let second = written(&path);
     assert!(matches!(first.close(), Err(CheckpointError::Lost { .. })));
+    assert_eq!(fs::read(&path).unwrap(), second);
     let (first, _) = Checkpoint::open(&path, &header()).unwrap();
     fs::remove_file(&path).unwrap();
     written(&path);

@@ -240,9 +240,9 @@ impl Table {
             table.go_on_at(end).map_err(&failed)?;
         } else {
             table.go_on_at(0).map_err(&failed)?;
-            table
-                .file
-                .write_all(table.head.as_bytes())
+            (table.file.write_all(table.head.as_bytes()))
+                .and_then(|()| table.file.sync())
+                .and_then(|()| disk::sync_folder(path))
                 .map_err(&failed)?;
         }
         Ok(table)
@@ -273,6 +273,17 @@ impl Table {
             .and_then(|()| self.file.sync())
             .map_err(failed(&self.path))?;
         self.lines[at] = Some(summed);
+        self.keep_name()
+    }
+
+    /// Makes the table again if its file was removed, perhaps with its folder.
+    fn keep_name(&mut self) -> Result<(), TradeError> {
+        let named = self.file.has_its_name().map_err(failed(&self.path))?;
+        if !named && !self.path.exists() {
+            let folder = disk::folder(&self.path);
+            std::fs::create_dir_all(folder).map_err(failed(&self.path))?;
+            self.rewrite()?;
+        }
         Ok(())
     }
 
@@ -281,7 +292,7 @@ impl Table {
         if self.damaged > 0 {
             self.rewrite()?;
         }
-        Ok(())
+        self.keep_name()
     }
 
     /// Writes the table anew, and goes on behind it.
@@ -318,12 +329,12 @@ pub(super) fn checked(line: &str) -> Option<&str> {
     (sum == right).then_some(row)
 }
 
-/// `# qrt trade: scene_hash=..., seed=0`.
 /// The first two lines.
 fn head(header: &Header) -> String {
     format!("{}\n{}\n", first_line(header), columns())
 }
 
+/// `# qrt trade: scene_hash=..., seed=0`.
 fn first_line(header: &Header) -> String {
     let parts: Vec<String> = header
         .iter()

@@ -1,8 +1,11 @@
 //! What a table must hold.
 
+use super::table::Table;
 use super::*;
+use crate::disk::faults::{Plan, Watched};
 use crate::scratch::Scratch;
 use qrt_core::front::parse;
+use qrt_core::oracle::CallCost;
 use qrt_core::scene::{Estimator, Sequence};
 
 /// A lamp over a floor, seen obliquely; two rays.
@@ -39,6 +42,54 @@ fn timeless(folder: &Scratch) -> Vec<String> {
     let text = std::fs::read_to_string(folder.path("trade.csv")).unwrap();
     let without = |line: &str| Some(line.rsplitn(3, ',').nth(2)?.to_owned());
     text.lines().filter_map(without).collect()
+}
+
+#[test]
+fn rows_that_were_written_survive_a_power_cut_and_a_folder_that_is_removed() {
+    let settings = sweep::settings(&scene(LIT).parameters(), true);
+    let row = |at: usize| Row {
+        setting: settings[at],
+        queries: 7.0,
+        cost: CallCost {
+            toffoli: 100,
+            qubits: 10,
+        },
+        mean: 0.5,
+        errors: [Band::default(); ERRORS.len()],
+        seconds: 1.0,
+    };
+    let header = vec![("seed", "0".to_owned())];
+    let rows = |path: &Path| {
+        let found = table::read(path, &header, &settings);
+        found.map_or(0, |found| found.rows.iter().flatten().count())
+    };
+    for cut in 0.. {
+        let folder = Scratch::new();
+        let path = folder.path("trade.csv");
+        let watched = Watched::new(&folder.path(""), Plan::Cut(cut));
+        let mut written = 0;
+        if let Ok(mut table) = Table::open(&path, &header, &settings) {
+            written = (0..3)
+                .filter(|&at| table.append(at, &row(at)).is_ok())
+                .count();
+        }
+        let all = watched.done().len() <= cut;
+        watched.after_the_cut(|| false);
+        assert!(rows(&path) >= written, "cut {cut}");
+        if all {
+            assert_eq!(written, 3);
+            break;
+        }
+    }
+    let folder = Scratch::new();
+    let path = folder.path("own/trade.csv");
+    std::fs::create_dir(folder.path("own")).unwrap();
+    let mut table = Table::open(&path, &header, &settings).unwrap();
+    for at in 0..3 {
+        std::fs::remove_dir_all(folder.path("own")).unwrap();
+        table.append(at, &row(at)).unwrap();
+        assert_eq!(rows(&path), at + 1);
+    }
 }
 
 #[test]

@@ -8,7 +8,7 @@ use std::collections::{HashMap, HashSet};
 
 /// Most bits of a colour and a comparator together that are tried in all pairs. With more, every
 /// colour is tried with the comparators at, next to, and far from the threshold.
-const EXHAUSTIVE: u32 = 30;
+const EXHAUSTIVE: u32 = 26;
 
 /// Tries the comparison of every channel, for every colour and comparator.
 ///
@@ -162,7 +162,7 @@ impl Pairs {
         let count = if all {
             1 << (count_bits + bits)
         } else {
-            1 << EXHAUSTIVE.min(26)
+            1 << EXHAUSTIVE
         };
         Self {
             operand,
