@@ -318,15 +318,11 @@ fn bombs_are_refused_in_time() {
 #[test]
 fn any_place_can_be_shown() {
     use qrt::core::syntax::tree::Span;
-    use qrt::core::syntax::{Problem, Report, What, Words, codes};
-    let words = Words {
-        code: codes::SYNTAX,
-        message: "anything".into(),
-        label: "here\n\tand there".into(),
-        help: None,
-        also: "other",
+    use qrt::core::syntax::{Camera, Problem, Report, What};
+    let what = What::OfFile {
+        what: Box::new(Camera::NoView.into()),
+        place: "here\n\tand there".into(),
     };
-    let what = What::Told(Box::new(words));
     for text in [
         "",
         "\n",

@@ -89,18 +89,9 @@ impl<'a> Files<'a> {
         self.most_faces
     }
 
-    /// What stands around the scene's files, in words.
-    pub(crate) fn boundary(&self) -> [&'static str; 2] {
-        match self.origin {
-            Origin::Disk(root) if root != Path::new("") => [
-                "the crate's folder",
-                "`qrt!` reads files of the crate alone",
-            ],
-            _ => [
-                "the scene's folder",
-                "put it there, or allow its folder: `--allow-files DIR`",
-            ],
-        }
+    /// Whether the scene stands in a crate, whose files alone are read.
+    pub(crate) fn are_of_crate(&self) -> bool {
+        matches!(self.origin, Origin::Disk(root) if root != Path::new(""))
     }
 
     /// Whether `path` leads to a place below the scene's folder, or below one that is allowed.

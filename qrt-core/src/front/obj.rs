@@ -18,7 +18,7 @@ mod tests;
 use super::{Files, Unread};
 use crate::scene::meshes::{MOST_FACES, Meshes, ObjError, ObjFace, ObjMesh};
 use crate::scene::{Geometry, Scene};
-use crate::syntax::codes;
+use crate::syntax::MeshFile;
 use glam::DVec3;
 use mtl::Materials;
 use scan::Scanner;
@@ -47,30 +47,28 @@ pub fn load_all(scene: &Scene, files: Files<'_>) -> Meshes {
     }
     let most_bytes = files.faces_allowed() as u64 * BYTES_OF_FACE;
     let bytes_left = Cell::new(most_bytes);
-    let counted = |path: &Path, bytes: Rc<[u8]>| {
+    let counted = |bytes: Rc<[u8]>| {
         let left = bytes_left.get().checked_sub(bytes.len() as u64);
         bytes_left.set(left.ok_or_else(|| {
-            let most = most_bytes >> 20;
-            let message = format!("with this file the scene's meshes exceed {most} MiB");
-            too_large(message).at(path, None)
+            let most = most_bytes;
+            MeshFile::ManyBytesInAll { most }
         })?);
         Ok(bytes)
     };
     let mut read = BTreeMap::new();
     let mut library = |path: &Path| {
-        let bytes =
-            || bytes_of(files, path, codes::MTL_UNREADABLE).and_then(|it| counted(path, it));
+        let bytes = || bytes_of(files, path, true).and_then(counted);
         read.entry(path.to_owned()).or_insert_with(bytes).clone()
     };
     let mut meshes = Meshes::of_most(files.faces_allowed());
     let mut faces = Faces::of(files.faces_allowed());
     for (name, kinds) in wanted {
         let path = files.path(name);
-        let bytes = bytes_of(files, &path, codes::OBJ_UNREADABLE).and_then(|it| counted(&path, it));
+        let bytes = bytes_of(files, &path, false).and_then(counted);
         for wants_materials in kinds {
             let parsed = bytes
                 .as_ref()
-                .map_err(ObjError::clone)
+                .map_err(|what| ObjError::new(what.clone(), &path, None))
                 .and_then(|bytes| parse(&path, bytes, wants_materials, faces, &mut library));
             let mesh = parsed.inspect(|mesh| faces.left -= mesh.faces.len());
             meshes.insert(name, wants_materials, mesh);
@@ -99,9 +97,9 @@ pub fn load(path: &Path, wants_materials: bool) -> Result<ObjMesh, ObjError> {
     let files = Files::of_folder(path.parent().unwrap_or(Path::new("")));
     let bytes = files.read_named(path, MAX_BYTES);
     let bytes: Rc<[u8]> = bytes
-        .map_err(|why| unread(files, path, codes::OBJ_UNREADABLE, why))?
+        .map_err(|why| ObjError::new(unread(files, path, false, why), path, None))?
         .into();
-    let mut library = |path: &Path| bytes_of(files, path, codes::MTL_UNREADABLE);
+    let mut library = |path: &Path| bytes_of(files, path, true);
     parse(
         path,
         &bytes,
@@ -124,42 +122,32 @@ impl Faces {
     }
 }
 
-fn too_large(message: String) -> ObjError {
-    ObjError::new(codes::OBJ_TOO_LARGE, message).help("use a coarser mesh")
-}
-
 /// The whole of a file.
-fn bytes_of(files: Files<'_>, path: &Path, code: &'static str) -> Result<Rc<[u8]>, ObjError> {
+fn bytes_of(files: Files<'_>, path: &Path, is_library: bool) -> Result<Rc<[u8]>, MeshFile> {
     let bytes = files.read(path, MAX_BYTES).map(Rc::from);
-    bytes.map_err(|why| unread(files, path, code, why))
+    bytes.map_err(|why| unread(files, path, is_library, why))
 }
 
-/// Why a file was not read, in words.
-fn unread(files: Files<'_>, path: &Path, code: &'static str, why: Unread) -> ObjError {
-    let error = match why {
-        Unread::TooLarge => too_large(format!("the file is larger than {} MiB", MAX_BYTES >> 20)),
-        Unread::Outside => {
-            let [boundary, help] = files.boundary();
-            let message = format!("`{}` is outside {boundary}", path.display());
-            ObjError::new(codes::OUTSIDE, message).help(help)
+fn unread(files: Files<'_>, path: &Path, is_library: bool, why: Unread) -> MeshFile {
+    let file = path.to_owned();
+    match why {
+        Unread::TooLarge => MeshFile::ManyBytes { most: MAX_BYTES },
+        Unread::Outside if files.are_of_crate() => MeshFile::OutsideCrate { file },
+        Unread::Outside => MeshFile::OutsideScene { file },
+        Unread::Irregular { .. } => MeshFile::Irregular { file, is_library },
+        Unread::Failed(error) if error.kind() == std::io::ErrorKind::NotFound => {
+            MeshFile::Missing { file, is_library }
         }
-        Unread::Irregular { .. } => {
-            ObjError::new(code, format!("`{}` is not a regular file", path.display()))
-        }
-        Unread::Failed(error) => {
-            let why = match error.kind() {
-                std::io::ErrorKind::NotFound => "there is no such file".to_owned(),
-                _ => error.to_string(),
-            };
-            ObjError::new(code, format!("cannot read `{}`: {why}", path.display()))
-                .help("relative names are looked up beside the file that names them")
-        }
-    };
-    error.at(path, None)
+        Unread::Failed(error) => MeshFile::Failed {
+            file,
+            is_library,
+            why: error.to_string(),
+        },
+    }
 }
 
 /// The bytes of a material library.
-type Library<'a> = &'a mut dyn FnMut(&Path) -> Result<Rc<[u8]>, ObjError>;
+type Library<'a> = &'a mut dyn FnMut(&Path) -> Result<Rc<[u8]>, MeshFile>;
 
 /// As [`load`], of the bytes themselves.
 fn parse(
@@ -177,15 +165,15 @@ fn parse(
     let read = tobj::load_obj_buf(&mut shape, &tobj::LoadOptions::default(), no_library);
     let (models, _) = read.map_err(|error| {
         scanner.fault.take().unwrap_or_else(|| {
-            let message = format!("the file cannot be read as an OBJ mesh: {error}");
-            ObjError::new(codes::OBJ_REFUSED, message).at(path, None)
+            let why = error.to_string();
+            ObjError::new(MeshFile::Refused { why }, path, None)
         })
     })?;
     let mut files = vec![path.to_owned()];
     let materials = Materials::read(path, &scanner.libraries, library, &mut files)?;
     let uses = scanner.uses.iter().map(|(name, line)| {
         let found = materials.find(name, scanner.libraries.is_empty());
-        found.map_err(|error| error.at(path, *line))
+        found.map_err(|what| ObjError::new(what, path, *line))
     });
     let uses: Vec<usize> = uses.collect::<Result<_, _>>()?;
 
@@ -199,7 +187,8 @@ fn parse(
         // Without arities, every face is a triangle.
         let arity = mesh.face_arities.get(number).map_or(3, |n| *n as usize);
         let face: Vec<DVec3> = corners.by_ref().take(arity).collect();
-        let triangles = polygon::triangles(&face).map_err(|error| error.at(path, *line))?;
+        let triangles = polygon::triangles(&face);
+        let triangles = triangles.map_err(|what| ObjError::new(what, path, *line))?;
         let material = use_before.map(|number| uses[number]);
         faces.extend(
             triangles
@@ -218,7 +207,7 @@ fn parse(
 fn text_of<'a>(path: &Path, bytes: &'a [u8]) -> Result<Cow<'a, str>, ObjError> {
     if let Some(at) = bytes.iter().position(|byte| *byte == 0) {
         let line = bytes[..at].split(|byte| *byte == b'\n').count();
-        return Err(ObjError::new(codes::OBJ_NOT_TEXT, "this is not a text file").at(path, line));
+        return Err(ObjError::new(MeshFile::NotText, path, line));
     }
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     Ok(String::from_utf8_lossy(bytes))
@@ -248,10 +237,9 @@ fn statements(text: &str) -> impl Iterator<Item = (usize, Cow<'_, str>)> {
 }
 
 /// The keyword of a statement, and what follows it.
-fn split(statement: &str) -> Result<(&str, &str), ObjError> {
+fn split(statement: &str) -> Result<(&str, &str), MeshFile> {
     if statement.ends_with('\\') {
-        let message = "the file ends within a continued line";
-        return Err(ObjError::new(codes::OBJ_CONTINUATION, message).help("is the file whole?"));
+        return Err(MeshFile::Continued);
     }
     let parts = statement.split_once(char::is_whitespace);
     let (keyword, rest) = parts.unwrap_or((statement, ""));
@@ -265,30 +253,26 @@ fn words(text: &str) -> impl Iterator<Item = &str> {
 }
 
 /// The finite numbers of a statement, the first `most` of them.
-fn numbers(text: &str, most: usize) -> Result<Vec<f64>, ObjError> {
-    let number = |word: &str| match word.parse::<f64>() {
-        Ok(value) if value.is_finite() => Ok(value),
-        Ok(_) => Err((
-            codes::OBJ_NOT_FINITE,
-            format!("`{word}` is not a finite number"),
-        )),
-        Err(_) => Err((codes::OBJ_NUMBER, format!("`{word}` is not a number"))),
+fn numbers(text: &str, most: usize, is_library: bool) -> Result<Vec<f64>, MeshFile> {
+    let number = |text: &str| {
+        let (value, word) = (text.parse::<f64>(), text.to_owned());
+        match value {
+            Ok(value) if value.is_finite() => Ok(value),
+            Ok(_) => Err(MeshFile::NotFinite { word, is_library }),
+            Err(_) => Err(MeshFile::NotANumber { word, is_library }),
+        }
     };
-    let numbers = words(text).take(most).map(number).collect::<Result<_, _>>();
-    numbers.map_err(|(code, message)| ObjError::new(code, message))
+    words(text).take(most).map(number).collect()
 }
 
 /// The name after a keyword, which must be there and be text.
-fn name(keyword: &str, name: &str, nameless: &'static str) -> Result<String, ObjError> {
+fn name(keyword: &str, name: &str, nameless: MeshFile) -> Result<String, MeshFile> {
     if name.is_empty() {
-        return Err(ObjError::new(
-            nameless,
-            format!("`{keyword}` without a name"),
-        ));
+        return Err(nameless);
     }
     if name.contains(char::REPLACEMENT_CHARACTER) {
-        let message = format!("the name after `{keyword}` is not UTF-8 text");
-        return Err(ObjError::new(codes::OBJ_NOT_TEXT, message));
+        let keyword = keyword.to_owned();
+        return Err(MeshFile::NameNotText { keyword });
     }
     Ok(name.to_owned())
 }

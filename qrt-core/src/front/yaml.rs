@@ -63,6 +63,29 @@ pub fn read(
     root.filter(|_| !merged)
 }
 
+/// What kind of text `saphyr-parser` refuses. Its errors are words and a place, without a kind: the words are
+/// read here and nowhere else, and a test holds those of the version in use.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Refusal {
+    UnknownAlias,
+    TooDeep,
+    /// A character that no editor shows.
+    Invisible,
+    Syntax,
+}
+
+impl Refusal {
+    fn of(words: &str) -> Self {
+        match words {
+            "while parsing node, found unknown anchor" => Self::UnknownAlias,
+            "recursion limit exceeded" => Self::TooDeep,
+            "found unprintable character"
+            | "a byte order mark must not appear inside a document" => Self::Invisible,
+            _ => Self::Syntax,
+        }
+    }
+}
+
 /// Reading cannot go on; the reason is among the problems.
 struct Stop;
 
@@ -173,19 +196,19 @@ impl<'a> Builder<'a> {
         Err(Stop)
     }
 
-    /// The parser's errors are words; two of them have a name here.
     fn syntax_error(&mut self, why: &str, at: usize) -> Result<(), Stop> {
-        let what = if why.contains("unknown anchor") {
-            Yaml::UnknownAlias
-        } else if why.contains("recursion limit") {
-            Yaml::TooDeep { most: MAX_DEPTH }
-        } else {
-            let is_blank = |byte: &u8| b" \t".contains(byte);
-            let mut indentation = self.locator.line_of(at).bytes().take_while(is_blank);
-            Yaml::Syntax {
-                why: why.to_owned(),
-                has_tab: indentation.any(|byte| byte == b'\t'),
-                is_invisible: why.contains("unprintable") || why.contains("byte order mark"),
+        let refusal = Refusal::of(why);
+        let what = match refusal {
+            Refusal::UnknownAlias => Yaml::UnknownAlias,
+            Refusal::TooDeep => Yaml::TooDeep { most: MAX_DEPTH },
+            Refusal::Invisible | Refusal::Syntax => {
+                let is_blank = |byte: &u8| b" \t".contains(byte);
+                let mut indentation = self.locator.line_of(at).bytes().take_while(is_blank);
+                Yaml::Syntax {
+                    why: why.to_owned(),
+                    has_tab: indentation.any(|byte| byte == b'\t'),
+                    is_invisible: refusal == Refusal::Invisible,
+                }
             }
         };
         let span = self.locator.word(at);
@@ -357,6 +380,28 @@ impl<'a> Builder<'a> {
                     });
                 }
             }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Were the parser to word its errors otherwise, authors would be told less.
+    #[test]
+    fn refusals_are_known_by_the_words_of_the_parser() {
+        let deep = "[".repeat(1 << 17);
+        for (text, expected) in [
+            ("a: *b", Refusal::UnknownAlias),
+            (deep.as_str(), Refusal::TooDeep),
+            ("a: 1\n\0", Refusal::Invisible),
+            ("a: \u{feff}1", Refusal::Invisible),
+            ("a: [1 \n- ", Refusal::Syntax),
+        ] {
+            let refused = Parser::new_from_str(text).find_map(Result::err);
+            let words = refused.as_ref().map(saphyr_parser::ScanError::info);
+            assert_eq!(words.map(Refusal::of), Some(expected), "{words:?}");
         }
     }
 }

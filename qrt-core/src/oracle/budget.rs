@@ -3,7 +3,7 @@
 use super::{MOST_FACES, Oracle, OracleError};
 use crate::compile::BuildError;
 use crate::scene::{Nearest, Uncompute};
-use crate::syntax::{Circuit, Path, Problem, Problems, Sampling};
+use crate::syntax::{Circuit, Path, Problem, Problems};
 use crate::valid::ValidScene;
 use qrt_circuit::lower;
 
@@ -96,10 +96,7 @@ impl OracleError {
                 };
                 Problem::new(path, error.problem())
             }
-            Self::Sampling(error) => {
-                let why = error.to_string();
-                Problem::new(root.key("sampling"), Sampling::Impossible { why })
-            }
+            Self::Sampling(error) => Problem::new(root.key("sampling"), error.problem()),
             &Self::TooManyFaces { faces } => {
                 let most = MOST_FACES;
                 let what = Circuit::TooManyFaces { faces, most };

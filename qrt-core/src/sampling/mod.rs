@@ -29,6 +29,7 @@ pub use lattice::ProductLattice;
 pub use net::{DigitalNet, MAX_DIMENSIONS, pixel_shift};
 
 use crate::scene::{Sampling, Sequence};
+use crate::syntax;
 use linear::LinearMap;
 use std::fmt;
 
@@ -312,25 +313,34 @@ pub enum SamplingError {
     LatticeBits { path_bits: u32, sum: u32 },
 }
 
+impl SamplingError {
+    /// What this says of the scene.
+    pub(crate) fn problem(self) -> syntax::Sampling {
+        match self {
+            Self::Dimensions { dimensions } => syntax::Sampling::Dimensions {
+                dimensions,
+                most: MAX_DIMENSIONS,
+            },
+            Self::PathBits { path_bits } => syntax::Sampling::PathBits {
+                bits: path_bits,
+                most: MAX_PATH_BITS,
+            },
+            Self::CoordinateBits { coordinate, bits } => syntax::Sampling::CoordinateBits {
+                coordinate: coordinate.to_string(),
+                bits,
+                most: MAX_COORDINATE_BITS,
+            },
+            Self::LatticeBits { path_bits, sum } => syntax::Sampling::LatticeBits {
+                path: path_bits,
+                sum,
+            },
+        }
+    }
+}
+
 impl fmt::Display for SamplingError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Dimensions { dimensions } => write!(
-                f,
-                "{dimensions} coordinates per path; the digital net has {MAX_DIMENSIONS}"
-            ),
-            Self::PathBits { path_bits } => {
-                write!(f, "{path_bits} path bits; an id holds {MAX_PATH_BITS}")
-            }
-            Self::CoordinateBits { coordinate, bits } => write!(
-                f,
-                "{bits} bits for {coordinate}; a coordinate holds {MAX_COORDINATE_BITS}"
-            ),
-            Self::LatticeBits { path_bits, sum } => write!(
-                f,
-                "{path_bits} path bits, but the product lattice's coordinates have {sum} in all"
-            ),
-        }
+        syntax::What::from(self.problem()).fmt(f)
     }
 }
 

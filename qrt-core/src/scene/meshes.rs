@@ -2,7 +2,7 @@
 //! ([`crate::front::obj`]); [`crate::valid::validate`] checks them along with the scene.
 
 use super::{Mesh, Rgb};
-use crate::syntax::codes;
+use crate::syntax::{MeshFile, What};
 use glam::DVec3;
 use std::collections::BTreeMap;
 use std::fmt;
@@ -48,8 +48,8 @@ impl Meshes {
     pub fn get(&self, mesh: &Mesh) -> Result<&ObjMesh, ObjError> {
         let key = (mesh.obj.clone(), mesh.material.is_none());
         let Some(read) = self.read.get(&key) else {
-            let message = format!("`{}` is not among the meshes that were read", mesh.obj);
-            return Err(ObjError::new(codes::OBJ_UNREADABLE, message));
+            let name = mesh.obj.clone();
+            return Err(ObjError::new(MeshFile::NotRead { name }, "".as_ref(), None));
         };
         read.as_deref().map_err(ObjError::clone)
     }
@@ -94,41 +94,30 @@ pub struct ObjMaterial {
 }
 
 /// What is wrong with a file; codes are `QRT0320` to `QRT0344`.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct ObjError {
-    /// The stable code of the error: `QRT0320`.
-    pub code: &'static str,
+    /// What is wrong.
+    pub what: MeshFile,
     /// The file: the OBJ itself or one of its libraries.
     pub file: PathBuf,
     /// The line of the file, counted from 1; `None` if the error is of no single line.
     pub line: Option<usize>,
-    /// What is wrong, in one sentence without a full stop.
-    pub message: String,
-    /// What to do about it; `None` if nothing can be advised.
-    pub help: Option<String>,
 }
 
 impl ObjError {
-    /// An error whose place is still to be said.
-    pub(crate) fn new(code: &'static str, message: impl Into<String>) -> Self {
-        Self {
-            code,
-            file: PathBuf::new(),
-            line: None,
-            message: message.into(),
-            help: None,
-        }
-    }
-
-    /// In this file, at this line if it is of one.
-    pub(crate) fn at(self, file: &Path, line: impl Into<Option<usize>>) -> Self {
+    /// An error in this file, at this line if it is of one.
+    pub(crate) fn new(what: MeshFile, file: &Path, line: impl Into<Option<usize>>) -> Self {
         let (file, line) = (file.to_owned(), line.into());
-        Self { file, line, ..self }
+        Self { what, file, line }
     }
 
-    pub(crate) fn help(self, help: impl Into<String>) -> Self {
-        let help = Some(help.into());
-        Self { help, ..self }
+    /// As a problem of the scene that names the file.
+    pub(crate) fn problem(self) -> What {
+        let place = self.line.map_or_else(String::new, |line| {
+            format!("{}:{line}", self.file.display())
+        });
+        let what = Box::new(self.what.into());
+        What::OfFile { what, place }
     }
 }
 
@@ -138,7 +127,8 @@ impl fmt::Display for ObjError {
         if let Some(line) = self.line {
             write!(f, ":{line}")?;
         }
-        write!(f, ": {} ({})", self.message, self.code)
+        let words = self.what.words();
+        write!(f, ": {} ({})", words.message, words.code)
     }
 }
 

@@ -7,7 +7,7 @@ use crate::scene::meshes::Meshes;
 use crate::scene::shape::LARGEST;
 use crate::scene::{Geometry, Mesh, Scene};
 use crate::syntax::{
-    self, Material, Mesh as Unplaced, Path, Problem, Problems, Shape as Fault, Triangles, nearest,
+    Material, Mesh as Unplaced, Path, Problem, Problems, Shape as Fault, Triangles, nearest,
 };
 use crate::valid::{Polygon, Surface, matte};
 use glam::DVec3;
@@ -169,17 +169,7 @@ impl<'a> Build<'a> {
         let read = match self.meshes.get(mesh) {
             Ok(read) => read,
             Err(error) => {
-                let told = syntax::Words {
-                    code: error.code,
-                    message: error.message,
-                    label: error.line.map_or_else(String::new, |line| {
-                        format!("{}:{line}", error.file.display())
-                    }),
-                    help: error.help,
-                    also: "",
-                };
-                let what = syntax::What::Told(Box::new(told));
-                self.problems.add(path.key("obj"), what);
+                self.problems.add(path.key("obj"), error.problem());
                 return;
             }
         };

@@ -1,7 +1,7 @@
 //! The right thing to write, in the macro's form.
 
 use qrt_core::syntax::{
-    Expected, Material, Sampling, Structure, What, Words, codes, listed, nearest,
+    Expected, Material, MeshFile, Sampling, Structure, What, Words, codes, listed, nearest,
 };
 
 /// Keys and entries as they may be written.
@@ -159,9 +159,14 @@ fn help(what: &What) -> Option<String> {
         What::Sampling(Sampling::NotTheSum { .. }) => {
             "under `product_lattice` leave `path_bits` out, or change the bits"
         }
-        What::Told(words) if words.code == codes::OBJ_UNREADABLE => {
-            "relative paths start at the folder of Cargo.toml"
-        }
+        What::OfFile { what, .. } => match **what {
+            What::MeshFile(
+                MeshFile::Missing { is_library, .. }
+                | MeshFile::Failed { is_library, .. }
+                | MeshFile::Irregular { is_library, .. },
+            ) if !is_library => "relative paths start at the folder of Cargo.toml",
+            _ => return None,
+        },
         _ => return None,
     };
     Some(help.to_owned())

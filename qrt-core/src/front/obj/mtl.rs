@@ -3,9 +3,7 @@
 use super::{Library, ObjError, name, numbers, split, statements, text_of, words};
 use crate::scene::Rgb;
 use crate::scene::meshes::ObjMaterial;
-use crate::syntax::codes;
-use crate::syntax::nearest;
-use crate::syntax::tree::shorten;
+use crate::syntax::{MeshFile, nearest};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
@@ -49,7 +47,7 @@ impl Materials {
                 if files.contains(&path) {
                     continue;
                 }
-                let bytes = library(&path).map_err(|error| error.at(obj, *line))?;
+                let bytes = library(&path).map_err(|what| ObjError::new(what, obj, *line))?;
                 materials.add_all(&path, name, &bytes)?;
                 files.push(path);
             }
@@ -58,18 +56,16 @@ impl Materials {
     }
 
     /// The place of `name` in the list.
-    pub(super) fn find(&self, name: &str, no_libraries: bool) -> Result<usize, ObjError> {
+    pub(super) fn find(&self, name: &str, no_libraries: bool) -> Result<usize, MeshFile> {
         self.by_name.get(name).copied().ok_or_else(|| {
-            let message = format!("no material `{}`", shorten(name));
-            if no_libraries {
-                return ObjError::new(codes::OBJ_NO_LIBRARY, message)
-                    .help("the file names no material library: a `mtllib` statement is missing");
-            }
             let names = self.list.iter().map(|material| material.name.as_str());
-            ObjError::new(codes::OBJ_MATERIAL, message).help(match nearest(name, names) {
-                Some(near) => format!("did you mean `{near}`?"),
-                None => "`newmtl` in a material library names it".to_owned(),
-            })
+            let near = nearest(name, names).map(str::to_owned);
+            let name = name.to_owned();
+            if no_libraries {
+                MeshFile::NoLibrary { name }
+            } else {
+                MeshFile::UnknownMaterial { name, near }
+            }
         })
     }
 
@@ -94,28 +90,25 @@ impl Materials {
                 // What has no part in a scene; its operands are of many kinds.
                 _ => Ok(()),
             });
-            read.map_err(|error| error.at(path, line))?;
+            read.map_err(|what| ObjError::new(what, path, line))?;
         }
         let mut added = self.list[first..].iter();
         match added.find(|added| added.albedo.is_none() && added.radiance.is_none()) {
             None => Ok(()),
             Some(Material { name, line, .. }) => {
-                let message = format!("material `{}` has neither `Kd` nor `Ke`", shorten(name));
-                Err(ObjError::new(codes::MTL_EMPTY, message)
-                    .help("`Kd r g b` is its albedo, `Ke r g b` its radiance")
-                    .at(path, *line))
+                let name = name.clone();
+                Err(ObjError::new(MeshFile::EmptyMaterial { name }, path, *line))
             }
         }
     }
 
-    fn add(&mut self, file: &str, line: usize, rest: &str) -> Result<(), ObjError> {
-        let name = name("newmtl", rest, codes::MTL_STATEMENT)?;
+    fn add(&mut self, file: &str, line: usize, rest: &str) -> Result<(), MeshFile> {
+        let name = name("newmtl", rest, MeshFile::NamelessMaterial)?;
         let number = self.list.len();
         if let Some(old) = self.by_name.insert(name.clone(), number) {
             let Material { file, line, .. } = &self.list[old];
-            let message = format!("a second material `{}`", shorten(&name));
-            return Err(ObjError::new(codes::MTL_DUPLICATE, message)
-                .help(format!("the first is in {file}, line {line}")));
+            let (file, line) = (file.clone(), *line);
+            return Err(MeshFile::SecondMaterial { name, file, line });
         }
         self.list.push(Material {
             name,
@@ -129,28 +122,24 @@ impl Materials {
 }
 
 /// What a statement says of the colours of the material that it stands below.
-fn set(material: Option<&mut Material>, keyword: &str, rest: &str) -> Result<(), ObjError> {
+fn set(material: Option<&mut Material>, keyword: &str, rest: &str) -> Result<(), MeshFile> {
+    let owned = keyword.to_owned();
     let Some(material) = material else {
-        let message = format!("`{keyword}` stands before any `newmtl`");
-        return Err(ObjError::new(codes::MTL_STATEMENT, message));
+        return Err(MeshFile::BeforeMaterials { keyword: owned });
     };
     if keyword.starts_with("map_") {
-        let message = format!("`{keyword}`: there are no textures");
-        return Err(ObjError::new(codes::MTL_TEXTURE, message)
-            .help("give the mesh a `material` in the scene, or a plain colour here"));
+        return Err(MeshFile::Texture { keyword: owned });
     }
     let colour = colour(keyword, rest)?;
     let off = |is_off: fn(&f64) -> bool| colour.iter().copied().find(is_off);
     if keyword == "Ke" {
-        if let Some(off) = off(|c| *c < 0.0) {
-            let message = format!("the radiance `Ke` is {off}, which is negative");
-            return Err(ObjError::new(codes::MTL_RADIANCE, message));
+        if let Some(value) = off(|c| *c < 0.0) {
+            return Err(MeshFile::NegativeRadiance { value });
         }
         material.radiance = Some(colour);
     } else {
-        if let Some(off) = off(|c| !(0.0..=1.0).contains(c)) {
-            let message = format!("the albedo `Kd` is {off}, which is not in [0, 1]");
-            return Err(ObjError::new(codes::MTL_ALBEDO, message));
+        if let Some(value) = off(|c| !(0.0..=1.0).contains(c)) {
+            return Err(MeshFile::NotAlbedo { value });
         }
         material.albedo = Some(colour);
     }
@@ -158,17 +147,18 @@ fn set(material: Option<&mut Material>, keyword: &str, rest: &str) -> Result<(),
 }
 
 /// `r g b`, or one number for grey.
-fn colour(keyword: &str, rest: &str) -> Result<Rgb, ObjError> {
-    let first = words(rest).next().unwrap_or_default();
-    let message = if matches!(first, "spectral" | "xyz") {
-        format!("`{keyword} {first}` is not read: colours are linear RGB")
-    } else {
-        match numbers(rest, 4).as_deref() {
-            Ok([grey]) => return Ok([*grey; 3]),
-            Ok([r, g, b]) => return Ok([*r, *g, *b]),
-            Ok(other) => format!("`{keyword}` takes 3 numbers, or 1, not {}", other.len()),
-            Err(error) => error.message.clone(),
-        }
-    };
-    Err(ObjError::new(codes::MTL_STATEMENT, message))
+fn colour(keyword: &str, rest: &str) -> Result<Rgb, MeshFile> {
+    let keyword = keyword.to_owned();
+    if let Some(space @ ("spectral" | "xyz")) = words(rest).next() {
+        let space = space.to_owned();
+        return Err(MeshFile::NotRgb { keyword, space });
+    }
+    match numbers(rest, 4, true)?[..] {
+        [grey] => Ok([grey; 3]),
+        [r, g, b] => Ok([r, g, b]),
+        ref other => Err(MeshFile::Colour {
+            keyword,
+            given: other.len(),
+        }),
+    }
 }

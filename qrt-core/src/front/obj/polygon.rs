@@ -1,7 +1,6 @@
 //! From a polygon to triangles: a fan where it is convex, else ears cut off one by one.
 
-use crate::scene::meshes::ObjError;
-use crate::syntax::codes;
+use crate::syntax::MeshFile;
 use glam::{DVec2, DVec3};
 
 /// More corners than a face that is not convex may have: cutting ears takes up to their cube.
@@ -10,28 +9,13 @@ const MAX_CONCAVE: usize = 256;
 /// An area, as a fraction of the square of the longest edge, that is rounding alone.
 const NO_AREA: f64 = 1e-14;
 
-fn no_area() -> ObjError {
-    ObjError::new(codes::OBJ_ZERO_AREA, "this face has no area")
-        .help("remove it: its corners lie on a line")
-}
-
-fn too_large() -> ObjError {
-    let message = "this face is too large: its area is not a finite number";
-    ObjError::new(codes::OBJ_NOT_FINITE, message)
-        .help("scale the mesh in the file, and back in the scene")
-}
-
-fn uncut(why: &str) -> ObjError {
-    ObjError::new(codes::OBJ_OUTLINE, why).help("export the mesh as triangles")
-}
-
 /// The triangles of a polygon of three or more corners, wound as it is; none is without area.
-pub(super) fn triangles(corners: &[DVec3]) -> Result<Vec<[DVec3; 3]>, ObjError> {
+pub(super) fn triangles(corners: &[DVec3]) -> Result<Vec<[DVec3; 3]>, MeshFile> {
     if let [a, b, c] = *corners {
         return if has_area([a, b, c])? {
             Ok(vec![[a, b, c]])
         } else {
-            Err(no_area())
+            Err(MeshFile::NoArea)
         };
     }
     let flat = flatten(corners)?;
@@ -43,26 +27,24 @@ pub(super) fn triangles(corners: &[DVec3]) -> Result<Vec<[DVec3; 3]>, ObjError> 
     } else if corners.len() <= MAX_CONCAVE {
         ears(&flat)?
     } else {
-        return Err(uncut(
-            "this face is not convex and has more than 256 corners",
-        ));
+        return Err(MeshFile::ManyCorners { most: MAX_CONCAVE });
     };
     Ok(indices.iter().map(place).collect())
 }
 
-fn has_area([a, b, c]: [DVec3; 3]) -> Result<bool, ObjError> {
+fn has_area([a, b, c]: [DVec3; 3]) -> Result<bool, MeshFile> {
     let (ab, ac, bc) = (b - a, c - a, c - b);
     let twice = ab.cross(ac).length();
     let edges = [ab, ac, bc].map(DVec3::length_squared);
     let longest = edges.into_iter().fold(0.0, f64::max);
     if !(twice.is_finite() && longest.is_finite()) {
-        return Err(too_large());
+        return Err(MeshFile::Overlarge);
     }
     Ok(twice > NO_AREA * longest)
 }
 
 /// The polygon seen along the axis that its (Newell) normal is nearest to, counterclockwise.
-fn flatten(corners: &[DVec3]) -> Result<Vec<DVec2>, ObjError> {
+fn flatten(corners: &[DVec3]) -> Result<Vec<DVec2>, MeshFile> {
     let mut normal = DVec3::ZERO;
     let mut longest: f64 = 0.0;
     for (i, b) in corners.iter().enumerate().skip(1) {
@@ -73,11 +55,11 @@ fn flatten(corners: &[DVec3]) -> Result<Vec<DVec2>, ObjError> {
             .max((*b - corners[0]).length_squared());
     }
     if !(normal.is_finite() && longest.is_finite()) {
-        return Err(too_large());
+        return Err(MeshFile::Overlarge);
     }
     let axis = normal.abs().max_position();
     if normal[axis].abs() <= NO_AREA * longest {
-        return Err(no_area());
+        return Err(MeshFile::NoArea);
     }
     let project = |p: &DVec3| {
         let side = normal[axis].signum();
@@ -100,7 +82,7 @@ fn is_convex(flat: &[DVec2]) -> bool {
     left_only && once
 }
 
-fn ears(flat: &[DVec2]) -> Result<Vec<[usize; 3]>, ObjError> {
+fn ears(flat: &[DVec2]) -> Result<Vec<[usize; 3]>, MeshFile> {
     let mut left: Vec<usize> = (0..flat.len()).collect();
     let mut triangles = Vec::with_capacity(flat.len() - 2);
     while left.len() > 2 {
@@ -110,8 +92,7 @@ fn ears(flat: &[DVec2]) -> Result<Vec<[usize; 3]>, ObjError> {
             is_ear(flat, &left, triangle).then_some((i, triangle))
         });
         let Some((i, triangle)) = ear else {
-            let why = "this face cannot be cut into triangles: its outline crosses itself";
-            return Err(uncut(why));
+            return Err(MeshFile::Crossing);
         };
         triangles.push(triangle);
         left.remove(i);

@@ -1,8 +1,7 @@
 //! The check of an OBJ file, statement by statement, as `tobj` reads it.
 
-use super::{Faces, ObjError, name, numbers, split, statements, too_large, words};
-use crate::syntax::tree::shorten;
-use crate::syntax::{codes, nearest};
+use super::{Faces, ObjError, name, numbers, split, statements, words};
+use crate::syntax::{MeshFile, nearest};
 use glam::DVec3;
 use std::borrow::Cow;
 use std::collections::VecDeque;
@@ -54,7 +53,7 @@ impl Read for Scanner<'_> {
                 break;
             };
             let checked = self.statement(line, &statement);
-            read = checked.map_err(|error| error.at(self.path, line));
+            read = checked.map_err(|what| ObjError::new(what, self.path, line));
         }
         if let Err(fault) = read {
             self.fault = Some(fault);
@@ -82,7 +81,7 @@ impl<'a> Scanner<'a> {
         }
     }
 
-    fn statement(&mut self, line: usize, statement: &str) -> Result<(), ObjError> {
+    fn statement(&mut self, line: usize, statement: &str) -> Result<(), MeshFile> {
         let (keyword, rest) = split(statement)?;
         let is_in = |keywords: &str| keywords.split(' ').any(|known| known == keyword);
         match keyword {
@@ -98,33 +97,25 @@ impl<'a> Scanner<'a> {
             "f" | "fo" => self.face(line, rest)?,
             "mtllib" | "usemtl" if !self.wants_materials => {}
             "mtllib" => {
-                let name = name(keyword, rest, codes::OBJ_NO_LIBRARY)?;
+                let name = name(keyword, rest, MeshFile::NamelessLibrary)?;
                 self.libraries.push((name, line));
             }
             "usemtl" => {
-                let name = name(keyword, rest, codes::OBJ_MATERIAL)?;
+                let name = name(keyword, rest, MeshFile::NamelessUse)?;
                 self.uses.push((name, line));
             }
-            "l" | "p" => {
-                let what = if keyword == "l" { "lines" } else { "points" };
-                let message = format!("{what} have no area, so no light meets them");
-                return Err(ObjError::new(codes::OBJ_NO_POLYGON, message)
-                    .help(format!("leave out the `{keyword}` statements")));
-            }
+            "l" => return Err(MeshFile::Lines),
+            "p" => return Err(MeshFile::Points),
             _ if is_in(IGNORED) => {}
             _ if is_in(CURVED) => {
-                let message = format!("`{keyword}`: free-form shapes are not read");
-                return Err(ObjError::new(codes::OBJ_NO_POLYGON, message)
-                    .help("export the mesh as polygons"));
+                let keyword = keyword.to_owned();
+                return Err(MeshFile::FreeForm { keyword });
             }
             _ => {
-                let message = format!("`{}` is no OBJ statement", shorten(keyword));
                 let known = READ.split(' ').chain(IGNORED.split(' '));
                 let near = nearest(keyword, known.filter(|known| known.len() > 2));
-                return Err(ObjError {
-                    help: near.map(|near| format!("did you mean `{near}`?")),
-                    ..ObjError::new(codes::OBJ_STATEMENT, message)
-                });
+                let keyword = keyword.to_owned();
+                return Err(MeshFile::UnknownStatement { keyword, near });
             }
         }
         Ok(())
@@ -140,48 +131,35 @@ impl<'a> Scanner<'a> {
     }
 
     /// `v x y z`, `v x y z w` or `v x y z r g b`, whose colours are dropped.
-    fn vertex(&mut self, rest: &str) -> Result<(), ObjError> {
+    fn vertex(&mut self, rest: &str) -> Result<(), MeshFile> {
         let kept = match counted("v", rest, 3, 6)?[..] {
             [x, y, z, w] if (DVec3::new(x, y, z) / w).is_finite() => 4,
-            [_, _, _, w] => {
-                let message = format!("the weight {w} takes the vertex to infinity");
-                return Err(ObjError::new(codes::OBJ_NOT_FINITE, message));
-            }
-            [_, _, _, _, _] => {
-                let message = "`v` takes 3 numbers, or 4 with a weight, or 6 with a colour, not 5";
-                return Err(ObjError::new(codes::OBJ_NUMBER, message));
-            }
+            [_, _, _, weight] => return Err(MeshFile::Weight { weight }),
+            [_, _, _, _, _] => return Err(MeshFile::FiveNumbers),
             _ => 3,
         };
         self.counts[0] += 1;
         let most = 3 * self.most.left;
         if self.counts[0] > most as i64 {
-            return Err(too_large(format!("more than {most} vertices")));
+            return Err(MeshFile::ManyVertices { most });
         }
         self.hand_on("v", words(rest).take(kept));
         Ok(())
     }
 
-    fn face(&mut self, line: usize, rest: &str) -> Result<(), ObjError> {
-        let corners = words(rest).count();
-        if corners < 3 {
-            let s = if corners == 1 { "" } else { "s" };
-            let message = format!("a face of {corners} corner{s}");
-            return Err(ObjError::new(codes::OBJ_CORNERS, message).help("a face has three or more"));
+    fn face(&mut self, line: usize, rest: &str) -> Result<(), MeshFile> {
+        let count = words(rest).count();
+        if count < 3 {
+            return Err(MeshFile::FewCorners { count });
         }
         let material = self.uses.len().checked_sub(1);
         if self.wants_materials && material.is_none() {
-            let message = "this face has no material: no `usemtl` stands before it";
-            return Err(ObjError::new(codes::OBJ_NO_MATERIAL, message)
-                .help("give the mesh a `material` in the scene, or the face one in the file"));
+            return Err(MeshFile::NoUse);
         }
-        self.triangles += corners - 2;
+        self.triangles += count - 2;
         if self.triangles > self.most.left {
-            let message = format!(
-                "the scene's meshes have more than {} triangles",
-                self.most.most
-            );
-            return Err(too_large(message));
+            let most = self.most.most;
+            return Err(MeshFile::ManyTriangles { most });
         }
         for corner in words(rest) {
             self.corner(line, corner)?;
@@ -192,27 +170,29 @@ impl<'a> Scanner<'a> {
     }
 
     /// `v`, `v/vt`, `v//vn` or `v/vt/vn`, from 1, or backwards from -1.
-    fn corner(&mut self, line: usize, corner: &str) -> Result<(), ObjError> {
+    fn corner(&mut self, line: usize, corner: &str) -> Result<(), MeshFile> {
         for (kind, part) in corner.split('/').enumerate() {
             if part.is_empty() && (1..3).contains(&kind) {
                 continue;
             }
             let Some(index) = part.parse::<i64>().ok().filter(|_| kind < 3) else {
-                let message = format!("`{}` is not a corner of a face", shorten(corner));
-                return Err(ObjError::new(codes::OBJ_CORNER, message)
-                    .help("a corner is `v`, `v/vt`, `v//vn` or `v/vt/vn`, with whole numbers"));
+                let corner = corner.to_owned();
+                return Err(MeshFile::NotACorner { corner });
             };
-            let (what, before) = (KINDS[kind], self.counts[kind]);
+            let (before, greatest) = (self.counts[kind], &mut self.greatest[kind]);
+            let kind = KINDS[kind];
             if index == 0 {
-                let message = format!("there is no {what} 0");
-                return Err(ObjError::new(codes::OBJ_CORNER, message).help("indices start at 1"));
+                return Err(MeshFile::NoZeroth { kind });
             }
             if index < -before {
-                let message = format!("there is no {what} {index}: {before} stand before it");
-                return Err(ObjError::new(codes::OBJ_INDEX, message));
+                return Err(MeshFile::NotBefore {
+                    kind,
+                    index,
+                    before,
+                });
             }
-            if index > self.greatest[kind].0 {
-                self.greatest[kind] = (index, line);
+            if index > greatest.0 {
+                *greatest = (index, line);
             }
         }
         Ok(())
@@ -220,34 +200,30 @@ impl<'a> Scanner<'a> {
 
     /// What can be told at the end only.
     fn finish(&self) -> Result<(), ObjError> {
-        for ((count, kind), (index, line)) in self.counts.iter().zip(KINDS).zip(self.greatest) {
-            if index > *count {
-                let message = format!("there is no {kind} {index}: the file has {count}");
-                return Err(ObjError::new(codes::OBJ_INDEX, message)
-                    .help("is the file whole?")
-                    .at(self.path, line));
+        for ((count, kind), (index, line)) in self.counts.into_iter().zip(KINDS).zip(self.greatest)
+        {
+            if index > count {
+                let what = MeshFile::Beyond { kind, index, count };
+                return Err(ObjError::new(what, self.path, line));
             }
         }
         if self.faces.is_empty() {
-            let error = ObjError::new(codes::OBJ_NO_FACES, "the mesh has no faces");
-            return Err(error.at(self.path, None));
+            return Err(ObjError::new(MeshFile::NoFaces, self.path, None));
         }
         Ok(())
     }
 }
 
 /// The numbers of a statement that takes `least` to `most` of them.
-fn counted(keyword: &str, rest: &str, least: usize, most: usize) -> Result<Vec<f64>, ObjError> {
-    let numbers = numbers(rest, most + 1)?;
+fn counted(keyword: &str, rest: &str, least: usize, most: usize) -> Result<Vec<f64>, MeshFile> {
+    let numbers = numbers(rest, most + 1, false)?;
     if (least..=most).contains(&numbers.len()) {
         return Ok(numbers);
     }
-    let count = if least == most {
-        least.to_string()
-    } else {
-        format!("{least} to {most}")
-    };
-    let given = words(rest).count();
-    let message = format!("`{keyword}` takes {count} numbers, not {given}");
-    Err(ObjError::new(codes::OBJ_NUMBER, message))
+    Err(MeshFile::Count {
+        keyword: keyword.to_owned(),
+        least,
+        most,
+        given: words(rest).count(),
+    })
 }

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::scene::meshes::ObjMaterial;
+use crate::syntax::codes;
 use proptest::prelude::*;
 use std::path::PathBuf;
 
@@ -11,12 +12,9 @@ fn read_with(text: &str, files: &[(&str, &str)]) -> Result<ObjMesh, ObjError> {
         let found = files
             .iter()
             .find(|(name, _)| Path::new("dir").join(name) == path);
-        found
-            .map(|(_, text)| text.as_bytes().into())
-            .ok_or_else(|| {
-                let message = format!("cannot read `{}`", path.display());
-                ObjError::new("QRT0334", message).at(path, None)
-            })
+        let (file, is_library) = (path.to_owned(), true);
+        let missing = MeshFile::Missing { file, is_library };
+        found.map(|(_, text)| text.as_bytes().into()).ok_or(missing)
     };
     parse(
         Path::new("dir/mesh.obj"),
@@ -217,8 +215,9 @@ fn faces_take_the_materials_of_their_libraries() {
 #[track_caller]
 fn refused(result: Result<ObjMesh, ObjError>, code: &str, line: Option<usize>, words: &str) {
     let error = result.expect_err(words);
-    assert_eq!((error.code, error.line), (code, line), "{error}");
-    let text = format!("{error} | {}", error.help.as_deref().unwrap_or_default());
+    let told = error.what.words();
+    assert_eq!((told.code, error.line), (code, line), "{error}");
+    let text = format!("{error} | {}", told.help.unwrap_or_default());
     assert!(text.contains(words), "{text}");
 }
 
@@ -603,7 +602,7 @@ proptest! {
                 }
             }
             // What the scan lets through, the reader behind it takes.
-            Err(error) => prop_assert_ne!(error.code, "QRT0344", "{}", error),
+            Err(error) => prop_assert_ne!(error.what.words().code, "QRT0344", "{}", error),
         }
     }
 }

@@ -1,0 +1,107 @@
+//! What can be wrong with the paths of a scene, and with the circuit that it compiles to.
+
+use super::grouped;
+
+problems! {
+    /// Of paths, comparators and accuracy.
+    Sampling {
+        PrimaryMap = PRIMARY_MAP "the primary ray has no map: it samples the pixel square"
+            help "remove it; the maps of reflected rays start with the second entry";
+        PrimaryLight = PRIMARY_LIGHT "the primary ray leaves no surface that a lamp could light"
+            help "remove it; the second entry's ray leaves the first surface";
+        TooManyDepths { dimensions: usize, most: usize } = TOO_MANY_DIMENSIONS
+            "the depths need {dimensions} dimensions: the net has {most}"
+            help "use fewer depths, or `product-lattice`";
+        FewLightBits { lamps: usize, bits: u32, needed: u32 } = FEW_LIGHT_BITS
+            { format!("{lamps} polygons emit, and {bits} bits choose among {}", 1_u64 << bits) }
+            help "write {needed} bits or more here";
+        LightUnbounded { surface: String } = LIGHT_UNBOUNDED
+            "no bound of next-event estimation can be shown: a lamp may touch a surface of `{surface}`"
+            help "write `mis`, whose weights never pass 1, or `auto`";
+        NoLamp = LIGHT_UNUSED "nothing emits: there is no lamp to sample" help "remove it";
+        NoReceiver = LIGHT_UNUSED
+            "no surface reflects to more than single directions and tells how densely: none can \
+             sample a lamp" help "remove it";
+        TooManyIds { path: u32, comparator: u32, most: u32 } = TOO_MANY_IDS
+            { format!("{path} path bits and {comparator} comparator bits make 2^{} indices: at most \
+                2^{most} fit", path.saturating_add(*comparator)) }
+            help "use fewer of either" also "with these";
+        TooManyPaths { sum: u32, most: u32 } = TOO_MANY_IDS
+            "the bits add up to {sum}: a lattice of at most 2^{most} paths"
+            help "use fewer bits; a bit more in each of six coordinates is 64 times the paths";
+        NotTheSum { path: u32, sum: u32 } = PATH_BITS_SUM
+            "path_bits is {path}, but the bits add up to {sum}"
+            help "under `product-lattice` leave `path_bits` out, or change the bits"
+            also "these bits";
+        BesideAccuracy { key: &'static str } = ACCURACY_CONFLICT
+            "`accuracy` chooses `{key}`, so that both cannot be given"
+            help "keep one of the two" also "the accuracy asked for";
+        NoStrata { strata: u32, estimator: &'static str, counting: &'static str } = STRATA
+            "{strata} strata, and the estimator `{estimator}` counts the whole comparator at once"
+            help "use `strata: auto` or 1, or `estimator: {counting}`" also "this estimator";
+        TooManyStrata { strata: u32, bits: u32, most: u32 } = STRATA
+            "{strata} strata, and a comparator of {bits} bits has at most {most}"
+            help "use fewer, or more `comparator.bits`" also "these bits";
+        NeverStops { estimator: &'static str, stopping: &'static str } = NEVER_STOPS
+            "an error to stop at, and the estimator `{estimator}` does not stop by itself"
+            help "leave `error` out, or use `estimator: {stopping}`" also "this estimator";
+        Dimensions { dimensions: usize, most: usize } = TOO_MANY_IDS
+            "{dimensions} coordinates per path; the digital net has {most}";
+        PathBits { bits: u64, most: u32 } = TOO_MANY_IDS "{bits} path bits; an id holds {most}";
+        CoordinateBits { coordinate: String, bits: u32, most: u32 } = TOO_MANY_IDS
+            "{bits} bits for {coordinate}; a coordinate holds {most}";
+        LatticeBits { path: u32, sum: u32 } = TOO_MANY_IDS
+            "{path} path bits, but the product lattice's coordinates have {sum} in all";
+    }
+
+    /// Of the circuit that a scene compiles to.
+    Circuit {
+        Qubits { used: u64, most: u64, auto: bool } = BUDGET_QUBITS
+            { over(*used, *most, "qubits") } label { format!("at most {}", grouped(*most)) }
+            help { Some(if *auto {
+                "no way to lay it out needs fewer; use fewer bits of `precision.fraction`, or a shorter \
+                 list of `sampling.depths`; or raise `budget.qubits`"
+            } else {
+                "`circuit.uncompute: auto` finds the cheapest circuit that fits; or use fewer bits of \
+                 `precision.fraction`, or raise `budget.qubits`"
+            }.to_owned()) };
+        Toffolis { used: u64, most: u64, scoped: bool, running: bool } = BUDGET_TOFFOLI
+            { over(*used, *most, "Toffoli gates") } label { format!("at most {}", grouped(*most)) }
+            help { let cheaper = match (scoped, running) {
+                (true, _) => "`circuit.uncompute: keep` needs fewer gates, for more qubits",
+                (_, false) => "`circuit.nearest: running` needs fewer gates",
+                _ => "each entry of `sampling.depths` traces the scene once more",
+              };
+              Some(format!(
+                "{cheaper}; or use fewer bits of `precision.fraction`, or raise `budget.toffoli`")) };
+        UnboundedQuotient = QUOTIENT_UNBOUNDED
+            "an expression of the scene divides by what may be zero, so that no register is wide enough \
+             for the quotient" help "keep the divisor away from 0, as in `a / (b + 0.01)`";
+        TooWide { what: &'static str, bits: u32, most: u32, whole: u32,
+                  value: Option<(&'static str, String)> } = NUMBER_TOO_WIDE
+            { match value {
+                Some((key, material)) => format!(
+                    "a number that `{key}` of the material `{material}` takes on the way needs {bits} \
+                     bits and a register has at most {most}"),
+                None => format!("{what} needs {bits} bits and a register has at most {most}"),
+            } }
+            help { Some(match value {
+                Some(("exponent", _)) => format!(
+                    "lower the exponent, or keep `map: auto`, which samples the lobe and takes no power \
+                     of a cosine; numbers may go up to 2^{whole}"),
+                Some(_) => format!(
+                    "keep every part of it below 2^{whole}, as in `min(1 / x, 100)`; each bit less of \
+                     `precision.fraction` doubles that"),
+                None => "choose a smaller `precision.fraction`, or bring the camera nearer to the geometry"
+                    .to_owned(),
+            }) };
+        TooManyFaces { faces: usize, most: usize } = TOO_MANY_FACES
+            "the scene has {faces} faces, and tables of faces hold at most {most}"
+            help "use a coarser mesh";
+    }
+}
+
+fn over(used: u64, most: u64, what: &str) -> String {
+    let (more, used) = (grouped(used - most), grouped(used));
+    format!("the circuit has {used} {what}, {more} more than the budget allows")
+}

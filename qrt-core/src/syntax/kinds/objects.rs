@@ -1,0 +1,91 @@
+//! What can be wrong with materials, the camera and the geometry.
+
+use super::{listed, number, shorten};
+
+problems! {
+    /// Of materials' names, and of what they reflect.
+    Material {
+        GivenTwice { name: String } = DUPLICATE_NAME "the name `{name}` is given twice";
+        Unknown { name: String, near: Option<String>, defined: Vec<String>, more: bool }
+            = UNKNOWN_MATERIAL { format!("no material is called `{}`", shorten(name)) }
+            help { Some(match near {
+                Some(near) => format!("did you mean `{near}`?"),
+                None if defined.is_empty() => "define it under `materials`".into(),
+                None => {
+                    let more = if *more { " and more" } else { "" };
+                    format!("defined are {}{more}", listed(defined, "and"))
+                }
+            }) };
+        GainsEnergy { sum: f64, channel: &'static str } = PHONG_ENERGY
+            "diffuse + specular is {sum} in {channel}: more than arrives"
+            help "keep the sum at 1 or below in every channel" also "the diffuse part";
+    }
+
+    /// Of a scene as another renderer reads it.
+    Renderer {
+        NoCounterpart { renderer: &'static str, name: String, kind: &'static str } = NO_COUNTERPART
+            { format!("{renderer} has no counterpart of the `{kind}` of `{}`", shorten(name)) }
+            help { Some(match *kind {
+                "phong" => "a `phong` without `specular` is matte, and is exported".to_owned(),
+                _ => "a map and a value of one's own are qrt's alone: use another material".to_owned(),
+            }) };
+    }
+
+    /// Of the camera.
+    Camera {
+        NoView = CAMERA_TARGET "the camera looks at the point it stands on"
+            label "same as `eye`" also "the camera stands here";
+        NoUp = CAMERA_UP "`up` is zero: it has no direction";
+        UpAlongView = CAMERA_UP "`up` points along the view"
+            help "choose an `up` across the view, such as [0, 0, 1]";
+    }
+
+    /// Of a primitive's shape.
+    Shape {
+        Coincident { first: usize, second: usize } = COINCIDENT
+            "vertices {first} and {second} are one point"
+            label "same as vertex {first}" also "the other";
+        Flat = ZERO_AREA "this primitive has no area" label "the vertices lie on a line";
+        Straight { at: usize } = ZERO_AREA "the quad has no corner at vertex {at}"
+            label "on a line with its neighbours" help "write a triangle, or move this vertex";
+        Reflex { at: usize } = NOT_CONVEX
+            "the quad is not convex: its corner at vertex {at} is dented"
+            help "split it into two triangles";
+        Crossing = CROSSING "the quad's edges cross"
+            help "list the vertices in order around the outline";
+    }
+
+    /// Of a mesh as it is placed.
+    Mesh {
+        NoMaterial { triangles: Triangles } = OBJ_NO_MATERIAL { triangles.that("have no material") }
+            help "give the mesh a `material`";
+        Flat { triangles: Triangles } = MESH_ZERO_AREA
+            { triangles.that("have no area once scaled and moved") }
+            help "rounding takes it: use a larger scale or a smaller translation";
+        Far { triangles: Triangles } = MESH_RANGE
+            { triangles.that("are out of range once scaled and moved") }
+            help "use a smaller transform";
+        TooMany { triangles: usize, most: usize } = MESH_TOO_MANY
+            { format!("with this mesh the scene has {triangles} faces; the limit is {most}") }
+            help "use a coarser mesh, or fewer copies of it";
+        TooBright { material: String, radiance: f64, most: f64 } = RADIANCE
+            { format!("the radiance {} of `{material}` is too large", number(*radiance)) }
+            label "must be at most {most:e}";
+    }
+}
+
+/// Some of a mesh's triangles, from the first of them, counted from 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Triangles {
+    pub some: usize,
+    pub all: usize,
+    pub first: usize,
+}
+
+impl Triangles {
+    fn that(self, fault: &str) -> String {
+        let Self { some, all, first } = self;
+        let number = first + 1;
+        format!("{some} of {all} triangles {fault}; the first is number {number}")
+    }
+}
