@@ -164,7 +164,12 @@ impl ValidScene {
         for surface in self.materials.iter().skip(self.scene.materials.len()) {
             let albedo = match surface.scatter {
                 Scatter::Lambertian(Lambertian { albedo }) => albedo,
-                _ => [0.0; 3],
+                Scatter::Black
+                | Scatter::Mirror(_)
+                | Scatter::Dielectric(_)
+                | Scatter::Ggx(_)
+                | Scatter::Phong(_)
+                | Scatter::Custom(_) => [0.0; 3],
             };
             for value in surface.radiance.into_iter().chain(albedo) {
                 print = print.and(&value.to_bits().to_le_bytes());

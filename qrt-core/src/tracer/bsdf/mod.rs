@@ -35,17 +35,34 @@ use std::f64::consts::{PI, TAU};
 use std::ops::Range;
 use vertex::{Scattered, local_outgoing};
 
-/// The lobe of one surface, for one depth.
-enum Lobe<'a, const C: usize> {
+/// The lobe of a surface, or of neighbours that differ in tables alone, for one depth.
+#[derive(Clone, Debug)]
+enum Lobe<const C: usize> {
     Lambertian,
     Mirror,
-    Dielectric(&'a DielectricLobe),
-    Ggx(&'a GgxLobe),
-    Phong(&'a PhongLobe<C>),
-    Custom(&'a CustomLobe<C>),
+    Dielectric(DielectricLobe),
+    Ggx(GgxLobe),
+    Phong(PhongLobe<C>),
+    Custom(CustomLobe<C>),
 }
 
-impl<const C: usize> Lobe<'_, C> {
+impl<const C: usize> Lobe<C> {
+    /// Whether the lobe is of one surface, and has no tables by surface.
+    fn is_of_one(&self) -> bool {
+        match self {
+            Self::Lambertian | Self::Mirror | Self::Dielectric(_) | Self::Ggx(_) => false,
+            Self::Phong(_) | Self::Custom(_) => true,
+        }
+    }
+
+    /// Whether the lobe reads the viewer's direction in the local frame.
+    fn asks_for_outgoing(&self) -> bool {
+        match self {
+            Self::Lambertian | Self::Mirror | Self::Dielectric(_) => false,
+            Self::Ggx(_) | Self::Phong(_) | Self::Custom(_) => true,
+        }
+    }
+
     /// Whether the lobe takes directions from the depth's map ([`Sample::mapped`]).
     fn uses_map(&self) -> bool {
         match self {
@@ -140,13 +157,8 @@ pub(crate) struct ScatterStage<const C: usize> {
     square: Square,
     /// The factor of the weight of each surface, per channel.
     tint: Vec<[f64; C]>,
-    /// Surfaces that differ in tables alone share their lobe.
-    lambertian: Range<u32>,
-    mirror: Range<u32>,
-    dielectric: (Range<u32>, DielectricLobe),
-    ggx: (Range<u32>, GgxLobe),
-    phong: Vec<(u32, PhongLobe<C>)>,
-    custom: Vec<(u32, CustomLobe<C>)>,
+    /// The surfaces that scatter, with their lobes.
+    lobes: Vec<(Range<u32>, Lobe<C>)>,
     /// Whether any lobe uses the depth's map.
     uses_map: bool,
     /// Whether any lobe reads angles to the arriving ray.
@@ -174,44 +186,34 @@ impl<const C: usize> ScatterStage<C> {
             ],
         };
         let pick = |rgb: Rgb| channels.map(|channel| rgb[channel]);
-        let run = |kind: u32| {
-            let is = |surface: &&Surface| rank(&surface.scatter) == kind;
-            let start = surfaces.iter().position(is).unwrap_or(0);
-            let count = surfaces.iter().copied().filter(is).count();
-            start as u32..(start + count) as u32
-        };
-        let (mut phong, mut custom) = (Vec::new(), Vec::new());
+        let mut lobes: Vec<(Range<u32>, Lobe<C>)> = Vec::new();
         for (number, surface) in (0..).zip(surfaces) {
-            match &surface.scatter {
-                Scatter::Black
-                | Scatter::Lambertian(_)
-                | Scatter::Mirror(_)
-                | Scatter::Dielectric(_)
-                | Scatter::Ggx(_) => {}
-                Scatter::Phong(part) => phong.push((number, PhongLobe::new(part, pick, &square))),
-                Scatter::Custom(bsdf) => {
-                    custom.push((number, CustomLobe::new(bsdf, channels, &square)));
-                }
+            if let Some((run, lobe)) = lobes.last_mut()
+                && !lobe.is_of_one()
+                && rank(&surfaces[run.start as usize].scatter) == rank(&surface.scatter)
+            {
+                run.end = number + 1;
+                continue;
             }
+            let lobe = match &surface.scatter {
+                Scatter::Black => continue,
+                Scatter::Lambertian(_) => Lobe::Lambertian,
+                Scatter::Mirror(_) => Lobe::Mirror,
+                Scatter::Dielectric(_) => Lobe::Dielectric(DielectricLobe::new(surfaces)),
+                Scatter::Ggx(_) => Lobe::Ggx(GgxLobe::new(surfaces, &square)),
+                Scatter::Phong(phong) => Lobe::Phong(PhongLobe::new(phong, pick, &square)),
+                Scatter::Custom(bsdf) => Lobe::Custom(CustomLobe::new(bsdf, channels, &square)),
+            };
+            lobes.push((number..number + 1, lobe));
         }
-        let mut stage = Self {
+        Self {
             tint: surfaces.iter().map(|s| pick(tint(&s.scatter))).collect(),
-            lambertian: run(1),
-            mirror: run(2),
-            dielectric: (run(3), DielectricLobe::new(surfaces)),
-            ggx: (run(4), GgxLobe::new(surfaces, &square)),
-            phong,
-            custom,
-            uses_map: false,
-            asks_for_angles: false,
+            uses_map: lobes.iter().any(|(_, lobe)| lobe.uses_map()),
+            asks_for_angles: lobes.iter().any(|(_, lobe)| lobe.asks_for_angles()),
+            lobes,
             lights: None,
             square,
-        };
-        let lobes = || (0..surfaces.len() as u32).filter_map(|number| stage.lobe(number));
-        let uses_map = lobes().any(|lobe| lobe.uses_map());
-        let asks_for_angles = lobes().any(|lobe| lobe.asks_for_angles());
-        (stage.uses_map, stage.asks_for_angles) = (uses_map, asks_for_angles);
-        stage
+        }
     }
 
     /// With lamps sampled at the vertices that the ray leaves.
@@ -240,7 +242,14 @@ impl<const C: usize> ScatterStage<C> {
     pub(crate) fn light_weight_bound(&self, number: u32) -> [f64; C] {
         match self.lobe(number) {
             Some(Lobe::Phong(lobe)) => lobe.light_weight_bound(self.square.map.factor_bound()),
-            _ => self.weight_bound(number),
+            None
+            | Some(
+                Lobe::Lambertian
+                | Lobe::Mirror
+                | Lobe::Dielectric(_)
+                | Lobe::Ggx(_)
+                | Lobe::Custom(_),
+            ) => self.weight_bound(number),
         }
     }
 
@@ -275,7 +284,7 @@ impl<const C: usize> ScatterStage<C> {
 
     /// Whether surface `number` is smooth glass.
     pub(crate) fn is_glass(&self, number: u32) -> bool {
-        self.dielectric.0.contains(&number)
+        matches!(self.lobe(number), Some(Lobe::Dielectric(_)))
     }
 
     /// Whether surface `number` scatters at all.
@@ -294,7 +303,7 @@ impl<const C: usize> ScatterStage<C> {
 
     /// Whether surface `number` is a Lambertian under the cosine map, whose weight is its albedo.
     pub(crate) fn is_projected(&self, number: u32) -> bool {
-        self.square.map.is_projected() && self.lambertian.contains(&number)
+        self.square.map.is_projected() && matches!(self.lobe(number), Some(Lobe::Lambertian))
     }
 
     /// Whether a lobe tells its density.
@@ -314,64 +323,62 @@ impl<const C: usize> ScatterStage<C> {
         lights: &LightStage<C>,
     ) -> Lit<A, C> {
         let tint = cx.rows(&self.tint, at.surface);
-        let zero = cx.real(0.0);
-        let mut lit = None;
+        let (zero, one) = (cx.real(0.0), cx.real(1.0));
         let projected = self.square.map.is_projected();
-        if projected && let Some(mask) = members(cx, at, &self.lambertian) {
-            let factor = lights.projected(cx, at.surface, towards);
-            choose(cx, &mut lit, mask, Lit::new(tint, factor));
-        }
-        let matte = !projected && !self.lambertian.is_empty();
-        let (ggx, phong, custom) = (&self.ggx.0, &self.phong, &self.custom);
-        if !matte && ggx.is_empty() && phong.is_empty() && custom.is_empty() {
-            return lit.unwrap_or(Lit::new(tint, zero));
-        }
-        let way = Way::new(cx, at, towards, &self.square);
-        if matte && let Some(mask) = members(cx, at, &self.lambertian) {
-            let factor = math!(cx, way.mapped * way.balance);
-            choose(cx, &mut lit, mask, Lit::new(tint, factor));
-        }
-        if let Some(mask) = members(cx, at, ggx) {
-            let factor = self.ggx.1.light(cx, at.surface, &way);
-            choose(cx, &mut lit, mask, Lit::new(tint, factor));
-        }
-        let one = cx.real(1.0);
-        for (surface, lobe) in phong {
-            if let Some(mask) = members(cx, at, &(*surface..surface + 1)) {
-                cx.of_surface(Some(*surface));
-                let weight = lobe.light(cx, &way);
-                cx.of_surface(None);
-                choose(cx, &mut lit, mask, Lit::new(weight, one));
-            }
-        }
-        for (surface, lobe) in custom.iter().filter(|(_, lobe)| lobe.has_density()) {
-            if let Some(mask) = members(cx, at, &(*surface..surface + 1)) {
-                cx.of_surface(Some(*surface));
-                let weight = lobe.light(cx, self.square.depth, &way);
-                cx.of_surface(None);
-                choose(cx, &mut lit, mask, Lit::new(weight, one));
+        let (mut lit, mut way) = (None, None);
+        for (surfaces, lobe) in &self.lobes {
+            match lobe {
+                Lobe::Mirror | Lobe::Dielectric(_) => {}
+                Lobe::Lambertian if projected => {
+                    if let Some(mask) = members(cx, at, surfaces) {
+                        let factor = lights.projected(cx, at.surface, towards);
+                        choose(cx, &mut lit, mask, Lit::new(tint, factor));
+                    }
+                }
+                Lobe::Lambertian => {
+                    let way = way.get_or_insert_with(|| Way::new(cx, at, towards, &self.square));
+                    if let Some(mask) = members(cx, at, surfaces) {
+                        let factor = math!(cx, way.mapped * way.balance);
+                        choose(cx, &mut lit, mask, Lit::new(tint, factor));
+                    }
+                }
+                Lobe::Ggx(lobe) => {
+                    let way = way.get_or_insert_with(|| Way::new(cx, at, towards, &self.square));
+                    if let Some(mask) = members(cx, at, surfaces) {
+                        let factor = lobe.light(cx, at.surface, way);
+                        choose(cx, &mut lit, mask, Lit::new(tint, factor));
+                    }
+                }
+                Lobe::Phong(lobe) => {
+                    let way = way.get_or_insert_with(|| Way::new(cx, at, towards, &self.square));
+                    if let Some(mask) = members(cx, at, surfaces) {
+                        cx.of_surface(Some(surfaces.start));
+                        let weight = lobe.light(cx, way);
+                        cx.of_surface(None);
+                        choose(cx, &mut lit, mask, Lit::new(weight, one));
+                    }
+                }
+                Lobe::Custom(lobe) => {
+                    let way = way.get_or_insert_with(|| Way::new(cx, at, towards, &self.square));
+                    if lobe.has_density()
+                        && let Some(mask) = members(cx, at, surfaces)
+                    {
+                        cx.of_surface(Some(surfaces.start));
+                        let weight = lobe.light(cx, self.square.depth, way);
+                        cx.of_surface(None);
+                        choose(cx, &mut lit, mask, Lit::new(weight, one));
+                    }
+                }
             }
         }
         lit.unwrap_or(Lit::new(tint, zero))
     }
 
     /// The lobe of surface `number`; none if it is black.
-    fn lobe(&self, number: u32) -> Option<Lobe<'_, C>> {
-        let phong = self.phong.iter().find(|(surface, _)| *surface == number);
-        let custom = self.custom.iter().find(|(surface, _)| *surface == number);
-        if self.lambertian.contains(&number) {
-            Some(Lobe::Lambertian)
-        } else if self.mirror.contains(&number) {
-            Some(Lobe::Mirror)
-        } else if self.dielectric.0.contains(&number) {
-            Some(Lobe::Dielectric(&self.dielectric.1))
-        } else if self.ggx.0.contains(&number) {
-            Some(Lobe::Ggx(&self.ggx.1))
-        } else if let Some((_, lobe)) = phong {
-            Some(Lobe::Phong(lobe))
-        } else {
-            custom.map(|(_, lobe)| Lobe::Custom(lobe))
-        }
+    fn lobe(&self, number: u32) -> Option<&Lobe<C>> {
+        let mut lobes = self.lobes.iter();
+        let (_, lobe) = lobes.find(|(surfaces, _)| surfaces.contains(&number))?;
+        Some(lobe)
     }
 
     /// The next direction and weight of every path that scatters; anything for the others.
@@ -398,41 +405,26 @@ impl<const C: usize> ScatterStage<C> {
             sample.mapped = square.map.sample(cx, square.depth);
             cx.leave();
         }
-        let mut chosen = None;
-        if let Some(mask) = members(cx, at, &self.lambertian) {
-            let new = lambertian::scatter(cx, &sample);
-            choose(cx, &mut chosen, mask, new);
-        }
-        if let Some(mask) = members(cx, at, &self.mirror) {
-            let new = mirror::scatter(cx, &sample);
-            choose(cx, &mut chosen, mask, new);
-        }
-        if let Some(mask) = members(cx, at, &self.dielectric.0) {
-            let new = self.dielectric.1.scatter(cx, &sample);
-            choose(cx, &mut chosen, mask, new);
-        }
-        if !self.ggx.0.is_empty() || !self.phong.is_empty() || !self.custom.is_empty() {
-            sample.outgoing = local_outgoing(cx, at);
-        }
-        if let Some(mask) = members(cx, at, &self.ggx.0) {
-            let new = self.ggx.1.scatter(cx, &sample);
-            choose(cx, &mut chosen, mask, new);
-        }
-        for (surface, lobe) in &self.phong {
-            if let Some(mask) = members(cx, at, &(*surface..surface + 1)) {
-                cx.of_surface(Some(*surface));
-                let new = lobe.scatter(cx, &sample);
-                cx.of_surface(None);
-                choose(cx, &mut chosen, mask, new);
+        let (mut chosen, mut asked) = (None, false);
+        for (surfaces, lobe) in &self.lobes {
+            if !asked && lobe.asks_for_outgoing() {
+                sample.outgoing = local_outgoing(cx, at);
+                asked = true;
             }
-        }
-        for (surface, lobe) in &self.custom {
-            if let Some(mask) = members(cx, at, &(*surface..surface + 1)) {
-                cx.of_surface(Some(*surface));
-                let new = lobe.scatter(cx, &sample);
-                cx.of_surface(None);
-                choose(cx, &mut chosen, mask, new);
-            }
+            let Some(mask) = members(cx, at, surfaces) else {
+                continue;
+            };
+            cx.of_surface(lobe.is_of_one().then_some(surfaces.start));
+            let new = match lobe {
+                Lobe::Lambertian => lambertian::scatter(cx, &sample),
+                Lobe::Mirror => mirror::scatter(cx, &sample),
+                Lobe::Dielectric(lobe) => lobe.scatter(cx, &sample),
+                Lobe::Ggx(lobe) => lobe.scatter(cx, &sample),
+                Lobe::Phong(lobe) => lobe.scatter(cx, &sample),
+                Lobe::Custom(lobe) => lobe.scatter(cx, &sample),
+            };
+            cx.of_surface(None);
+            choose(cx, &mut chosen, mask, new);
         }
         chosen.unwrap_or(Scattered {
             direction: at.arriving,
