@@ -32,25 +32,16 @@ pub struct AxisPermuted<A: Arith> {
 }
 
 impl<A: Arith> AxisPermuted<A> {
-    #[inline(always)]
-    pub(super) fn new<const AXIS: usize>(ray: &Ray<A>) -> Self {
-        let across = |v: &Vector<A>| [v[(AXIS + 1) % 3], v[(AXIS + 2) % 3]];
-        Self {
-            origin: ray.origin[AXIS],
-            direction: ray.direction[AXIS],
-            origin_across: across(&ray.origin),
-            direction_across: across(&ray.direction),
-            t_max: ray.t_max,
-        }
-    }
-
     /// The axis-permuted `ray` for planes with this main axis.
     #[inline(always)]
     pub(super) fn along(axis: usize, ray: &Ray<A>) -> Self {
-        match axis {
-            0 => Self::new::<0>(ray),
-            1 => Self::new::<1>(ray),
-            _ => Self::new::<2>(ray),
+        let across = |v: &Vector<A>| [v[(axis + 1) % 3], v[(axis + 2) % 3]];
+        Self {
+            origin: ray.origin[axis],
+            direction: ray.direction[axis],
+            origin_across: across(&ray.origin),
+            direction_across: across(&ray.direction),
+            t_max: ray.t_max,
         }
     }
 

@@ -115,61 +115,6 @@ impl Geometry {
         (meets(cx, &crossing, &*face.edge_tests), crossing.distance)
     }
 
-    /// The faces on planes with main axis `AXIS`, in turn, with a running nearest.
-    #[inline(always)]
-    fn nearest_along<A: Arith, const AXIS: usize>(
-        &self,
-        cx: &mut A,
-        ray: &Ray<A>,
-        nearest: &mut Running<A>,
-    ) {
-        let (ray, from) = (AxisPermuted::new::<AXIS>(ray), ray.from);
-        for number in self.by_axis[AXIS].clone() {
-            cx.enter(Part::Plane(number));
-            let crossing = self.cross(cx, number, &ray, from);
-            for face in self.faces_of(number) {
-                nearest.meet(cx, face, &crossing);
-            }
-            cx.leave();
-        }
-    }
-
-    /// The emitting faces on planes with main axis `AXIS`.
-    #[inline(always)]
-    fn emitters_along<A: Arith, const AXIS: usize>(
-        &self,
-        cx: &mut A,
-        ray: &Ray<A>,
-        nearest: &mut Running<A>,
-    ) {
-        let (ray, from) = (AxisPermuted::new::<AXIS>(ray), ray.from);
-        for &number in &self.emitting[AXIS] {
-            cx.enter(Part::Plane(number));
-            let crossing = self.cross(cx, number, &ray, from);
-            for face in self.faces_of(number).iter().filter(|face| face.emits) {
-                nearest.meet(cx, face, &crossing);
-            }
-            cx.leave();
-        }
-    }
-
-    /// Whether a face on planes with main axis `AXIS` stands between the ray's start and its end.
-    #[inline(always)]
-    fn occluded_along<A: Arith, const AXIS: usize>(
-        &self,
-        cx: &mut A,
-        ray: &Ray<A>,
-        lamp: A::Index,
-        mut hidden: A::Bool,
-    ) -> A::Bool {
-        let (ray, from) = (AxisPermuted::new::<AXIS>(ray), ray.from);
-        for number in self.by_axis[AXIS].clone() {
-            let faces = self.faces_of(number).iter();
-            hidden = self.occluded_by(cx, number, faces, &ray, from, lamp, hidden);
-        }
-        hidden
-    }
-
     /// Whether it is `hidden` already, or one of these faces of plane `number` stands between the start
     /// of `ray` and its end, one length of its direction away, on emitting face number `lamp`.
     #[inline(always)]
@@ -212,23 +157,6 @@ impl Geometry {
             hidden = math!(cx, hidden || meets && hides);
         }
         cx.leave();
-        hidden
-    }
-
-    /// Whether another face on planes with main axis `AXIS` hides the emitter.
-    #[inline(always)]
-    fn hidden_along<A: Arith, const AXIS: usize>(
-        &self,
-        cx: &mut A,
-        ray: &Ray<A>,
-        emitter: A::Real,
-        mut hidden: A::Bool,
-    ) -> A::Bool {
-        let (ray, from) = (AxisPermuted::new::<AXIS>(ray), ray.from);
-        for number in self.by_axis[AXIS].clone() {
-            let faces = self.faces_of(number).iter();
-            hidden = self.hidden_by(cx, number, faces, &ray, from, emitter, hidden);
-        }
         hidden
     }
 
@@ -277,6 +205,25 @@ impl<A: Arith> Running<A> {
         }
     }
 
+    /// Meets these faces of plane `number`.
+    #[inline(always)]
+    fn meet_all<'f>(
+        &mut self,
+        cx: &mut A,
+        geometry: &Geometry,
+        number: usize,
+        faces: impl Iterator<Item = &'f Face>,
+        ray: &AxisPermuted<A>,
+        from: A::Index,
+    ) {
+        cx.enter(Part::Plane(number));
+        let crossing = geometry.cross(cx, number, ray, from);
+        for face in faces {
+            self.meet(cx, face, &crossing);
+        }
+        cx.leave();
+    }
+
     /// The ray crosses the plane of `face`.
     #[inline(always)]
     fn meet(&mut self, cx: &mut A, face: &Face, crossing: &Crossing<A>) {
@@ -293,9 +240,13 @@ impl Geometry {
     #[inline(always)]
     pub fn nearest_emitter<A: Arith>(&self, cx: &mut A, ray: &Ray<A>, wanted: A::Bool) -> Hit<A> {
         let mut nearest = Running::new(cx, ray.t_max);
-        self.emitters_along::<A, 0>(cx, ray, &mut nearest);
-        self.emitters_along::<A, 1>(cx, ray, &mut nearest);
-        self.emitters_along::<A, 2>(cx, ray, &mut nearest);
+        for (axis, planes) in self.emitting.iter().enumerate() {
+            let permuted = AxisPermuted::along(axis, ray);
+            for &number in planes {
+                let faces = self.faces_of(number).iter().filter(|face| face.emits);
+                nearest.meet_all(cx, self, number, faces, &permuted, ray.from);
+            }
+        }
         Hit::new(cx, nearest.distance, nearest.face, wanted)
     }
 }
@@ -305,9 +256,13 @@ impl<A: Arith> Nearest<A> for Geometry {
     #[inline(always)]
     fn nearest(&self, cx: &mut A, ray: &Ray<A>, wanted: A::Bool) -> Hit<A> {
         let mut nearest = Running::new(cx, ray.t_max);
-        self.nearest_along::<A, 0>(cx, ray, &mut nearest);
-        self.nearest_along::<A, 1>(cx, ray, &mut nearest);
-        self.nearest_along::<A, 2>(cx, ray, &mut nearest);
+        for (axis, planes) in self.by_axis.iter().enumerate() {
+            let permuted = AxisPermuted::along(axis, ray);
+            for number in planes.clone() {
+                let faces = self.faces_of(number).iter();
+                nearest.meet_all(cx, self, number, faces, &permuted, ray.from);
+            }
+        }
         Hit::new(cx, nearest.distance, nearest.face, wanted)
     }
 
@@ -320,9 +275,14 @@ impl<A: Arith> Nearest<A> for Geometry {
             return hit;
         }
         let mut hidden = cx.truth(false);
-        hidden = self.hidden_along::<A, 0>(cx, ray, hit.distance, hidden);
-        hidden = self.hidden_along::<A, 1>(cx, ray, hit.distance, hidden);
-        hidden = self.hidden_along::<A, 2>(cx, ray, hit.distance, hidden);
+        for (axis, planes) in self.by_axis.iter().enumerate() {
+            let permuted = AxisPermuted::along(axis, ray);
+            for number in planes.clone() {
+                let faces = self.faces_of(number).iter();
+                let (from, emitter) = (ray.from, hit.distance);
+                hidden = self.hidden_by(cx, number, faces, &permuted, from, emitter, hidden);
+            }
+        }
         hit.found = math!(cx, hit.found && !hidden);
         hit
     }
@@ -330,9 +290,13 @@ impl<A: Arith> Nearest<A> for Geometry {
     #[inline(always)]
     fn occluded(&self, cx: &mut A, ray: &Ray<A>, lamp: A::Index, _wanted: A::Bool) -> A::Bool {
         let mut hidden = cx.truth(false);
-        hidden = self.occluded_along::<A, 0>(cx, ray, lamp, hidden);
-        hidden = self.occluded_along::<A, 1>(cx, ray, lamp, hidden);
-        hidden = self.occluded_along::<A, 2>(cx, ray, lamp, hidden);
+        for (axis, planes) in self.by_axis.iter().enumerate() {
+            let permuted = AxisPermuted::along(axis, ray);
+            for number in planes.clone() {
+                let faces = self.faces_of(number).iter();
+                hidden = self.occluded_by(cx, number, faces, &permuted, ray.from, lamp, hidden);
+            }
+        }
         hidden
     }
 }
