@@ -7,6 +7,7 @@
 mod blame;
 mod content;
 mod exact;
+mod keys;
 mod lists;
 mod polynomial;
 

@@ -56,7 +56,7 @@ fn code(oracle: &Oracle, names: &Names) -> String {
     let mut coder = Coder {
         program: &oracle.program,
         names,
-        lines: Vec::new(),
+        bindings: Vec::new(),
         statics: String::new(),
         variables: HashMap::new(),
         temporaries: 0,
@@ -93,7 +93,8 @@ fn code(oracle: &Oracle, names: &Names) -> String {
         }
     }
     let [counts, colours] = outputs;
-    let mut lines = coder.lines;
+    let lines = coder.bindings.into_iter().map(Binding::line);
+    let mut lines: Vec<Line> = lines.collect();
     let body = lines.len();
     // What is used last of all.
     lines.push(Line {
@@ -116,10 +117,28 @@ fn code(oracle: &Oracle, names: &Names) -> String {
     )
 }
 
+/// `let name = value;`
+struct Binding {
+    name: String,
+    value: String,
+    /// Whether a register gave it its name.
+    is_named: bool,
+}
+
+impl Binding {
+    fn line(self) -> Line {
+        Line {
+            text: format!("let {} = {};", self.name, self.value),
+            bound: vec![self.name],
+            taken: Vec::new(),
+        }
+    }
+}
+
 struct Coder<'a> {
     program: &'a Program,
     names: &'a Names,
-    lines: Vec<Line>,
+    bindings: Vec<Binding>,
     /// The tables that the code looks up, as text of Rust.
     statics: String,
     variables: HashMap<RegisterId, Variable>,
@@ -131,10 +150,10 @@ impl Coder<'_> {
     fn bind(&mut self, value: &str) -> String {
         self.temporaries += 1;
         let name = format!("t{}", self.temporaries);
-        self.lines.push(Line {
-            text: format!("let {name} = {value};"),
-            bound: vec![name.clone()],
-            taken: Vec::new(),
+        self.bindings.push(Binding {
+            name: name.clone(),
+            value: value.to_owned(),
+            is_named: false,
         });
         name
     }
@@ -145,17 +164,13 @@ impl Coder<'_> {
 
     /// Calls the variable that was bound last by the register's name, unless it has a name.
     fn rename(&mut self, id: RegisterId, variable: &mut String) {
-        if *variable != format!("t{}", self.temporaries) {
-            return;
-        }
-        let name = self.names.of(id).to_owned();
-        let old = format!("let {variable} = ");
-        if let Some(line) = self.lines.last_mut()
-            && let Some(value) = line.text.strip_prefix(&old)
+        if let Some(last) = self.bindings.last_mut()
+            && !last.is_named
+            && last.name == *variable
         {
-            line.text = format!("let {name} = {value}");
-            line.bound = vec![name.clone()];
-            *variable = name;
+            self.names.of(id).clone_into(variable);
+            last.name.clone_from(variable);
+            last.is_named = true;
         }
     }
 

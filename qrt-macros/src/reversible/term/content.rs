@@ -34,7 +34,7 @@ impl Value {
 
 /// One of the numbers that were added.
 #[derive(Clone)]
-struct Part {
+struct Addend {
     subtracted: bool,
     path: Path,
     value: Value,
@@ -42,12 +42,12 @@ struct Part {
 
 /// What a register holds.
 #[derive(Clone, Default)]
-pub(super) struct Content(Vec<Part>);
+pub(super) struct Content(Vec<Addend>);
 
 impl Content {
     /// The content of a register that was not zero before.
     pub(super) fn of(value: Value) -> Self {
-        let part = Part {
+        let part = Addend {
             subtracted: false,
             path: Path::new(),
             value,
@@ -69,7 +69,7 @@ impl Content {
             self.0.remove(taken_back);
             return;
         }
-        self.0.push(Part {
+        self.0.push(Addend {
             subtracted,
             path: path.clone(),
             value,
@@ -89,7 +89,7 @@ impl Content {
     }
 
     /// The parts that are there where `path` leads, as parts that are there alone.
-    fn within(&self, path: &Path) -> Vec<Part> {
+    fn within(&self, path: &Path) -> Vec<Addend> {
         let parts = self.0.iter().filter_map(|part| {
             let mut part = part.seen_from(path)?;
             part.path.splice(..0, path.iter().cloned());
@@ -105,7 +105,7 @@ impl Content {
     }
 }
 
-impl Part {
+impl Addend {
     /// The part where `path` leads; `None` if it was not added there.
     fn seen_from(&self, path: &Path) -> Option<Self> {
         let mut own = Path::new();
@@ -132,8 +132,8 @@ impl Part {
 }
 
 /// Parts that were added on both sides of a comparison become one.
-fn merged(mut parts: Vec<Part>) -> Vec<Part> {
-    let twin = |a: &Part, b: &Part| {
+fn merged(mut parts: Vec<Addend>) -> Vec<Addend> {
+    let twin = |a: &Addend, b: &Addend| {
         let both = || a.path.iter().zip(&b.path);
         let differs = both().position(|(a, b)| a != b)?;
         let opposite = both()
@@ -159,7 +159,7 @@ fn merged(mut parts: Vec<Part>) -> Vec<Part> {
 }
 
 /// The sum of parts: those that one comparison decides about become one `if_less`.
-fn sum(parts: Vec<Part>) -> Value {
+fn sum(parts: Vec<Addend>) -> Value {
     let mut total: Option<Value> = None;
     let mut rest = parts;
     // The first that is added, so that the sum does not begin with a minus.
@@ -172,13 +172,13 @@ fn sum(parts: Vec<Part>) -> Value {
             None => (part.value.clone(), part.subtracted),
             Some((less, _)) => {
                 let less = less.clone();
-                let same = |other: &Part| other.path.first().is_some_and(|(own, _)| *own == less);
+                let same = |other: &Addend| other.path.first().is_some_and(|(own, _)| *own == less);
                 let (mut decided, others): (Vec<_>, Vec<_>) = rest.drain(..).partition(same);
                 rest = others;
                 decided.insert(0, part);
                 let side = |holds: bool| {
                     let own = decided.iter().filter(|part| part.path[0].1 == holds);
-                    sum(own.map(Part::inner).collect())
+                    sum(own.map(Addend::inner).collect())
                 };
                 (choice(&less, &side(true), &side(false)), false)
             }

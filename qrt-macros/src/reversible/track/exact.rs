@@ -4,13 +4,14 @@
 //! What is the same by its polynomials is the same: a scratch register is uncomputed when it holds
 //! 0 again, whatever has led there.
 
+mod read;
+
 use super::blame::{Change, Log, Texts};
 use super::content::{Content, Sums};
 use super::polynomial::{Atoms, Bit as Poly};
-use crate::reversible::dim::{Dim, Linear};
 use crate::reversible::emit;
 use crate::reversible::ir::{
-    Bit, Number, NumberKind, Place, Register, Statement, StatementKind as K, Term, Update, inverse,
+    Bit, Place, Register, Statement, StatementKind as K, Term, Update, inverse,
 };
 use crate::reversible::problem::Problems;
 use crate::reversible::scope::text;
@@ -216,7 +217,7 @@ impl Exact {
     /// An update and its inverse as texts; the same in all passes of the loops around.
     fn texts(&mut self, place: &Place, updates: [Update; 2], term: &Term) -> Rc<Texts> {
         let one = |update| K::Update(place.clone(), vec![(update, term.clone())]);
-        let texts = || Rc::new(updates.map(|update| super::lists::key(&one(update))));
+        let texts = || Rc::new(updates.map(|update| super::keys::key(&one(update))));
         if self.log.again {
             // The statements are copies, of which nothing is reported.
             return Rc::default();
@@ -403,137 +404,5 @@ impl Exact {
         content.map_or_else(Vec::new, |content| {
             content.bits(&mut self.atoms, &mut self.sums)
         })
-    }
-
-    /// The number of all of a register's bits, as they are.
-    fn number_of(&mut self, register: &str) -> u32 {
-        let bits = self.bits(register);
-        self.touch(register, 0..bits.len());
-        self.atoms.word(&bits)
-    }
-
-    fn read(&mut self, register: &Register, first: &Linear, width: usize) -> Known<Vec<Poly>> {
-        let first = self.known(first)? as usize;
-        let name = self.name(register)?;
-        self.touch(&name, first..first + width);
-        let bits = self.bits(&name);
-        Ok(bits.into_iter().skip(first).take(width).collect())
-    }
-
-    /// The lowest bits of a number.
-    fn word(&mut self, number: &Number, width: usize) -> Known<Vec<Poly>> {
-        let own = self.width(&number.size.width)?;
-        let mut bits = match &number.kind {
-            NumberKind::Constant(units) => {
-                let bit = |place: usize| Poly::constant(units >> place.min(63) & 1 == 1);
-                return Ok((0..width).map(bit).collect());
-            }
-            NumberKind::Given(value) => match self.known(value) {
-                Ok(value) => {
-                    let bit = |place: usize| Poly::constant(value >> place.min(63) & 1 == 1);
-                    return Ok((0..width).map(bit).collect());
-                }
-                Err(Unknown) => self.atoms.bits(&value.to_string(), own),
-            },
-            NumberKind::Word(register, first) => self.read(register, first, own)?,
-            NumberKind::Truth(bit) => vec![self.bit(bit)?],
-            NumberKind::Shifted(inner, by) => {
-                let by = self.known(by)? as usize;
-                let mut bits = vec![Poly::default(); by.min(width)];
-                bits.extend(self.word(inner, width.saturating_sub(by))?);
-                return Ok(bits);
-            }
-            NumberKind::Dropped(inner, by) => {
-                let by = self.known(by)? as usize;
-                return Ok(self.word(inner, width + by)?.split_off(by));
-            }
-            NumberKind::Pointed(inner) => return self.word(inner, width),
-            computed => {
-                let name = self.computed(computed)?;
-                self.atoms.bits(&name, own)
-            }
-        };
-        let sign = match bits.last() {
-            Some(top) if number.size.signed => top.clone(),
-            _ => Poly::default(),
-        };
-        bits.resize(width, sign);
-        Ok(bits)
-    }
-
-    /// The name of what an operation computes.
-    fn computed(&mut self, kind: &NumberKind) -> Known<String> {
-        Ok(match kind {
-            NumberKind::Product(a, b) => {
-                let (a, b) = (self.number(a)?, self.number(b)?);
-                format!("product {} {}", (&a).min(&b), (&a).max(&b))
-            }
-            NumberKind::Square(a) => {
-                let a = self.number(a)?;
-                format!("product {a} {a}")
-            }
-            NumberKind::Sum(terms) => {
-                let mut parts = Vec::new();
-                for (subtracted, term) in terms {
-                    let sign = if *subtracted { '-' } else { '+' };
-                    parts.push(format!("{sign}{}", self.number(term)?));
-                }
-                parts.sort_unstable();
-                format!("sum {}", parts.join(" "))
-            }
-            _ => return Err(Unknown),
-        })
-    }
-
-    /// A number by name: equal for equal numbers.
-    fn number(&mut self, number: &Number) -> Known<String> {
-        let width = self.width(&number.size.width)?;
-        let bits = self.word(number, width)?;
-        let sign = if number.size.signed { "s" } else { "u" };
-        let fraction = self.known(&number.size.fraction)?;
-        Ok(format!("{}{sign}{fraction}", self.atoms.word(&bits)))
-    }
-
-    fn bit(&mut self, bit: &Bit) -> Known<Poly> {
-        Ok(match bit {
-            Bit::Constant(value) => Poly::constant(*value),
-            Bit::At(register, index) => {
-                let bits = self.read(register, index, 1)?;
-                bits.into_iter().next().ok_or(Unknown)?
-            }
-            Bit::Not(inner) => self.bit(inner)?.not(),
-            Bit::And(a, b) => {
-                let (a, b) = (self.bit(a)?, self.bit(b)?);
-                a.and(&b, &mut self.atoms)
-            }
-            Bit::Xor(a, b) => {
-                let (a, b) = (self.bit(a)?, self.bit(b)?);
-                a.xor(&b)
-            }
-            Bit::Less(a, b) => {
-                let name = format!("{} < {}", self.number(a)?, self.number(b)?);
-                Poly::atom(self.atoms.named(&name))
-            }
-            Bit::Equal(a, b) => {
-                let (a, b) = (self.number(a)?, self.number(b)?);
-                let name = format!("{} = {}", (&a).min(&b), (&a).max(&b));
-                Poly::atom(self.atoms.named(&name))
-            }
-        })
-    }
-
-    /// The number, in the loops around.
-    fn known(&self, number: &Linear) -> Known<i64> {
-        let loops = self.loops.iter().rev();
-        let number = loops.fold(number.clone(), |number, (variable, pass)| {
-            number.with(variable, &Linear::from(*pass))
-        });
-        number.known().ok_or(Unknown)
-    }
-
-    fn width(&self, width: &Dim) -> Known<usize> {
-        let parts = width.parts().iter().map(|part| self.known(part));
-        let parts: Vec<i64> = parts.collect::<Known<_>>()?;
-        Ok(parts.into_iter().max().unwrap_or(0).max(0) as usize)
     }
 }

@@ -7,10 +7,10 @@
 //! undone as wholes.
 
 use super::blame;
+use super::keys::{key, key_of};
 use crate::reversible::dim::{Linear, Loop, apart, least};
-use crate::reversible::ir::{Bit, Place, Register, Statement, StatementKind as K, Term, Update};
+use crate::reversible::ir::{Place, Register, Statement, StatementKind as K, Term, Update};
 use crate::reversible::problem::Problems;
-use crate::reversible::scope::text;
 use proc_macro2::TokenStream;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::rc::Rc;
@@ -25,12 +25,12 @@ enum Class {
 
 /// Some bits of a register, or all: the first and their number.
 #[derive(Clone, PartialEq, Eq)]
-struct Part {
+struct RegisterBits {
     register: String,
     bits: Option<[Linear; 2]>,
 }
 
-impl Part {
+impl RegisterBits {
     fn all(register: &Register) -> Self {
         Self::of(&Place {
             register: Rc::new(register.clone()),
@@ -85,7 +85,7 @@ impl Part {
 /// A change that has not been undone.
 #[derive(Clone)]
 struct Change {
-    part: Part,
+    part: RegisterBits,
     /// What was done, and to what: equal for equal effects.
     key: String,
     /// The key of the change that would undo this one.
@@ -119,14 +119,14 @@ struct Frame {
     /// What they held at its begin.
     before: BTreeMap<String, u64>,
     changes: BTreeMap<String, Vec<Change>>,
-    read: Vec<Part>,
+    read: Vec<RegisterBits>,
     /// What has been read or changed.
-    touched: Vec<Part>,
+    touched: Vec<RegisterBits>,
     changed: BTreeSet<String>,
 }
 
 impl Frame {
-    fn touch(&mut self, parts: &[Part]) {
+    fn touch(&mut self, parts: &[RegisterBits]) {
         for part in parts {
             if !self.touched.contains(part) {
                 self.touched.push(part.clone());
@@ -134,7 +134,7 @@ impl Frame {
         }
     }
 
-    fn read(&mut self, parts: &[Part]) {
+    fn read(&mut self, parts: &[RegisterBits]) {
         self.touch(parts);
         for part in parts {
             if !self.read.contains(part) {
@@ -144,13 +144,13 @@ impl Frame {
     }
 
     /// The changes that have not been undone, as parts: one a register.
-    fn left(&self) -> Vec<Part> {
+    fn left(&self) -> Vec<RegisterBits> {
         let left = self.changes.values().filter_map(|changes| {
             let (first, others) = changes.split_first()?;
             let same = others.iter().all(|other| other.part == first.part);
             let bits = first.part.bits.clone().filter(|_| same);
             let register = first.part.register.clone();
-            Some(Part { register, bits })
+            Some(RegisterBits { register, bits })
         });
         left.collect()
     }
@@ -182,7 +182,7 @@ impl<'a> Tracker<'a> {
         let contents = known.map(|register| {
             let (register, bits) = (register.clone(), None);
             let content = self.content(
-                &Part {
+                &RegisterBits {
                     register: register.clone(),
                     bits,
                 },
@@ -203,7 +203,7 @@ impl<'a> Tracker<'a> {
     }
 
     /// The name of what some bits hold.
-    fn content(&mut self, part: &Part, frame: &Frame) -> u64 {
+    fn content(&mut self, part: &RegisterBits, frame: &Frame) -> u64 {
         let base = frame.before.get(&part.register).copied();
         let base = base.unwrap_or_else(|| self.names.of(format!("begin {}", part.register)));
         let changes = frame.changes.get(&part.register).into_iter().flatten();
@@ -225,7 +225,7 @@ impl<'a> Tracker<'a> {
     /// Takes note of a change of one or several registers.
     fn change(
         &mut self,
-        [written, read]: [&[Part]; 2],
+        [written, read]: [&[RegisterBits]; 2],
         effects: &blame::Texts,
         class: Class,
         source: &TokenStream,
@@ -274,7 +274,13 @@ impl<'a> Tracker<'a> {
     }
 
     /// Takes a change off the list that this one undoes.
-    fn take_back(&self, written: &[Part], key: &str, class: Class, frame: &mut Frame) -> bool {
+    fn take_back(
+        &self,
+        written: &[RegisterBits],
+        key: &str,
+        class: Class,
+        frame: &mut Frame,
+    ) -> bool {
         let mut places = Vec::new();
         for part in written {
             let Some(changes) = frame.changes.get(&part.register) else {
@@ -313,27 +319,27 @@ impl<'a> Tracker<'a> {
                         Update::Subtract => (Class::Sum, Update::Add),
                         Update::Xor => (Class::Xor, Update::Xor),
                     };
-                    let parts = [&[Part::of(place)][..], &read(term)];
+                    let parts = [&[RegisterBits::of(place)][..], &read(term)];
                     self.change(parts, &[one(*update), one(back)], class, source, frame);
                 }
             }
             K::Swap(a, b) => {
-                let written = [a, b].map(|register| Part::all(register));
+                let written = [a, b].map(|register| RegisterBits::all(register));
                 self.whole(statement, [&written, &[]], source, frame);
             }
             K::Call { arguments, .. } => {
                 let (written, read): (Vec<_>, Vec<_>) =
                     arguments.iter().partition(|(_, change, _)| *change);
-                let [written, read] = [written, read].map(|all| -> Vec<Part> {
+                let [written, read] = [written, read].map(|all| -> Vec<RegisterBits> {
                     all.iter()
-                        .map(|(register, ..)| Part::all(register))
+                        .map(|(register, ..)| RegisterBits::all(register))
                         .collect()
                 });
                 self.whole(statement, [&written, &read], source, frame);
             }
             K::If(condition, holds, fails) => {
                 let mut read = Vec::new();
-                condition.reads(&mut |place| read.push(Part::of(&place)));
+                condition.reads(&mut |place| read.push(RegisterBits::of(&place)));
                 let inside = [holds, fails].map(|body| self.inside(body, frame));
                 self.compound(statement, read, &inside, frame);
             }
@@ -365,11 +371,11 @@ impl<'a> Tracker<'a> {
     fn compound(
         &mut self,
         statement: &Statement,
-        mut read: Vec<Part>,
+        mut read: Vec<RegisterBits>,
         inside: &[Frame],
         frame: &mut Frame,
     ) {
-        let mut left: Vec<Part> = Vec::new();
+        let mut left: Vec<RegisterBits> = Vec::new();
         for part in inside {
             read.extend(part.read.iter().cloned());
             frame.touch(&part.touched);
@@ -392,7 +398,8 @@ impl<'a> Tracker<'a> {
         };
         // Where nothing reads what is changed, all is added in any order.
         let one_class = first.class != Class::Other && changes.all(|c| c.class == first.class);
-        let is_changed = |part: &Part| inside.iter().any(|f| f.changed.contains(&part.register));
+        let is_changed =
+            |part: &RegisterBits| inside.iter().any(|f| f.changed.contains(&part.register));
         let ordered = !one_class || !adds(statement) || read.iter().any(is_changed);
         let class = if ordered { Class::Other } else { first.class };
         let keys = [statement, &statement.inverse()].map(|one| {
@@ -404,14 +411,14 @@ impl<'a> Tracker<'a> {
         self.change([&left, &read], &keys, class, &first.source, frame);
     }
 
-    fn meets_any(&self, part: &Part, others: &[Part]) -> bool {
+    fn meets_any(&self, part: &RegisterBits, others: &[RegisterBits]) -> bool {
         others.iter().any(|other| part.meets(other, &self.loops))
     }
 
     fn whole(
         &mut self,
         statement: &Statement,
-        parts: [&[Part]; 2],
+        parts: [&[RegisterBits]; 2],
         source: &TokenStream,
         frame: &mut Frame,
     ) {
@@ -430,7 +437,7 @@ impl<'a> Tracker<'a> {
         let mut begin = self.begin(frame);
         for part in &computed.touched {
             let register = part.register.clone();
-            let all = Part {
+            let all = RegisterBits {
                 register: register.clone(),
                 bits: None,
             };
@@ -473,9 +480,9 @@ impl<'a> Tracker<'a> {
     }
 }
 
-fn read(term: &Term) -> Vec<Part> {
+fn read(term: &Term) -> Vec<RegisterBits> {
     let mut read = Vec::new();
-    let mut visit = |place: Place| read.push(Part::of(&place));
+    let mut visit = |place: Place| read.push(RegisterBits::of(&place));
     match term {
         Term::Number(number) => number.reads(&mut visit),
         Term::Bit(bit, _) => bit.reads(&mut visit),
@@ -490,98 +497,5 @@ fn adds(statement: &Statement) -> bool {
         K::If(_, holds, fails) => holds.iter().chain(fails).all(adds),
         K::For { body, .. } => body.iter().all(adds),
         _ => false,
-    }
-}
-
-/// Equal for statements that do the same.
-pub(super) fn key(kind: &K) -> String {
-    key_of(kind, true)
-}
-
-/// The same, of statements whose parts may have no order.
-fn key_of(kind: &K, ordered: bool) -> String {
-    let keys = |statements: &[Statement]| {
-        let keys = statements.iter();
-        let mut keys: Vec<String> = keys.map(|one| key_of(&one.kind, ordered)).collect();
-        if !ordered {
-            keys.sort_unstable();
-        }
-        keys.join("; ")
-    };
-    match kind {
-        K::Update(place, terms) => {
-            let part = |[first, width]: &[Linear; 2]| format!("[{first}; {width}]");
-            let part = place.part.as_ref().map_or_else(String::new, part);
-            let mut terms: Vec<String> = terms
-                .iter()
-                .map(|(u, t)| format!("{u:?} {}", term(t)))
-                .collect();
-            terms.sort_unstable();
-            format!("{}{part} {}", place.register, terms.join(", "))
-        }
-        K::Swap(a, b) => {
-            let [a, b] = [a.to_string(), b.to_string()];
-            format!("swap {} {}", (&a).min(&b), (&a).max(&b))
-        }
-        K::Call {
-            path,
-            inverse,
-            arguments,
-        } => {
-            let function = crate::reversible::emit::function(path, *inverse);
-            let arguments: Vec<String> = arguments
-                .iter()
-                .map(|(register, change, _)| format!("{register} {change}"))
-                .collect();
-            format!("{}({})", text(function), arguments.join(", "))
-        }
-        K::If(condition, holds, fails) => {
-            format!(
-                "if {} {{{}}} {{{}}}",
-                bit(condition),
-                keys(holds),
-                keys(fails)
-            )
-        }
-        K::For {
-            variable,
-            bounds: [first, end],
-            reversed,
-            body,
-        } => format!(
-            "for {variable} {first}..{end} {} {{{}}}",
-            *reversed && ordered,
-            keys(body)
-        ),
-        K::Within(within, apply) => format!("within {{{}}} {{{}}}", keys(within), keys(apply)),
-        K::Scratch(register, body) => {
-            format!(
-                "let {}: {} {{{}}}",
-                register.name,
-                register.type_text(),
-                keys(body)
-            )
-        }
-        K::Block(body) => keys(body),
-    }
-}
-
-fn term(term: &Term) -> String {
-    match term {
-        Term::Number(number) => text(&number.source),
-        Term::Bit(Bit::Constant(value), _) => value.to_string(),
-        Term::Bit(value, _) => bit(value),
-    }
-}
-
-fn bit(value: &Bit) -> String {
-    match value {
-        Bit::Constant(value) => value.to_string(),
-        Bit::At(register, index) => format!("{register}[{index}]"),
-        Bit::Not(inner) => format!("!{}", bit(inner)),
-        Bit::And(a, b) => format!("({} & {})", bit(a), bit(b)),
-        Bit::Xor(a, b) => format!("({} ^ {})", bit(a), bit(b)),
-        Bit::Less(a, b) => format!("({} < {})", text(&a.source), text(&b.source)),
-        Bit::Equal(a, b) => format!("({} == {})", text(&a.source), text(&b.source)),
     }
 }
