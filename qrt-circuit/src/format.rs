@@ -151,12 +151,6 @@ impl<R, T: Format> Reg<R, T> {
         &mut self.register
     }
 
-    /// Turns this into the machine's register.
-    #[inline(always)]
-    pub fn into_register(self) -> R {
-        self.register
-    }
-
     /// All of its bits, as an integer in units of the lowest.
     #[inline(always)]
     pub fn word(&self) -> Word<&R> {

@@ -10,7 +10,7 @@
 use super::{Gates, Lowering, Qubit, Wire};
 
 /// How a carry came to be.
-enum Step {
+enum Carry {
     /// It follows from the wires, without a gate.
     Free,
     /// The carry is in the place of the addend's bit.
@@ -192,19 +192,19 @@ impl Lowering {
             own = next.is_none();
             let step;
             (carry, step) = match (next, replaces) {
-                (Some(wire), _) => (wire, Step::Free),
+                (Some(wire), _) => (wire, Carry::Free),
                 (None, Some((carry, addend))) => {
                     self.cx(addend, t);
                     self.cx(addend, carry);
                     self.carry(carry, t, addend);
-                    (Wire::qubit(addend), Step::Replaced { carry, addend })
+                    (Wire::qubit(addend), Carry::Replaced { carry, addend })
                 }
                 (None, None) => {
                     let at = self.pool.allocate();
                     let start = self.gates.len();
                     self.majority(Wire::qubit(t), addend, carry, at);
                     let gates = [start, self.gates.len()];
-                    (Wire::qubit(at), Step::Borrowed { at, gates })
+                    (Wire::qubit(at), Carry::Borrowed { at, gates })
                 }
             };
             steps.push(step);
@@ -214,8 +214,8 @@ impl Lowering {
         for place in (0..top).rev() {
             let t = target[place];
             match steps[place] {
-                Step::Free => {}
-                Step::Replaced { carry, addend } => {
+                Carry::Free => {}
+                Carry::Replaced { carry, addend } => {
                     self.carry(carry, t, addend);
                     self.cx(addend, carry);
                     if when == Wire::ONE {
@@ -224,7 +224,7 @@ impl Lowering {
                     }
                     self.cx(addend, t);
                 }
-                Step::Borrowed { at, gates } => {
+                Carry::Borrowed { at, gates } => {
                     self.undo(gates[0], gates[1]);
                     self.pool.free(at);
                 }

@@ -34,7 +34,7 @@ enum Item {
 }
 
 /// An item that has run.
-struct Part {
+struct ItemRun {
     instructions: Vec<Instruction>,
     /// What it left: results and copies.
     outputs: Vec<RegisterId>,
@@ -194,7 +194,7 @@ impl Scheduler<'_> {
     ) -> Vec<Instruction> {
         let (items, place_of) = self.sunk(items);
         let last = items.len().saturating_sub(1);
-        let mut parts: Vec<Part> = Vec::with_capacity(items.len());
+        let mut parts: Vec<ItemRun> = Vec::with_capacity(items.len());
         // The parts in the order in which they are run, or undone.
         let mut steps: Vec<(usize, bool)> = Vec::new();
         for (place, item) in items.into_iter().enumerate() {
@@ -260,7 +260,7 @@ impl Scheduler<'_> {
         forward
     }
 
-    fn part(&mut self, instructions: Vec<Instruction>) -> Part {
+    fn part(&mut self, instructions: Vec<Instruction>) -> ItemRun {
         let mut outputs: Vec<RegisterId> = Vec::new();
         let mut garbage = 0;
         let mut inputs: HashSet<RegisterId> = HashSet::new();
@@ -284,7 +284,7 @@ impl Scheduler<'_> {
             toffoli += *cost.or_insert_with(|| lower::cost(op, false, width).toffoli);
         }
         let width = |id: &RegisterId| self.draft.registers[id.index()].width;
-        Part {
+        ItemRun {
             width: outputs.iter().map(width).sum(),
             inputs: inputs.difference(&own).copied().collect(),
             outputs,
@@ -298,7 +298,7 @@ impl Scheduler<'_> {
     /// Undoes what nobody reads any more, the latest parts first.
     fn clean_up(
         &self,
-        parts: &mut [Part],
+        parts: &mut [ItemRun],
         steps: &mut Vec<(usize, bool)>,
         place_of: &HashMap<usize, usize>,
         again: bool,
@@ -348,7 +348,7 @@ impl Scheduler<'_> {
     }
 
     /// The place of the last item of a scope that reads what a part left; none if that is read outside.
-    fn last_read(&self, part: &Part, place_of: &HashMap<usize, usize>) -> Option<usize> {
+    fn last_read(&self, part: &ItemRun, place_of: &HashMap<usize, usize>) -> Option<usize> {
         let mut last = 0;
         for output in &part.outputs {
             let original = self.original(*output);
@@ -374,9 +374,9 @@ impl Scheduler<'_> {
 /// Finds the parts that have to run again before `part` can be undone, each found by way of at most
 /// `depth` others; whether that is all.
 fn find_again(
-    parts: &[Part],
+    parts: &[ItemRun],
     gone: &HashMap<RegisterId, usize>,
-    part: &Part,
+    part: &ItemRun,
     depth: usize,
     needed: &mut BTreeSet<usize>,
 ) -> bool {

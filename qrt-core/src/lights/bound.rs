@@ -24,11 +24,6 @@ pub struct Reached {
 }
 
 impl Reached {
-    /// A surface that the lamp does not light.
-    pub const NOTHING: Self = Self {
-        form: 0.0,
-        nearness: 0.0,
-    };
     /// The bound of whatever nothing is known about: infinity.
     pub const UNBOUNDED: Self = Self {
         form: f64::INFINITY,
@@ -41,10 +36,10 @@ impl Reached {
 ///
 /// Corners go around a convex polygon; `(v1 - v0) x (v2 - v0)` is the front.
 pub fn strongest<'a>(surface: impl Iterator<Item = &'a [DVec3]>, lamp: &[DVec3]) -> Reached {
-    let lamp: Vec<Part> = Part::of(lamp).collect();
-    let faces: Vec<Part> = surface.flat_map(Part::of).collect();
+    let lamp: Vec<Triangle> = Triangle::of(lamp).collect();
+    let faces: Vec<Triangle> = surface.flat_map(Triangle::of).collect();
     let pairs = || {
-        let of = |face: &Part| lamp.iter().map(|lamp| (*face, *lamp)).collect::<Vec<_>>();
+        let of = |face: &Triangle| lamp.iter().map(|lamp| (*face, *lamp)).collect::<Vec<_>>();
         faces.iter().flat_map(of)
     };
     Reached {
@@ -55,13 +50,13 @@ pub fn strongest<'a>(surface: impl Iterator<Item = &'a [DVec3]>, lamp: &[DVec3])
 
 /// The same bound of `q / r^4` for one polygon, looser: of so many pairs of parts.
 pub fn strongest_form(face: &[DVec3], lamp: &[DVec3], most_pairs: usize) -> f64 {
-    let of = |face: Part| Part::of(lamp).map(move |lamp| (face, lamp));
-    supremum(Part::of(face).flat_map(of), form, most_pairs)
+    let of = |face: Triangle| Triangle::of(lamp).map(move |lamp| (face, lamp));
+    supremum(Triangle::of(face).flat_map(of), form, most_pairs)
 }
 
 /// A triangle of a surface or a lamp.
 #[derive(Clone, Copy)]
-struct Part {
+struct Triangle {
     corners: [DVec3; 3],
     normal: DVec3,
     centre: DVec3,
@@ -71,7 +66,7 @@ struct Part {
     high: DVec3,
 }
 
-impl Part {
+impl Triangle {
     fn of(polygon: &[DVec3]) -> impl Iterator<Item = Self> + '_ {
         (2..polygon.len()).map(|k| Self::new([polygon[0], polygon[k - 1], polygon[k]], None))
     }
@@ -113,7 +108,7 @@ impl Part {
 
 /// Whether light goes from a part of the lamp to a part of the surface, and how: the greatest rises
 /// over both planes, and the least distance.
-fn seen(face: &Part, lamp: &Part) -> Option<[f64; 3]> {
+fn seen(face: &Triangle, lamp: &Triangle) -> Option<[f64; 3]> {
     let size = face.radius + lamp.radius;
     let slack = 1e-12 * size;
     let [below, above] = face.rises(lamp);
@@ -131,7 +126,7 @@ fn seen(face: &Part, lamp: &Part) -> Option<[f64; 3]> {
     Some([rise, before, apart.max(by_planes).max(by_boxes)])
 }
 
-fn form(face: &Part, lamp: &Part) -> f64 {
+fn form(face: &Triangle, lamp: &Triangle) -> f64 {
     let Some([n, m, r]) = seen(face, lamp) else {
         return 0.0;
     };
@@ -141,7 +136,7 @@ fn form(face: &Part, lamp: &Part) -> f64 {
     (n / r).min(1.0) * (m / r).min(1.0) / (r * r)
 }
 
-fn nearness(face: &Part, lamp: &Part) -> f64 {
+fn nearness(face: &Triangle, lamp: &Triangle) -> f64 {
     match seen(face, lamp) {
         None => 0.0,
         Some([.., r]) => 1.0 / (r * r),
@@ -150,8 +145,8 @@ fn nearness(face: &Part, lamp: &Part) -> f64 {
 
 struct Pair {
     most: f64,
-    face: Part,
-    lamp: Part,
+    face: Triangle,
+    lamp: Triangle,
 }
 
 impl Pair {
@@ -181,8 +176,8 @@ impl Ord for Pair {
 
 /// An upper bound over all pairs, which `bound` gives for each.
 fn supremum(
-    pairs: impl Iterator<Item = (Part, Part)>,
-    bound: fn(&Part, &Part) -> f64,
+    pairs: impl Iterator<Item = (Triangle, Triangle)>,
+    bound: fn(&Triangle, &Triangle) -> f64,
     most_pairs: usize,
 ) -> f64 {
     let mut heap: BinaryHeap<Pair> = pairs
@@ -194,7 +189,7 @@ fn supremum(
         .filter(|pair| pair.most > 0.0)
         .collect();
     let whole = heap.iter().map(Pair::size).fold(0.0, f64::max);
-    let point = |part: &Part| Part {
+    let point = |part: &Triangle| Triangle {
         radius: 0.0,
         corners: [part.centre; 3],
         low: part.centre,

@@ -1,5 +1,11 @@
 use super::*;
 
+/// Of a surface that the lamp does not light.
+const NOTHING: Reached = Reached {
+    form: 0.0,
+    nearness: 0.0,
+};
+
 fn square(corner: [f64; 3], u: [f64; 3], v: [f64; 3]) -> [DVec3; 4] {
     let (a, u, v) = (DVec3::from(corner), DVec3::from(u), DVec3::from(v));
     [a, a + u, a + u + v, a + v]
@@ -23,7 +29,7 @@ fn a_floor_below_a_lamp_is_lit_most_right_below() {
         let mut turned = lamp;
         turned.reverse();
         let dark = strongest([&floor[..]].into_iter(), &turned);
-        assert_eq!(dark, Reached::NOTHING);
+        assert_eq!(dark, NOTHING);
     }
 }
 
@@ -35,7 +41,7 @@ fn what_touches_a_lamp_has_no_bound_and_what_lies_in_its_plane_is_not_lit() {
     assert_eq!(reached.form, f64::INFINITY);
     let beside = square([2.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
     let reached = strongest([&beside[..]].into_iter(), &lamp);
-    assert_eq!(reached, Reached::NOTHING);
+    assert_eq!(reached, NOTHING);
 }
 
 /// Against points of a grid on both.

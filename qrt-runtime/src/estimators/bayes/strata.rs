@@ -48,7 +48,7 @@ use crate::estimators::{CountedStratum, Device, Estimate, EstimatorError};
 const RESOLVED: f64 = 0.25;
 
 /// A stratum, and what is known of it.
-struct Part<'a> {
+struct StratumRun<'a> {
     stratum: Stratum,
     /// The fraction of thresholds.
     width: f64,
@@ -102,8 +102,8 @@ fn in_strata(
 ) -> Result<Estimate, EstimatorError> {
     let all = (1_u64 << bits) as f64;
     let paths = device.total() >> bits;
-    let mut parts: Vec<Part<'_>> = Stratum::halving(strata, bits)
-        .map(|stratum| Part {
+    let mut parts: Vec<StratumRun<'_>> = Stratum::halving(strata, bits)
+        .map(|stratum| StratumRun {
             stratum,
             width: stratum.length() as f64 / all,
             run: Run::new(goal, depths, paths * stratum.length(), Prior::Ends),
@@ -111,10 +111,10 @@ fn in_strata(
             good_ids: 0,
         })
         .collect();
-    parts.iter_mut().for_each(Part::look);
+    parts.iter_mut().for_each(StratumRun::look);
     let mut left = goal.queries - (device.usage().queries - start.queries);
     while left > 0 {
-        let gain = |part: &Part<'_>| part.variance / part.run.used.max(1) as f64;
+        let gain = |part: &StratumRun<'_>| part.variance / part.run.used.max(1) as f64;
         let Some(part) = (parts.iter_mut()).max_by(|a, b| gain(a).total_cmp(&gain(b))) else {
             break;
         };
@@ -156,7 +156,7 @@ fn in_strata(
     })
 }
 
-impl Part<'_> {
+impl StratumRun<'_> {
     /// Takes note of what is known after a shot.
     fn look(&mut self) {
         self.variance = if self.run.is_over() {
@@ -174,7 +174,7 @@ impl Part<'_> {
 /// measured independently of one another. But those of strata that may be empty or full, or almost,
 /// add up: their posteriors are so skewed that all means may be off to the same side, and what was
 /// not met in any of them is missing in all at once.
-fn sum(parts: &[Part<'_>], confidence: f64) -> (f64, (f64, f64)) {
+fn sum(parts: &[StratumRun<'_>], confidence: f64) -> (f64, (f64, f64)) {
     let confidence = 1.0 - (1.0 - confidence) / parts.len() as f64;
     let (mut amplitude, mut squares, mut sums) = (0.0, [0.0; 2], [0.0; 2]);
     for part in parts {

@@ -31,13 +31,13 @@ pub(super) struct Found {
 
 /// Angles of `low ..= high`, of which none has a larger L than `bound`.
 #[derive(Clone, Copy, Debug)]
-struct Part {
+struct AngleRange {
     low: u64,
     high: u64,
     bound: f64,
 }
 
-impl Ord for Part {
+impl Ord for AngleRange {
     fn cmp(&self, other: &Self) -> Ordering {
         self.bound
             .total_cmp(&other.bound)
@@ -45,19 +45,19 @@ impl Ord for Part {
     }
 }
 
-impl PartialOrd for Part {
+impl PartialOrd for AngleRange {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
-impl PartialEq for Part {
+impl PartialEq for AngleRange {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other) == Ordering::Equal
     }
 }
 
-impl Eq for Part {}
+impl Eq for AngleRange {}
 
 /// A local maximum, and the part that it is the largest of.
 #[derive(Clone, Copy, Debug)]
@@ -71,7 +71,7 @@ struct Peak {
 
 /// The largest value of `likelihood`, and all angles at which it is at most `reach` less.
 pub(super) fn search(likelihood: &Likelihood, reach: f64) -> Found {
-    let part = |low: u64, high: u64| Part {
+    let part = |low: u64, high: u64| AngleRange {
         low,
         high,
         bound: likelihood.bound(low, high),

@@ -118,7 +118,7 @@ pub(super) fn tree(boxes: &[Bounds], axes: &[u8], large: &[u32]) -> Tree {
 }
 
 /// Faces of the binary tree.
-struct Part {
+struct Subtree {
     bounds: Bounds,
     content: Content,
 }
@@ -135,7 +135,7 @@ enum Content {
 struct Halving<'a> {
     boxes: &'a [Bounds],
     axes: &'a [u8],
-    parts: Vec<Part>,
+    parts: Vec<Subtree>,
 }
 
 /// What a part costs to a ray through the root, but for a factor: by the number of children of one node
@@ -173,7 +173,7 @@ impl Halving<'_> {
             }
             (Content::Halves([left, right], shares), costs)
         };
-        self.parts.push(Part { bounds, content });
+        self.parts.push(Subtree { bounds, content });
         (self.parts.len() as u32 - 1, costs)
     }
 
@@ -319,7 +319,7 @@ fn partition(faces: &mut [u32], left: impl Fn(u32) -> bool) -> usize {
 
 impl Tree {
     /// A node over part `part`, whose number it returns; `level` is the number of nodes down to it.
-    fn node(&mut self, parts: &[Part], part: u32, level: usize) -> u32 {
+    fn node(&mut self, parts: &[Subtree], part: u32, level: usize) -> u32 {
         let number = self.nodes.len() as u32;
         self.levels = self.levels.max(level);
         // Finite, so that no box's test has 0 times infinity.
@@ -330,7 +330,7 @@ impl Tree {
         let mut children = Vec::with_capacity(WIDE);
         children_of(parts, part, WIDE, &mut children);
         for (place, part) in children.into_iter().enumerate() {
-            let Part { bounds, content } = &parts[part as usize];
+            let Subtree { bounds, content } = &parts[part as usize];
             let child = match content {
                 Content::Packet { faces, axis } => {
                     self.leaves.push(faces.clone());
@@ -350,7 +350,7 @@ impl Tree {
 }
 
 /// Puts the parts that hold part `part` as `most` children of one node at the least cost into `children`.
-fn children_of(parts: &[Part], part: u32, most: usize, children: &mut Vec<u32>) {
+fn children_of(parts: &[Subtree], part: u32, most: usize, children: &mut Vec<u32>) {
     match parts[part as usize].content {
         Content::Halves([left, right], shares) if shares[most] > 0 => {
             let share = usize::from(shares[most]);

@@ -37,9 +37,6 @@ pub enum StateVectorError {
     /// A gate or a register names a qubit that the machine does not have, or one twice.
     #[error("qubit {0} is used twice by one gate or register, or is none of the machine's")]
     InvalidQubit(Qubit),
-    /// A bound on amplitudes that is negative or no number.
-    #[error("a bound of {0} on the amplitudes that are dropped; it is not negative")]
-    Bound(f64),
     /// Nothing can be measured: all states have been dropped.
     #[error("no state carries amplitude: all have been dropped")]
     NoStates,

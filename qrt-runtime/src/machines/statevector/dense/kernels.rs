@@ -8,7 +8,7 @@ const LOW: u32 = 3;
 
 /// What is done to amplitudes; indices are those of memory.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::machines::statevector) enum Step {
+pub(in crate::machines::statevector) enum Kernel {
     /// Hadamards on all qubits of `mask`, and a factor in all.
     Hadamards { mask: usize, scale: f64 },
     /// A real matrix on one qubit.
@@ -27,7 +27,7 @@ pub(in crate::machines::statevector) enum Step {
     },
 }
 
-impl Step {
+impl Kernel {
     /// Qubits whose amplitudes it mixes or exchanges, as a mask.
     pub(super) fn targets(&self) -> usize {
         match *self {
@@ -40,7 +40,7 @@ impl Step {
 
 /// Runs steps on a chunk whose first amplitude has index `base`; their targets lie within it.
 pub(in crate::machines::statevector) struct OnChunk<'a> {
-    pub(in crate::machines::statevector) steps: &'a [Step],
+    pub(in crate::machines::statevector) steps: &'a [Kernel],
     pub(in crate::machines::statevector) chunk: &'a mut [Complex<f64>],
     pub(in crate::machines::statevector) base: usize,
 }
@@ -56,11 +56,11 @@ impl WithSimd for OnChunk<'_> {
         let mut all = one;
         for step in self.steps {
             match *step {
-                Step::Hadamards { mask, scale } => {
+                Kernel::Hadamards { mask, scale } => {
                     hadamards(simd, bytemuck::cast_slice_mut(self.chunk), mask, scale);
                 }
-                Step::Rotate { target, matrix } => rotate(self.chunk, target, &matrix),
-                Step::Flip {
+                Kernel::Rotate { target, matrix } => rotate(self.chunk, target, &matrix),
+                Kernel::Flip {
                     target,
                     mask,
                     value,
@@ -69,7 +69,7 @@ impl WithSimd for OnChunk<'_> {
                         flip(self.chunk, target, mask & within, value & within);
                     }
                 }
-                Step::Phase {
+                Kernel::Phase {
                     factor,
                     mask,
                     value,

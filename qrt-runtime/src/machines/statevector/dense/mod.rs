@@ -3,7 +3,7 @@
 mod kernels;
 mod plan;
 
-pub(super) use kernels::{OnChunk, Step};
+pub(super) use kernels::{Kernel, OnChunk};
 pub(super) use plan::rotation;
 
 use super::error::{check_qubits, filled};
@@ -110,7 +110,7 @@ impl Dense {
         let steps = self.plan.take();
         let mut rest = &steps[..];
         while let Some(first) = rest.first() {
-            let reach = |step: &Step| usize::BITS - step.targets().leading_zeros();
+            let reach = |step: &Kernel| usize::BITS - step.targets().leading_zeros();
             let bits = self.amplitudes.len().ilog2();
             let most = CHUNK[1].min(bits);
             let count = rest.iter().take_while(|step| reach(step) <= most).count();
@@ -137,10 +137,10 @@ impl Dense {
     }
 
     /// A step with a target beyond chunks.
-    fn run_far(&mut self, step: Step) {
+    fn run_far(&mut self, step: Kernel) {
         let set = self.instructions;
         match step {
-            Step::Hadamards { mask, scale } => {
+            Kernel::Hadamards { mask, scale } => {
                 let within = mask & ((1 << CHUNK[1]) - 1);
                 let mut far = mask ^ within;
                 while far != 0 {
@@ -152,7 +152,7 @@ impl Dense {
                     });
                 }
                 if within != 0 {
-                    let near = [Step::Hadamards {
+                    let near = [Kernel::Hadamards {
                         mask: within,
                         scale,
                     }];
@@ -167,10 +167,10 @@ impl Dense {
                         });
                 }
             }
-            Step::Rotate { target, matrix } => {
+            Kernel::Rotate { target, matrix } => {
                 self.halves(target, |low, high, _| rotate_halves(low, high, &matrix));
             }
-            Step::Flip {
+            Kernel::Flip {
                 target,
                 mask,
                 value,
@@ -189,7 +189,7 @@ impl Dense {
                     low[first..first + run].swap_with_slice(&mut high[first..first + run]);
                 });
             }),
-            Step::Phase { .. } => {}
+            Kernel::Phase { .. } => {}
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::super::StateVectorError;
 use super::super::error::check_qubits;
-use super::kernels::Step;
+use super::kernels::Kernel;
 use num_complex::Complex;
 use qrt_circuit::Qubit;
 use qrt_circuit::quantum::{QuantumGate, Turns};
@@ -11,7 +11,7 @@ use std::f64::consts::FRAC_1_SQRT_2;
 /// Steps that wait, and what is true of memory once they have run.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Plan {
-    steps: Vec<Step>,
+    steps: Vec<Kernel>,
     /// Where the index of memory and that of the state differ: Xs.
     pub(super) frame: usize,
     /// Whether there is a factor `1/sqrt(2)` that memory lacks.
@@ -29,10 +29,10 @@ impl Plan {
     }
 
     /// All steps that wait. A Hadamard's factor of `1/sqrt(2)` is kept back until there are two.
-    pub(super) fn take(&mut self) -> Vec<Step> {
+    pub(super) fn take(&mut self) -> Vec<Kernel> {
         let mut steps = std::mem::take(&mut self.steps);
         for step in &mut steps {
-            if let Step::Hadamards { mask, scale } = step {
+            if let Kernel::Hadamards { mask, scale } = step {
                 let factors = mask.count_ones() + u32::from(self.odd);
                 *scale = 0.5_f64.powi((factors / 2) as i32);
                 self.odd = factors % 2 == 1;
@@ -78,7 +78,7 @@ impl Plan {
                     matrix.map(|[a, b]| [b, a])
                 };
                 self.frame &= !bit;
-                self.steps.push(Step::Rotate { target, matrix });
+                self.steps.push(Kernel::Rotate { target, matrix });
             }
             QuantumGate::Phase { turns, on } => {
                 check_qubits(on, qubits)?;
@@ -91,7 +91,7 @@ impl Plan {
 
     fn flip(&mut self, target: Qubit, mask: usize) {
         let value = mask & !self.frame;
-        self.steps.push(Step::Flip {
+        self.steps.push(Kernel::Flip {
             target,
             mask,
             value,
@@ -100,7 +100,7 @@ impl Plan {
 
     fn phase(&mut self, turns: Turns, mask: usize) {
         let [re, im] = turns.factor();
-        self.steps.push(Step::Phase {
+        self.steps.push(Kernel::Phase {
             factor: Complex::new(re, im),
             mask,
             value: mask & !self.frame,
@@ -113,8 +113,8 @@ impl Plan {
         let flipped = self.frame & bit != 0;
         self.frame &= !bit;
         match self.steps.last_mut() {
-            Some(Step::Hadamards { mask, .. }) if *mask & bit == 0 => *mask |= bit,
-            _ => self.steps.push(Step::Hadamards {
+            Some(Kernel::Hadamards { mask, .. }) if *mask & bit == 0 => *mask |= bit,
+            _ => self.steps.push(Kernel::Hadamards {
                 mask: bit,
                 scale: 1.0,
             }),

@@ -1,6 +1,6 @@
 //! Gates that mix states.
 
-use super::super::dense::{OnChunk, Step};
+use super::super::dense::{Kernel, OnChunk};
 use super::super::error::filled;
 use super::block::{Block, Row, STATES, WORDS};
 use super::{Sparse, StateVectorError};
@@ -34,7 +34,7 @@ struct Groups {
 impl Sparse {
     /// Applies `step` to `mixed` qubits, which are its qubits 0, 1, ..., and drops what is too
     /// small.
-    pub(super) fn mix(&mut self, mixed: &[Qubit], step: Step) -> Result<(), StateVectorError> {
+    pub(super) fn mix(&mut self, mixed: &[Qubit], step: Kernel) -> Result<(), StateVectorError> {
         self.run_local();
         let keys = self.keys(mixed)?;
         let groups = grouped(&keys)?;

@@ -3,7 +3,7 @@
 mod block;
 mod mix;
 
-use super::dense::Step;
+use super::dense::Kernel;
 use super::error::{check_qubits, filled};
 use super::{StateVector, StateVectorError};
 use crate::machines::InstructionSet;
@@ -32,9 +32,9 @@ const TOGETHER: usize = 16;
 /// Walsh-Hadamard transform), and put back in the order of their groups. What distinguishes groups
 /// are the qubits that are not the same in all states, so that ancillas at zero cost nothing.
 ///
-/// A state is dropped when its amplitude is at most a bound: [`Sparse::ROUNDING`] unless another is
-/// set. What rounding leaves of amplitudes that cancel is below it. The dropped states' probability
-/// is summed up in [`Sparse::dropped`]; nothing is renormalised.
+/// A state is dropped when its amplitude is at most [`Sparse::ROUNDING`]: what rounding leaves
+/// of amplitudes that cancel is below it. The dropped states' probability is summed up in
+/// [`Sparse::dropped`]; nothing is renormalised.
 ///
 /// The same bits come out whatever the number of threads and the instruction set.
 ///
@@ -62,19 +62,20 @@ pub struct Sparse {
     hadamards: Vec<Qubit>,
     /// Whether there is a factor `1/sqrt(2)` that the amplitudes lack.
     odd: bool,
-    bound: f64,
+    pub(super) bound: f64,
     dropped: f64,
-    most: u64,
+    pub(super) most: u64,
     peak: u64,
     instructions: InstructionSet,
 }
 
 impl Sparse {
-    /// Amplitudes up to this are dropped unless another bound is set: below what rounding leaves
+    /// Amplitudes up to this are dropped: below what rounding leaves
     /// (2^-53) of amplitudes that are states' of 2^-20 and above.
     pub const ROUNDING: f64 = 1e-16;
 
-    /// States allowed unless another number is set.
+    /// States allowed. One takes a bit for each qubit and 16 bytes; while states are mixed, twice that
+    /// and some 60 bytes more.
     pub const MOST_STATES: u64 = 1 << 24;
 
     /// The basis state in which all qubits are zero.
@@ -92,25 +93,6 @@ impl Sparse {
             peak: 1,
             instructions: InstructionSet::widest(),
         }
-    }
-
-    /// With another bound on amplitudes that are dropped; 0 drops exact zeros only.
-    ///
-    /// # Errors
-    /// A bound that is negative or no number.
-    pub fn with_bound(mut self, bound: f64) -> Result<Self, StateVectorError> {
-        if bound.is_nan() || bound < 0.0 {
-            return Err(StateVectorError::Bound(bound));
-        }
-        self.bound = bound;
-        Ok(self)
-    }
-
-    /// With another number of states allowed. One takes a bit for each qubit and 16 bytes; while
-    /// states are mixed, twice that and some 60 bytes more.
-    pub fn with_most_states(mut self, most: u64) -> Self {
-        self.most = most;
-        self
     }
 
     /// With another instruction set.
@@ -186,7 +168,7 @@ impl Sparse {
             let mixed: Vec<Qubit> = self.hadamards.drain(..count).collect();
             let factors = count as u32 + u32::from(self.odd);
             self.odd = factors % 2 == 1;
-            let step = Step::Hadamards {
+            let step = Kernel::Hadamards {
                 mask: (1 << count) - 1,
                 scale: 0.5_f64.powi((factors / 2) as i32),
             };
@@ -257,7 +239,7 @@ impl StateVector for Sparse {
                 }
                 self.run()?;
                 let matrix = super::dense::rotation(angle);
-                self.mix(&[target], Step::Rotate { target: 0, matrix })
+                self.mix(&[target], Kernel::Rotate { target: 0, matrix })
             }
         }
     }
@@ -304,7 +286,7 @@ impl StateVector for Sparse {
             };
         }
         // States that were not read go as all do that have no amplitude.
-        let none = Step::Hadamards {
+        let none = Kernel::Hadamards {
             mask: 0,
             scale: 1.0,
         };
