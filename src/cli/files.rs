@@ -3,7 +3,7 @@
 use super::failure::Failure;
 use super::terminal;
 use qrt_runtime::disk::Place;
-use qrt_runtime::replace_file::try_writing;
+use qrt_runtime::replace_file::{PARTIAL, try_writing};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -35,6 +35,22 @@ impl Output {
     /// What the file system says.
     pub(crate) fn try_writing(&self) -> Result<(), Failure> {
         try_writing(&self.place).map_err(|error| Failure::file(&self.asked, &error))
+    }
+
+    /// That it is not named as checkpoints are, which hold the work of renders that are not finished.
+    ///
+    /// # Errors
+    /// It is.
+    pub(crate) fn keep_off_checkpoints(&self) -> Result<(), Failure> {
+        let named = |path: &Path| path.as_os_str().to_string_lossy().ends_with(PARTIAL);
+        if named(&self.asked) || named(self.place.path()) {
+            let message = format!(
+                "`{}` is named as a checkpoint is: choose a name that does not end in `{PARTIAL}`",
+                self.asked.display()
+            );
+            return Err(Failure::Usage(message));
+        }
+        Ok(())
     }
 
     /// Whether it is a device or a pipe.

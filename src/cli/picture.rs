@@ -59,7 +59,7 @@ impl Outputs {
         std::iter::once(&self.picture).chain(others)
     }
 
-    /// That none is one of `inputs`, or another of these.
+    /// That none is one of `inputs`, another of these, or another picture's checkpoint.
     ///
     /// # Errors
     /// The first that is.
@@ -69,7 +69,8 @@ impl Outputs {
     ) -> Result<(), Failure> {
         let checkpoint = self.checkpoint.as_deref().map(Output::new).transpose()?;
         let all: Vec<&Output> = self.asked().chain(&checkpoint).collect();
-        keep_apart(inputs, &all)
+        keep_apart(inputs, &all)?;
+        self.asked().try_for_each(Output::keep_off_checkpoints)
     }
 }
 

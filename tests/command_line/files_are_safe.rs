@@ -77,6 +77,12 @@ fn no_output_is_written_over_an_input_or_another_whatever_they_are_called() {
         assert_eq!(folder.read("meshes/lamp.obj"), OBJ.as_bytes(), "{command}");
         assert_eq!(folder.read("meshes/lamp.mtl"), MTL.as_bytes(), "{command}");
     }
+    // Another picture's checkpoint is no place for anything.
+    for option in ["--counts", "--stats"] {
+        let errors = folder.fails(2, &["render", "mesh.yaml", option, "other.png.qrt-partial"]);
+        assert!(errors.contains("named as a checkpoint"), "{errors}");
+    }
+    assert_eq!(folder.names(), names);
     let errors = folder.fails(
         2,
         &["render", "mesh.yaml", "-o", "k.exr", "--counts", "hard.svg"],

@@ -4,6 +4,8 @@
 //! one core that find the nearest of 65,536 triangles, and the fraction of rays for which a crate's
 //! triangle is ours. It fails where a crate is faster.
 
+#![forbid(unsafe_code)]
+
 // A bench that cannot run has nothing to report.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 

@@ -3,6 +3,8 @@
 //! `cargo test -p qrt-book-listings` runs them. A page that is added to the book's `SUMMARY.md` gets
 //! a line here; the test below says so.
 
+#![forbid(unsafe_code)]
+
 macro_rules! pages {
     ($($name:ident = $file:literal,)*) => {
         /// The pages whose listings are tests.

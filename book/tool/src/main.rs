@@ -8,6 +8,8 @@
 //! The preprocessor also speaks mdBook's protocol, so that plain `mdbook build book` does the same
 //! but for the check.
 
+#![forbid(unsafe_code)]
+
 mod bibliography;
 mod chapter;
 mod check;
