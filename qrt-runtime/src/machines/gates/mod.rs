@@ -194,9 +194,16 @@ impl WithSimd for Run<'_> {
 }
 
 impl Run<'_> {
+    /// One code for rows of every length, a part of them at a time: it is compiled once, not four
+    /// times, which matters where it is sent to browsers.
     #[inline(always)]
     fn scalar(self) {
-        self.of_length::<pulp::Scalar, 32, 16, 8, 4>(pulp::Scalar::new());
+        let parts = self.words / rows::FEW_WORDS;
+        run::<pulp::Scalar, { rows::FEW_WORDS }>(
+            pulp::Scalar::new(),
+            self.code,
+            (self.rows, parts),
+        );
     }
 
     /// Runs on rows of so many vectors, by their words: those of [`rows::LENGTHS`].
@@ -206,23 +213,24 @@ impl Run<'_> {
         simd: S,
     ) {
         match rows::LENGTHS.iter().position(|words| *words == self.words) {
-            Some(0) => run::<S, A>(simd, self.code, self.rows),
-            Some(1) => run::<S, B>(simd, self.code, self.rows),
-            Some(2) => run::<S, C>(simd, self.code, self.rows),
-            _ => run::<S, D>(simd, self.code, self.rows),
+            Some(0) => run::<S, A>(simd, self.code, (self.rows, 1)),
+            Some(1) => run::<S, B>(simd, self.code, (self.rows, 1)),
+            Some(2) => run::<S, C>(simd, self.code, (self.rows, 1)),
+            _ => run::<S, D>(simd, self.code, (self.rows, 1)),
         }
     }
 }
 
+/// Runs code on rows of so many parts, each of `N` vectors.
 #[inline(always)]
-fn run<S: Simd, const N: usize>(simd: S, mut code: &[u32], rows: &mut [u64]) {
+fn run<S: Simd, const N: usize>(simd: S, mut code: &[u32], (rows, parts): (&mut [u64], usize)) {
     let vectors: &mut [S::u64s] = bytemuck::cast_slice_mut(rows);
     let (rows, _) = vectors.as_chunks_mut::<N>();
     let rows = Cell::from_mut(rows).as_slice_of_cells();
     while let [head, rest @ ..] = code {
         let (number, count) = compile::parts(*head);
         let (operands, rest) = rest.split_at(count * patterns::PATTERNS[number].rows);
-        patterns::execute::<S, N>(simd, rows, number, operands);
+        patterns::execute::<S, N>(simd, (rows, parts), number, operands);
         code = rest;
     }
 }

@@ -16,7 +16,7 @@ pub(super) struct Pattern {
     pub(super) rows: usize,
 }
 
-/// Rows of `N` vectors.
+/// `N` vectors: a row, or a part of one.
 pub(super) type Row<S, const N: usize> = Cell<[<S as Simd>::u64s; N]>;
 
 macro_rules! gate {
@@ -54,11 +54,11 @@ macro_rules! patterns {
             Pattern { gates: &[$(gate!($gate $($q)+),)+], rows: Q::End as usize }
         },)+];
 
-        /// Executes pattern `number` on each tuple of rows in `operands`.
+        /// Executes pattern `number` on each tuple of rows in `operands`; a row has so many parts.
         #[inline(always)]
         pub(super) fn execute<S: Simd, const N: usize>(
             simd: S,
-            rows: &[Row<S, N>],
+            (rows, parts): (&[Row<S, N>], usize),
             number: usize,
             operands: &[u32],
         ) {
@@ -66,15 +66,20 @@ macro_rules! patterns {
                 $($number => {
                     const ROWS: usize = PATTERNS[$number].rows;
                     for &[$($read,)* $($write),*] in operands.as_chunks::<ROWS>().0 {
-                        $(let $read = rows[$read as usize].as_array_of_cells();)*
-                        $(let $write = rows[$write as usize].as_array_of_cells();)*
-                        for vector in 0..N {
-                            let places = ($(&$write[vector],)*);
-                            // Only some of a pattern's gates write to what it reads, on the way.
-                            $(#[allow(unused_mut)] let mut $read = $read[vector].get();)*
-                            $(let mut $write = $write[vector].get();)*
-                            $(apply!(simd, $gate $($q)+);)+
-                            store!(places, $($write)*);
+                        for part in 0..parts {
+                            let part_of = |row: u32| {
+                                rows[row as usize * parts + part].as_array_of_cells()
+                            };
+                            $(let $read = part_of($read);)*
+                            $(let $write = part_of($write);)*
+                            for vector in 0..N {
+                                let places = ($(&$write[vector],)*);
+                                // Only some of a pattern's gates write to what it reads, on the way.
+                                $(#[allow(unused_mut)] let mut $read = $read[vector].get();)*
+                                $(let mut $write = $write[vector].get();)*
+                                $(apply!(simd, $gate $($q)+);)+
+                                store!(places, $($write)*);
+                            }
                         }
                     }
                 })+
