@@ -26,7 +26,13 @@ const PHONE = [375, 740, true];
 /** Pages that are open at the same time. */
 const TABS = 3;
 /** Bytes that WebAssembly stays below. */
-const WASM = { "qrt_figures.wasm": 500_000, "qrt_playground.wasm": 5_000_000 };
+const WASM = {
+  "qrt_circuit.wasm": 500_000,
+  "qrt_counting.wasm": 500_000,
+  "qrt_map.wasm": 500_000,
+  "qrt_picture.wasm": 500_000,
+  "qrt_playground.wasm": 5_000_000,
+};
 /** Milliseconds until a figure can be used. */
 const SOON = 1000;
 /**

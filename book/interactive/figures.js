@@ -27,7 +27,7 @@ async function start(figure) {
   figure.dataset.state = "loading";
   const begun = performance.now();
   try {
-    const [figureModule, qrt] = await Promise.all([load(), ALONE.has(name) ? null : instance()]);
+    const [figureModule, qrt] = await Promise.all([load(), ALONE.has(name) ? null : instance(name)]);
     const body = document.createElement("div");
     body.className = "qrt-body";
     body.setAttribute("role", "group");

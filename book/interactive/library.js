@@ -2,12 +2,12 @@
 
 import { decode } from "./answer.js";
 
-let compiled;
+const compiled = new Map();
 
-/** An instance of its own for a figure: a function `call(name, arguments, text)`. */
-export async function instance() {
-  compiled ??= compile();
-  const { exports } = await WebAssembly.instantiate(await compiled);
+/** An instance of its own for a figure of that name: a function `call(name, arguments, text)`. */
+export async function instance(figure) {
+  if (!compiled.has(figure)) compiled.set(figure, compile(figure));
+  const { exports } = await WebAssembly.instantiate(await compiled.get(figure));
   const bytes = (start, length) => new Uint8Array(exports.memory.buffer, start, length);
 
   /** Calls the export `qrt_<name>`; `text` is what it reads, if it reads one. */
@@ -27,8 +27,8 @@ export async function instance() {
   };
 }
 
-async function compile() {
-  const response = await fetch(new URL("qrt_figures.wasm", import.meta.url));
+async function compile(figure) {
+  const response = await fetch(new URL(`qrt_${figure}.wasm`, import.meta.url));
   if (!response.ok) throw new Error(`its program is not there (${response.status})`);
   if (response.headers.get("Content-Type") === "application/wasm") {
     return WebAssembly.compileStreaming(response);

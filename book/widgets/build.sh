@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Makes qrt_figures.wasm and qrt_playground.wasm in book/interactive/dist: qrt's own code for the book's
-# interactive figures, small, and for its playground, quick.
+# Makes qrt_NAME.wasm in book/interactive/dist, one for each of the book's interactive figures and one for
+# its playground: qrt's own code, for figures small, for the playground quick. A page loads what its
+# figure needs and no other's.
 #
 #   book/widgets/build.sh           exits 0 if it is made or was new enough, 3 if there is nothing
 #                                   to make it with (one line says what is missing), 1 if it fails
@@ -16,6 +17,9 @@ set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 root=$(cd "$here/../.." && pwd)
 dist=$root/book/interactive/dist
+# The features of qrt-figures. The playground comes first and the others in this order: the last one's
+# time says whether all are new.
+figures=(counting map circuit picture)
 build=${CARGO_TARGET_DIR:-$root/target}/figures
 tools=${QRT_WASM_TOOLCHAIN:-$root/target/wasm-toolchain}
 triple=wasm32-unknown-unknown
@@ -28,10 +32,14 @@ lacks() {
 }
 
 is_new() {
-  [ -f "$dist/qrt_figures.wasm" ] && [ -f "$dist/qrt_playground.wasm" ] && [ -z "$(
+  local name
+  for name in playground "${figures[@]}"; do
+    [ -f "$dist/qrt_$name.wasm" ] || return 1
+  done
+  [ -z "$(
     find "$here" "$root/drawing" "$root/qrt-circuit" "$root/qrt-core" "$root/qrt-runtime" \
       "$root/Cargo.toml" "$root/scenes-yaml" -type d -name target -prune -o \
-      -type f -newer "$dist/qrt_figures.wasm" -print -quit
+      -type f -newer "$dist/qrt_${figures[-1]}.wasm" -print -quit
   )" ]
 }
 
@@ -98,7 +106,7 @@ cd "$here"
 progress() {
   local begin=$SECONDS told=$SECONDS
   while kill -0 "$1" 2>/dev/null; do
-    sleep 1
+    sleep 0.2
     if [ $((SECONDS - told)) -ge 20 ]; then
       told=$SECONDS
       printf '  %s s: %s\n' $((SECONDS - begin)) "$(grep -a Compiling "$build/log" | tail -n 1 | sed 's/^ *//; s/ (.*//')" >&2
@@ -107,16 +115,26 @@ progress() {
   wait "$1"
 }
 
-# Compiles both; the arguments are cargo's.
+# Compiles the module $1, by the profile $2 of the package qrt-$2, into $build/modules; the other
+# arguments are cargo's.
+compile_one() {
+  local name=$1 kind=$2
+  shift 2
+  cargo rustc --locked --ignore-rust-version --package "qrt-$kind" --profile "$kind" --lib \
+    --crate-type cdylib --target "$triple" --target-dir "$build" "$@" 2>"$build/log" &
+  progress "$!" || return 1
+  cp "$build/$triple/$kind/qrt_$kind.wasm" "$build/modules/qrt_$name.wasm"
+}
+
+# Compiles all; the arguments are cargo's.
 compile() {
-  local package
-  for package in qrt-figures:figures qrt-playground:playground; do
-    printf 'compiling %s for browsers: some minutes of processor time, once\n' "${package%:*}" >&2
-    cargo rustc --locked --ignore-rust-version --package "${package%:*}" \
-      --profile "${package#*:}" --lib --crate-type cdylib --target "$triple" \
-      --target-dir "$build" "$@" 2>"$build/log" &
-    progress "$!" || return 1
+  local figure
+  printf 'compiling qrt for browsers: %s\n' \
+    'two to four minutes on two cores, the first time and after changes of its crates' >&2
+  for figure in "${figures[@]}"; do
+    compile_one "$figure" figures --no-default-features --features "$figure" "$@" || return 1
   done
+  compile_one playground playground "$@"
 }
 
 # Compiles the standard library along, without the texts of its panics, which nobody would see.
@@ -136,7 +154,7 @@ fail() {
   exit 1
 }
 
-mkdir -p "$build" "$dist"
+mkdir -p "$build/modules" "$dist"
 if has_sources || ask_rustup component add rust-src; then
   compile_all || { has_target || ask_rustup target add "$triple" && compile; } || fail
 elif has_target || ask_rustup target add "$triple"; then
@@ -161,17 +179,18 @@ optimise() {
     "$module" -o "$module.small" 2>/dev/null
 }
 
-# The playground first: the figures' time says whether both are new.
-for made in playground/qrt_playground:-O3 figures/qrt_figures:-Oz; do
-  level=${made#*:}
-  name=$(basename "${made%:*}").wasm
-  made=$build/$triple/${made%:*}.wasm
-  own=$tools/root/usr/bin/wasm-opt
+own=$tools/root/usr/bin/wasm-opt
+for name in playground "${figures[@]}"; do
+  made=$build/modules/qrt_$name.wasm
+  level=-Oz
+  [ "$name" != playground ] || level=-O2
   if ! optimise "$made" wasm-opt "$level" &&
     ! { { [ -x "$own" ] || unpack binaryen; } && optimise "$made" "$own" "$level"; }; then
     cp "$made" "$made.small"
   fi
-  cp "$made.small" "$dist/$name.new"
-  mv "$dist/$name.new" "$dist/$name"
-  printf '%s: %s bytes of WebAssembly\n' "$name" "$(wc -c <"$dist/$name")"
+  printf 'qrt_%s.wasm: %s bytes of WebAssembly\n' "$name" "$(wc -c <"$made.small")"
+done
+for name in playground "${figures[@]}"; do
+  mv "$build/modules/qrt_$name.wasm.small" "$dist/qrt_$name.wasm"
+  touch "$dist/qrt_$name.wasm"
 done

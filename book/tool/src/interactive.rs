@@ -10,8 +10,14 @@ use std::process::{Command, Stdio};
 /// What the script that builds the WebAssembly exits with if there is nothing to build it with.
 const NO_TOOLS: i32 = 3;
 
-/// The WebAssembly's names, in `interactive/dist` and in the book.
-const WASM: [&str; 2] = ["qrt_figures.wasm", "qrt_playground.wasm"];
+/// The WebAssembly's names, in `interactive/dist` and in the book: one for each figure.
+const WASM: [&str; 5] = [
+    "qrt_circuit.wasm",
+    "qrt_counting.wasm",
+    "qrt_map.wasm",
+    "qrt_picture.wasm",
+    "qrt_playground.wasm",
+];
 
 /// What an editor of scenes suggests from: its folder beside the book's, and its name.
 const SCHEMA: [&str; 2] = ["../scenes-yaml", "scene.schema.json"];
@@ -110,14 +116,10 @@ mod tests {
             std::fs::create_dir_all(book.join(name)).unwrap();
         }
         std::fs::write(book.join("../scenes-yaml/scene.schema.json"), "{}").unwrap();
-        for name in [
-            "figures.js",
-            "figures.css",
-            "notes.md",
-            "dist/qrt_figures.wasm",
-            "dist/qrt_playground.wasm",
-        ] {
-            std::fs::write(book.join("interactive").join(name), name).unwrap();
+        let wasm = WASM.map(|name| format!("dist/{name}"));
+        let others = ["figures.js", "figures.css", "notes.md"].map(str::to_owned);
+        for name in wasm.into_iter().chain(others) {
+            std::fs::write(book.join("interactive").join(&name), name).unwrap();
         }
         if let Some(script) = script {
             std::fs::write(book.join("widgets/build.sh"), script).unwrap();
@@ -130,7 +132,7 @@ mod tests {
 
     #[test]
     fn figures_come_along_if_their_webassembly_can_be_built() {
-        assert_eq!(prepared(Some("exit 0")), (true, 5, 0));
+        assert_eq!(prepared(Some("exit 0")), (true, 8, 0));
         assert_eq!(prepared(Some("exit 3")), (false, 0, 0));
         assert_eq!(prepared(Some("echo no; exit 1")), (false, 0, 1));
         assert_eq!(prepared(None), (false, 0, 0));

@@ -2,7 +2,8 @@
 //!
 //! Each figure is a function of its controls, and what it shows is computed by qrt itself, compiled
 //! to WebAssembly: nothing is computed a second time in a script. [`boundary`] is what scripts call;
-//! `book/interactive/figures.js` draws.
+//! `book/interactive/figures.js` draws. A page has one of them as a rule, so that each becomes a
+//! module of its own, by a feature of its name, and readers load no other's code.
 //!
 //! * [`counting`]: the phase register's distribution, draws from it, and the posterior;
 //! * [`map`]: a lattice in the unit square and on the sphere, and its Jacobian;
@@ -29,7 +30,11 @@
 )]
 
 pub mod boundary;
+#[cfg(feature = "circuit")]
 pub mod circuit;
+#[cfg(feature = "counting")]
 pub mod counting;
+#[cfg(feature = "map")]
 pub mod map;
+#[cfg(feature = "picture")]
 pub mod picture;
