@@ -1,5 +1,9 @@
 //! Quantum ray tracing: scenes as countable sets of paths.
 //!
+// docs/gallery/lit-box-gates.png as a JPEG of 9 KB, in the text itself: rustdoc copies no pictures, and the
+// pages load nothing from elsewhere. Nobody but rustdoc reads it.
+#![cfg_attr(doc, doc = include_str!("picture.html"))]
+//!
 //! A scene is written in YAML, or in Rust by the macro [`qrt!`]. qrt traces each of its pixels
 //! along `2^path_bits` paths, the ones that a reversible circuit can trace in superposition, and
 //! estimates their mean colour as quantum counting over that circuit would. The framework is that

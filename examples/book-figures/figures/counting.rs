@@ -5,6 +5,7 @@ use qrt::core::scene::Window;
 use qrt::drawing::{Canvas, Panel, number, ticks};
 use qrt::runtime::counting::{PhaseDistribution, posterior};
 use qrt::runtime::random::Stream;
+use std::f64::consts::PI;
 
 /// theta = 1/3: three of four indices are good.
 const GOOD: [u64; 2] = [3, 4];
@@ -249,6 +250,71 @@ pub(super) fn ends() -> Figure {
         "Probabilities of the outcomes of a phase register of five bits with the rectangular \
          window. {}.",
         told.join("; ")
+    );
+    Figure::drawn(canvas, says)
+}
+
+/// What each outcome of a short run has of the probability, and brings to the mean square error.
+pub(super) fn tail() -> Figure {
+    const BITS: u32 = 4;
+    let title = "One index of four is good, T = 16: one run, rectangular window";
+    let mut canvas = Canvas::new(title, 580.0, 440.0);
+    let known = PhaseDistribution::new(1, 4, BITS, Window::Rect).expect("a distribution");
+    let outcomes = 0..=known.largest_outcome();
+    let amplitude = |y: u64| libm::sin(PI * y as f64 / f64::from(1 << BITS)).powi(2);
+    let brought = |y: u64| known.probability(y) * (amplitude(y) - 0.25).powi(2);
+    let total: f64 = outcomes.clone().map(brought).sum();
+    let share = |y: u64| brought(y) / total;
+    let probability = |y: u64| known.probability(y);
+    let names = [
+        "how probable the outcome is",
+        "how much of the mean square error it brings",
+    ];
+    for (style, name) in names.into_iter().enumerate() {
+        let top = 62.0 + 180.0 * style as f64;
+        let height = |y| if style == 0 { probability(y) } else { share(y) };
+        let most = if style == 0 { 0.8 } else { 0.2 };
+        let panel = Panel {
+            edges: [76.0, top, 560.0, top + 130.0],
+            x: [-0.7, 8.7],
+            y: [0.0, most],
+        };
+        canvas.text("", [panel.edges[0], top - 8.0], name);
+        let below = outcomes.clone().map(|y| (y as f64, format!("{y}")));
+        let levels = ticks([0.0, most / 2.0, most], 1);
+        let label = if style == 0 {
+            ""
+        } else {
+            "outcome y, which says ã = sin²(πy/16)"
+        };
+        panel.axes(
+            &mut canvas,
+            [&below.collect::<Vec<_>>(), &levels],
+            [label, ""],
+        );
+        for y in outcomes.clone() {
+            let [x, upper] = panel.at([y as f64, height(y)]);
+            let bar = [x - 14.0, upper, 28.0, panel.edges[3] - upper];
+            canvas.rectangle(&format!("pale s{style}"), bar);
+        }
+        let truth = panel.at([known.theta() * f64::from(1 << BITS), 0.0])[0];
+        canvas.line(
+            "axis dash",
+            [truth, panel.edges[1]],
+            [truth, panel.edges[3]],
+        );
+    }
+    let near = known.nearest_outcome();
+    let says = format!(
+        "Two rows of bars over the outcomes 0 to 8 of a phase register of four bits, at T theta = \
+         {:.2}. Above, probabilities: outcome {near} has {:.1} %, those from 4 to 8 together {:.1} %. \
+         Below, what each brings to the mean square error: outcome {near} {:.1} %, those from 4 to 8 \
+         together {:.1} %.",
+        known.theta() * f64::from(1 << BITS),
+        100.0 * probability(near),
+        100.0 * (4..=8).map(probability).sum::<f64>(),
+        100.0 * share(near),
+        100.0 * (4..=8).map(share).sum::<f64>(),
     );
     Figure::drawn(canvas, says)
 }

@@ -61,7 +61,7 @@ impl Figure {
 pub(crate) type Make = fn() -> Figure;
 
 /// All figures, by the names of their files.
-pub(crate) const ALL: [(&str, Make); 43] = [
+pub(crate) const ALL: [(&str, Make); 44] = [
     ("first-picture.png", pictures::first),
     ("noise-strip.png", pictures::noise),
     ("counted-strip.png", pictures::counted),
@@ -87,6 +87,7 @@ pub(crate) const ALL: [(&str, Make); 43] = [
     ("pixel-counted.svg", pixel::counted),
     ("counting-distribution.svg", counting::distribution),
     ("counting-windows.svg", counting::windows),
+    ("counting-tail.svg", counting::tail),
     ("posterior.svg", counting::posteriors),
     ("grover-plane.svg", grover::plane),
     ("grover-sign.svg", grover::sign),
