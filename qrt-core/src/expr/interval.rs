@@ -98,15 +98,15 @@ impl Node {
             Self::Add(a, b) => Some(of(a)?.plus(of(b)?)),
             Self::Sub(a, b) => Some(of(a)?.plus(-of(b)?)),
             Self::Mul(a, b) => Some(of(a)?.times(of(b)?)),
-            Self::Div(a, b) => of(a)?.over(of(b)?),
-            Self::Powi(a, n) => of(a)?.powi(n),
+            Self::Div(a, b) => Some(of(a)?.over(of(b)?)),
+            Self::Powi(a, n) => Some(of(a)?.powi(n)),
             Self::Pow(a, b) => of(a)?.pow(of(b)?),
             Self::Sqrt(a) => of(a)?.sqrt(),
             Self::Abs(a) => Some(of(a)?.abs()),
             Self::Min(a, b) => {
                 let (a, b) = (of(a)?, of(b)?);
                 Some(Interval {
-                    lo: a.lo.min(b.lo),
+                    lo: least(a.lo, b.lo),
                     hi: a.hi.min(b.hi),
                 })
             }
@@ -146,6 +146,15 @@ impl std::ops::Neg for Interval {
     }
 }
 
+/// The lesser of two bounds: of zeros -0.0, by which a quotient is negative.
+fn least(a: f64, b: f64) -> f64 {
+    match a == b {
+        true if a.is_sign_negative() => a,
+        true => b,
+        false => a.min(b),
+    }
+}
+
 /// Libm's functions are right to an ulp; four leave a margin.
 const LIBM_ULPS: u32 = 4;
 
@@ -167,8 +176,8 @@ impl Interval {
     /// The least interval that holds both.
     pub fn hull(self, other: Self) -> Self {
         Self {
-            lo: self.lo.min(other.lo),
-            hi: self.hi.max(other.hi),
+            lo: least(self.lo, other.lo),
+            hi: -least(-self.hi, -other.hi),
         }
     }
 
@@ -245,13 +254,11 @@ impl Interval {
             .hull(product(self.hi, other.hi))
     }
 
-    pub(super) fn over(self, other: Self) -> Option<Self> {
-        if other.lo == 0.0 && other.hi == 0.0 {
-            return None;
-        }
-        // A difference that is zero is 0.0 and not -0.0, also where it is at most zero.
-        if other.lo < 0.0 && other.hi >= 0.0 {
-            return Some(Self::ALL);
+    pub(super) fn over(self, other: Self) -> Self {
+        // Of both signs, if only in 0.0 and -0.0. A difference that is zero is 0.0 and not -0.0, also where
+        // it is at most zero. What is infinite may end as a finite angle.
+        if other.hi >= 0.0 && (other.lo.is_sign_negative() || other.hi == 0.0) {
+            return Self::ALL;
         }
         if other.hi < 0.0 {
             return (-self).over(-other);
@@ -271,10 +278,10 @@ impl Interval {
         };
         // 0.0 and not -0.0, so that a bound by division by it has the right sign.
         let (least, most) = (other.lo.abs(), other.hi);
-        Some(Self {
+        Self {
             lo: quotient(self.lo, if self.lo < 0.0 { least } else { most }).lo,
             hi: quotient(self.hi, if self.hi < 0.0 { most } else { least }).hi,
-        })
+        }
     }
 
     pub(super) fn abs(self) -> Self {
@@ -304,14 +311,14 @@ impl Interval {
         })
     }
 
-    pub(super) fn powi(self, n: i32) -> Option<Self> {
+    pub(super) fn powi(self, n: i32) -> Self {
         if n == 0 {
-            return Some(Self::point(1.0));
+            return Self::point(1.0);
         }
         if n < 0 {
             return Self::point(1.0).over(self.positive_powi(n.unsigned_abs()));
         }
-        Some(self.positive_powi(n.unsigned_abs()))
+        self.positive_powi(n.unsigned_abs())
     }
 
     /// The power by the interval products of repeated squaring, so that their rounding is covered.
@@ -346,7 +353,7 @@ impl Interval {
         if exponent.lo == exponent.hi && exponent.lo == exponent.lo.trunc() {
             let n = exponent.lo;
             if n.abs() <= i32::MAX.into() {
-                return self.powi(n as i32);
+                return Some(self.powi(n as i32));
             }
             return Some(Self::ALL);
         }
