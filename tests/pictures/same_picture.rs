@@ -229,7 +229,6 @@ fn interrupted_and_resumed_or_not() {
             let last = render(&scene, &Options { tile: None, ..two }).unwrap();
             // Of unfinished pixels, some more.
             let finished = second * (last.paths / last.queries.len() as u64);
-            assert!(last.resumed_paths == finished || name == "many");
             assert!(last.resumed_paths >= finished);
             assert_eq!(bits(&last), expected);
         }

@@ -150,9 +150,17 @@ impl<'a> Job<'a> {
             }
         } else {
             let totals = self.pixels.few(&places, workers, &self.parts())?;
-            for (&place, totals) in places.iter().zip(&totals) {
+            let mut all = places.iter().zip(&totals);
+            let finished = all.try_for_each(|(&place, totals)| {
                 go_on(workers)?;
-                self.finish(&mut tile, place, totals)?;
+                self.finish(&mut tile, place, totals)
+            });
+            if let Err(stop) = finished {
+                // What is traced and not counted yet is not traced again.
+                let all = places.iter().zip(&totals);
+                let parts = all.map(|(&place, totals)| self.pixels.at(place).whole(place, totals));
+                self.parts().keeper().keep(parts)?;
+                return Err(stop);
             }
         }
         let mut film = self.film.lock().unwrap_or_else(PoisonError::into_inner);

@@ -241,6 +241,12 @@ impl Pixels {
         let mut all: Vec<Totals> = before.map(|(_, totals)| totals).collect();
         let mut keeper = kept.keeper();
         let mut new = all.len();
+        let whole = |totals: &[Totals], first: usize| -> Vec<Part> {
+            let pixels = pixels[first..].iter().zip(totals);
+            pixels
+                .map(|(&pixel, totals)| self.whole(pixel, totals))
+                .collect()
+        };
         let together = (self.run() / self.paths).max(1) as usize;
         for group in pixels[new..].chunks(together) {
             let mut totals = vec![self.none(); group.len()];
@@ -248,7 +254,7 @@ impl Pixels {
             while first < self.paths {
                 let end = (first + self.run()).min(self.paths);
                 if let Err(stop) = self.trace(group, first..end, &mut totals, workers) {
-                    keeper.keep(self.whole(pixels, &all, new))?;
+                    keeper.keep(whole(&all[new..], new))?;
                     return Err(stop);
                 }
                 report(workers, (end - first) * group.len() as u64);
@@ -256,27 +262,21 @@ impl Pixels {
             }
             all.append(&mut totals);
             if keeper.is_due() {
-                keeper.keep(self.whole(pixels, &all, new))?;
+                keeper.keep(whole(&all[new..], new))?;
                 new = all.len();
             }
         }
         Ok(all)
     }
 
-    /// The pixels from `new` on whose totals are there, to be kept.
-    fn whole<'a>(
-        &'a self,
-        pixels: &'a [[u32; 2]],
-        totals: &'a [Totals],
-        new: usize,
-    ) -> impl Iterator<Item = Part> + 'a {
-        let whole = pixels.iter().zip(totals).skip(new);
-        whole.map(|(&pixel, totals)| Part {
+    /// The totals of all paths of a pixel, to be kept.
+    pub(super) fn whole(&self, pixel: [u32; 2], totals: &Totals) -> Part {
+        Part {
             pixel,
             number: 0,
             paths: self.paths,
             totals: totals.words(),
-        })
+        }
     }
 
     /// What was kept of part `number` of a pixel, which has `most` paths: how many of them were traced, in
