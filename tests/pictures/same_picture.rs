@@ -336,8 +336,24 @@ fn an_interrupted_tile_goes_on_within_itself() {
             assert!(resumed >= kept + more, "{model:?}: {resumed} after {kept}");
             kept = resumed;
         }
-        let last = render(&scene, &options).unwrap();
+        // Nor is anything traced again where tiles are others.
+        let traced = AtomicU64::new(0);
+        let progress = |progress: Progress| {
+            if let Progress::Finished(more) = progress {
+                traced.fetch_add(more, Ordering::SeqCst);
+            }
+        };
+        let others = Options {
+            tile: Some([3, 5]),
+            workers: Workers {
+                progress: Some(&progress),
+                ..threads(1)
+            },
+            ..options
+        };
+        let last = render(&scene, &others).unwrap();
         assert_eq!(last.resumed_paths, kept);
+        assert_eq!(traced.into_inner(), last.paths - kept, "{model:?}");
         assert_eq!(bits(&last), expected, "{model:?}");
     }
 }

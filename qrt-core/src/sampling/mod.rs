@@ -340,7 +340,8 @@ impl SamplingError {
 
 impl fmt::Display for SamplingError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        syntax::What::from(self.problem()).fmt(f)
+        // Not by way of all problems, whose words a caller may not need.
+        self.problem().words().fmt(f)
     }
 }
 

@@ -234,39 +234,41 @@ impl Pixels {
         workers: &Workers<'_>,
         kept: &Parts<'_>,
     ) -> Result<Vec<Totals>, Stop> {
-        let before = pixels.iter().map_while(|&pixel| {
-            let before = self.before(kept, pixel, 0, self.paths);
-            before.filter(|(paths, _)| *paths == self.paths)
-        });
-        let mut all: Vec<Totals> = before.map(|(_, totals)| totals).collect();
+        let mut all: Vec<Option<Totals>> = (pixels.iter())
+            .map(|&pixel| {
+                let (paths, totals) = self.before(kept, pixel, 0, self.paths)?;
+                (paths == self.paths).then_some(totals)
+            })
+            .collect();
+        let open: Vec<usize> = (0..pixels.len()).filter(|&n| all[n].is_none()).collect();
         let mut keeper = kept.keeper();
-        let mut new = all.len();
-        let whole = |totals: &[Totals], first: usize| -> Vec<Part> {
-            let pixels = pixels[first..].iter().zip(totals);
-            pixels
-                .map(|(&pixel, totals)| self.whole(pixel, totals))
-                .collect()
-        };
+        // Traced, and not kept yet.
+        let mut new: Vec<usize> = Vec::new();
+        let part_of =
+            |n: usize, all: &[Option<Totals>]| Some(self.whole(pixels[n], all[n].as_ref()?));
         let together = (self.run() / self.paths).max(1) as usize;
-        for group in pixels[new..].chunks(together) {
+        for numbers in open.chunks(together) {
+            let group: Vec<[u32; 2]> = numbers.iter().map(|&n| pixels[n]).collect();
             let mut totals = vec![self.none(); group.len()];
             let mut first = 0;
             while first < self.paths {
                 let end = (first + self.run()).min(self.paths);
-                if let Err(stop) = self.trace(group, first..end, &mut totals, workers) {
-                    keeper.keep(whole(&all[new..], new))?;
+                if let Err(stop) = self.trace(&group, first..end, &mut totals, workers) {
+                    keeper.keep(new.drain(..).filter_map(|n| part_of(n, &all)))?;
                     return Err(stop);
                 }
                 report(workers, (end - first) * group.len() as u64);
                 first = end;
             }
-            all.append(&mut totals);
+            for (&n, totals) in numbers.iter().zip(totals) {
+                all[n] = Some(totals);
+            }
+            new.extend(numbers);
             if keeper.is_due() {
-                keeper.keep(whole(&all[new..], new))?;
-                new = all.len();
+                keeper.keep(new.drain(..).filter_map(|n| part_of(n, &all)))?;
             }
         }
-        Ok(all)
+        Ok(all.into_iter().flatten().collect())
     }
 
     /// The totals of all paths of a pixel, to be kept.

@@ -139,11 +139,18 @@ what! {
 }
 
 /// What is wrong, and what to do, in one line.
+impl fmt::Display for Words {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.message)?;
+        let mut help = self.help.iter();
+        help.try_for_each(|help| write!(f, "; {help}"))
+    }
+}
+
+/// What is wrong, and what to do, in one line.
 impl fmt::Display for What {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Words { message, help, .. } = self.words();
-        f.write_str(&message)?;
-        help.map_or(Ok(()), |help| write!(f, "; {help}"))
+        self.words().fmt(f)
     }
 }
 
