@@ -15,6 +15,8 @@
 
 #[path = "common/knot.rs"]
 mod knot;
+#[path = "common/load.rs"]
+mod load;
 #[allow(dead_code, reason = "of meshes only the small ones")]
 #[path = "common/mesh.rs"]
 mod mesh;
@@ -54,7 +56,7 @@ fn main() -> ExitCode {
     );
     let sets = SETS.map(String::from);
     let scenes = CIRCUITS.iter().map(|name| {
-        let scene = mesh::load(root, &format!("scenes-yaml/{name}.yaml"), &sets);
+        let scene = load::load(root, &format!("scenes-yaml/{name}.yaml"), &sets);
         (*name, scene)
     });
     let knot = mesh::mesh(root, mesh::CLOSE, [3, 6], 12);

@@ -19,11 +19,8 @@
 // A bench that cannot run has nothing to report.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
-#[path = "common/knot.rs"]
-mod knot;
-#[allow(dead_code, reason = "no meshes here")]
-#[path = "common/mesh.rs"]
-mod mesh;
+#[path = "common/load.rs"]
+mod load;
 #[path = "common/processor.rs"]
 mod processor;
 #[path = "common/programs.rs"]
@@ -241,7 +238,7 @@ fn limit() -> f64 {
 fn scene(name: &str, uncompute: &str) -> [Circuit; 2] {
     let sets = [format!("circuit.uncompute={uncompute}")];
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let scene = mesh::load(root, &format!("scenes-yaml/{name}.yaml"), &sets);
+    let scene = load::load(root, &format!("scenes-yaml/{name}.yaml"), &sets);
     let oracle = Oracle::rgb(&scene, Options::default());
     let parts = OracleCircuits::new(&oracle.unwrap_or_else(|error| panic!("{error}")));
     [parts.compute, parts.uncompute]

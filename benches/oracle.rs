@@ -28,6 +28,8 @@ mod bodies;
 mod growth;
 #[path = "common/knot.rs"]
 mod knot;
+#[path = "common/load.rs"]
+mod load;
 #[allow(dead_code, reason = "of meshes only the small ones")]
 #[path = "common/mesh.rs"]
 mod mesh;
@@ -131,7 +133,7 @@ struct Measured {
 
 fn load(root: &Path, name: &str, sets: &[&str]) -> ValidScene {
     let sets: Vec<String> = sets.iter().map(ToString::to_string).collect();
-    mesh::load(root, &format!("scenes-yaml/{name}.yaml"), &sets)
+    load::load(root, &format!("scenes-yaml/{name}.yaml"), &sets)
 }
 
 fn oracle(scene: &ValidScene, channel: usize, passes: Passes) -> Oracle {

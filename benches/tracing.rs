@@ -13,12 +13,15 @@
 
 #[path = "common/knot.rs"]
 mod knot;
+#[path = "common/load.rs"]
+mod load;
 #[path = "common/mesh.rs"]
 mod mesh;
 #[path = "common/promises.rs"]
 mod promises;
 
-use mesh::{CLOSE, SIDE, VIEW, WHOLE, load, mesh, sets, with_obj};
+use load::load;
+use mesh::{CLOSE, SIDE, VIEW, WHOLE, mesh, sets, with_obj};
 use promises::Promises;
 use qrt::core::valid::ValidScene;
 use qrt::runtime::machines::{Real, Simd};

@@ -1,7 +1,7 @@
 //! A mesh of 65,536 triangles, and how it is looked at.
 
 use super::knot;
-use qrt::core::front;
+use super::load::load;
 use qrt::core::valid::ValidScene;
 use std::path::Path;
 
@@ -28,15 +28,6 @@ pub(crate) fn sets(depth: usize, path_bits: u32) -> Vec<String> {
         format!("sampling.path_bits={path_bits}"),
         format!("sampling.depths=[{depths}]"),
     ]
-}
-
-/// The scene at `path` in the repository `root`.
-pub(crate) fn load(root: &Path, path: &str, sets: &[String]) -> ValidScene {
-    // A mesh that a bench makes is elsewhere.
-    let allowed = [std::env::temp_dir()];
-    front::load_with(&root.join(path), sets, |files| files.allowing(&allowed))
-        .unwrap_or_else(|report| panic!("{report}"))
-        .valid
 }
 
 /// A knot of `2 * around * along` triangles, traced along paths of four rays.

@@ -1,7 +1,6 @@
 //! The book's figures are what the library draws today.
 
-// The example prints what figures show, and panics where one cannot be made.
-#![allow(dead_code)]
+#![allow(dead_code, reason = "the example prints what figures show")]
 
 #[path = "../../examples/book-figures/figures/mod.rs"]
 mod generators;

@@ -12,6 +12,8 @@
 mod contenders;
 #[path = "../../common/knot.rs"]
 mod knot;
+#[path = "../../common/load.rs"]
+mod load;
 #[path = "../../common/mesh.rs"]
 mod mesh;
 mod paths;

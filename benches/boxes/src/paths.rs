@@ -68,6 +68,10 @@ impl<'p> Nearest<Path<'p>> for Recorder<'_> {
     fn emitter(&self, cx: &mut Path<'p>, ray: &Ray<Path<'p>>, wanted: bool) -> Hit<Path<'p>> {
         self.nearest(cx, ray, wanted)
     }
+
+    fn occluded(&self, _: &mut Path<'p>, _: &Ray<Path<'p>>, _: u32, _: bool) -> bool {
+        unreachable!("the scenes of this bench sample no lamps")
+    }
 }
 
 /// One path.
