@@ -70,7 +70,7 @@ fn main() -> ExitCode {
         Err(why) => {
             println!("Mitsuba was not measured: {why}");
             println!("no promise was checked");
-            ExitCode::SUCCESS
+            ExitCode::FAILURE
         }
     }
 }

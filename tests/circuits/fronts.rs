@@ -98,8 +98,8 @@ fn random(scenes: usize, seed: u64, layouts: fn(&ValidScene, usize) -> Vec<Layou
 }
 
 #[test]
-fn all_that_auto_chooses_from_count_the_same_in_four_random_scenes() {
-    random(4, 0, ladder);
+fn all_that_auto_chooses_from_count_the_same_in_a_random_scene() {
+    random(1, 0, ladder);
 }
 
 #[test]
@@ -119,7 +119,7 @@ fn so_do_all_on_the_fronts_of_three_example_scenes() {
     ];
     for file in ["cornell-box", "lit-box", "cornell-mirror"] {
         let scene = from_file(&format!("scenes-yaml/{file}.yaml"), &small);
-        let layouts = front(&scene, 0);
+        let layouts = [front(&scene, 0), ladder(&scene, 0)].concat();
         check(&scene, 0, &layouts, file);
         println!("{file}: {} circuits", layouts.len());
     }

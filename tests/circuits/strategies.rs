@@ -45,17 +45,15 @@ fn every_strategy_computes_the_same() {
 }
 
 #[test]
-fn so_do_those_of_auto_in_example_scenes() {
+fn so_do_those_of_auto_in_an_example_scene() {
     let small = [
         "film={ width: 3, height: 2 }",
         "sampling.path_bits=5",
         "precision.fraction=9",
         "comparator.bits=5",
     ];
-    for file in ["cornell-box", "lit-box", "cornell-mirror"] {
-        let scene = from_file(&format!("scenes-yaml/{file}.yaml"), &small);
-        agree(&scene, &Strategy::LADDER);
-    }
+    let scene = from_file("scenes-yaml/lit-box.yaml", &small);
+    agree(&scene, &Strategy::LADDER);
 }
 
 #[test]

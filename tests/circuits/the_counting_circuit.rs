@@ -120,6 +120,15 @@ fn gives_it_too_where_work_is_uncomputed_early() {
     is_the_distribution(&["circuit.uncompute=scoped", "comparator.at=edges"], 3);
 }
 
+#[test]
+fn gives_it_too_where_lamps_are_sampled() {
+    for lights in ["next-event", "mis"] {
+        let lights = format!("sampling.lights={lights}");
+        let depths = "sampling.depths=[{ bits: [3, 3] }, { bits: [3, 3], light: [3, 3] }]";
+        is_the_distribution(&[depths, &lights], 3);
+    }
+}
+
 /// With the comparator's top bits fixed, the circuit counts the good indices of a stratum.
 #[test]
 fn gives_the_distribution_of_every_stratum() {

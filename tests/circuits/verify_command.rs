@@ -37,6 +37,26 @@ fn a_reader_learns_what_was_checked_and_that_it_holds() {
 }
 
 #[test]
+fn sampled_lamps_are_checked_as_well() {
+    let folder = Folder::with("box.yaml", include_str!("../scenes/box.yaml"));
+    let lit = "{ bits: [6, 6], light: [6, 6] }";
+    for lights in ["auto", "mis"] {
+        let sets = [
+            format!(
+                "sampling={{ path_bits: 5, lights: {lights}, depths: [{{ bits: [6, 6] }}, {lit}, {lit}] }}"
+            ),
+            "precision.fraction=12".to_owned(),
+        ];
+        let [sampling, precision] = &sets;
+        let all = [
+            "verify", "box.yaml", "--pixels", "6", "--set", sampling, "--set", precision,
+        ];
+        let said = folder.works(&all);
+        assert!(said.contains("\nall of it holds\n"), "{said}");
+    }
+}
+
+#[test]
 fn the_answer_is_versioned_json() {
     let folder = folder();
     let answer = answer(

@@ -82,3 +82,62 @@ fn threads_tiles_and_interruptions_change_no_byte() {
     assert_eq!(all, render(&folder, "gates", &["--threads", "3"]));
     assert_eq!(all, render(&folder, "gates", &["--resume"]));
 }
+
+/// Column and row of a PNG's pixel, and its 8-bit sRGB.
+fn decoded(bytes: Vec<u8>) -> ([u32; 2], Vec<u8>) {
+    let decoder = png::Decoder::new(std::io::Cursor::new(bytes));
+    let mut reader = decoder.read_info().unwrap();
+    let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+    let info = reader.next_frame(&mut pixels).unwrap();
+    assert_eq!(info.color_type, png::ColorType::Rgb);
+    assert_eq!(info.bit_depth, png::BitDepth::Eight);
+    ([info.width, info.height], pixels)
+}
+
+/// The README's pictures are of 256 x 256 pixels and neither dark nor bright, and the first is what the gates make.
+#[test]
+fn the_gallery_is_as_the_readme_says() {
+    let gallery = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/gallery");
+    let read = |name: &str| decoded(std::fs::read(gallery.join(name)).unwrap());
+    let mut pictures = 0;
+    for entry in std::fs::read_dir(&gallery).unwrap() {
+        let name = entry.unwrap().file_name().into_string().unwrap();
+        if !name.ends_with(".png") {
+            continue;
+        }
+        let (size, pixels) = read(&name);
+        assert_eq!(size, [256, 256], "{name}");
+        let mean = pixels.iter().map(|&value| f64::from(value)).sum::<f64>() / pixels.len() as f64;
+        assert!((30.0..200.0).contains(&mean), "{name}: {mean}");
+        pictures += 1;
+    }
+    assert!(pictures > 9, "{pictures}");
+    let folder = Folder::new();
+    let lit = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes-yaml/lit-box.yaml");
+    let crop = [120, 96, 6, 4];
+    let [left, top, width, height] = crop;
+    folder.works(&[
+        "render",
+        lit,
+        "-o",
+        "part.png",
+        "--crop",
+        &format!("{left},{top},{width},{height}"),
+        "--model",
+        "gates",
+        "--estimator",
+        "exact",
+        "--exposure",
+        "1",
+        "--set",
+        "sampling.path_bits=6",
+    ]);
+    let (size, part) = decoded(folder.read("part.png"));
+    assert_eq!(size, [width, height]);
+    let (_, whole) = read("lit-box-gates.png");
+    let rows = (top..top + height).map(|y| {
+        let first = 3 * (256 * y + left) as usize;
+        &whole[first..first + 3 * width as usize]
+    });
+    assert_eq!(part, rows.collect::<Vec<_>>().concat());
+}

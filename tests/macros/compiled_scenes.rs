@@ -16,6 +16,26 @@ qrt! {
     scene Furnace from "scenes-yaml/furnace.yaml"
     scene Scoped from "tests/scenes/scoped.yaml"
     scene Lattice from "tests/scenes/lattice.yaml"
+    scene Lit from "tests/scenes/lit.yaml"
+
+    /// What `Lit` reads from its file.
+    scene LitTwin {
+        name: "lit",
+        camera: perspective { eye: (0.3, 1.5, -0.2), target: (0.3, 0, -0.2), up: (0, 0, 1), vfov: 60 },
+        film: 8 x 8,
+        material floor: lambertian { albedo: rgb(0.8, 0.5, 0.2) },
+        material wall: ggx { alpha: 0.3, reflectance: rgb(0.9, 0.8, 0.7) },
+        material lamp: emitter { radiance: rgb(10, 8, 6), albedo: rgb(0.1, 0.2, 0.3) },
+        quad floor: floor { (-4, 0, -4), (-4, 0, 4), (4, 0, 4), (4, 0, -4) },
+        quad wall: wall { (-1, 0, 1), (1, 0, 1), (1, 2, 1), (-1, 2, 1) },
+        quad lamp: lamp { (-0.5, 2, -0.5), (0.5, 2, -0.5), (0.5, 2, 0.5), (-0.5, 2, 0.5) },
+        triangle second: lamp { (1, 0, 0), (1, 0.5, 0.5), (1, 0, 0.5) },
+        sampling { path_bits: 8, lights: mis },
+        depth primary { bits: (4, 4) },
+        depth secondary { bits: (4, 4), light: (4, 4) },
+        depth third { bits: (4, 4), light: (4, 4) },
+        precision { fraction: 12 },
+    }
 
     /// What `Floor` reads from its file.
     scene Twin {
@@ -168,6 +188,7 @@ scenes! {
     of_the_furnace: Furnace at [7, 7];
     of_a_circuit_that_uncomputes_early: Scoped at [3, 4];
     of_the_product_lattice: Lattice at [3, 4];
+    of_sampled_lamps: Lit at [3, 4];
     of_wide_numbers_and_long_ids: Field at [2, 1];
     of_nothing: Dark at [0, 0];
     of_a_lamp_alone: r#type at [1, 1];
@@ -232,6 +253,8 @@ fn the_layout_reads_rays_of_unit_length_inside_the_box() {
 fn a_scene_and_its_twin_are_one() {
     assert_eq!(Twin::scene().scene(), Floor::scene().scene());
     assert!(Twin::program() == Floor::program());
+    assert_eq!(LitTwin::scene().scene(), Lit::scene().scene());
+    assert!(LitTwin::program() == Lit::program());
     let options = Options {
         model: Model::Fixed,
         crop: Some([16, 30, 32, 2]),
@@ -248,15 +271,30 @@ fn a_scene_and_its_twin_are_one() {
 #[test]
 fn pictures_are_those_of_the_scene() {
     for model in [Model::Fixed, Model::Gates] {
-        let options = Options {
+        let options = |crop| Options {
             model,
-            crop: Some([30, 30, 3, 2]),
+            crop: Some(crop),
             ..Options::default()
         };
-        let compiled = render_compiled::<Floor>(&options).unwrap();
-        let built = render(Floor::scene(), &options).unwrap();
+        let floor = options([30, 30, 3, 2]);
+        let compiled = render_compiled::<Floor>(&floor).unwrap();
+        let built = render(Floor::scene(), &floor).unwrap();
         assert_eq!(compiled.image.pixels, built.image.pixels);
         assert_eq!(compiled.good, built.good);
+        // Of sampled lamps' pixels, one class is compiled: colours are the same, at another scale.
+        let lit = Options {
+            estimator: Some(Estimator::Exact),
+            ..options([0, 0, 8, 8])
+        };
+        let compiled = render_compiled::<Lit>(&lit).unwrap();
+        let built = render(Lit::scene(), &lit).unwrap();
+        let off = compiled.image.pixels.iter().zip(&built.image.pixels);
+        let off = off.flat_map(|(a, b)| (0..3).map(move |c| (a[c] - b[c]).abs()));
+        let (off, step) = (
+            off.fold(0.0, f64::max),
+            compiled.scales.greatest()[0] / 4096.0,
+        );
+        assert!(off <= step && built.mean()[0] > 10.0 * step, "{off} {step}");
     }
 }
 

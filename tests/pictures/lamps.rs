@@ -2,17 +2,22 @@
 
 use super::independent::{mean, rms_difference, traced};
 use crate::common::scene::{from_file, written};
+use qrt::core::front::{Files, parse_with};
 use qrt::core::syntax::Problem;
 use qrt::core::tracer::{PixelClass, PixelClasses};
 use qrt::core::valid::ValidScene;
-use qrt::prelude::{Estimator, Options, render};
+use qrt::prelude::{Estimator, Model, Options, render};
 use qrt::runtime::machines::Real;
 use qrt::runtime::random::Stream;
 use std::fmt::Write as _;
 
 /// A floor that a camera looks down at, what hangs above it, and a material of the floor.
 fn room(material: &str, lamps: &str, more: &str, sampling: &str) -> ValidScene {
-    let text = format!(
+    written(&room_of(material, lamps, more, sampling), &[])
+}
+
+fn room_of(material: &str, lamps: &str, more: &str, sampling: &str) -> String {
+    format!(
         "name: room
 camera: {{ perspective: {{ eye: [0, 1.6, 2.4], target: [0, 0.2, 0], vfov: 50 }} }}
 film: {{ width: 4, height: 4 }}
@@ -27,8 +32,7 @@ geometry:
 {lamps}{more}
 sampling: {sampling}
 "
-    );
-    written(&text, &[])
+    )
 }
 
 const QUAD: &str = "  - quad: { vertices: [[-0.5, 1.5, -0.5], [0.5, 1.5, -0.5], [0.5, 1.5, 0.3], [-0.5, 1.5, 0.3]], material: lamp }\n";
@@ -39,6 +43,8 @@ const TWISTED: &str = "  - quad: { vertices: [[-0.5, 1.3, -0.5], [0.5, 1.5, -0.5
 const TWO: &str =
     "  - triangle: { vertices: [[0.6, 1.4, -0.5], [1, 1.5, -0.5], [0.8, 1.6, 0]], material: lamp }
   - quad: { vertices: [[-1, 0, 0.2], [-1, 0, -1], [-1, 1, -1], [-1, 1, 0.2]], material: pale }\n";
+/// A lamp that stands on the floor and touches the wall.
+const CORNER: &str = "  - quad: { vertices: [[-1, 0, 0.2], [-1, 0, -2], [-1, 1, -2], [-1, 1, 0.2]], material: lamp }\n";
 /// A card in the lamp's own plane, listed before it, that hides a part of it.
 const COVERED: &str = "  - quad: { vertices: [[-0.5, 1.5, -0.5], [0, 1.5, -0.5], [0, 1.5, 0.3], [-0.5, 1.5, 0.3]], material: white }
   - quad: { vertices: [[-0.5, 1.5, -0.5], [0.5, 1.5, -0.5], [0.5, 1.5, 0.3], [-0.5, 1.5, 0.3]], material: lamp }\n";
@@ -87,6 +93,94 @@ fn lamps_of_all_shapes_give_the_light_that_is_found_by_chance() {
     agree("covered", MATTE, COVERED, "auto", &ways);
     // One that stands on the floor has no bound of next-event estimation.
     agree("two", MATTE, TWO, "auto", &["auto", "mis"]);
+}
+
+/// Where next-event estimation has no bound for a lamp, `auto` is multiple importance sampling; elsewhere it is
+/// next-event estimation.
+#[test]
+fn auto_is_one_of_both() {
+    let picture = |lamps, way| {
+        let scene = room(MATTE, lamps, "", &sampling(8, way, "auto"));
+        traced(&scene, 1)
+    };
+    assert_eq!(picture(CORNER, "auto"), picture(CORNER, "mis"));
+    assert_eq!(picture(QUAD, "auto"), picture(QUAD, "next-event"));
+    assert_ne!(picture(QUAD, "auto"), picture(QUAD, "mis"));
+}
+
+/// The faces of a mesh that emits are lamps one by one, as triangles of their own are.
+#[test]
+fn a_mesh_that_emits_is_sampled_face_by_face() {
+    const CORNERS: [[f64; 3]; 5] = [
+        [-0.5, 1.5, -0.5],
+        [0.5, 1.4, -0.5],
+        [0.6, 1.5, 0.3],
+        [0.0, 1.7, 0.4],
+        [-0.5, 1.5, 0.3],
+    ];
+    const FACES: [[usize; 3]; 3] = [[0, 1, 2], [0, 2, 3], [0, 3, 4]];
+    let (mut obj, mut triangles) = (String::new(), String::new());
+    for [x, y, z] in CORNERS {
+        writeln!(obj, "v {x} {y} {z}").unwrap();
+    }
+    for face in FACES {
+        let [a, b, c] = face.map(|corner| corner + 1);
+        writeln!(obj, "f {a} {b} {c}").unwrap();
+        let corners = face.map(|corner| CORNERS[corner]);
+        writeln!(
+            triangles,
+            "  - triangle: {{ vertices: {corners:?}, material: lamp }}"
+        )
+        .unwrap();
+    }
+    let mesh = "  - mesh: { obj: lamp.obj, material: lamp }\n";
+    for way in ["auto", "mis"] {
+        let sampling = sampling(8, way, "auto");
+        let of = |lamps: &str| {
+            let text = room_of(MATTE, lamps, BLOCK, &sampling);
+            let files = [("lamp.obj", obj.as_bytes())];
+            let parsed = parse_with(&text, "room.yaml", &[], Files::held(&files));
+            parsed.unwrap_or_else(|report| panic!("{report}")).valid
+        };
+        let (whole, apart) = (of(mesh), of(&triangles));
+        for model in [Model::Real, Model::Fixed] {
+            let options = Options {
+                model,
+                estimator: Some(Estimator::Exact),
+                ..Options::default()
+            };
+            let [whole, apart] =
+                [&whole, &apart].map(|scene| render(scene, &options).unwrap().image);
+            assert_eq!(whole, apart, "{way}, {model:?}");
+            assert!(whole.pixels.iter().any(|pixel| pixel[0] > 0.05));
+        }
+    }
+}
+
+/// A device that loses its state and misreads it counts the paths to sampled lamps as it counts others: the
+/// same on integers as through gates.
+#[test]
+fn noise_is_that_of_any_picture() {
+    let scene = room(MATTE, QUAD, BLOCK, &sampling(6, "auto", "auto"));
+    let of = |model, noise: &str| {
+        let options = Options {
+            model,
+            estimator: Some(Estimator::Sine),
+            noise: noise.parse().unwrap(),
+            ..Options::default()
+        };
+        render(&scene, &options).unwrap()
+    };
+    let noise = "depolarising=1e-6,readout=0.005";
+    let [fixed, gates] = [Model::Fixed, Model::Gates].map(|model| of(model, noise));
+    assert_eq!(fixed.image, gates.image);
+    let quiet = of(Model::Fixed, "depolarising=0,readout=0");
+    let differ = |a: &[[f64; 3]], b: &[[f64; 3]]| a.iter().zip(b).filter(|(a, b)| a != b).count();
+    assert_eq!(fixed.good, quiet.good);
+    assert!(differ(&fixed.image.pixels, &quiet.image.pixels) > 0);
+    // Misreading a bit that is worth half of all is seldom.
+    let [mean, expected] = [&fixed, &quiet].map(|picture| picture.mean()[0]);
+    assert!((mean / expected - 1.0).abs() < 0.5, "{mean} {expected}");
 }
 
 #[test]
@@ -269,7 +363,6 @@ sampling: {{ path_bits: 8, lights: {lights}, depths: [{{ bits: [6, 6] }}, {depth
     assert!(sampled > 1000 && near > 30, "{sampled} {near}");
 }
 
-/// A closed block of glass multiplies no light, however many times a path refracts.
 /// A camera that is all but on a lit wall sees the wall's light, at a scale that holds it.
 #[test]
 fn a_camera_close_to_a_wall_sees_what_lights_it() {
@@ -305,6 +398,7 @@ sampling: {{ path_bits: 10, depths: [{{ bits: [6, 6] }}, {{ bits: [6, 6], light:
     }
 }
 
+/// A closed block of glass multiplies no light, however many times a path refracts.
 #[test]
 fn closed_glass_does_not_multiply_the_scale() {
     let scene = |depths: usize| {
@@ -322,8 +416,17 @@ fn closed_glass_does_not_multiply_the_scale() {
     for depths in [2, 4, 6] {
         assert!(bound(depths) <= lamp, "{depths}: {} {lamp}", bound(depths));
         // And no path carries more.
-        let picture = traced(&scene(depths), 1);
-        assert!(mean(&picture) > 0.0);
+        let scene = scene(depths);
+        let real = Real::new(&scene, 1).unwrap();
+        let pixels: Vec<[u32; 2]> = (0..64 * 64).map(|k| [k % 64, k / 64]).collect();
+        let mut most = 0.0;
+        real.trace(&pixels, |block| {
+            most = block.colours[0].iter().copied().fold(most, f64::max);
+        });
+        assert!(
+            most <= bound(depths) * (1.0 + 1e-12) && most > 0.0,
+            "{most}"
+        );
     }
 }
 

@@ -44,11 +44,19 @@ fn picture(
     render(scene, &options).unwrap()
 }
 
+/// Depths at which those lamps are sampled.
+const LIT: &str = "[{ bits: [4, 4] }, { bits: [6, 6], light: [6, 6] }]";
+
 /// The net's shift is the seed's, too: the mean over seeds is that of many shifted nets.
 #[test]
 fn colours_are_right_on_average() {
-    let scene = written(LAMPS, &[]);
-    for (model, seeds) in [(Model::Real, 400_u32), (Model::Fixed, 60)] {
+    let lit = format!("sampling.depths={LIT}");
+    for (model, seeds, sets) in [
+        (Model::Real, 400_u32, &[][..]),
+        (Model::Real, 400, &[&*lit]),
+        (Model::Fixed, 60, &[]),
+    ] {
+        let scene = written(LAMPS, sets);
         let mut sum = [[0.0; 3]; 9];
         let mut square = [[0.0; 3]; 9];
         for seed in 0..u64::from(seeds) {
@@ -104,12 +112,16 @@ sampling: { path_bits: 5 }
 
 #[test]
 fn all_models_measure_the_same_paths() {
-    let scene = written(LAMPS, &["sampling.path_bits=5", "comparator.bits=5"]);
-    let [fixed, gates] = [Model::Fixed, Model::Gates]
-        .map(|model| picture(&scene, model, Estimator::Sine, Colour::OneRun, 3));
-    assert_eq!(fixed.image, gates.image);
-    assert_eq!(fixed.queries, gates.queries);
-    assert!(fixed.good.is_none());
+    for depths in ["[{ bits: [4, 4] }, { bits: [6, 6] }]", LIT] {
+        let depths = format!("sampling.depths={depths}");
+        let sets = ["sampling.path_bits=5", "comparator.bits=5", &depths];
+        let scene = written(LAMPS, &sets);
+        let [fixed, gates] = [Model::Fixed, Model::Gates]
+            .map(|model| picture(&scene, model, Estimator::Sine, Colour::OneRun, 3));
+        assert_eq!(fixed.image, gates.image);
+        assert_eq!(fixed.queries, gates.queries);
+        assert!(fixed.good.is_none());
+    }
 }
 
 /// The luminance that the circuit computes is that of the colours that it computes.

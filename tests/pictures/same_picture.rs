@@ -308,14 +308,19 @@ fn an_interrupted_pixel_goes_on_within_itself() {
 /// A tile is not finished before it is interrupted, be its pixels traced together or one by one.
 #[test]
 fn an_interrupted_tile_goes_on_within_itself() {
-    for (model, path_bits, estimator) in [
-        (Model::Real, 13, Estimator::Sine),
-        (Model::Fixed, 9, Estimator::Exact),
-        (Model::Gates, 9, Estimator::Sine),
-        (Model::Gates, 12, Estimator::Exact),
+    let lit = "{ bits: [6, 6], light: [6, 6] }";
+    let lit = format!("sampling.depths=[{{ bits: [8, 8] }}, {lit}, {lit}]");
+    for (model, path_bits, estimator, lights) in [
+        (Model::Real, 13, Estimator::Sine, "sampling.lights=none"),
+        (Model::Real, 13, Estimator::Sine, &lit),
+        (Model::Fixed, 9, Estimator::Exact, "sampling.lights=none"),
+        (Model::Fixed, 9, Estimator::Exact, &lit),
+        (Model::Gates, 9, Estimator::Sine, "sampling.lights=none"),
+        (Model::Gates, 12, Estimator::Exact, "sampling.lights=none"),
     ] {
         let bits_of_paths = format!("sampling.path_bits={path_bits}");
-        let scene = scene(&[&bits_of_paths, "film={ width: 8, height: 8 }"]);
+        let film = "film={ width: 8, height: 8 }";
+        let scene = scene(&[&bits_of_paths, film, lights]);
         let options = Options {
             model,
             ..with(estimator)

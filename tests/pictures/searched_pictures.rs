@@ -62,7 +62,8 @@ fn a_search_that_does_not_fail_finds_the_tracers_picture() {
 #[test]
 fn a_search_that_does_not_fail_finds_what_asking_about_all_finds() {
     // In general a table's rounding is another than a constant's: the oracle itself is the measure.
-    for sets in [&[][..], &["sampling.depths=[{ bits: [8, 8] }]"]] {
+    let lit = "sampling.depths=[{ bits: [8, 8] }, { bits: [6, 6], light: [6, 6] }]";
+    for sets in [&[][..], &["sampling.depths=[{ bits: [8, 8] }]"], &[lit]] {
         let room = from_file(
             "tests/scenes/box.yaml",
             &[sets, &["sampling.path_bits=6"]].concat(),

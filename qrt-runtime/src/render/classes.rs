@@ -58,16 +58,18 @@ impl Classes {
         self.pixels.iter().any(|(_, pixels)| pixels.splits())
     }
 
-    /// The totals of all paths of `places`, which have few each.
+    /// The totals of all paths of `places`, which have few each: see [`Pixels::few`].
     pub(super) fn few(
         &self,
         places: &[[u32; 2]],
+        totals: &mut [Option<Totals>],
         workers: &Workers<'_>,
         kept: &Parts<'_>,
-    ) -> Result<Vec<Totals>, Stop> {
-        self.of.apart(places, |_, mine| match mine {
-            [first, ..] => self.at(*first).few(mine, workers, kept),
-            [] => Ok(Vec::new()),
+    ) -> Result<(), Stop> {
+        self.pixels.iter().try_for_each(|(class, pixels)| {
+            let mine = (0..places.len()).filter(|&n| self.of.of(places[n]) == *class);
+            let mine: Vec<usize> = mine.collect();
+            pixels.few(places, &mine, totals, workers, kept)
         })
     }
 }

@@ -149,17 +149,23 @@ impl<'a> Job<'a> {
                 self.finish(&mut tile, place, &totals)?;
             }
         } else {
-            let totals = self.pixels.few(&places, workers, &self.parts())?;
-            let mut all = places.iter().zip(&totals);
-            let finished = all.try_for_each(|(&place, totals)| {
-                go_on(workers)?;
-                self.finish(&mut tile, place, totals)
+            let mut totals = vec![None; places.len()];
+            let kept = self.parts();
+            let traced = self.pixels.few(&places, &mut totals, workers, &kept);
+            let of_pixels = || {
+                let all = places.iter().zip(&totals);
+                all.filter_map(|(&place, totals)| Some((place, totals.as_ref()?)))
+            };
+            let finished = traced.and_then(|()| {
+                of_pixels().try_for_each(|(place, totals)| {
+                    go_on(workers)?;
+                    self.finish(&mut tile, place, totals)
+                })
             });
             if let Err(stop) = finished {
                 // What is traced and not counted yet is not traced again.
-                let all = places.iter().zip(&totals);
-                let parts = all.map(|(&place, totals)| self.pixels.at(place).whole(place, totals));
-                self.parts().keeper().keep(parts)?;
+                let part = |(place, totals)| self.pixels.at(place).whole(place, totals);
+                kept.keeper().keep(of_pixels().map(part))?;
                 return Err(stop);
             }
         }

@@ -225,27 +225,27 @@ impl Pixels {
         }
     }
 
-    /// The totals of all paths of `pixels`, which have few each, as many pixels at a time as are run
-    /// together; `workers` are told of them, and they are handed to `kept`, of which those are that were
-    /// there before.
+    /// The totals of all paths of these of `pixels`, which have few each, put in their places of `all`: as many
+    /// pixels at a time as are run together. `workers` are told of them; those that `kept` has are not traced
+    /// again, and others are handed to it now and then. What is traced is in `all`, too, when it ends early.
     pub(super) fn few(
         &self,
         pixels: &[[u32; 2]],
+        numbers: &[usize],
+        all: &mut [Option<Totals>],
         workers: &Workers<'_>,
         kept: &Parts<'_>,
-    ) -> Result<Vec<Totals>, Stop> {
-        let mut all: Vec<Option<Totals>> = (pixels.iter())
-            .map(|&pixel| {
-                let (paths, totals) = self.before(kept, pixel, 0, self.paths)?;
-                (paths == self.paths).then_some(totals)
-            })
-            .collect();
-        let open: Vec<usize> = (0..pixels.len()).filter(|&n| all[n].is_none()).collect();
+    ) -> Result<(), Stop> {
+        for &n in numbers {
+            let before = self.before(kept, pixels[n], 0, self.paths);
+            let whole = before.filter(|(paths, _)| *paths == self.paths);
+            all[n] = whole.map(|(_, totals)| totals);
+        }
+        let open = numbers.iter().copied().filter(|&n| all[n].is_none());
+        let open: Vec<usize> = open.collect();
         let mut keeper = kept.keeper();
         // Traced, and not kept yet.
         let mut new: Vec<usize> = Vec::new();
-        let part_of =
-            |n: usize, all: &[Option<Totals>]| Some(self.whole(pixels[n], all[n].as_ref()?));
         let together = (self.run() / self.paths).max(1) as usize;
         for numbers in open.chunks(together) {
             let group: Vec<[u32; 2]> = numbers.iter().map(|&n| pixels[n]).collect();
@@ -253,10 +253,7 @@ impl Pixels {
             let mut first = 0;
             while first < self.paths {
                 let end = (first + self.run()).min(self.paths);
-                if let Err(stop) = self.trace(&group, first..end, &mut totals, workers) {
-                    keeper.keep(new.drain(..).filter_map(|n| part_of(n, &all)))?;
-                    return Err(stop);
-                }
+                self.trace(&group, first..end, &mut totals, workers)?;
                 report(workers, (end - first) * group.len() as u64);
                 first = end;
             }
@@ -265,10 +262,11 @@ impl Pixels {
             }
             new.extend(numbers);
             if keeper.is_due() {
-                keeper.keep(new.drain(..).filter_map(|n| part_of(n, &all)))?;
+                let part = |n: usize| Some(self.whole(pixels[n], all[n].as_ref()?));
+                keeper.keep(new.drain(..).filter_map(part))?;
             }
         }
-        Ok(all.into_iter().flatten().collect())
+        Ok(())
     }
 
     /// The totals of all paths of a pixel, to be kept.
@@ -546,8 +544,11 @@ sampling: { path_bits: 5 }
     }
 
     fn few(pixels: &Pixels) -> Vec<Totals> {
-        let few = pixels.few(&[[1, 0]], &Workers::default(), &Parts::default());
-        few.ok().unwrap()
+        let mut all = [None];
+        let (workers, kept) = (Workers::default(), Parts::default());
+        let traced = pixels.few(&[[1, 0]], &[0], &mut all, &workers, &kept);
+        traced.ok().unwrap();
+        all.into_iter().flatten().collect()
     }
 
     fn finish(pixels: &Pixels, totals: &Totals) -> Result<Pixel, Stop> {
