@@ -2,17 +2,17 @@
 
 use super::terminal;
 use qrt_core::valid::ValidScene;
-use qrt_runtime::machines::OracleCircuits;
+use qrt_runtime::machines::Gates;
 use qrt_runtime::memory::CircuitSize;
 use qrt_runtime::render::Model;
 
 /// Paths that a thread is taken to trace in a second: a round figure, for an estimate of hours or days.
 const PATHS: f64 = 1e6;
 /// Gates of a path that a thread is taken to run in a second, and operations: round figures, too.
-const GATES: f64 = 2e10;
+const GATES: f64 = 2e11;
 const OPERATIONS: f64 = 2e8;
-/// Gates that are not held, but made as they run.
-const GATES_ANEW: f64 = 2e9;
+/// Gates of circuits of so many qubits that few paths run at a time, while they are made anew for these.
+const GATES_ANEW: f64 = 5e9;
 /// Of so few, circuits are not looked at.
 const FEW_PATHS: f64 = 65_536.0;
 /// Less is not told of.
@@ -24,8 +24,8 @@ fn seconds(size: Option<CircuitSize>, model: Model) -> f64 {
         Model::Real => 1.0 / PATHS,
         Model::Fixed => size.map_or(0.0, |size| size.operations / OPERATIONS),
         Model::Gates => size.map_or(0.0, |size| {
-            let held = size.bits <= OracleCircuits::MOST_BITS as f64;
-            size.gates / if held { GATES } else { GATES_ANEW }
+            let many = size.qubits <= f64::from(Gates::QUBITS_OF_ONE_TURN);
+            size.gates / if many { GATES } else { GATES_ANEW }
         }),
     }
 }

@@ -73,6 +73,7 @@ struct Lowering {
 }
 
 impl Gates for Lowering {
+    #[inline]
     fn gate(&mut self, gate: Gate) {
         self.gates.push(gate);
     }

@@ -34,9 +34,6 @@ use std::ops::Range;
 use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, PoisonError};
 
-/// With more qubits than these, gates that are not held run on one thread: there are rows for one.
-const QUBITS_OF_ONE_TURN: u32 = 1 << 22;
-
 /// An oracle of all three channels on a machine.
 pub struct OracleMachine {
     oracle: Arc<Oracle>,
@@ -59,7 +56,10 @@ enum Machine {
     },
     Gates {
         gates: Box<Gates>,
-        rows: Pool<Rows>,
+        /// Those of a block of paths.
+        rows: Pool<Vec<Rows>>,
+        /// How many these are.
+        at_once: usize,
         parts: Box<OracleCircuits>,
     },
 }
@@ -172,14 +172,17 @@ impl OracleMachine {
         circuits.extend(&parts.flips);
         circuits.push(&parts.uncompute);
         let mut gates = Box::new(Gates::new(&circuits)?);
+        let mut at_once = 1;
         if parts.streamed.is_some() {
-            *gates = gates.with_few_lanes();
+            *gates = gates.for_many_rows();
+            at_once = gates.rows_at_once();
         }
         flips::try_all(&oracle, &parts)?;
         let outputs = outputs(&oracle, colours);
         let machine = Machine::Gates {
             gates,
             rows: Pool::new(),
+            at_once,
             parts: Box::new(parts),
         };
         Ok(Self::of(oracle, seed, outputs, machine))
@@ -207,7 +210,7 @@ impl OracleMachine {
     /// Paths that run together: a multiple of these leaves nothing idle.
     pub fn paths_at_once(&self) -> u64 {
         match &self.machine {
-            Machine::Gates { gates, .. } => gates.lanes() as u64,
+            Machine::Gates { gates, at_once, .. } => (at_once * gates.lanes()) as u64,
             Machine::Fixed { .. } | Machine::Native { .. } => Gates::LANES as u64,
         }
     }
@@ -246,7 +249,7 @@ impl OracleMachine {
         let parameters: Vec<Vec<u64>> = pixels.iter().map(|&pixel| self.words(pixel)).collect();
         let most = match &self.machine {
             Machine::Fixed { .. } | Machine::Native { .. } => Fixed::LANES,
-            Machine::Gates { gates, .. } => gates.lanes(),
+            Machine::Gates { gates, at_once, .. } => at_once * gates.lanes(),
         };
         let mut block = OracleBlock {
             ids: Vec::with_capacity(most),
@@ -385,13 +388,18 @@ impl OracleMachine {
                 let runs: Vec<_> = runs.collect();
                 run(*instructions, &runs, &mut block.values);
             }
-            Machine::Gates { gates, rows, parts } => {
+            Machine::Gates {
+                gates,
+                rows,
+                at_once,
+                parts,
+            } => {
                 let large = parts.streamed.as_ref();
-                let large = large.filter(|_| parts.compute.qubits > QUBITS_OF_ONE_TURN);
+                let large = large.filter(|_| parts.compute.qubits > Gates::QUBITS_OF_ONE_TURN);
                 let turn = large.map(|streamed| &streamed.turn);
                 let _turn = turn.map(|turn| turn.lock().unwrap_or_else(PoisonError::into_inner));
                 rows.lend(
-                    || gates.rows(),
+                    || (0..*at_once).map(|_| gates.rows()).collect(),
                     |own| self.run_gates(gates, parts, own, block, (&spans, cancel)),
                 )?;
             }

@@ -2,6 +2,7 @@
 //! with the number, and with what to lower.
 
 use super::allowed_bytes;
+use crate::machines::Gates;
 use qrt_circuit::lower;
 use qrt_core::oracle::{MOST_BITS, Options, Oracle};
 use qrt_core::valid::ValidScene;
@@ -237,8 +238,11 @@ impl CircuitSize {
             CircuitWork::Gates(threads) if self.bits <= MOST_BITS as f64 => {
                 compiled + 40.0 * self.gates + 256.0 * qubits * threads as f64
             }
-            // Rows of 32 bytes, once; where registers are; the program with its inverse.
-            CircuitWork::Gates(_) => compiled.max(64.0 * qubits + 500.0 * operations),
+            // Rows; where registers are; the program with its inverse.
+            CircuitWork::Gates(threads) => {
+                let rows = Gates::bytes_of_many_rows(qubits, threads);
+                compiled.max(rows + 32.0 * qubits + 500.0 * operations)
+            }
             CircuitWork::Export if self.bits <= MOST_BITS as f64 => compiled + 48.0 * self.gates,
             CircuitWork::Program | CircuitWork::Export => compiled,
         }

@@ -1,7 +1,9 @@
 //! From a list of gates to code: runs of patterns, and the rows that they work on.
 
-use super::patterns::{PATTERNS, Pattern};
+use super::patterns::PATTERNS;
 use qrt_circuit::{Circuit, Gate};
+use std::cmp::Reverse;
+use std::sync::LazyLock;
 
 /// Longest run of one pattern.
 const LONGEST: usize = 1 << 20;
@@ -63,9 +65,10 @@ impl Wiring {
 
     /// The code of `gates`, or the place of the first that is none.
     pub(super) fn compile(&self, gates: &[Gate]) -> Result<Box<[u32]>, usize> {
-        let gates = gates.iter().enumerate();
-        let rows = gates.map(|(place, gate)| self.on_rows(*gate).ok_or(place));
-        let rows: Vec<Gate> = rows.collect::<Result<_, _>>()?;
+        let mut rows = Vec::with_capacity(gates.len());
+        for (place, gate) in gates.iter().enumerate() {
+            rows.push(self.on_rows(*gate).ok_or(place)?);
+        }
         Ok(code(&rows).into())
     }
 
@@ -98,11 +101,12 @@ pub(super) fn parts(head: u32) -> (usize, usize) {
 
 /// Code: for each run of a pattern a word `pattern | count << 8`, and the rows it works on.
 fn code(gates: &[Gate]) -> Vec<u32> {
-    let mut code = Vec::new();
+    let mut code = Vec::with_capacity(gates.len());
     let mut head = None;
+    let mut kinds = kinds(gates);
     let mut rest = gates;
     while !rest.is_empty() {
-        let Some((number, rows)) = longest(rest) else {
+        let Some((number, rows)) = longest(rest, kinds) else {
             break;
         };
         let pattern = &PATTERNS[number];
@@ -116,54 +120,113 @@ fn code(gates: &[Gate]) -> Vec<u32> {
             }
         }
         code.extend_from_slice(&rows[..pattern.rows]);
+        for place in MOST_GATES..MOST_GATES + pattern.gates.len() {
+            kinds = kinds >> 2 | rest.get(place).map_or(0, kind) << (2 * MOST_GATES - 2);
+        }
         rest = &rest[pattern.gates.len()..];
     }
     code
 }
 
-/// The longest pattern that `gates` begin with, and its rows.
-fn longest(gates: &[Gate]) -> Option<(usize, [u32; ROWS])> {
-    let fits = |(number, pattern): (usize, &Pattern)| {
-        let mut bound = [None; ROWS];
-        let rows = gates.len() >= pattern.gates.len() && bind(pattern.gates, gates, &mut bound);
-        rows.then(|| (number, bound.map(|row| row.unwrap_or(0))))
-    };
-    let matches = PATTERNS.iter().enumerate().filter_map(fits);
-    matches.max_by_key(|(number, _)| PATTERNS[*number].gates.len())
+/// Most gates of a pattern: their kinds are the bits of a word.
+const MOST_GATES: usize = 32;
+
+/// A gate's kind, of two bits, none of which is 0.
+fn kind(gate: &Gate) -> u64 {
+    match gate {
+        Gate::X(_) => 1,
+        Gate::Cx(..) => 2,
+        Gate::Ccx(..) => 3,
+        Gate::Load { .. } | Gate::Z(_) => 0,
+    }
 }
 
-/// Binds the rows of a pattern's gates to those of `gates`, different ones to different ones.
-fn bind(pattern: &[Gate], gates: &[Gate], bound: &mut [Option<u32>; ROWS]) -> bool {
-    let ([first, pattern @ ..], [gate, gates @ ..]) = (pattern, gates) else {
-        return true;
-    };
-    let before = *bound;
-    let ways: &[(&[u32], &[u32])] = match (first, gate) {
-        (Gate::X(p), Gate::X(t)) => &[(&[*p], &[*t])],
-        (Gate::Cx(p, q), Gate::Cx(a, t)) => &[(&[*p, *q], &[*a, *t])],
-        (Gate::Ccx(p, q, r), Gate::Ccx(a, b, t)) => &[
-            (&[*p, *q, *r], &[*a, *b, *t]),
-            (&[*p, *q, *r], &[*b, *a, *t]),
-        ],
-        _ => &[],
-    };
-    ways.iter().any(|(names, rows)| {
-        *bound = before;
-        let all = names.iter().zip(*rows);
-        all.fold(true, |fits, (name, row)| {
-            fits && bind_one(bound, *name, *row)
-        }) && bind(pattern, gates, bound)
+/// The kinds of the first gates, the first lowest; zeros where there are no more.
+fn kinds(gates: &[Gate]) -> u64 {
+    let first = gates.iter().take(MOST_GATES).rev();
+    first.fold(0, |kinds, gate| kinds << 2 | kind(gate))
+}
+
+/// A pattern as it is looked for.
+struct Candidate {
+    number: usize,
+    kinds: u64,
+    mask: u64,
+}
+
+/// By the kinds of the first three gates, the patterns that may begin there, longest first.
+static CANDIDATES: LazyLock<[Vec<Candidate>; 64]> = LazyLock::new(|| {
+    let mut longest_first: Vec<usize> = (0..PATTERNS.len()).collect();
+    longest_first.sort_by_key(|number| Reverse(PATTERNS[*number].gates.len()));
+    std::array::from_fn(|three| {
+        let all = longest_first.iter().map(|&number| {
+            let gates = PATTERNS[number].gates;
+            Candidate {
+                number,
+                kinds: kinds(gates),
+                mask: u64::MAX >> (2 * (MOST_GATES - gates.len())),
+            }
+        });
+        all.filter(|c| (c.kinds ^ three as u64) & c.mask & 63 == 0)
+            .collect()
+    })
+});
+
+/// No row.
+const FREE: u32 = u32::MAX;
+
+/// The longest pattern that `gates` begin with, whose kinds are given, and its rows.
+fn longest(gates: &[Gate], kinds: u64) -> Option<(usize, [u32; ROWS])> {
+    let candidates = CANDIDATES[(kinds & 63) as usize].iter();
+    let mut candidates = candidates.filter(|c| kinds & c.mask == c.kinds);
+    candidates.find_map(|candidate| {
+        let mut bound = [FREE; ROWS];
+        let pattern = PATTERNS[candidate.number].gates;
+        bind(pattern, gates, &mut bound).then_some((candidate.number, bound))
     })
 }
 
-fn bind_one(bound: &mut [Option<u32>; ROWS], name: u32, row: u32) -> bool {
-    let taken = bound.contains(&Some(row));
-    match &mut bound[name as usize] {
-        Some(old) => *old == row,
-        free if !taken => {
-            *free = Some(row);
-            true
+/// Binds the rows of a pattern's gates to those of `gates`, different ones to different ones.
+fn bind(pattern: &[Gate], gates: &[Gate], bound: &mut [u32; ROWS]) -> bool {
+    for (place, pair) in pattern.iter().zip(gates).enumerate() {
+        let fits = match pair {
+            (Gate::X(p), Gate::X(t)) => bind_all(bound, [(*p, *t)]),
+            (Gate::Cx(p, q), Gate::Cx(a, t)) => bind_all(bound, [(*p, *a), (*q, *t)]),
+            (Gate::Ccx(p, q, r), Gate::Ccx(a, b, t)) => {
+                let [first, second] = [p, q].map(|name| bound[*name as usize]);
+                let turned = first == *b || second == *a;
+                if [first, second] == [FREE, FREE] {
+                    // Either may be either: if it does not end well, the other is tried.
+                    let before = *bound;
+                    if bind_all(bound, [(*p, *a), (*q, *b), (*r, *t)])
+                        && bind(&pattern[place + 1..], &gates[place + 1..], bound)
+                    {
+                        return true;
+                    }
+                    *bound = before;
+                    bind_all(bound, [(*p, *b), (*q, *a), (*r, *t)])
+                } else if turned {
+                    bind_all(bound, [(*p, *b), (*q, *a), (*r, *t)])
+                } else {
+                    bind_all(bound, [(*p, *a), (*q, *b), (*r, *t)])
+                }
+            }
+            _ => false,
+        };
+        if !fits {
+            return false;
         }
-        _ => false,
     }
+    true
+}
+
+fn bind_all<const N: usize>(bound: &mut [u32; ROWS], pairs: [(u32, u32); N]) -> bool {
+    pairs.into_iter().all(|(name, row)| {
+        let old = bound[name as usize];
+        let free = old == FREE && !bound.contains(&row);
+        if free {
+            bound[name as usize] = row;
+        }
+        free || old == row
+    })
 }

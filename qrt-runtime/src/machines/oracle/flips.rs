@@ -4,7 +4,7 @@ use super::{Defect, OracleCircuits};
 use crate::machines::gates::Gates;
 use qrt_circuit::{Circuit, Gate, Operand, Qubit, Word};
 use qrt_core::oracle::{Channel, Oracle};
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 
 /// Most bits of a colour and a comparator together that are tried in all pairs. With more, every
 /// colour is tried with the comparators at, next to, and far from the threshold.
@@ -93,9 +93,12 @@ impl Flip {
         let mut places: HashMap<Qubit, Qubit> = names.iter().copied().zip(0..).collect();
         // All others are zero when it begins, unless they hold something.
         let held = parts.compute.outputs.iter().flat_map(|(_, qubits)| qubits);
-        let foreign: HashSet<Qubit> = held.copied().filter(|q| !places.contains_key(q)).collect();
+        let mut foreign = vec![false; parts.compute.qubits as usize];
+        for qubit in held.filter(|qubit| !places.contains_key(qubit)) {
+            foreign[*qubit as usize] = true;
+        }
         let mut place = |qubit: Qubit| {
-            if foreign.contains(&qubit) {
+            if foreign.get(qubit as usize) == Some(&true) {
                 return Err(Defect::Foreign {
                     channel: channel.number,
                     qubit,

@@ -3,7 +3,7 @@
 use super::parts::Streamed;
 use super::{Defect, OracleBlock, OracleCircuits, OracleMachine, word_of};
 use crate::machines::gates::{Gates, Rows};
-use crate::machines::span::Span;
+use crate::machines::span::{self, Span};
 use qrt_circuit::{Gate, Qubit, Word, lower};
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -11,41 +11,54 @@ use std::sync::atomic::{AtomicBool, Ordering};
 const AT_ONCE: usize = 1 << 14;
 
 impl OracleMachine {
+    /// Runs a block's paths, as many on each of `rows` as they hold.
     pub(super) fn run_gates(
         &self,
         gates: &Gates,
         parts: &OracleCircuits,
-        rows: &mut Rows,
+        rows: &mut [Rows],
         block: &mut OracleBlock,
         (spans, cancel): (&[Span<'_>], Option<&AtomicBool>),
     ) -> Result<(), Defect> {
+        let lanes = gates.lanes();
         let count = block.ids.len();
+        let rows = &mut rows[..count.div_ceil(lanes)];
         let id = parts.register(self.oracle.id).to_vec();
         let nearest = self.oracle.nearest;
         let hit = nearest.map_or(Vec::new(), |hit| parts.register(hit).to_vec());
-        rows.set(&id, &block.ids);
-        rows.set(&hit, &block.hits);
-        rows.set_parameters(spans);
+        let mut hits = block.hits.chunks(lanes);
+        let shares = rows.iter_mut().zip(block.ids.chunks(lanes)).enumerate();
+        for (number, (rows, ids)) in shares {
+            rows.set(&id, ids);
+            rows.set(&hit, hits.next().unwrap_or_default());
+            let first = number * lanes;
+            rows.set_parameters(&span::part(spans, first..first + ids.len()));
+        }
         let values = &mut block.values;
-        let read = |rows: &Rows| {
-            let mut bits = vec![0; count];
+        let read = |rows: &[Rows]| {
             for (output, values) in self.outputs.iter().zip(values) {
                 let Some(word) = word_of(*output) else {
                     continue;
                 };
-                rows.get(&parts.qubits(*output), &mut bits);
-                // The word is all that was read.
+                let qubits = parts.qubits(*output);
+                // The word is all that is read.
                 let alone = Word { offset: 0, ..word };
-                for (value, bits) in values.iter_mut().zip(&bits) {
-                    *value = alone.read(*bits);
+                for (rows, values) in rows.iter().zip(values[..count].chunks_mut(lanes)) {
+                    let mut bits = vec![0; values.len()];
+                    rows.get(&qubits, &mut bits);
+                    for (value, bits) in values.iter_mut().zip(&bits) {
+                        *value = alone.read(*bits);
+                    }
                 }
             }
         };
         match &parts.streamed {
             None => {
-                gates.run(0, rows);
+                let run =
+                    |part, rows: &mut [Rows]| rows.iter_mut().for_each(|r| gates.run(part, r));
+                run(0, rows);
                 read(rows);
-                gates.run(1 + parts.flips.len(), rows);
+                run(1 + parts.flips.len(), rows);
             }
             Some(streamed) => streamed.run(cancel, gates, rows, read)?,
         }
@@ -58,9 +71,14 @@ impl OracleMachine {
             });
             runs.next().map_or([0, 0], |run| run.paths.pixel)
         };
-        let inputs = [(&id[..], &block.ids[..]), (&hit, &block.hits)];
-        let path = |lane| (place(lane), block.ids[lane]);
-        check(rows, &inputs, path, |qubit| parts.name(&self.oracle, qubit))
+        let mut hits = block.hits.chunks(lanes);
+        let shares = rows.iter().zip(block.ids.chunks(lanes)).enumerate();
+        for (number, (rows, ids)) in shares {
+            let inputs = [(&id[..], ids), (&hit, hits.next().unwrap_or_default())];
+            let path = |lane| (place(number * lanes + lane), ids[lane]);
+            check(rows, &inputs, path, |qubit| parts.name(&self.oracle, qubit))?;
+        }
+        Ok(())
     }
 }
 
@@ -71,13 +89,13 @@ impl Streamed {
         &self,
         cancel: Option<&AtomicBool>,
         gates: &Gates,
-        rows: &mut Rows,
-        read: impl FnOnce(&Rows),
+        rows: &mut [Rows],
+        read: impl FnOnce(&[Rows]),
     ) -> Result<(), Defect> {
         let mut pending = Vec::with_capacity(2 * AT_ONCE);
         let mut read = Some(read);
         let mut step = 0;
-        let run = |pending: &mut Vec<Gate>, rows: &mut Rows| {
+        let run = |pending: &mut Vec<Gate>, rows: &mut [Rows]| {
             if cancel.is_some_and(|cancel| cancel.load(Ordering::Relaxed)) {
                 return Err(Defect::Cancelled);
             }
