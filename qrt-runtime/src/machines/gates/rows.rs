@@ -140,6 +140,16 @@ impl Rows {
         }
     }
 
+    /// A qubit in all lanes: bit `lane % 64` of word `lane / 64`.
+    pub(in crate::machines) fn bits(&self, qubit: Qubit) -> &[u64] {
+        self.row(qubit)
+    }
+
+    /// As [`Rows::bits`], to be set.
+    pub(in crate::machines) fn bits_mut(&mut self, qubit: Qubit) -> &mut [u64] {
+        self.row_mut(qubit)
+    }
+
     /// Sets the classical parameters to those of the spans' pixels, lane after lane from 0 on.
     /// Lanes beyond belong to the last span.
     pub fn set_parameters(&mut self, spans: &[Span<'_>]) {

@@ -1,14 +1,25 @@
 //! The comparisons between compute and uncompute, on all that they can meet.
 
 use super::{Defect, OracleCircuits};
-use crate::machines::gates::Gates;
+use crate::machines::gates::{Gates, Rows};
 use qrt_circuit::{Circuit, Gate, Operand, Qubit, Word};
 use qrt_core::oracle::{Channel, Oracle};
 use std::collections::HashMap;
+use std::ops::Range;
 
 /// Most bits of a colour and a comparator together that are tried in all pairs. With more, every
 /// colour is tried with the comparators at, next to, and far from the threshold.
 const EXHAUSTIVE: u32 = 26;
+
+/// Six bits of the numbers 0 to 63, each number's at its place.
+const COUNTING: [u64; 6] = [
+    0xaaaa_aaaa_aaaa_aaaa,
+    0xcccc_cccc_cccc_cccc,
+    0xf0f0_f0f0_f0f0_f0f0,
+    0xff00_ff00_ff00_ff00,
+    0xffff_0000_ffff_0000,
+    0xffff_ffff_0000_0000,
+];
 
 /// Tries the comparison of every channel, for every colour and comparator.
 ///
@@ -24,13 +35,12 @@ pub(super) fn try_all(oracle: &Oracle, parts: &OracleCircuits) -> Result<(), Def
         let faults = gates.blocks(blocks, |rows, block| {
             let first = block as u64 * lanes;
             let end = (first + lanes).min(flip.pairs.count);
-            let (colours, comparators): (Vec<u64>, Vec<u64>) =
-                (first..end).map(|pair| flip.pairs.pair(pair)).unzip();
             rows.clear();
-            rows.set(&flip.colour, &colours);
-            rows.set(&flip.comparator, &comparators);
+            flip.set(rows, first..end);
+            let held = flip.held();
+            let before: Vec<Vec<u64>> = held.iter().map(|q| rows.bits(*q).to_vec()).collect();
             gates.run(0, rows);
-            if let Some(mut dirty) = rows.dirty(&flip.held(), colours.len()) {
+            if let Some(mut dirty) = rows.dirty(&held, (end - first) as usize) {
                 dirty.qubit = flip.names[dirty.qubit as usize];
                 return Some(Defect::Dirty {
                     dirty,
@@ -39,26 +49,34 @@ pub(super) fn try_all(oracle: &Oracle, parts: &OracleCircuits) -> Result<(), Def
                     register: parts.name(oracle, dirty.qubit),
                 });
             }
-            let [mut colours_after, mut comparators_after] =
-                [(); 2].map(|()| vec![0; colours.len()]);
-            rows.get(&flip.colour, &mut colours_after);
-            rows.get(&flip.comparator, &mut comparators_after);
-            (0..colours.len()).find_map(|lane| {
-                let (channel, comparator) = (channel.number, comparators[lane]);
-                let count = flip.pairs.count_of(colours[lane]);
-                if colours_after[lane] != colours[lane] || comparators_after[lane] != comparator {
-                    return Some(Defect::Compared {
+            let signs = rows.signs().iter().enumerate();
+            signs.into_iter().find_map(|(word, signs)| {
+                let first = first + 64 * word as u64;
+                let expected = flip.pairs.signs(first..(first + 64).min(end));
+                let changed = held.iter().zip(&before);
+                let changed =
+                    changed.fold(0, |any, (q, was)| any | rows.bits(*q)[word] ^ was[word]);
+                let wrong = changed | (signs ^ expected);
+                // Lanes beyond the last pair hold a pair as well.
+                let lane = u64::from(wrong.trailing_zeros());
+                if wrong == 0 || first + lane >= end {
+                    return None;
+                }
+                let channel = channel.number;
+                let (colour, comparator) = flip.pairs.pair(first + lane);
+                let count = flip.pairs.count_of(colour);
+                Some(if changed >> lane & 1 == 1 {
+                    Defect::Compared {
                         channel,
                         count,
                         comparator,
-                    });
-                }
-                let flipped = rows.signs()[lane / 64] >> (lane % 64) & 1 == 1;
-                let exceeds = i128::from(comparator) < i128::from(count);
-                (flipped != exceeds).then_some(Defect::Flip {
-                    channel,
-                    count,
-                    comparator,
+                    }
+                } else {
+                    Defect::Flip {
+                        channel,
+                        count,
+                        comparator,
+                    }
                 })
             })
         });
@@ -143,6 +161,33 @@ impl Flip {
         })
     }
 
+    /// Sets colour and comparator to these pairs, one a lane.
+    fn set(&self, rows: &mut Rows, pairs: Range<u64>) {
+        if self.pairs.all {
+            // Lane after lane they are the bits of a number that counts up.
+            for (bit, qubit) in self.held().into_iter().enumerate() {
+                for (word, first) in rows
+                    .bits_mut(qubit)
+                    .iter_mut()
+                    .zip((pairs.start..).step_by(64))
+                {
+                    *word = COUNTING
+                        .get(bit)
+                        .copied()
+                        .unwrap_or(match first >> bit & 1 {
+                            0 => 0,
+                            _ => u64::MAX,
+                        });
+                }
+            }
+            return;
+        }
+        let pairs = pairs.map(|pair| self.pairs.pair(pair));
+        let (colours, comparators): (Vec<u64>, Vec<u64>) = pairs.unzip();
+        rows.set(&self.colour, &colours);
+        rows.set(&self.comparator, &comparators);
+    }
+
     /// The qubits that may hold something else than zero: the colour's and the comparator's.
     fn held(&self) -> Vec<Qubit> {
         [&self.colour[..], &self.comparator].concat()
@@ -174,6 +219,15 @@ impl Pairs {
             all,
             count,
         }
+    }
+
+    /// The signs that up to 64 pairs are to have, the first lowest.
+    fn signs(&self, pairs: Range<u64>) -> u64 {
+        pairs.rev().fold(0, |signs, pair| {
+            let (colour, comparator) = self.pair(pair);
+            let exceeds = i128::from(comparator) < i128::from(self.count_of(colour));
+            signs << 1 | u64::from(exceeds)
+        })
     }
 
     fn pair(&self, number: u64) -> (u64, u64) {
