@@ -10,6 +10,7 @@ use qrt::runtime::render::{self, Model, render};
 use qrt::runtime::sample::{prefix_means, radiance, spread};
 use qrt::runtime::workers::Workers;
 use std::num::NonZeroUsize;
+use std::ops::Range;
 
 /// A lamp over a floor, seen obliquely; two rays.
 fn lit(accuracy: &str, more: &str) -> ValidScene {
@@ -41,9 +42,8 @@ fn planned(scene: &ValidScene) -> Plan {
 }
 
 /// The promise itself, against far more paths of another seed, on the circuit's numbers.
-#[test]
-fn the_asked_share_of_channels_is_within_the_asked_error() {
-    for (error, confidence) in [(0.2, 0.8), (0.05, 0.95)] {
+fn the_asked_share_is_within(cases: [(f64, f64, Range<u64>); 2]) {
+    for (error, confidence, seeds) in cases {
         let scene = lit(
             &format!("{{ error: {error}, confidence: {confidence} }}"),
             "",
@@ -62,7 +62,7 @@ fn the_asked_share_of_channels_is_within_the_asked_error() {
         .unwrap();
         let mean = radiance(&truth[0]);
         assert!((plan.figures.mean / mean - 1.0).abs() < 0.01);
-        for seed in [0, 1, 2] {
+        for seed in seeds {
             let options = render::Options {
                 seed,
                 model: Model::Fixed,
@@ -83,6 +83,17 @@ fn the_asked_share_of_channels_is_within_the_asked_error() {
 }
 
 #[test]
+fn the_asked_share_of_channels_is_within_the_asked_error() {
+    the_asked_share_is_within([(0.2, 0.8, 0..3), (0.05, 0.95, 0..1)]);
+}
+
+#[test]
+#[ignore = "takes half a minute"]
+fn so_it_is_with_other_seeds() {
+    the_asked_share_is_within([(0.2, 0.8, 3..8), (0.05, 0.95, 1..4)]);
+}
+
+#[test]
 fn a_scene_without_an_accuracy_needs_no_plan() {
     let mut parameters = lit("{ error: 0.2, confidence: 0.9 }", "").parameters();
     parameters.sampling.path_bits = 5;
@@ -93,6 +104,7 @@ fn a_scene_without_an_accuracy_needs_no_plan() {
 }
 
 #[test]
+#[ignore = "takes half a minute: five plans"]
 fn half_the_error_costs_more_and_threads_change_nothing() {
     let film = [8, 6];
     let coarse_scene = lit_on(film, "{ error: 0.2, confidence: 0.9 }", "");
