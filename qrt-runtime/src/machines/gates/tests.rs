@@ -258,3 +258,34 @@ fn rows_of_many_qubits_are_shorter() {
     };
     assert_eq!([40_000, 80_000, 150_000].map(lanes), [2048, 1024, 512]);
 }
+
+#[test]
+fn gates_made_anew_run_on_what_fits_into_some_memory() {
+    let at_once = |qubits| {
+        let machine = Gates::new(&[&circuit(Vec::new(), qubits)]).unwrap();
+        let machine = machine.for_many_rows();
+        let rows = machine.rows_at_once();
+        let bytes = (qubits as usize + 5) * machine.lanes() / 8;
+        assert!(rows == 1 || (bytes * rows <= 128 << 20 && bytes * (rows + 1) > 128 << 20));
+        (machine.lanes(), rows)
+    };
+    assert_eq!(at_once(10_000), (2048, 52));
+    assert_eq!(at_once(600_000), (512, 3));
+    assert_eq!(at_once(12_000_000), (256, 1));
+    // Each of several rows runs all gates.
+    let machine = Gates::new(&[&circuit(Vec::new(), 3)]).unwrap();
+    let mut rows = [machine.rows(), machine.rows()];
+    for (value, rows) in rows.iter_mut().enumerate() {
+        rows.set(&[0, 1], &[3 * value as u64]);
+    }
+    let gates = [Gate::Ccx(0, 1, 2), Gate::X(0)];
+    machine.run_gates(&gates, &mut rows).unwrap();
+    let values = rows.map(|rows| {
+        let mut value = [0];
+        rows.get(&[0, 1, 2], &mut value);
+        value[0]
+    });
+    assert_eq!(values, [0b001, 0b110]);
+    let refused = machine.run_gates(&[Gate::X(0), Gate::Cx(3, 3)], &mut []);
+    assert_eq!(refused.unwrap_err().gate, 1);
+}
