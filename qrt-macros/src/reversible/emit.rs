@@ -187,9 +187,10 @@ fn functions(
             ..
         } = &**parameter;
         let reference = reference(parameter);
-        let ty = match computed {
-            Some(_) => quote!(impl ::qrt::circuit::format::Format),
-            None => quote!(#ty),
+        let ty = if computed.is_some() {
+            quote!(impl ::qrt::circuit::format::Format)
+        } else {
+            quote!(#ty)
         };
         let one = quote!(::qrt::circuit::format::Reg<#kind::Register, #ty>);
         let written = array.iter().map(|array| &array.written);

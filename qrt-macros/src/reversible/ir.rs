@@ -95,10 +95,8 @@ impl Register {
     /// The type of its format in the generated code, within a routine of these constants.
     pub(super) fn format_tokens(&self, constants: &[Ident]) -> TokenStream {
         let ty = &self.ty;
-        match &self.computed {
-            Some(name) => quote!(#name<#(#constants),*>),
-            None => quote!(#ty),
-        }
+        let computed = self.computed.as_ref();
+        computed.map_or_else(|| quote!(#ty), |name| quote!(#name<#(#constants),*>))
     }
 
     /// The register in the generated code.

@@ -67,13 +67,12 @@ pub(super) fn of_block(mut block: ItemImpl, problems: &mut Problems) -> TokenStr
         }
         let mut own = Problems::default();
         let function = written_out(function, Some(&block.self_ty), &mut own);
-        functions.extend(match understood(&function, &around, &mut own) {
-            Some(routine) => emit::routine(&routine),
-            None => {
-                let unread = &mut Problems::default();
-                emit::unfinished(&signature::read(&function, &around, unread))
-            }
-        });
+        let routine = understood(&function, &around, &mut own);
+        let written = routine.map(|routine| emit::routine(&routine));
+        functions.extend(written.unwrap_or_else(|| {
+            let unread = &mut Problems::default();
+            emit::unfinished(&signature::read(&function, &around, unread))
+        }));
         problems.append(own);
     }
     block.items = others;
@@ -122,15 +121,13 @@ pub(super) fn of_trait(mut declared: ItemTrait, problems: &mut Problems) -> Toke
 fn written_out(mut function: ItemFn, own: Option<&Type>, problems: &mut Problems) -> ItemFn {
     let ty = own.map_or_else(|| quote!(Self), ToTokens::to_token_stream);
     if let Some(FnArg::Receiver(receiver)) = function.sig.inputs.first() {
-        let reference = match &receiver.kind {
-            ReceiverKind::Reference(and, None, mutability) => quote!(#and #mutability),
-            _ => {
-                let message =
-                    "a register is taken by reference: it can neither be copied nor dropped";
-                let help = "write `&self`, or `&mut self` if it is changed";
-                problems.add(codes::REV_PARAMETER, receiver, message, help);
-                quote!(&mut)
-            }
+        let reference = if let ReceiverKind::Reference(and, None, mutability) = &receiver.kind {
+            quote!(#and #mutability)
+        } else {
+            let message = "a register is taken by reference: it can neither be copied nor dropped";
+            let help = "write `&self`, or `&mut self` if it is changed";
+            problems.add(codes::REV_PARAMETER, receiver, message, help);
+            quote!(&mut)
         };
         let name = Ident::new(SELF, receiver.self_token.span);
         function.sig.inputs[0] = syn::parse_quote!(#name: #reference #ty);

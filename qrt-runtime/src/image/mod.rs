@@ -13,7 +13,7 @@ mod metadata;
 #[cfg(feature = "png")]
 mod png_file;
 mod srgb;
-#[cfg(all(test, feature = "exr", feature = "png"))]
+#[cfg(test)]
 mod tests;
 
 pub use counts::{Count, write_counts, write_counts_to};
@@ -175,6 +175,10 @@ pub fn save_layers(
 /// assert_eq!(&bytes[1..4], b"PNG");
 /// # Ok::<(), qrt_runtime::image::ImageError>(())
 /// ```
+#[cfg_attr(
+    not(all(feature = "exr", feature = "png")),
+    allow(unused, reason = "each kind of pictures uses what it needs")
+)]
 pub fn write_to(
     mut out: impl io::Write,
     image: &Image,

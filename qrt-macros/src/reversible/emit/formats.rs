@@ -59,9 +59,10 @@ pub(super) fn agree(signature: &Signature) -> TokenStream {
             "QRT0813: `{name}` of `{routine}` is a register of another format than `{}`",
             parameter.type_text()
         );
-        let one = match parameter.is_array() {
-            true => quote!(#name.first()),
-            false => quote!(::core::option::Option::Some(&*#name)),
+        let one = if parameter.is_array() {
+            quote!(#name.first())
+        } else {
+            quote!(::core::option::Option::Some(&*#name))
         };
         Some(quote! {
             {

@@ -52,14 +52,14 @@ fn stands_in_impl(function: &ItemFn) -> bool {
         .and_then(|file| std::fs::read_to_string(file).ok());
     let tokens = text.and_then(|text| text.parse::<TokenStream>().ok());
     let parameters = &function.sig.inputs;
-    let begin = unspaced(quote!(fn #name(#parameters)));
+    let begin = unspaced(&quote!(fn #name(#parameters)));
     tokens.is_some_and(|tokens| an_impl_has(&begin, tokens, false))
 }
 
 /// Whether an `impl` within these tokens, or around them, has a function that begins so.
 fn an_impl_has(begin: &str, tokens: TokenStream, within: bool) -> bool {
     let trees: Vec<TokenTree> = tokens.into_iter().collect();
-    let begins = |three: &[TokenTree]| unspaced(three.iter().cloned().collect()) == begin;
+    let begins = |three: &[TokenTree]| unspaced(&three.iter().cloned().collect()) == begin;
     if within && trees.windows(3).any(begins) {
         return true;
     }
@@ -83,7 +83,7 @@ fn an_impl_has(begin: &str, tokens: TokenStream, within: bool) -> bool {
 }
 
 /// Tokens as text without what is between them, which is written one way or another.
-fn unspaced(tokens: TokenStream) -> String {
+fn unspaced(tokens: &TokenStream) -> String {
     tokens.to_string().split_whitespace().collect()
 }
 
@@ -132,7 +132,7 @@ mod tests {
                 fn four(v: &UFixed<0, 6>) {}
             }";
         let found =
-            |begin: TokenStream| an_impl_has(&unspaced(begin), file.parse().unwrap(), false);
+            |begin: TokenStream| an_impl_has(&unspaced(&begin), file.parse().unwrap(), false);
         let parameters = quote!(v: &UFixed<0, 6>, out: &mut UFixed<2, 6>,);
         assert!(found(quote!(fn three(#parameters))));
         assert!(!found(quote!(fn three(v: &UFixed<0, 6>))));
