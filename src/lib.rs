@@ -45,6 +45,10 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
+//! The library's features, of which the default, `cli`, has all: `png` and `exr` write pictures of these
+//! kinds, `serde` reads and writes scenes and their parts. A crate that sets `default-features = false`
+//! builds none of what they need.
+//!
 //! [`core`] holds what needs no machine: the scene, its checks, the sequences of paths and the
 //! tracer. [`runtime`] holds what runs: machines, counting, rendering, files. [`drawing`] draws.
 //!

@@ -75,9 +75,34 @@ fn fraction(ty: Type) -> u32 {
 }
 
 /// A register's width, checked where the code is compiled.
-const fn width(bits: i64) -> u32 {
+#[doc(hidden)]
+pub const fn width(bits: i64) -> u32 {
     assert!(0 < bits && bits < 64, "a register has 1 to 63 bits");
     bits as u32
+}
+
+/// The format that a parameter of a routine has, where it is computed from the routine's constants.
+#[doc(hidden)]
+pub trait Expected {
+    /// The format.
+    type Format: Format;
+    /// What is wrong with a register of another.
+    const OTHERWISE: &'static str;
+}
+
+/// Does not compile, if the register's format is another one than expected.
+#[doc(hidden)]
+#[inline(always)]
+pub fn agree<E: Expected, R, T: Format>(_: Option<&Reg<R, T>>) {
+    const {
+        let same = match (T::TYPE, E::Format::TYPE) {
+            (Type::Bool, Type::Bool) | (Type::UInt, Type::UInt) | (Type::Int, Type::Int) => true,
+            (Type::UFixed { fraction: a }, Type::UFixed { fraction: b })
+            | (Type::Fixed { fraction: a }, Type::Fixed { fraction: b }) => a == b,
+            _ => false,
+        };
+        assert!(same && T::WIDTH == E::Format::WIDTH, "{}", E::OTHERWISE);
+    }
 }
 
 impl<const W: u32> Format for UInt<W> {

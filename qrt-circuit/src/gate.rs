@@ -35,14 +35,17 @@ pub trait Gates {
     fn gate(&mut self, gate: Gate);
 
     /// Flips a qubit.
+    #[inline(always)]
     fn x(&mut self, target: Qubit) {
         self.gate(Gate::X(target));
     }
     /// Flips `target` where `control` holds.
+    #[inline(always)]
     fn cx(&mut self, control: Qubit, target: Qubit) {
         self.gate(Gate::Cx(control, target));
     }
     /// Flips `target` where both controls hold.
+    #[inline(always)]
     fn ccx(&mut self, a: Qubit, b: Qubit, target: Qubit) {
         self.gate(Gate::Ccx(a, b, target));
     }

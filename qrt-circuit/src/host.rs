@@ -145,7 +145,7 @@ impl<H> Is<H> for (H,) {
     message = "these are not the registers that the function takes [QRT0813]",
     label = "of another number, format or reference",
     note = "help: hand over a register for each parameter, of its format, by `&` or `&mut` as it is \
-            declared"
+            declared; one whose width is computed goes where the parameter's is"
 )]
 pub trait Handed<P> {
     /// The same.

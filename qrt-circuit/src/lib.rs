@@ -185,7 +185,7 @@ pub use evaluate::{Contents, Unclean};
 pub use gate::{Circuit, Gate, Gates, Qubit};
 pub use host::{Caller, Frame, Handed, Host, HostOf, Is, Reversible, Running};
 pub use machine::{Call, Declaration, Machine};
-pub use multiples::Multiples;
+pub use multiples::{KnownSums, Multiples};
 pub use op::{Argument, Op, Style, When};
 pub use program::{Instruction, Parameter, Program, WordError};
 pub use record::{Recorded, Recorder};

@@ -11,9 +11,12 @@
 //! All sums are exact, and a product drops its lowest bits afterwards.
 //!
 //! The search is a part of what `qrt!` does while a program is compiled, in a build of it that nobody
-//! optimised: hence plain loops, and sets that hash by one multiplication.
+//! optimised, where whatever is not an operator or an index into a slice is a call: hence plain loops,
+//! and sets of their own.
 
-use std::collections::BTreeMap;
+use std::collections::HashMap;
+use std::hash::{Hash, Hasher};
+use std::sync::Arc;
 
 /// So many candidates are compared by what they leave to do, at most.
 const COMPARED: usize = 64;
@@ -50,25 +53,38 @@ pub(crate) struct Sum {
 }
 
 impl Sum {
-    /// About how many Toffolis it takes for a number of `width` bits: those of the sum from where both
+    /// About how many Toffolis it takes beyond the bits of the number: those of the sum from where both
     /// terms have bits.
-    fn price(&self, multiple: i64, width: u32) -> u32 {
-        let bits = width + (64 - multiple.leading_zeros()) + self.zeros;
+    fn price(&self, multiple: i64) -> i32 {
+        let bits = 64 - multiple.leading_zeros() + self.zeros;
         let alone = if self.subtract {
             self.b.shift
         } else {
             self.a.shift.max(self.b.shift)
         };
-        bits.saturating_sub(alone)
+        bits as i32 - alone as i32
     }
 }
 
 /// Products of one number with constants, and the sums by which they are computed.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Multiples {
     products: Box<[(i64, u32)]>,
     /// Odd multiples, each after those that it is the sum of.
-    sums: Box<[(i64, Sum)]>,
+    sums: Arc<[(i64, Sum)]>,
+}
+
+/// Sums by which multiples are computed, found once for the same constants without their zeros.
+#[derive(Clone, Debug, Default)]
+pub struct KnownSums {
+    found: HashMap<Vec<i64>, Arc<[(i64, Sum)]>>,
+}
+
+/// The sums follow from the products.
+impl Hash for Multiples {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.products.hash(state);
+    }
 }
 
 /// Calls `found` with all sums of `known` and another multiple that are `multiple`, as far as their
@@ -111,6 +127,52 @@ fn partners(multiple: i64, known: i64, most: i64, mut found: impl FnMut(Partner)
         offer(multiple << shift, term);
         shift += 1;
     }
+}
+
+/// As [`partners`], with the other multiples alone. Both are odd, so that an even number comes of them
+/// where neither is shifted, and nowhere else.
+#[inline(always)]
+fn others(multiple: i64, known: i64, most: i64, mut found: impl FnMut(i64)) {
+    if known <= most {
+        let difference = multiple - known;
+        if difference > 0 {
+            found(odd_part(difference));
+        } else if difference < 0 {
+            found(odd_part(-difference));
+        }
+        found(odd_part(multiple + known));
+    }
+    let mut shift = 1;
+    while shift < CONSTANT_BITS && known << shift <= most {
+        let difference = multiple - (known << shift);
+        found(if difference < 0 {
+            -difference
+        } else {
+            difference
+        });
+        found(multiple + (known << shift));
+        shift += 1;
+    }
+    shift = 1;
+    while shift < CONSTANT_BITS && multiple << shift <= most {
+        let difference = (multiple << shift) - known;
+        found(if difference < 0 {
+            -difference
+        } else {
+            difference
+        });
+        found((multiple << shift) + known);
+        shift += 1;
+    }
+}
+
+/// A number above 0 without its factors of two.
+#[inline(always)]
+fn odd_part(mut number: i64) -> i64 {
+    while number & 1 == 0 {
+        number >>= 1;
+    }
+    number
 }
 
 /// Two terms whose sum or difference is `whole`.
@@ -163,26 +225,31 @@ impl Set {
     }
 
     /// Where the number is, or would be.
+    #[inline(always)]
     fn place(places: &[i64], number: i64) -> usize {
-        let bits = places.len().trailing_zeros();
-        let hash = number.cast_unsigned().wrapping_mul(0x9e37_79b9_7f4a_7c15);
-        let mut place = (hash >> (64 - bits)) as usize;
+        let last = places.len() - 1;
+        // 32 bits by 32 bits, which cannot overflow.
+        let folded = (number ^ number >> 32) as u32 as u64;
+        let mut place = ((folded * 0x9e37_79b1) >> 24) as usize & last;
         while places[place] != 0 && places[place] != number {
-            place = (place + 1) & (places.len() - 1);
+            place = (place + 1) & last;
         }
         place
     }
 
+    #[inline(always)]
     fn contains(&self, number: i64) -> bool {
         self.places[Self::place(&self.places, number)] == number
     }
 
+    #[inline(always)]
     fn insert(&mut self, number: i64) {
-        let place = Self::place(&self.places, number);
-        if self.places[place] == number {
+        let places: &mut [i64] = &mut self.places;
+        let place = Self::place(places, number);
+        if places[place] == number {
             return;
         }
-        self.places[place] = number;
+        places[place] = number;
         self.held += 1;
         if 2 * self.held > self.places.len() {
             let larger = vec![0; 4 * self.places.len()];
@@ -197,24 +264,34 @@ impl Set {
     }
 
     /// All of them, in no order.
+    #[inline(always)]
     fn each(&self, mut see: impl FnMut(i64)) {
-        for &number in &self.places {
-            if number != 0 {
-                see(number);
+        let places: &[i64] = &self.places;
+        let mut place = 0;
+        while place < places.len() {
+            if places[place] != 0 {
+                see(places[place]);
             }
+            place += 1;
         }
     }
 }
 
 /// Nonzero digits of a number in the signed form that has fewest.
+#[inline(always)]
 fn digits(number: i64) -> u32 {
-    (number ^ (3 * number)).count_ones()
+    ((number ^ (3 * number)) as u64).count_ones()
 }
 
 impl Multiples {
-    /// Products of a number of `width` bits with constants, each of which drops so many of its lowest
+    /// Products of a number with constants, each of which drops so many of its lowest
     /// bits; none if a constant is below 1 or has more than 40 bits.
-    pub fn new(products: &[(i64, u32)], width: u32) -> Option<Self> {
+    pub fn new(products: &[(i64, u32)]) -> Option<Self> {
+        Self::known(products, &mut KnownSums::default())
+    }
+
+    /// The same, by what is known of constants: the sums follow from these alone.
+    pub fn known(products: &[(i64, u32)], known: &mut KnownSums) -> Option<Self> {
         let constants = 1..1 << CONSTANT_BITS;
         if products
             .iter()
@@ -222,22 +299,15 @@ impl Multiples {
         {
             return None;
         }
-        let odd = || products.iter().map(|(factor, _)| Term::of(*factor).factor);
-        let mut search = Search {
-            most: odd().max().map_or(1, |most| most << 2),
-            width,
-            known: vec![1],
-            is_known: Set::new(),
-            near: Set::new(),
-            wanted: BTreeMap::new(),
-        };
-        search.is_known.insert(1);
-        search.reach(1);
-        odd().for_each(|multiple| search.want(multiple));
-        let sums = std::iter::from_fn(|| search.step()).collect();
+        let odd = products.iter().map(|(factor, _)| Term::of(*factor).factor);
+        let mut odd: Vec<i64> = odd.collect();
+        odd.sort_unstable();
+        odd.dedup();
+        let sums = known.found.entry(odd);
+        let sums = sums.or_insert_with_key(|odd| Search::of(odd).into());
         Some(Self {
             products: products.into(),
-            sums,
+            sums: Arc::clone(sums),
         })
     }
 
@@ -254,17 +324,18 @@ impl Multiples {
 struct Search {
     /// No multiple and no term is greater.
     most: i64,
-    width: u32,
     known: Vec<i64>,
     is_known: Set,
-    /// What is one sum away from those that are known.
+    /// What is one sum away from the first of those that are known, and how many these are.
     near: Set,
-    /// What is still to do.
-    wanted: BTreeMap<i64, Wanted>,
+    reached: usize,
+    /// What is still to do, in ascending order.
+    wanted: Vec<Wanted>,
 }
 
 /// A multiple that is still to do.
 struct Wanted {
+    multiple: i64,
     /// From which further multiples it would be one sum.
     from: Set,
     /// Whether one of them is known.
@@ -272,24 +343,50 @@ struct Wanted {
 }
 
 impl Wanted {
+    #[inline(always)]
     fn insert(&mut self, other: i64, known: &Set) {
-        self.is_near |= known.contains(other);
-        self.from.insert(other);
+        // What is near is made before its set is looked at again.
+        if !self.is_near {
+            self.is_near = known.contains(other);
+            self.from.insert(other);
+        }
     }
 }
 
 impl Search {
+    /// The sums by which these odd numbers, in ascending order, are computed.
+    fn of(odd: &[i64]) -> Vec<(i64, Sum)> {
+        let mut search = Self {
+            most: odd.last().map_or(1, |most| most << 2),
+            known: vec![1],
+            is_known: Set::new(),
+            reached: 0,
+            near: Set::new(),
+            wanted: Vec::new(),
+        };
+        search.is_known.insert(1);
+        for &multiple in odd {
+            search.want(multiple);
+        }
+        std::iter::from_fn(|| search.step()).collect()
+    }
+
     fn want(&mut self, multiple: i64) {
-        if self.is_known.contains(multiple) || self.wanted.contains_key(&multiple) {
+        let place = self
+            .wanted
+            .partition_point(|wanted| wanted.multiple < multiple);
+        let there = |wanted: &Wanted| wanted.multiple == multiple;
+        if self.is_known.contains(multiple) || self.wanted.get(place).is_some_and(there) {
             return;
         }
         let mut wanted = Wanted {
+            multiple,
             from: Set::new(),
             is_near: false,
         };
         for &known in &self.known {
-            partners(multiple, known, self.most, |partner| {
-                wanted.insert(partner.factor(), &self.is_known);
+            others(multiple, known, self.most, |other| {
+                wanted.insert(other, &self.is_known);
             });
         }
         // The sum of a multiple with itself, shifted.
@@ -302,39 +399,72 @@ impl Search {
             }
             shift += 1;
         }
-        self.wanted.insert(multiple, wanted);
+        self.wanted.insert(place, wanted);
     }
 
-    /// Adds what is one sum away from `multiple` and those that are known.
-    fn reach(&mut self, multiple: i64) {
-        let most = self.most;
-        for &known in &self.known {
-            for [a, b] in [[multiple, known], [known, multiple]] {
-                let mut shift = 0;
-                while shift < CONSTANT_BITS && a << shift <= most {
-                    let shifted = a << shift;
-                    for sum in [shifted + b, shifted - b, b - shifted] {
-                        if sum > 0 {
-                            let factor = sum >> sum.trailing_zeros();
-                            if factor <= most {
-                                self.near.insert(factor);
-                            }
-                        }
-                    }
-                    shift += 1;
+    /// Adds what is one sum away from those that are known.
+    fn reach(&mut self) {
+        while self.reached < self.known.len() {
+            self.reached += 1;
+            self.reach_from(self.reached - 1);
+        }
+    }
+
+    /// Adds what is one sum away from the multiple at this place and those before it.
+    fn reach_from(&mut self, place: usize) {
+        let multiple = self.known[place];
+        let (most, near) = (self.most, &mut self.near);
+        let mut reached = |factor: i64| {
+            if factor <= most {
+                near.insert(factor);
+            }
+        };
+        for &known in &self.known[..=place] {
+            // Without a shift two odd numbers make an even one, and with a shift an odd one.
+            if multiple <= most || known <= most {
+                reached(odd_part(multiple + known));
+                if multiple != known {
+                    let difference = multiple - known;
+                    reached(odd_part(if difference < 0 {
+                        -difference
+                    } else {
+                        difference
+                    }));
                 }
+            }
+            let mut shift = 1;
+            while shift < CONSTANT_BITS && multiple << shift <= most {
+                let difference = (multiple << shift) - known;
+                reached((multiple << shift) + known);
+                reached(if difference < 0 {
+                    -difference
+                } else {
+                    difference
+                });
+                shift += 1;
+            }
+            shift = 1;
+            while shift < CONSTANT_BITS && known << shift <= most {
+                let difference = (known << shift) - multiple;
+                reached((known << shift) + multiple);
+                reached(if difference < 0 {
+                    -difference
+                } else {
+                    difference
+                });
+                shift += 1;
             }
         }
     }
 
     fn add(&mut self, multiple: i64) -> Option<(i64, Sum)> {
-        let mut best: Option<(u32, Sum)> = None;
+        let mut best: Option<(i32, Sum)> = None;
         for &known in &self.known {
             partners(multiple, known, self.most, |partner| {
                 let other = partner.factor();
                 if self.is_known.contains(other) {
                     let sum = partner.sum();
-                    let price = sum.price(multiple, self.width);
+                    let price = sum.price(multiple);
                     if best.is_none_or(|(least, _)| price < least) {
                         best = Some((price, sum));
                     }
@@ -343,12 +473,14 @@ impl Search {
         }
         self.known.push(multiple);
         self.is_known.insert(multiple);
-        self.reach(multiple);
-        self.wanted.remove(&multiple);
-        for (&number, wanted) in &mut self.wanted {
-            wanted.is_near |= wanted.from.contains(multiple);
-            partners(number, multiple, self.most, |partner| {
-                wanted.insert(partner.factor(), &self.is_known);
+        self.wanted.retain(|wanted| wanted.multiple != multiple);
+        for wanted in &mut self.wanted {
+            if wanted.is_near || wanted.from.contains(multiple) {
+                wanted.is_near = true;
+                continue;
+            }
+            others(wanted.multiple, multiple, self.most, |other| {
+                wanted.insert(other, &self.is_known);
             });
         }
         best.map(|(_, sum)| (multiple, sum))
@@ -356,9 +488,8 @@ impl Search {
 
     fn step(&mut self) -> Option<(i64, Sum)> {
         loop {
-            let there = self.wanted.iter().find(|(_, wanted)| wanted.is_near);
-            if let Some((&multiple, _)) = there {
-                return self.add(multiple);
+            if let Some(there) = self.wanted.iter().find(|wanted| wanted.is_near) {
+                return self.add(there.multiple);
             }
             if self.wanted.is_empty() {
                 return None;
@@ -367,25 +498,36 @@ impl Search {
                 return self.add(between);
             }
             // Nothing is two sums away: what has the fewest digits of all that would help is wanted, too.
-            let mut helpful: BTreeMap<i64, u32> = BTreeMap::new();
-            for wanted in self.wanted.values() {
+            let (mut fewest, mut simplest) = (u32::MAX, Vec::new());
+            for wanted in &self.wanted {
                 wanted.from.each(|other| {
-                    if other <= self.most {
-                        *helpful.entry(other).or_default() += 1;
+                    if other <= self.most && digits(other) <= fewest {
+                        if digits(other) < fewest {
+                            fewest = digits(other);
+                            simplest.clear();
+                        }
+                        simplest.push(other);
                     }
                 });
             }
-            let simplest =
-                |&(&other, &helps): &(&i64, &u32)| (digits(other), std::cmp::Reverse(helps), other);
-            let (&next, _) = helpful.iter().min_by_key(simplest)?;
+            // Of these, the least of those that most would be one sum from.
+            simplest.sort_unstable();
+            let (mut most, mut next) = (0, None);
+            for run in simplest.chunk_by(i64::eq) {
+                if run.len() > most {
+                    (most, next) = (run.len(), Some(run[0]));
+                }
+            }
+            let next = next?;
             self.want(next);
         }
     }
 
     /// Of what is one sum away, that from which most of what is wanted is one sum.
-    fn between(&self) -> Option<i64> {
+    fn between(&mut self) -> Option<i64> {
+        self.reach();
         let mut helpful = Vec::new();
-        for wanted in self.wanted.values() {
+        for wanted in &self.wanted {
             wanted.from.each(|other| {
                 if self.near.contains(other) {
                     helpful.push(other);
@@ -411,11 +553,11 @@ impl Search {
         let mut least: Option<(u32, i64)> = None;
         for &between in best.iter().take(COMPARED) {
             let mut left = 0;
-            for (&number, wanted) in &self.wanted {
+            for wanted in &self.wanted {
                 if !wanted.from.contains(between) {
                     let mut fewest = u32::MAX;
-                    partners(number, between, self.most, |partner| {
-                        fewest = fewest.min(digits(partner.factor()));
+                    others(wanted.multiple, between, self.most, |other| {
+                        fewest = fewest.min(digits(other));
                     });
                     left += fewest;
                 }
@@ -437,7 +579,7 @@ mod tests {
     /// Checks that each sum is what it says, of what was made before it, and returns how many there are.
     fn checked(wanted: &[i64]) -> usize {
         let products: Vec<(i64, u32)> = wanted.iter().map(|&factor| (factor, 0)).collect();
-        let multiples = Multiples::new(&products, 18).unwrap();
+        let multiples = Multiples::new(&products).unwrap();
         let mut made = HashSet::from([1]);
         for &(multiple, sum) in multiples.sums() {
             let [a, b] = [sum.a, sum.b].map(|term| {
@@ -464,7 +606,7 @@ mod tests {
         assert_eq!(checked(&[]), 0);
         assert_eq!(checked(&[1, 4, 6, 3]), 1);
         for wrong in [0, -3, 1 << 40] {
-            assert_eq!(Multiples::new(&[(3, 0), (wrong, 0)], 18), None);
+            assert_eq!(Multiples::new(&[(3, 0), (wrong, 0)]), None);
         }
         // 24 additions by their digits.
         assert!(checked(&[160_563, 155_959, 82_957, 40_649]) <= 12);

@@ -1,11 +1,13 @@
 use qrt::prelude::*;
 
-struct Counter;
+trait Count {
+    fn count(&mut self);
+}
 
-impl Counter {
+impl Count for UInt<4> {
     #[reversible]
-    fn count(&mut self, a: &mut UInt<4>) {
-        a += 1;
+    fn count(&mut self) {
+        self += 1;
     }
 }
 

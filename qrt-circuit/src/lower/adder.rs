@@ -21,6 +21,7 @@ enum Carry {
 
 impl Lowering {
     /// Flips `target` if `wire` is inverted.
+    #[inline(always)]
     pub(super) fn flip(&mut self, wire: Wire, target: Qubit) {
         if wire.inverted() {
             self.x(target);
@@ -35,6 +36,7 @@ impl Lowering {
     }
 
     /// `t ^= wire`
+    #[inline(always)]
     pub(super) fn copy(&mut self, wire: Wire, target: Qubit) {
         if let Some(qubit) = wire.source() {
             self.cx(qubit, target);

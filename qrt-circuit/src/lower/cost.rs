@@ -66,8 +66,14 @@ pub(super) fn counted(op: &Op, widths: &[u32]) -> Figures {
     let mut carried = lowering.carried.iter().peekable();
     let mut carries = 0;
     let (mut cost, mut kept, mut returned) = (Cost::default(), 0, 0);
-    for (place, gate) in lowering.gates.iter().enumerate() {
-        match *gate {
+    let gates: &[Gate] = &lowering.gates;
+    let clean: &mut [Clean] = &mut clean;
+    // A plain loop: where nobody optimises it, as in a macro, an iterator takes as long as the rest.
+    let mut next = 0;
+    while next < gates.len() {
+        let place = next;
+        next += 1;
+        match gates[place] {
             Gate::X(_) | Gate::Load { .. } => cost.x += 1,
             Gate::Cx(_, target) => {
                 cost.cnot += 1;

@@ -102,6 +102,7 @@ impl KnownFigures {
 pub struct Quick(u64);
 
 impl Quick {
+    #[inline(always)]
     fn word(&mut self, word: u64) {
         self.0 = (self.0.rotate_left(5) ^ word).wrapping_mul(0x9e37_79b9_7f4a_7c15);
     }
@@ -121,21 +122,27 @@ impl Hasher for Quick {
             self.word(u64::from(*byte));
         }
     }
+    #[inline(always)]
     fn write_u8(&mut self, value: u8) {
         self.word(u64::from(value));
     }
+    #[inline(always)]
     fn write_u32(&mut self, value: u32) {
         self.word(u64::from(value));
     }
+    #[inline(always)]
     fn write_u64(&mut self, value: u64) {
         self.word(value);
     }
+    #[inline(always)]
     fn write_i64(&mut self, value: i64) {
         self.word(value.cast_unsigned());
     }
+    #[inline(always)]
     fn write_usize(&mut self, value: usize) {
         self.word(value as u64);
     }
+    #[inline(always)]
     fn write_isize(&mut self, value: isize) {
         self.word(value.cast_unsigned() as u64);
     }

@@ -95,11 +95,12 @@ impl Lowering {
         } else {
             Wire::ZERO
         };
-        let wire = |place: usize| match place.checked_sub(shift) {
-            None => Wire::ZERO,
-            Some(place) => own.get(place).map_or(above, |qubit| Wire::qubit(*qubit)),
-        };
-        (0..bits).map(wire).collect()
+        let mut wires = vec![Wire::ZERO; shift.min(bits)];
+        for qubit in &own[..(bits - wires.len()).min(own.len())] {
+            wires.push(Wire::qubit(*qubit));
+        }
+        wires.resize(bits, above);
+        wires
     }
 
     fn operand(&self, operand: Operand, bits: usize) -> Vec<Wire> {
@@ -415,15 +416,19 @@ fn constant(value: i64, bits: usize) -> Vec<Wire> {
 }
 
 fn invert(wires: &mut [Wire], inverted: bool) {
-    for wire in wires {
-        *wire = wire.xor(inverted);
+    if inverted {
+        for wire in wires {
+            *wire = wire.xor(true);
+        }
     }
 }
 
 /// The lowest `bits` of a number whose own bits are `wires`, with `above` above them.
 fn extended(wires: &[Wire], above: Wire, bits: usize) -> Vec<Wire> {
-    let own = wires.iter().copied();
-    own.chain(std::iter::repeat(above)).take(bits).collect()
+    let mut extended = Vec::with_capacity(bits);
+    extended.extend_from_slice(&wires[..bits.min(wires.len())]);
+    extended.resize(bits, above);
+    extended
 }
 
 fn qubits(qubits: &[Qubit]) -> Vec<Wire> {

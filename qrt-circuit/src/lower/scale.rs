@@ -9,7 +9,6 @@ use super::super::multiples::{Multiples, Term};
 use super::super::{Style, Word};
 use super::multiply::Landing;
 use super::{Gates, Lowering, Qubit, Wire, extended, invert, qubits};
-use std::collections::HashMap;
 
 /// The addition of a shifted copy.
 pub(super) struct Row {
@@ -101,6 +100,16 @@ fn extent(range: [i64; 2], factor: i128) -> (usize, bool) {
     }
 }
 
+/// The wires of a multiple among those that are known, all that is asked for, and whether the top is a
+/// sign.
+fn multiple_of(known: &[(i64, Vec<Wire>, bool)], factor: i64) -> (&[Wire], bool) {
+    let mut place = 0;
+    while known[place].0 != factor {
+        place += 1;
+    }
+    (&known[place].1, known[place].2)
+}
+
 pub(super) fn top(wires: &[Wire], signed: bool) -> Wire {
     match wires.last() {
         Some(top) if signed => *top,
@@ -139,14 +148,14 @@ impl Lowering {
         let number = Word { shift: 0, ..a };
         let range = number.range();
         let own = self.word(number, a.width as usize);
-        let mut known: HashMap<i64, (Vec<Wire>, bool)> = HashMap::from([(1, (own, a.signed))]);
+        let mut known: Vec<(i64, Vec<Wire>, bool)> = vec![(1, own, a.signed)];
         for &(multiple, sum) in products.sums() {
             let (bits, signed) = extent(range, i128::from(multiple) << sum.zeros);
             let [a, mut b] = [sum.a, sum.b].map(|term| {
-                let (own, signed) = &known[&term.factor];
+                let (own, signed) = multiple_of(&known, term.factor);
                 let mut shifted = vec![Wire::ZERO; term.shift as usize];
                 shifted.extend_from_slice(own);
-                extended(&shifted, top(own, *signed), bits)
+                extended(&shifted, top(own, signed), bits)
             });
             // Below them there is one term alone.
             let (alone, below) = match (sum.a.shift, sum.b.shift) {
@@ -159,16 +168,16 @@ impl Lowering {
             let from = whole.len();
             self.add(&a[from..], &b[from..], Wire::constant(sum.subtract), &t);
             whole.extend(qubits(&t));
-            known.insert(multiple, (whole.split_off(sum.zeros as usize), signed));
+            known.push((multiple, whole.split_off(sum.zeros as usize), signed));
         }
         for (&(factor, drop), target) in products.products().iter().zip(targets) {
             let multiple = Term::of(factor);
-            let (own, signed) = &known[&multiple.factor];
+            let (own, signed) = multiple_of(&known, multiple.factor);
             let zeros = (a.shift + multiple.shift) as usize;
             for (place, target) in target.iter().enumerate() {
                 let wire = match (place + drop as usize).checked_sub(zeros) {
                     None => Wire::ZERO,
-                    Some(place) => own.get(place).copied().unwrap_or(top(own, *signed)),
+                    Some(place) => own.get(place).copied().unwrap_or(top(own, signed)),
                 };
                 self.copy(wire, *target);
             }

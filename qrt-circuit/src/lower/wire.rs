@@ -13,6 +13,7 @@ impl Wire {
     pub(super) const ZERO: Self = Self::constant(false);
     pub(super) const ONE: Self = Self::constant(true);
 
+    #[inline(always)]
     pub(super) const fn constant(value: bool) -> Self {
         Self {
             source: None,
@@ -20,6 +21,7 @@ impl Wire {
         }
     }
 
+    #[inline(always)]
     pub(super) const fn qubit(qubit: Qubit) -> Self {
         Self {
             source: Some(qubit),
@@ -28,16 +30,19 @@ impl Wire {
     }
 
     /// The wire's qubit; none for a constant.
+    #[inline(always)]
     pub(super) const fn source(self) -> Option<Qubit> {
         self.source
     }
 
     /// Whether the wire is the negation of its qubit, or the constant 1.
+    #[inline(always)]
     pub(super) const fn inverted(self) -> bool {
         self.inverted
     }
 
     #[must_use]
+    #[inline(always)]
     pub(super) const fn xor(self, inverted: bool) -> Self {
         Self {
             source: self.source,
@@ -46,14 +51,27 @@ impl Wire {
     }
 
     /// Whether the two wires are equal, or each other's negation, whatever the qubits hold.
+    #[inline(always)]
     pub(super) fn related(self, other: Self) -> bool {
-        self.source == other.source
+        match (self.source, other.source) {
+            (Some(a), Some(b)) => a == b,
+            (None, None) => true,
+            _ => false,
+        }
     }
 
     /// The majority of three, where it follows without a gate: that of two equal bits is that bit,
     /// and that of two opposite ones the third.
     pub(super) fn majority(a: Self, b: Self, c: Self) -> Option<Self> {
-        let of = |x: Self, y: Self, z: Self| x.related(y).then(|| if x == y { x } else { z });
-        of(a, b, c).or_else(|| of(a, c, b)).or_else(|| of(b, c, a))
+        if a.related(b) {
+            return Some(if a.inverted == b.inverted { a } else { c });
+        }
+        if a.related(c) {
+            return Some(if a.inverted == c.inverted { a } else { b });
+        }
+        if b.related(c) {
+            return Some(if b.inverted == c.inverted { b } else { a });
+        }
+        None
     }
 }

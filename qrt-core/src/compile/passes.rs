@@ -12,8 +12,8 @@
 
 use super::{Label, Passes, PixelWord, Recorded, Strategy, recompute};
 use qrt_circuit::{
-    Bit, Block, BlockId, Instruction, Multiples, Op, Program, Register, RegisterId, Style, Word,
-    lower,
+    Bit, Block, BlockId, Instruction, KnownSums, Multiples, Op, Program, Register, RegisterId,
+    Style, Word, lower,
 };
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
@@ -26,9 +26,6 @@ pub(super) struct Draft {
     pub(super) ops: Vec<(Op, BlockId)>,
 }
 
-/// Constants and what their products drop, and the bits of the number.
-type Products = (Vec<(i64, u32)>, u32);
-
 /// What was found out about operations: of use to programs that are assembled from parts of one
 /// recording.
 #[derive(Clone, Debug, Default)]
@@ -37,8 +34,8 @@ pub(crate) struct Known {
     lows: HashMap<Box<[RegisterId]>, u32>,
     /// What operations cost, and the width of their garbage.
     pub(crate) figures: lower::KnownFigures,
-    /// [`Multiples::new`]
-    multiples: HashMap<Products, Option<Arc<Multiples>>>,
+    /// [`Multiples::known`]
+    multiples: KnownSums,
 }
 
 impl Draft {
@@ -122,11 +119,11 @@ pub(super) fn needed(draft: &mut Draft, roots: &[RegisterId]) {
 
 /// Makes one table of all that have the same address and can run where the first one does.
 pub(super) fn merge_tables(draft: &mut Draft, known_of: &mut Known) {
-    let mut defined: HashMap<RegisterId, usize> = HashMap::new();
+    let mut defined: Vec<Option<usize>> = vec![None; draft.registers.len()];
     let mut groups: HashMap<(Vec<Bit>, Option<BlockId>), Vec<usize>> = HashMap::new();
     for (place, (op, block)) in draft.ops.iter().enumerate() {
         for target in op.targets() {
-            defined.insert(target, place);
+            defined[target.index()] = Some(place);
         }
         if let Op::Table { address, style, .. } = op {
             // Without garbage a table is there for its block alone: what another one needs of it
@@ -138,15 +135,17 @@ pub(super) fn merge_tables(draft: &mut Draft, known_of: &mut Known) {
     }
     // By the place before which it is inserted.
     let mut inserted: Vec<(usize, Op, BlockId)> = Vec::new();
-    let mut gone: HashSet<usize> = HashSet::new();
+    let mut gone = vec![false; draft.ops.len()];
     let mut groups: Vec<_> = groups.into_iter().collect();
     groups.sort_by_key(|(_, places)| places[0]);
     for ((address, _), places) in groups {
         // The block around all of them, as far as the address is known before the part of it in
         // which the first one stands.
         let first = places[0];
-        let known = address.iter().filter_map(|bit| defined.get(&bit.register));
-        let known = known.copied().max();
+        let known = address
+            .iter()
+            .filter_map(|bit| defined[bit.register.index()]);
+        let known = known.max();
         let mut common = draft.ancestors(draft.ops[first].1);
         for &place in &places[1..] {
             let path = draft.ancestors(draft.ops[place].1);
@@ -183,7 +182,7 @@ pub(super) fn merge_tables(draft: &mut Draft, known_of: &mut Known) {
                 targets.extend(t.iter().copied());
                 leavings.get_or_insert(*scratch);
             }
-            gone.insert(place);
+            gone[place] = true;
         }
         let Some(scratch) = leavings else { continue };
         for &register in targets.iter().chain([&scratch]) {
@@ -213,7 +212,7 @@ pub(super) fn merge_tables(draft: &mut Draft, known_of: &mut Known) {
         while let Some((_, op, block)) = inserted.next_if(|&(before, ..)| before <= place) {
             merged.push((op, block));
         }
-        if !gone.contains(&place) {
+        if !gone[place] {
             merged.push(op);
         }
     }
@@ -241,7 +240,7 @@ fn share_multiples(draft: &mut Draft, strategy: Strategy, known: &mut Known) {
     }
     let mut groups: Vec<((Word, _), Vec<usize>)> = groups.into_iter().collect();
     groups.sort_by_key(|(_, places)| places[0]);
-    let mut gone: HashSet<usize> = HashSet::new();
+    let mut gone = vec![false; draft.ops.len()];
     for ((a, _), places) in groups {
         for places in places.chunks(TOGETHER) {
             let mut products = Vec::new();
@@ -261,11 +260,8 @@ fn share_multiples(draft: &mut Draft, strategy: Strategy, known: &mut Known) {
                     leavings.get_or_insert(scratch);
                 }
             }
-            let planned = known.multiples.entry((products, a.width));
-            let planned = planned.or_insert_with_key(|(products, width)| {
-                Multiples::new(products, *width).map(Arc::new)
-            });
-            let (Some(products), Some(scratch)) = (planned.clone(), leavings) else {
+            let planned = Multiples::known(&products, &mut known.multiples).map(Arc::new);
+            let (Some(products), Some(scratch)) = (planned, leavings) else {
                 continue;
             };
             let together = Op::Multiples {
@@ -276,18 +272,22 @@ fn share_multiples(draft: &mut Draft, strategy: Strategy, known: &mut Known) {
             };
             let width = |id: RegisterId| draft.registers[id.index()].width;
             let mut toffoli = |op: &Op| known.figures.of(op, width).costs[0].toffoli;
-            let apart = places.iter().map(|&place| toffoli(&draft.ops[place].0));
-            let apart: u64 = apart.sum();
-            if toffoli(&together) < apart {
+            // Those that come apart are counted until they cost more.
+            let (most, mut apart) = (toffoli(&together), 0);
+            let costs_less = places.iter().any(|&place| {
+                apart += toffoli(&draft.ops[place].0);
+                most < apart
+            });
+            if costs_less {
                 draft.ops[places[0]].0 = together;
-                gone.extend(&places[1..]);
+                for &place in &places[1..] {
+                    gone[place] = true;
+                }
             }
         }
     }
-    let mut place = 0..;
-    draft
-        .ops
-        .retain(|_| place.next().is_none_or(|place| !gone.contains(&place)));
+    let mut gone = gone.into_iter();
+    draft.ops.retain(|_| !gone.next().unwrap_or(false));
 }
 
 /// A block's content, in order.

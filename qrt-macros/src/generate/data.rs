@@ -86,20 +86,16 @@ fn tables(out: &mut String, oracle: &Oracle) {
             }
         }
         if let Op::Multiples {
-            a,
-            products,
-            targets,
-            ..
+            products, targets, ..
         } = op
         {
             let _ = writeln!(
                 out,
                 "static M{}: ::std::sync::LazyLock<::std::sync::Arc<Multiples>> = \
-                 ::std::sync::LazyLock::new(|| Multiples::new(&{:?}, {})\
+                 ::std::sync::LazyLock::new(|| Multiples::new(&{:?})\
                  .expect(\"the constants were in bounds\").into());",
                 targets[0].0,
                 products.products(),
-                a.width
             );
         }
     }

@@ -1,12 +1,13 @@
 //! Calls of reversible functions, and swaps.
 
 use super::ir::{Place, Register, Statement, StatementKind as K};
-use super::scope::{Scope, text, type_text};
+use super::scope::{Scope, begin, text, type_text};
+use super::signature;
 use proc_macro2::TokenStream;
 use qrt_core::syntax::codes;
-use quote::ToTokens;
+use quote::{ToTokens, quote};
 use std::rc::Rc;
-use syn::{Expr, ExprCall, Ident, Path};
+use syn::{Expr, ExprCall, ExprMethodCall, ExprPath, GenericArgument, Ident, PathArguments, QSelf};
 
 impl Scope {
     pub(super) fn call(&mut self, call: &ExprCall, source: TokenStream) -> Option<Statement> {
@@ -20,7 +21,65 @@ impl Scope {
         if function.path.is_ident("swap") {
             return self.swap(call, source);
         }
-        let (path, inverse) = forward(&function.path);
+        self.called(function, &call.args.iter().collect::<Vec<_>>(), source)
+    }
+
+    /// `x.method(..)`, which takes `x` by `&mut` where it may be changed, and `(&x).method(..)`:
+    /// calls of a function of the format of `x`.
+    pub(super) fn method(
+        &mut self,
+        call: &ExprMethodCall,
+        source: TokenStream,
+    ) -> Option<Statement> {
+        let mut receiver = &*call.receiver;
+        while let Expr::Paren(inner) = receiver {
+            receiver = &inner.expr;
+        }
+        let place = match receiver {
+            Expr::Reference(reference) => self.place(&reference.expr)?,
+            own => self.place(own)?,
+        };
+        let receiver = match receiver {
+            Expr::Reference(_) => receiver.clone(),
+            own if place.register.mutable => {
+                syn::parse_quote_spanned!(begin(&quote!(#own))=> &mut #own)
+            }
+            own => syn::parse_quote_spanned!(begin(&quote!(#own))=> &#own),
+        };
+        if place.part.is_some() || place.register.computed.is_some() {
+            let message = match place.part {
+                Some(_) => "bits of a register have no methods",
+                None => "a register whose width is computed has no methods",
+            };
+            let help = "call a function: `add(&x, &mut y)`";
+            self.problems
+                .add(codes::REV_CALL, &call.receiver, message, help);
+            return None;
+        }
+        let (ty, method) = (&place.register.ty, &call.method);
+        let mut function: ExprPath = syn::parse_quote!(#method);
+        function.qself = Some(QSelf {
+            lt_token: syn::token::Lt(method.span()),
+            ty: Box::new(ty.clone()),
+            position: 0,
+            as_token: None,
+            gt_token: syn::token::Gt(method.span()),
+        });
+        function.path.leading_colon = Some(syn::token::PathSep(method.span()));
+        if let (Some(last), Some(given)) = (function.path.segments.last_mut(), &call.turbofish) {
+            last.arguments = PathArguments::AngleBracketed(given.clone());
+        }
+        let arguments: Vec<&Expr> = std::iter::once(&receiver).chain(&call.args).collect();
+        self.called(&function, &arguments, source)
+    }
+
+    fn called(
+        &mut self,
+        function: &ExprPath,
+        given: &[&Expr],
+        source: TokenStream,
+    ) -> Option<Statement> {
+        let (path, inverse) = forward(function);
         if self.is_routine(&path) {
             let message = "a reversible function cannot call itself";
             let help = "write `for` over constants";
@@ -28,9 +87,10 @@ impl Scope {
                 .add(codes::REV_CALL, &function.path, message, help);
             return None;
         }
+        self.generics(&path)?;
         let mut arguments: Vec<(Rc<Register>, bool, Ident)> = Vec::new();
         let mut complete = true;
-        for argument in &call.args {
+        for argument in given {
             match self.argument(argument) {
                 Some((register, change, name)) => {
                     self.handed_twice(&arguments, &register, change, argument);
@@ -56,8 +116,38 @@ impl Scope {
         complete.then_some(Statement { kind, source })
     }
 
+    /// Refuses constants of a call that Rust does not compute.
+    fn generics(&mut self, function: &ExprPath) -> Option<()> {
+        let last = function.path.segments.last()?;
+        let PathArguments::AngleBracketed(given) = &last.arguments else {
+            return Some(());
+        };
+        let mut known = self.constants.clone();
+        known.extend(self.loops.iter().map(|(variable, _)| variable.clone()));
+        for given in &given.args {
+            let alone = match given {
+                GenericArgument::Type(syn::Type::Path(path)) => path.path.get_ident(),
+                _ => None,
+            };
+            let is_own = alone.is_some_and(|name| self.constants.contains(name));
+            if !is_own && signature::names_any(given.to_token_stream(), &known) {
+                let message =
+                    "Rust computes no constant of a call from a function's own, or a loop's";
+                let help = "leave it out where registers tell it, or take it as a constant of the \
+                            function: `const V: u32`";
+                self.problems.add(codes::REV_CALL, given, message, help);
+                return None;
+            }
+        }
+        Some(())
+    }
+
     /// Whether a path names the function that is read here.
-    fn is_routine(&self, path: &Path) -> bool {
+    fn is_routine(&self, path: &ExprPath) -> bool {
+        if path.qself.is_some() {
+            return false;
+        }
+        let path = &path.path;
         let names: Vec<String> = path.segments.iter().map(|s| s.ident.to_string()).collect();
         let routine = self.routine.to_string();
         names == [routine.as_str()] || names == ["Self", routine.as_str()]
@@ -184,9 +274,9 @@ impl Scope {
 }
 
 /// The function that a path names, and whether it is called to be undone.
-fn forward(path: &Path) -> (Path, bool) {
+fn forward(path: &ExprPath) -> (ExprPath, bool) {
     let mut path = path.clone();
-    let Some(last) = path.segments.last_mut() else {
+    let Some(last) = path.path.segments.last_mut() else {
         return (path, false);
     };
     let name = last.ident.to_string();

@@ -141,6 +141,12 @@ impl Linear {
         quote!(#minus <= #plus)
     }
 
+    /// The same as an `i64`, which may be negative.
+    pub(super) fn signed_tokens(&self) -> TokenStream {
+        let [plus, minus] = self.sides().map(|side| side.sum());
+        quote!((#plus) as ::core::primitive::i64 - (#minus) as ::core::primitive::i64)
+    }
+
     fn sum(&self) -> TokenStream {
         let parts = self.parts();
         let Some((first, rest)) = parts.split_first() else {

@@ -1,16 +1,18 @@
 //! The generated Rust: the function, its inverse, and the program that both are.
 
 mod arguments;
+mod formats;
 
 use super::ir::{
     Array, Bit, NumberKind, Place, Register, Routine, Signature, Statement, StatementKind as K,
     Term, Update, inverse,
 };
+use super::methods::as_written;
 use super::value::{Temporaries, own};
 use arguments::{from_array, handed};
 use proc_macro2::{Delimiter, Group, Span, TokenStream, TokenTree};
 use quote::{ToTokens, format_ident, quote, quote_spanned};
-use syn::{Ident, Path, PathArguments};
+use syn::{ExprPath, Ident, PathArguments};
 
 /// All Rust that a routine expands to.
 ///
@@ -24,6 +26,9 @@ pub(super) fn routine(routine: &Routine) -> TokenStream {
         quote_spanned!(span=> const { ::core::assert!(#condition, #message) };)
     });
     let demands: TokenStream = demands.collect();
+    let formats = formats::declared(routine);
+    let agree = formats::agree(&routine.signature);
+    let constants = &routine.signature.constants;
     let frame = calls(&routine.body).then(|| frame(&routine.signature.name));
     let directions = [routine.body.clone(), inverse(&routine.body)];
     let body = |host: &TokenStream, code: &dyn Fn([TokenStream; 2]) -> TokenStream| {
@@ -31,6 +36,7 @@ pub(super) fn routine(routine: &Routine) -> TokenStream {
             let mut emitter = Emitter {
                 temporaries: 0,
                 host: host.clone(),
+                constants: constants.clone(),
             };
             emitter.block(&directions[way])
         });
@@ -49,13 +55,14 @@ pub(super) fn routine(routine: &Routine) -> TokenStream {
                 }
             }
         });
-        quote!(#used #demands #ends #code)
+        quote!(#used #formats #demands #ends #code)
     };
     let kind = machine_name(&routine.signature.constants);
     let kind = quote!(#kind);
     let (host, machine) = (own("host"), own("machine"));
     let both = body(&kind, &|[forward, backward]| {
         quote! {
+            #agree
             let #machine = #host.machine();
             if #kind::UNDONE { #backward } else { #forward }
         }
@@ -66,6 +73,7 @@ pub(super) fn routine(routine: &Routine) -> TokenStream {
     let backward = body(&kind, &|[_, backward]| {
         quote! {
             const { ::core::assert!(!#kind::UNDONE, #renamed) };
+            #agree
             let #machine = #host.machine();
             #backward
         }
@@ -132,6 +140,19 @@ pub(super) fn unfinished(signature: &Signature) -> TokenStream {
     })
 }
 
+/// The functions of a routine that a trait declares.
+pub(super) fn declared(signature: &Signature) -> TokenStream {
+    let body = TokenStream::new();
+    let functions = functions(signature, &body, &body, &body).into_iter();
+    let without_body = functions.map(|token| match token {
+        TokenTree::Group(body) if body.delimiter() == Delimiter::Brace => {
+            quote!(where Self: ::core::marker::Sized;)
+        }
+        other => other.into(),
+    });
+    without_body.collect()
+}
+
 fn functions(
     signature: &Signature,
     both: &TokenStream,
@@ -142,6 +163,8 @@ fn functions(
         attributes,
         visibility,
         name,
+        in_trait,
+        own: own_constants,
         constants,
         parameters,
         ..
@@ -157,9 +180,18 @@ fn functions(
     let reference = |parameter: &Register| reference(parameter.mutable);
     let named = parameters.iter().map(|parameter| {
         let Register {
-            name, ty, array, ..
+            name,
+            ty,
+            array,
+            computed,
+            ..
         } = &**parameter;
         let reference = reference(parameter);
+        let ty = if computed.is_some() {
+            quote!(impl ::qrt::circuit::format::Format)
+        } else {
+            quote!(#ty)
+        };
         let one = quote!(::qrt::circuit::format::Reg<#kind::Register, #ty>);
         let written = array.iter().map(|array| &array.written);
         let many = quote!(#([#one; #written])*);
@@ -172,13 +204,14 @@ fn functions(
     let inverse_doc = format!(" The inverse of [`{name}`]: undoes what it has done.");
     let program_doc =
         format!(" [`{name}`] as a program, whose inputs are its registers in their order.");
-    let some = (!constants.is_empty()).then(|| quote!(<#(const #constants: u32),*>));
+    let some = (!own_constants.is_empty()).then(|| quote!(<#(const #own_constants: u32),*>));
+    // The trait's own attributes hold there.
+    let must_use = (!in_trait).then(|| quote!(#[must_use]));
     let style = own("style");
     let inputs = parameters.iter().map(|parameter| {
-        let Register {
-            name, ty, array, ..
-        } = &**parameter;
-        let (text, reference) = (name.to_string(), reference(parameter));
+        let Register { name, array, .. } = &**parameter;
+        let ty = parameter.format_tokens(constants);
+        let (text, reference) = (shown(name), reference(parameter));
         if let Some(Array { written, .. }) = array {
             return quote! {
                 let #name: #reference [::qrt::circuit::format::Reg<_, #ty>; #written] = #reference
@@ -195,7 +228,7 @@ fn functions(
     quote! {
         #(#attributes)*
         #many
-        #visibility fn #name<#(const #constants: u32,)* #kind: ::qrt::circuit::Host>(
+        #visibility fn #name<#(const #own_constants: u32,)* #kind: ::qrt::circuit::Host>(
             #host: &mut #kind,
             #(#named),*
         ) {
@@ -206,7 +239,7 @@ fn functions(
         #(#other)*
         #many
         #[allow(dead_code, reason = "not every author needs it")]
-        #visibility fn #inverse_name<#(const #constants: u32,)* #kind: ::qrt::circuit::Host>(
+        #visibility fn #inverse_name<#(const #own_constants: u32,)* #kind: ::qrt::circuit::Host>(
             #host: &mut #kind,
             #(#named),*
         ) {
@@ -216,7 +249,7 @@ fn functions(
         #[doc = #program_doc]
         #(#other)*
         #[allow(dead_code, reason = "not every author needs it")]
-        #[must_use]
+        #must_use
         #visibility fn #program_name #some (
             #style: ::qrt::circuit::Style,
         ) -> ::qrt::circuit::Program {
@@ -237,9 +270,9 @@ fn machine_name(constants: &[Ident]) -> Ident {
 }
 
 /// The function that a call names, or its inverse, whose names differ by their ends.
-pub(super) fn function(path: &Path, inverse: bool) -> Path {
+pub(super) fn function(path: &ExprPath, inverse: bool) -> ExprPath {
     let mut path = path.clone();
-    if let Some(last) = path.segments.last_mut()
+    if let Some(last) = path.path.segments.last_mut()
         && inverse
     {
         let name = last.ident.to_string();
@@ -259,6 +292,8 @@ struct Emitter {
     temporaries: usize,
     /// What the function runs on.
     host: TokenStream,
+    /// What the function is generic over.
+    constants: Vec<Ident>,
 }
 
 impl Emitter {
@@ -292,7 +327,7 @@ impl Emitter {
                 arguments,
             } => {
                 let mut function = path.clone();
-                if let Some(last) = function.segments.last_mut()
+                if let Some(last) = function.path.segments.last_mut()
                     && let PathArguments::AngleBracketed(given) = &mut last.arguments
                 {
                     given.args.push(syn::parse_quote!(_));
@@ -302,7 +337,7 @@ impl Emitter {
                 let host = &self.host;
                 // Errors about them underline the function.
                 let mut arguments = Group::new(Delimiter::Parenthesis, quote!(#(#arguments,)*));
-                let name = function.segments.last().map(|last| last.ident.span());
+                let name = function.path.segments.last().map(|last| last.ident.span());
                 arguments.set_span(name.unwrap_or_else(Span::call_site));
                 // A call of more registers is checked by the compiler alone.
                 let call = if register_count > MOST_CHECKED {
@@ -351,10 +386,9 @@ impl Emitter {
                 }
             }
             K::Scratch(register, body) => {
-                let Register {
-                    name, ty, array, ..
-                } = &**register;
-                let text = name.to_string();
+                let Register { name, array, .. } = &**register;
+                let ty = register.format_tokens(&self.constants);
+                let text = shown(name);
                 let body = self.block(body);
                 if let Some(Array { written, .. }) = array {
                     return quote! {
@@ -457,6 +491,11 @@ impl Emitter {
         let (computed, undone) = (&temporaries.computed, temporaries.undone());
         quote!(#(#computed)* #then #other #undone)
     }
+}
+
+/// A register's name, as the author has written it.
+fn shown(name: &Ident) -> String {
+    as_written(name.to_string())
 }
 
 fn reference(mutable: bool) -> TokenStream {

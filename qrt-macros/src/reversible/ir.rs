@@ -6,7 +6,7 @@ use proc_macro2::{Span, TokenStream};
 use quote::quote;
 use std::fmt;
 use std::rc::Rc;
-use syn::{Ident, Path, Type};
+use syn::{ExprPath, Ident, Type};
 
 /// A function marked `#[reversible]`.
 pub(super) struct Routine {
@@ -21,6 +21,11 @@ pub(super) struct Signature {
     pub(super) attributes: Vec<syn::Attribute>,
     pub(super) visibility: syn::Visibility,
     pub(super) name: Ident,
+    /// Whether it is a method of a trait.
+    pub(super) in_trait: bool,
+    /// The constants that it is generic over itself.
+    pub(super) own: Vec<Ident>,
+    /// These, and those of the `impl` around.
     pub(super) constants: Vec<Ident>,
     pub(super) parameters: Vec<Rc<Register>>,
     /// Names of parameters that are not registers.
@@ -48,6 +53,8 @@ pub(super) struct Register {
     /// Which of the array's registers is meant.
     pub(super) element: Option<Linear>,
     pub(super) format: Format,
+    /// The type of the generated code that has its format, where Rust computes no such width.
+    pub(super) computed: Option<Ident>,
     /// Whether it is a parameter, which is a reference, and no scratch register, which is a value.
     pub(super) parameter: bool,
     pub(super) mutable: bool,
@@ -83,6 +90,13 @@ impl Register {
             Some(array) => format!("[{ty}; {}]", text(&array.written)),
             None => ty,
         }
+    }
+
+    /// The type of its format in the generated code, within a routine of these constants.
+    pub(super) fn format_tokens(&self, constants: &[Ident]) -> TokenStream {
+        let ty = &self.ty;
+        let computed = self.computed.as_ref();
+        computed.map_or_else(|| quote!(#ty), |name| quote!(#name<#(#constants),*>))
     }
 
     /// The register in the generated code.
@@ -221,7 +235,7 @@ pub(super) enum StatementKind {
     Update(Place, Vec<(Update, Term)>),
     Swap(Rc<Register>, Rc<Register>),
     Call {
-        path: Path,
+        path: ExprPath,
         /// Whether the inverse of the function that is named is called.
         inverse: bool,
         /// Registers, whether they may be changed, and their names as they stand there.

@@ -11,6 +11,7 @@ mod dim;
 mod emit;
 mod fit;
 mod ir;
+mod methods;
 mod number;
 mod outside;
 mod problem;
@@ -45,9 +46,14 @@ fn expanded(arguments: &TokenStream, item: TokenStream) -> (TokenStream, Problem
     }
     let function = match syn::parse2::<syn::Item>(item.clone()) {
         Ok(syn::Item::Fn(function)) => function,
+        Ok(syn::Item::Impl(block)) => return (methods::of_block(block, &mut problems), problems),
+        Ok(syn::Item::Trait(declared)) => {
+            return (methods::of_trait(declared, &mut problems), problems);
+        }
         Ok(other) => {
-            let message = "only a function can be reversible";
-            let help = "put `#[reversible]` on a `fn` whose parameters are registers";
+            let message = "only functions can be reversible";
+            let help = "put `#[reversible]` on a `fn` whose parameters are registers, or on an `impl` or \
+                        a `trait` of such functions";
             problems.add(codes::REV_ITEM, first(&other), message, help);
             return (item, problems);
         }
@@ -56,17 +62,29 @@ fn expanded(arguments: &TokenStream, item: TokenStream) -> (TokenStream, Problem
             return (without_body(item), problems);
         }
     };
-    let tokens = match understood(&function, &mut problems) {
+    let tokens = match understood(&function, &Around::default(), &mut problems) {
         Some(routine) => emit::routine(&routine),
         None if function.sig.receiver().is_some() => without_body(item),
-        None => emit::unfinished(&signature::read(&function, &mut Problems::default())),
+        None => {
+            let unread = &mut Problems::default();
+            emit::unfinished(&signature::read(&function, &Around::default(), unread))
+        }
     };
     (tokens, problems)
 }
 
+/// What a function stands in.
+#[derive(Default)]
+struct Around {
+    /// The constants that an `impl` is generic over.
+    constants: Vec<syn::Ident>,
+    /// Whether it is a method of a trait.
+    in_trait: bool,
+}
+
 /// The routine of a function, if nothing is wrong with it.
-fn understood(function: &syn::ItemFn, problems: &mut Problems) -> Option<Routine> {
-    let signature = signature::read(function, problems);
+fn understood(function: &syn::ItemFn, around: &Around, problems: &mut Problems) -> Option<Routine> {
+    let signature = signature::read(function, around, problems);
     let mut scope = Scope {
         routine: signature.name.clone(),
         registers: signature.parameters.clone(),

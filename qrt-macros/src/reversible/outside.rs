@@ -3,6 +3,7 @@
 
 use super::dim::Linear;
 use super::ir::Demand;
+use super::methods::as_written;
 use super::scope::{begin, text};
 use quote::quote;
 use syn::{Ident, Path};
@@ -53,7 +54,8 @@ pub(super) fn width(path: &Path, demands: &mut Vec<Demand>) -> Linear {
 }
 
 /// Adds a demand that has not been made.
-pub(super) fn demand(demands: &mut Vec<Demand>, new: Demand) {
+pub(super) fn demand(demands: &mut Vec<Demand>, mut new: Demand) {
+    new.message = as_written(new.message);
     let condition = new.condition.to_string();
     if demands
         .iter()

@@ -1,6 +1,7 @@
 //! What is wrong with a routine: a code, a place, the right thing to write. All of it is said at
 //! once.
 
+use super::methods::as_written;
 use proc_macro2::{Ident, TokenStream};
 use qrt_core::syntax::codes;
 use quote::ToTokens;
@@ -17,7 +18,7 @@ impl Problems {
     pub(super) fn add(&mut self, code: &str, place: impl ToTokens, message: &str, help: &str) {
         #[cfg(test)]
         crate::tests::checks::reached(std::panic::Location::caller(), code, message);
-        let message = format!("{message} [{code}]\n  = help: {help}");
+        let message = as_written(format!("{message} [{code}]\n  = help: {help}"));
         self.found.push(syn::Error::new_spanned(place, message));
     }
 

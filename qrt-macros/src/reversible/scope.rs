@@ -2,6 +2,7 @@
 
 use super::dim::{self, Linear, Loop};
 use super::ir::{Demand, Place, Register};
+use super::methods::as_written;
 use super::outside;
 use super::problem::Problems;
 use super::statement::bare;
@@ -332,7 +333,7 @@ pub(super) fn integer(expression: &Expr) -> Option<i128> {
 
 /// Source text, with spaces as they are usually set.
 pub(super) fn text(source: impl ToTokens) -> String {
-    let mut text = quote!(#source).to_string();
+    let mut text = as_written(quote!(#source).to_string());
     for (from, to) in [
         (" [", "["),
         ("[ ", "["),

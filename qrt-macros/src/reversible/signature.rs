@@ -2,10 +2,10 @@
 
 use super::dim::Linear;
 use super::ir::{Array, Demand, Format, Kind, Register, Signature};
-use super::outside;
 use super::problem::Problems;
 use super::scope::{text, type_text};
-use proc_macro2::TokenTree;
+use super::{Around, outside};
+use proc_macro2::{TokenStream, TokenTree};
 use qrt_core::syntax::codes;
 use quote::quote;
 use std::rc::Rc;
@@ -15,7 +15,7 @@ use syn::{
 };
 
 /// Reads the signature. What is wrong with it is left out of the result.
-pub(super) fn read(function: &ItemFn, problems: &mut Problems) -> Signature {
+pub(super) fn read(function: &ItemFn, around: &Around, problems: &mut Problems) -> Signature {
     let signature = &function.sig;
     let plain = "write a plain `fn`: a routine runs at once, wherever it is called from";
     let kinds = [
@@ -57,16 +57,22 @@ pub(super) fn read(function: &ItemFn, problems: &mut Problems) -> Signature {
             "take `out: &mut ..` and write `out += ..`",
         );
     }
-    let constants = constants(function, problems);
+    let own = constants(&function.sig.generics, "a reversible function", problems);
+    let constants: Vec<Ident> = around.constants.iter().chain(&own).cloned().collect();
     let mut demands = Vec::new();
     let mut parameters: Vec<Rc<Register>> = Vec::new();
     let mut unusable = Vec::new();
     for input in &signature.inputs {
         let Some(register) = parameter(input, &constants, &mut demands, problems) else {
-            if let FnArg::Typed(input) = input
-                && let Pat::Ident(name) = &*input.pat
-            {
-                unusable.push(name.ident.clone());
+            match input {
+                FnArg::Typed(input) => {
+                    if let Pat::Ident(name) = &*input.pat {
+                        unusable.push(name.ident.clone());
+                    }
+                }
+                FnArg::Receiver(receiver) => {
+                    unusable.push(Ident::new("self", receiver.self_token.span));
+                }
             }
             continue;
         };
@@ -88,6 +94,8 @@ pub(super) fn read(function: &ItemFn, problems: &mut Problems) -> Signature {
         attributes: function.attrs.clone(),
         visibility: function.vis.clone(),
         name: signature.ident.clone(),
+        in_trait: around.in_trait,
+        own,
         constants,
         parameters,
         unusable,
@@ -95,9 +103,14 @@ pub(super) fn read(function: &ItemFn, problems: &mut Problems) -> Signature {
     }
 }
 
-fn constants(function: &ItemFn, problems: &mut Problems) -> Vec<Ident> {
+/// The constants that a function, or what it stands in, is generic over.
+pub(super) fn constants(
+    generics: &syn::Generics,
+    what: &str,
+    problems: &mut Problems,
+) -> Vec<Ident> {
     let mut constants = Vec::new();
-    for parameter in &function.sig.generics.params {
+    for parameter in &generics.params {
         match parameter {
             GenericParam::Const(constant) => {
                 let ty = &constant.ty;
@@ -111,16 +124,16 @@ fn constants(function: &ItemFn, problems: &mut Problems) -> Vec<Ident> {
             GenericParam::Type(_) | GenericParam::Lifetime(_) => problems.add(
                 codes::REV_GENERIC,
                 parameter,
-                "a reversible function is generic over constants only",
+                &format!("{what} is generic over constants only"),
                 "name the registers' formats, with a width such as `const W: u32`",
             ),
         }
     }
-    if let Some(clause) = &function.sig.generics.where_clause {
+    if let Some(clause) = &generics.where_clause {
         problems.add(
             codes::REV_GENERIC,
             clause,
-            "a reversible function has no `where` clause",
+            &format!("{what} has no `where` clause"),
             "remove it: what must hold of the widths follows from the statements",
         );
     }
@@ -138,8 +151,8 @@ fn parameter(
             problems.add(
                 codes::REV_SIGNATURE,
                 receiver,
-                "a method cannot be reversible: there is no register in `self`",
-                "leave it out, and call the function by its type's path: `Adder::add(&x, &mut y)`",
+                "which register `self` is cannot be seen here",
+                "put `#[reversible]` on the `impl` of a trait for a format: `impl Count for UInt<4>`",
             );
             return None;
         }
@@ -192,6 +205,7 @@ fn parameter(
         ty: ty.clone(),
         array,
         element: None,
+        computed: computed(ty, &format, constants),
         format,
         parameter: true,
         mutable: reference.mutability.is_some(),
@@ -209,7 +223,8 @@ pub(super) fn array<'a>(
         return Some((None, ty));
     };
     let length = &array.len;
-    let Some(known) = width(length, constants, demands) else {
+    let known = width(length, constants, demands);
+    let Some(known) = known.filter(|_| !names_any(quote!(#length), constants)) else {
         let message = "how many registers an array has is a number or a constant of a module";
         let help = "write `[UInt<8>; 4]`, or `[UInt<8>; N]` with `const N: usize` in the module";
         problems.add(codes::REV_FORMAT_NAME, length, message, help);
@@ -260,10 +275,10 @@ pub(super) fn format(
         .map(|size| bits(size, constants, demands))
         .collect();
     let Some(read) = read else {
-        let computed = sizes.iter().any(|size| computes(size, constants));
+        let computed = sizes.iter().any(|size| names_any(quote!(#size), constants));
         let help = if computed {
-            "Rust computes no width from a function's constants: take it as a constant of its own, \
-             `const V: u32`; what must hold of it follows from the statements"
+            "write a sum of constants and their multiples, such as `UInt<{ 2 * W + 1 }>`, or take the \
+             width as a constant of its own, `const V: u32`"
         } else {
             "write `UInt<8>`, or `UInt<W>` with `const W: u32` among the function's generics or in \
              its module"
@@ -333,7 +348,7 @@ fn bits(size: &GenericArgument, constants: &[Ident], demands: &mut Vec<Demand>) 
     }
 }
 
-/// A width that Rust computes: of numbers and the module's constants, or one constant alone.
+/// A width: a sum of numbers, the module's constants and those of the function.
 fn width(expression: &Expr, constants: &[Ident], demands: &mut Vec<Demand>) -> Option<Linear> {
     if let Some(number) = super::scope::integer(expression) {
         return i64::try_from(number).map(Linear::from).ok();
@@ -341,25 +356,13 @@ fn width(expression: &Expr, constants: &[Ident], demands: &mut Vec<Demand>) -> O
     match expression {
         Expr::Paren(inner) => width(&inner.expr, constants, demands),
         Expr::Block(block) => match block.block.stmts.as_slice() {
-            [Stmt::Expr(Expr::Path(path), None)]
-                if path
-                    .path
-                    .get_ident()
-                    .is_some_and(|name| constants.contains(name)) =>
-            {
-                path.path.get_ident().map(Linear::name)
-            }
             [Stmt::Expr(inner, None)] => width(inner, constants, demands),
             _ => None,
         },
-        Expr::Path(path)
-            if path
-                .path
-                .get_ident()
-                .is_none_or(|name| !constants.contains(name)) =>
-        {
-            outside::constant(&path.path, demands)
-        }
+        Expr::Path(path) => match path.path.get_ident() {
+            Some(name) if constants.contains(name) => Some(Linear::name(name)),
+            _ => outside::constant(&path.path, demands),
+        },
         Expr::Binary(binary) => {
             let a = width(&binary.left, constants, demands)?;
             let b = width(&binary.right, constants, demands)?;
@@ -375,15 +378,45 @@ fn width(expression: &Expr, constants: &[Ident], demands: &mut Vec<Demand>) -> O
     }
 }
 
-/// Whether a width is computed from the function's own constants.
-fn computes(size: &GenericArgument, constants: &[Ident]) -> bool {
-    let names = |token: TokenTree| match token {
-        TokenTree::Ident(name) => constants.contains(&name),
-        TokenTree::Group(group) => {
-            let mut inner = group.stream().into_iter();
-            inner.any(|token| matches!(token, TokenTree::Ident(name) if constants.contains(&name)))
-        }
-        _ => false,
+/// What the generated code calls a format that Rust's types cannot say: one that is computed from
+/// the function's constants, or counts bits before the point by one of them, which is a `u32`.
+pub(super) fn computed(ty: &Type, format: &Format, constants: &[Ident]) -> Option<Ident> {
+    let Type::Path(path) = ty else {
+        return None;
     };
-    quote!(#size).into_iter().any(names)
+    let last = path.path.segments.last()?;
+    let PathArguments::AngleBracketed(sizes) = &last.arguments else {
+        return None;
+    };
+    let mut sizes = sizes.args.iter().enumerate();
+    let computed = sizes.any(|(place, size)| {
+        let alone = match size {
+            GenericArgument::Type(_) => true,
+            GenericArgument::Const(Expr::Block(block)) => {
+                matches!(
+                    block.block.stmts.as_slice(),
+                    [Stmt::Expr(Expr::Path(_), None)]
+                )
+            }
+            _ => false,
+        };
+        let before_the_point = format.fixed() && place == 0;
+        names_any(quote!(#size), constants) && (!alone || before_the_point)
+    });
+    let written = format!("{:?} {} {}", format.kind, format.width, format.fraction);
+    let words = [('+', "plus"), ('-', "minus"), ('*', "times")];
+    let name = words
+        .iter()
+        .fold(written, |name, (sign, word)| name.replace(*sign, word));
+    let name = name.replace(|letter: char| !letter.is_alphanumeric(), "_");
+    computed.then(|| Ident::new(name.trim_end_matches("_0"), last.ident.span()))
+}
+
+/// Whether tokens name any of these.
+pub(super) fn names_any(tokens: TokenStream, names: &[Ident]) -> bool {
+    tokens.into_iter().any(|token| match token {
+        TokenTree::Ident(name) => names.contains(&name),
+        TokenTree::Group(group) => names_any(group.stream(), names),
+        _ => false,
+    })
 }

@@ -91,6 +91,7 @@ impl Scope {
             ty: ty.clone(),
             array,
             element: None,
+            computed: signature::computed(ty, &format, &constants),
             format,
             parameter: false,
             mutable: true,
@@ -156,6 +157,7 @@ impl Scope {
         let kind = match expression {
             Expr::Binary(binary) => return self.update(binary, source),
             Expr::Call(call) => return self.call(call, source),
+            Expr::MethodCall(call) => return self.method(call, source),
             Expr::If(branch) => self.branch(branch)?,
             Expr::ForLoop(turns) => self.turns(turns)?,
             Expr::Block(block) if block.label.is_none() => K::Block(self.block(&block.block)),
@@ -218,12 +220,6 @@ impl Scope {
                     message,
                     "write `for i in 0..8`, with constant bounds",
                 )
-            }
-            Expr::MethodCall(call) => {
-                let place = call.method.to_token_stream();
-                let help = "call functions marked `#[reversible]` by name: `add(&x, &mut y)`, those of \
-                            a type by its path: `Adder::add(&x, &mut y)`";
-                (codes::REV_CALL, place, "a method is not reversible", help)
             }
             Expr::Match(choice) => (
                 codes::REV_STATEMENT,

@@ -42,7 +42,11 @@ pub(crate) fn read(function: TokenStream, site: Span) -> Result<Channels, TokenS
 
 fn channels(function: TokenStream, problems: &mut Problems) -> Option<Channels> {
     let function = syn::parse2::<syn::ItemFn>(function).ok()?;
-    let routine = super::understood(&function, &mut Problems::default())?;
+    let routine = super::understood(
+        &function,
+        &super::Around::default(),
+        &mut Problems::default(),
+    )?;
     let outputs = signature::outputs(&routine.signature, problems)?;
     let mut meaning = Meaning::new(&routine.signature, problems)?;
     meaning.run(&routine.body);

@@ -2,12 +2,15 @@
 //!
 //! A picture holds linear radiance. EXR keeps it as it is, in 32-bit floats; PNG shows it: times
 //! `2^exposure`, through the sRGB curve, to 8 bits. Both say in their metadata how they were made,
-//! and both are written whole or not at all.
+//! and both are written whole or not at all. Each is a feature of this crate, `exr` and `png`, without
+//! which such pictures are refused.
 
 pub mod compare;
 mod counts;
+#[cfg(feature = "exr")]
 mod exr_file;
 mod metadata;
+#[cfg(feature = "png")]
 mod png_file;
 mod srgb;
 #[cfg(test)]
@@ -15,6 +18,7 @@ mod tests;
 
 pub use counts::{Count, write_counts, write_counts_to};
 pub use metadata::Metadata;
+#[cfg(feature = "png")]
 pub use png_file::read_png_metadata;
 pub use srgb::decode as linear_of_srgb;
 
@@ -52,7 +56,7 @@ pub struct Layer {
     pub values: Vec<f64>,
 }
 
-/// How a picture becomes a file.
+/// How a picture becomes a file: by the crate's feature of that name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Encoding {
     /// 8-bit sRGB of radiance times `2^exposure`.
@@ -68,7 +72,7 @@ impl Encoding {
     ///
     /// # Errors
     /// Names that end neither in `.png` nor in `.exr`; an exposure beyond 1,000 stops, or one for
-    /// EXR, which has none.
+    /// EXR, which has none; a kind of pictures whose feature is off.
     ///
     /// ```
     /// use qrt_runtime::image::Encoding;
@@ -80,7 +84,7 @@ impl Encoding {
     /// ```
     pub fn of(path: &Path, exposure: Option<f64>) -> Result<Self, ImageError> {
         let extension = path.extension().map(std::ffi::OsStr::to_ascii_lowercase);
-        match (
+        let encoding = match (
             extension.as_deref().and_then(std::ffi::OsStr::to_str),
             exposure,
         ) {
@@ -92,6 +96,21 @@ impl Encoding {
             _ => Err(ImageError::Extension {
                 path: path.to_path_buf(),
             }),
+        }?;
+        match encoding {
+            Self::Png { .. } if cfg!(feature = "png") => Ok(encoding),
+            Self::Exr if cfg!(feature = "exr") => Ok(encoding),
+            other => Err(other.left_out()),
+        }
+    }
+
+    /// That its feature is off.
+    fn left_out(self) -> ImageError {
+        ImageError::Feature {
+            feature: match self {
+                Self::Png { .. } => "png",
+                Self::Exr => "exr",
+            },
         }
     }
 }
@@ -156,6 +175,10 @@ pub fn save_layers(
 /// assert_eq!(&bytes[1..4], b"PNG");
 /// # Ok::<(), qrt_runtime::image::ImageError>(())
 /// ```
+#[cfg_attr(
+    not(all(feature = "exr", feature = "png")),
+    allow(unused, reason = "each kind of pictures uses what it needs")
+)]
 pub fn write_to(
     mut out: impl io::Write,
     image: &Image,
@@ -165,7 +188,8 @@ pub fn write_to(
 ) -> Result<u64, ImageError> {
     image.check(encoding)?;
     check_layers(image, layers, encoding)?;
-    let written = match encoding {
+    let written: io::Result<u64> = match encoding {
+        #[cfg(feature = "png")]
         Encoding::Png { exposure } => {
             let scale = libm::exp2(exposure);
             png_file::write(out, image, metadata, scale).map_err(|error| match error {
@@ -173,7 +197,10 @@ pub fn write_to(
                 other => io::Error::other(other),
             })
         }
+        #[cfg(feature = "exr")]
         Encoding::Exr => exr_file::write(&mut out, image, layers, metadata).map(|()| 0),
+        #[cfg(not(all(feature = "exr", feature = "png")))]
+        other => return Err(other.left_out()),
     };
     Ok(written?)
 }
@@ -284,6 +311,12 @@ pub enum ImageError {
         .path.display()
     )]
     Extension { path: PathBuf },
+    /// Pictures of a kind that is not built.
+    #[error(
+        "qrt was built without its feature `{feature}`, and writes no .{feature}: add the feature to \
+         the dependency"
+    )]
+    Feature { feature: &'static str },
     /// Not a number of stops between -1,000 and 1,000.
     #[error("an exposure of {exposure} stops; it must lie between -1000 and 1000")]
     Exposure { exposure: f64 },

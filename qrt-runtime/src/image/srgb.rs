@@ -1,6 +1,7 @@
 //! The display transform: linear light to the 8-bit levels of sRGB (IEC 61966-2-1).
 
 /// The sRGB transfer function: linear 0..1 to encoded 0..1.
+#[cfg(any(test, feature = "png"))]
 pub(super) fn encode(linear: f64) -> f64 {
     if linear <= 0.003_130_8 {
         12.92 * linear
@@ -21,6 +22,7 @@ pub fn decode(encoded: f64) -> f64 {
 
 /// The 8-bit level nearest to a linear value, and whether the value lies outside what 8 bits show:
 /// nearer to a level below 0 or above 255 than to those.
+#[cfg(any(test, feature = "png"))]
 pub(super) fn level(linear: f64) -> (u8, bool) {
     let level = libm::floor(encode(linear) * 255.0 + 0.5);
     (

@@ -1,3 +1,5 @@
+#![cfg(all(feature = "exr", feature = "png"))]
+
 use super::*;
 use crate::scratch::Scratch;
 use exr::meta::attribute::AttributeValue;

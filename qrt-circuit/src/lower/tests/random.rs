@@ -162,7 +162,7 @@ fn op() -> impl Strategy<Value = (Op, Vec<u32>)> {
                 let products = [(factors[0], drops[0]), (factors[1], drops[1])];
                 let op = Op::Multiples {
                     a,
-                    products: Multiples::new(&products, a.width).unwrap().into(),
+                    products: Multiples::new(&products).unwrap().into(),
                     targets: [r2, r3].into(),
                     scratch: r4,
                 };

@@ -323,7 +323,7 @@ fn products_with_several_constants() {
                     let targets = R[1..=products.len()].into();
                     let op = Op::Multiples {
                         a,
-                        products: Multiples::new(&products, n).unwrap().into(),
+                        products: Multiples::new(&products).unwrap().into(),
                         targets,
                         scratch: R[1 + products.len()],
                     };

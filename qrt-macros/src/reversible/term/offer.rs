@@ -1,6 +1,6 @@
 //! What `#[reversible]` writes beside a function that could be a BSDF's term.
 
-use proc_macro2::{Span, TokenStream};
+use proc_macro2::{Delimiter, Span, TokenStream, TokenTree};
 use qrt_core::expr::Variable;
 use quote::{format_ident, quote};
 use syn::{FnArg, Ident, ItemFn, Pat, Type, Visibility};
@@ -11,7 +11,7 @@ pub(crate) fn offer(item: &TokenStream) -> TokenStream {
     let Ok(function) = syn::parse2::<ItemFn>(item.clone()) else {
         return TokenStream::new();
     };
-    if !function.sig.inputs.iter().any(is_variable) {
+    if !function.sig.inputs.iter().any(is_variable) || stands_in_impl(&function) {
         return TokenStream::new();
     }
     let name = &function.sig.ident;
@@ -41,6 +41,52 @@ pub(crate) fn offer(item: &TokenStream) -> TokenStream {
     }
 }
 
+/// Whether the function stands in an `impl`, where no macro can stand beside it, and where `qrt!` would
+/// not find it. An attribute does not see what is around its function; the file that it was written
+/// in does.
+fn stands_in_impl(function: &ItemFn) -> bool {
+    let name = &function.sig.ident;
+    let text = name
+        .span()
+        .local_file()
+        .and_then(|file| std::fs::read_to_string(file).ok());
+    let tokens = text.and_then(|text| text.parse::<TokenStream>().ok());
+    let parameters = &function.sig.inputs;
+    let begin = unspaced(&quote!(fn #name(#parameters)));
+    tokens.is_some_and(|tokens| an_impl_has(&begin, tokens, false))
+}
+
+/// Whether an `impl` within these tokens, or around them, has a function that begins so.
+fn an_impl_has(begin: &str, tokens: TokenStream, within: bool) -> bool {
+    let trees: Vec<TokenTree> = tokens.into_iter().collect();
+    let begins = |three: &[TokenTree]| unspaced(&three.iter().cloned().collect()) == begin;
+    if within && trees.windows(3).any(begins) {
+        return true;
+    }
+    // What stands before a block says whose block it is.
+    let mut header: Vec<String> = Vec::new();
+    trees.into_iter().any(|tree| match tree {
+        TokenTree::Group(group) if group.delimiter() == Delimiter::Brace => {
+            let words = std::mem::take(&mut header);
+            let is = |word: &str| words.iter().any(|own| own == word);
+            an_impl_has(begin, group.stream(), is("impl") && !is("fn"))
+        }
+        TokenTree::Punct(punct) if punct.as_char() == ';' => {
+            header.clear();
+            false
+        }
+        tree => {
+            header.push(tree.to_string());
+            false
+        }
+    })
+}
+
+/// Tokens as text without what is between them, which is written one way or another.
+fn unspaced(tokens: &TokenStream) -> String {
+    tokens.to_string().split_whitespace().collect()
+}
+
 /// Whether a parameter is called like a variable, and is a number with a point that is only read.
 fn is_variable(input: &FnArg) -> bool {
     let FnArg::Typed(input) = input else {
@@ -62,4 +108,36 @@ fn is_variable(input: &FnArg) -> bool {
 pub(super) fn variable(name: &Ident) -> Option<Variable> {
     let mut all = Variable::ALL.into_iter();
     all.find(|variable| name == variable.name())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn functions_of_an_impl_are_found_where_they_are_written() {
+        let file = "
+            use a::{b, c};
+            fn one(v: &UFixed<0, 6>) -> impl Copy { fn two(v: &UFixed<0, 6>) {} }
+            mod inner {
+                pub struct Map;
+                impl Map {
+                    #[reversible]
+                    pub(super) fn three(
+                        v: &UFixed<0, 6>, // a comment
+                        out: &mut UFixed<2, 6>,
+                    ) {
+                    }
+                }
+                fn four(v: &UFixed<0, 6>) {}
+            }";
+        let found =
+            |begin: TokenStream| an_impl_has(&unspaced(&begin), file.parse().unwrap(), false);
+        let parameters = quote!(v: &UFixed<0, 6>, out: &mut UFixed<2, 6>,);
+        assert!(found(quote!(fn three(#parameters))));
+        assert!(!found(quote!(fn three(v: &UFixed<0, 6>))));
+        for other in [quote!(one), quote!(two), quote!(four)] {
+            assert!(!found(quote!(fn #other(v: &UFixed<0, 6>))), "{other}");
+        }
+    }
 }

@@ -18,7 +18,7 @@ use crate::reversible::scope::text;
 use proc_macro2::TokenStream;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::rc::Rc;
-use syn::{Ident, Path};
+use syn::{ExprPath, Ident};
 
 /// Bits that are changed, those of every pass of a loop included; beyond, loops are tracked whole.
 const MOST_STEPS: usize = 20_000;
@@ -262,7 +262,7 @@ impl Exact {
 
     fn call(
         &mut self,
-        path: &Path,
+        path: &ExprPath,
         inverse: bool,
         arguments: &[(String, bool)],
         source: &TokenStream,

@@ -228,7 +228,7 @@ impl Maker {
                 let products = [product(), product()];
                 Op::Multiples {
                     a,
-                    products: Multiples::new(&products, a.width).unwrap().into(),
+                    products: Multiples::new(&products).unwrap().into(),
                     targets: [self.any_register(), self.any_register()].into(),
                     scratch,
                 }

@@ -1,0 +1,97 @@
+//! Formats whose widths are computed from a routine's constants. No type of Rust's has such a width,
+//! but a constant of a type's own has: each of these formats is a type of the routine's, and a
+//! parameter may be of any type that turns out to be the same format.
+
+use crate::reversible::ir::{Kind, Register, Routine, Signature, Statement, StatementKind as K};
+use proc_macro2::TokenStream;
+use quote::quote;
+use std::collections::BTreeMap;
+use std::rc::Rc;
+use syn::Ident;
+
+/// The types of a routine's computed formats.
+pub(super) fn declared(routine: &Routine) -> TokenStream {
+    let mut registers: Vec<&Rc<Register>> = routine.signature.parameters.iter().collect();
+    scratch(&routine.body, &mut registers);
+    let constants = &routine.signature.constants;
+    let named = |register: &&Rc<Register>| Some((register.computed.clone()?, (*register).clone()));
+    let all: BTreeMap<Ident, Rc<Register>> = registers.iter().filter_map(named).collect();
+    let declared = all
+        .iter()
+        .map(|(name, register)| one(name, register, constants));
+    declared.collect()
+}
+
+fn one(name: &Ident, register: &Register, constants: &[Ident]) -> TokenStream {
+    let format = &register.format;
+    let (width, fraction) = (format.width.signed_tokens(), format.fraction.tokens());
+    let ty = match format.kind {
+        Kind::Bool => quote!(Bool),
+        Kind::UInt => quote!(UInt),
+        Kind::Int => quote!(Int),
+        Kind::UFixed => quote!(UFixed { fraction: #fraction }),
+        Kind::Fixed => quote!(Fixed { fraction: #fraction }),
+    };
+    quote! {
+        #[allow(non_camel_case_types, dead_code, reason = "it is called like its width")]
+        struct #name<#(const #constants: u32),*>;
+        impl<#(const #constants: u32),*> ::qrt::circuit::format::Format
+            for #name<#(#constants),*>
+        {
+            const TYPE: ::qrt::circuit::Type = ::qrt::circuit::Type::#ty;
+            const WIDTH: u32 = ::qrt::circuit::format::width(#width);
+        }
+    }
+}
+
+/// That the registers handed over have the computed formats of their parameters.
+pub(super) fn agree(signature: &Signature) -> TokenStream {
+    let Signature {
+        name: routine,
+        constants,
+        parameters,
+        ..
+    } = signature;
+    let computed = parameters.iter().filter_map(|parameter| {
+        let name = &parameter.name;
+        let format = parameter.computed.as_ref()?;
+        let message = format!(
+            "QRT0813: `{name}` of `{routine}` is a register of another format than `{}`",
+            parameter.type_text()
+        );
+        let one = if parameter.is_array() {
+            quote!(#name.first())
+        } else {
+            quote!(::core::option::Option::Some(&*#name))
+        };
+        Some(quote! {
+            {
+                struct Expected<#(const #constants: u32),*>;
+                impl<#(const #constants: u32),*> ::qrt::circuit::format::Expected
+                    for Expected<#(#constants),*>
+                {
+                    type Format = #format<#(#constants),*>;
+                    const OTHERWISE: &'static str = #message;
+                }
+                ::qrt::circuit::format::agree::<Expected<#(#constants),*>, _, _>(#one);
+            }
+        })
+    });
+    computed.collect()
+}
+
+fn scratch<'a>(statements: &'a [Statement], found: &mut Vec<&'a Rc<Register>>) {
+    for statement in statements {
+        let (first, second): (&[Statement], &[Statement]) = match &statement.kind {
+            K::Scratch(register, body) => {
+                found.push(register);
+                (body, &[])
+            }
+            K::If(_, a, b) | K::Within(a, b) => (a, b),
+            K::For { body, .. } | K::Block(body) => (body, &[]),
+            K::Update(..) | K::Swap(..) | K::Call { .. } => continue,
+        };
+        scratch(first, found);
+        scratch(second, found);
+    }
+}
