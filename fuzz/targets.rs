@@ -9,8 +9,10 @@ use qrt_circuit::{
 use qrt_core::expr::{Domain, Expr, Variable, Variables};
 use qrt_core::front::{Files, parse_with};
 use qrt_core::scene::Scene;
-use qrt_runtime::checkpoint::{Checkpoint, Header, Part, Tile};
-use std::collections::HashMap;
+use qrt_runtime::checkpoint::{Checkpoint, CheckpointError, Header, Part, Tile};
+use qrt_runtime::render::Merge;
+use std::collections::{BTreeMap, HashMap};
+use std::path::{Path, PathBuf};
 
 /// Reads a scene. What is refused has an error that can be shown; what is read can be printed, and what is
 /// printed is the same scene.
@@ -394,28 +396,144 @@ fn crc(bytes: &[u8]) -> u32 {
     })
 }
 
-/// Opens a checkpoint with these records, each up to a byte 255 and sealed as it must be. What is read lies on the
-/// film, and is there again after something was added.
+/// Opens a checkpoint that has, by its first byte, some records behind a right header, a header of any words, any
+/// body of a header, or any bytes at all.
 pub(crate) fn checkpoint(data: &[u8]) {
-    let name = format!("qrt-fuzz-{}.qrt-partial", std::process::id());
-    let path = std::env::temp_dir().join(name);
+    let Some((kind, data)) = data.split_first() else {
+        return;
+    };
+    let path = own_file();
     let _ = std::fs::remove_file(&path);
-    let header = Header {
+    match kind % 4 {
+        0 => records(&path, data),
+        1 => header_of_words(&path, data),
+        2 => {
+            let mut bytes = started(&path, &render());
+            // Behind them stands how long the body is.
+            bytes.truncate(MAGIC_AND_VERSION);
+            bytes.extend((data.len() as u32).to_le_bytes());
+            bytes.extend(data);
+            let sum = crc(&bytes);
+            bytes.extend(sum.to_le_bytes());
+            strange(&path, &bytes);
+        }
+        _ => strange(&path, data),
+    }
+    let _ = std::fs::remove_file(&path);
+}
+
+/// A file of this thread's own.
+fn own_file() -> PathBuf {
+    let (process, thread) = (std::process::id(), std::thread::current().id());
+    std::env::temp_dir().join(format!("qrt-fuzz-{process}-{thread:?}.qrt-partial"))
+}
+
+/// Bytes that checkpoints of this format begin with.
+const MAGIC_AND_VERSION: usize = 12;
+
+/// The render that asks.
+fn render() -> Header {
+    Header {
         scene_hash: "any".into(),
         seed: 0,
-        options: [].into(),
+        options: [("build".into(), "of today".into())].into(),
         width: 3,
         height: 2,
         crop: [1, 0, 2, 2],
+    }
+}
+
+/// The bytes of a checkpoint without records.
+fn started(path: &Path, header: &Header) -> Vec<u8> {
+    drop(Checkpoint::create(path, header).expect("a file can be made"));
+    std::fs::read(path).expect("it is there")
+}
+
+/// A checkpoint of the render that asks, without records.
+pub(crate) fn header_of_the_render() -> Vec<u8> {
+    let path = own_file();
+    let bytes = started(&path, &render());
+    let _ = std::fs::remove_file(&path);
+    bytes
+}
+
+/// A header of any words comes back, and is no other's.
+fn header_of_words(path: &Path, data: &[u8]) {
+    let mut words = data.split(|byte| *byte == 255).map(|word| {
+        let word = String::from_utf8_lossy(word);
+        word.into_owned()
+    });
+    let mut numbers = [0; 8];
+    let first = words.next().unwrap_or_default();
+    for (number, byte) in numbers.iter_mut().zip(first.bytes()) {
+        *number = u32::from(byte) << (byte & 24);
+    }
+    let [width, height, x, y, columns, rows, low, high] = numbers;
+    let mut header = Header {
+        scene_hash: words.next().unwrap_or_default(),
+        seed: u64::from(high) << 32 | u64::from(low),
+        options: BTreeMap::new(),
+        width,
+        height,
+        crop: [x, y, columns, rows],
     };
-    drop(Checkpoint::create(&path, &header).expect("a file can be made"));
-    let mut bytes = std::fs::read(&path).expect("it is there");
+    while let (Some(name), Some(value)) = (words.next(), words.next()) {
+        header.options.insert(name, value);
+    }
+    let bytes = started(path, &header);
+    let (checkpoint, tiles) = Checkpoint::open(path, &header).expect("it is this render's");
+    drop(checkpoint);
+    assert!(tiles.is_empty());
+    // It begins no checkpoint of another's, so that this is no file of one that was killed as it began.
+    let other = Checkpoint::open(path, &render());
+    match other {
+        Ok(_) => assert_eq!(header, render()),
+        Err(CheckpointError::Differs { differences, .. }) => assert!(!differences.is_empty()),
+        Err(error) => panic!("{error}"),
+    }
+    assert_eq!(std::fs::read(path).expect("it is there"), bytes);
+}
+
+/// A file of any bytes is refused and left as it was, unless it is a checkpoint of this render.
+fn strange(path: &Path, bytes: &[u8]) {
+    let header = render();
+    let right = started(path, &header);
+    std::fs::write(path, bytes).expect("a file can be written");
+    let begins = bytes.starts_with(&right) || right.starts_with(bytes);
+    match Checkpoint::open(path, &header) {
+        Ok((checkpoint, _)) => {
+            drop(checkpoint);
+            assert!(begins, "{bytes:?}");
+            let left = std::fs::read(path).expect("it is there");
+            assert!(left.starts_with(&right), "{left:?}");
+        }
+        Err(error) => {
+            assert!(!begins, "{error}");
+            assert!(!error.to_string().is_empty());
+            assert_eq!(std::fs::read(path).expect("it is there"), bytes);
+            // Nor does one go on from it that begins anew.
+            let begun = Checkpoint::create(path, &header);
+            let foreign = matches!(begun, Err(CheckpointError::Foreign { .. }));
+            assert_eq!(foreign, !bytes.starts_with(&right[..8]), "{begun:?}");
+            drop(begun);
+            assert_eq!(std::fs::read(path).expect("it is there"), bytes);
+        }
+    }
+    // Nor is it a part of a picture.
+    assert!(Merge::default().add("any", bytes).is_err());
+}
+
+/// Records behind a right header, each up to a byte 255 and sealed as it must be. What is read lies on the film, and
+/// is there again after something was added.
+fn records(path: &Path, data: &[u8]) {
+    let header = render();
+    let mut bytes = started(path, &header);
     for record in data.split(|byte| *byte == 255) {
         bytes.extend(record);
         bytes.extend(crc(record).to_le_bytes());
     }
-    std::fs::write(&path, bytes).expect("a file can be written");
-    let (mut checkpoint, mut tiles) = Checkpoint::open(&path, &header).expect("it is one");
+    std::fs::write(path, bytes).expect("a file can be written");
+    let (mut checkpoint, mut tiles) = Checkpoint::open(path, &header).expect("it is one");
     let parts = checkpoint.take_parts();
     let inside = |x: u32, y: u32, width: u32, height: u32| {
         x >= 1 && width >= 1 && height >= 1 && x + width <= 3 && y + height <= 2
@@ -443,7 +561,7 @@ pub(crate) fn checkpoint(data: &[u8]) {
     checkpoint.append(&new).expect("it can be written");
     drop(checkpoint);
     tiles.push(new);
-    let (mut checkpoint, again) = Checkpoint::open(&path, &header).expect("it is one");
+    let (mut checkpoint, again) = Checkpoint::open(path, &header).expect("it is one");
     // Colours may be no numbers, which equal nothing.
     assert_eq!(format!("{again:?}"), format!("{tiles:?}"));
     let mut left = parts;

@@ -4,10 +4,12 @@
 mod common;
 
 mod command_line {
+    mod bounds;
     mod count_command;
     mod files_are_safe;
     mod hostile_scenes;
     mod inspect_command;
+    mod kills;
     mod other_renderers;
     mod parts_of_other_work;
     mod parts_of_pictures;

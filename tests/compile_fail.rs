@@ -14,7 +14,7 @@ fn wrong_programs_do_not_compile() {
     let target = Path::new(env!("CARGO_TARGET_TMPDIR")).parent().unwrap();
     let scenes = target.join("tests/trybuild/qrt/scenes");
     std::fs::create_dir_all(&scenes).unwrap();
-    for scene in ["faulty.yaml", "lit.yaml", "triangle.obj"] {
+    for scene in ["faulty.yaml", "lit.yaml", "outside.obj", "triangle.obj"] {
         let own = Path::new("tests/ui/scenes").join(scene);
         std::fs::copy(own, scenes.join(scene)).unwrap();
     }

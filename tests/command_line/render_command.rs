@@ -475,6 +475,35 @@ fn resuming_something_else_is_refused_and_replacing_it_is_said() {
     assert_eq!(folder.names(), ["box.png", "box.yaml"]);
 }
 
+/// The file's header says which build has written it: a hash of the sources that decide a picture's bits.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_checkpoint_of_another_build_is_refused_and_left_as_it_was() {
+    let folder = folder();
+    folder.fails(1, &["render", "box.yaml", "--stats", "/dev/full"]);
+    let mut bytes = folder.read("box.png.qrt-partial");
+    let name = bytes.windows(5).position(|bytes| bytes == b"build");
+    // Behind the name and the value's length.
+    let value = name.unwrap() + 9;
+    let here = String::from_utf8(bytes[value..value + 16].to_vec()).unwrap();
+    bytes[value] = if bytes[value] == b'0' { b'1' } else { b'0' };
+    let there = String::from_utf8(bytes[value..value + 16].to_vec()).unwrap();
+    // As another build would have sealed it.
+    let length = u32::from_le_bytes(bytes[12..16].try_into().unwrap());
+    let end = 16 + length as usize;
+    let sum = crc32fast::hash(&bytes[..end]);
+    bytes[end..end + 4].copy_from_slice(&sum.to_le_bytes());
+    fs::write(folder.path("box.png.qrt-partial"), &bytes).unwrap();
+    let errors = folder.fails(2, &["render", "box.yaml", "--resume"]);
+    let named = format!("build: there {there}, here {here}\n");
+    assert!(errors.contains(&named), "{errors}");
+    assert!(
+        errors.contains("another build of qrt may compute"),
+        "{errors}"
+    );
+    assert_eq!(folder.read("box.png.qrt-partial"), bytes);
+}
+
 /// The header and at least one tile.
 #[cfg(unix)]
 const BEGUN: u64 = 2048;

@@ -92,6 +92,17 @@ pub(crate) fn signalled(child: Child, signal: &str) -> (Option<i32>, String, Str
     (output.status.code(), said, errors)
 }
 
+/// Seconds that all processors have worked for a process; none where it is gone.
+#[cfg(target_os = "linux")]
+pub(crate) fn worked(process: u32) -> Option<f64> {
+    let stat = fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
+    // Behind the name, which may hold anything: proc_pid_stat(5), in hundredths.
+    let (_, numbers) = stat.rsplit_once(") ")?;
+    let mut numbers = numbers.split(' ').skip(11);
+    let mut next = || numbers.next()?.parse::<f64>().ok();
+    Some((next()? + next()?) / 100.0)
+}
+
 impl Drop for Folder {
     fn drop(&mut self) {
         let _ = fs::remove_dir_all(&self.0);

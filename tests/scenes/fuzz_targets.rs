@@ -109,26 +109,20 @@ fn openqasm() {
     tried(targets::openqasm, &seeds, 800);
 }
 
+/// A tile of a pixel, and a part of one.
+fn tile(x: u8, y: u8) -> Vec<u8> {
+    let place = [0, 0, 0, 0, x, 0, 0, 0, y, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0];
+    [&place[..], &[7; 83]].concat()
+}
+
+fn part(x: u8, number: u8) -> Vec<u8> {
+    let place = [1, 0, 0, 0, x, 0, 0, 0, 1, 0, 0, 0];
+    let number = [number, 0, 0, 0, 0, 0, 0, 0];
+    [&place[..], &number, &[3; 8], &[1, 0, 0, 0], &[9; 8]].concat()
+}
+
 #[test]
 fn checkpoints() {
-    let tile = |x: u8, y: u8| {
-        [
-            &[0, 0, 0, 0, x, 0, 0, 0, y, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0][..],
-            &[7; 59],
-        ]
-        .concat()
-    };
-    let part = |x: u8, number: u8| {
-        [
-            &[
-                1, 0, 0, 0, x, 0, 0, 0, 1, 0, 0, 0, number, 0, 0, 0, 0, 0, 0, 0,
-            ][..],
-            &[3; 8],
-            &[1, 0, 0, 0],
-            &[9; 8],
-        ]
-        .concat()
-    };
     let both = [
         tile(1, 0),
         part(2, 0),
@@ -138,5 +132,25 @@ fn checkpoints() {
         part(2, 3),
     ];
     let seeds = [tile(2, 1), part(1, 4), both.join(&255)];
+    let seeds = seeds.map(|seed| [&[0][..], &seed].concat());
+    tried(targets::checkpoint, &seeds, 1000);
+}
+
+/// Headers of any words, bodies of headers, and files.
+#[test]
+fn headers_of_checkpoints() {
+    let body = targets::header_of_the_render();
+    let (magic, rest) = body.split_at(16);
+    let (text, _) = rest.split_at(rest.len() - 4);
+    let seeds = [
+        [
+            &[1][..],
+            b"\x03\x02\x01\x00\x02\x02\xffany\xffmodel\xffreal\xffmodel\xfffixed",
+        ]
+        .concat(),
+        [&[2][..], text].concat(),
+        [&[3][..], &body].concat(),
+        [&[3][..], magic].concat(),
+    ];
     tried(targets::checkpoint, &seeds, 1000);
 }

@@ -63,6 +63,17 @@ impl Arena {
     }
 }
 
+impl Expr {
+    /// The expression of one of its nodes.
+    pub(crate) fn part(&self, root: Id) -> Self {
+        let arena = Arena {
+            nodes: self.nodes[..=root.index()].to_vec(),
+            known: HashMap::new(),
+        };
+        arena.finish(root)
+    }
+}
+
 impl Node {
     /// The nodes that it reads.
     pub fn operands(&self) -> impl Iterator<Item = Id> + use<> {

@@ -202,7 +202,7 @@ record! {
 
 record! {
     /// The author's own BSDF, by expressions.
-    #[derive(Clone, Debug, PartialEq)]
+    #[derive(Clone, Debug, PartialEq, Eq, Hash)]
     pub struct Bsdf = "a bsdf";
     /// The map phi(u, v), from the unit square to unit vectors x, y, z with z along the normal.
     pub map: [String; 3] = Array::<_, 3>(Expression);
@@ -217,7 +217,7 @@ record! {
 }
 
 /// Where a map's Jacobian comes from.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Jacobian {
     /// `|dphi/du x dphi/dv|`, differentiated symbolically.
     Auto,

@@ -4,6 +4,7 @@
 //! `u` and `v`, every subexpression of one coordinate becomes a table over that coordinate's
 //! indices (a QROM, in a circuit), and only what mixes coordinates or angles is arithmetic.
 
+use super::sampled::TABLE_BITS;
 use super::{Arith, Axis, Coordinate, Sampled};
 use crate::expr::{Domain, Expr, Id, Interval, Node, Variable, VariableSet, Variables};
 use crate::sampling::cell_centre;
@@ -40,15 +41,21 @@ pub(crate) struct Angles<R> {
 
 struct Compiler {
     bits: [u32; 2],
+    most_stored: u32,
     steps: Vec<Step>,
 }
 
 impl Compiled {
-    /// Compiles `expressions` for coordinates of `bits`; `cos_i` is `|phi_z|` where that is given, and
+    /// Compiles `expressions` for coordinates of `bits`, whose tables are stored if they have at most so many; `cos_i` is `|phi_z|` where that is given, and
     /// one of the angles else.
-    pub(crate) fn new(expressions: &[&Expr], bits: [u32; 2], cos_i: Option<&Expr>) -> Self {
+    pub(crate) fn new(
+        expressions: &[&Expr],
+        (bits, most_stored): ([u32; 2], u32),
+        cos_i: Option<&Expr>,
+    ) -> Self {
         let mut compiler = Compiler {
             bits,
+            most_stored,
             steps: Vec::new(),
         };
         let cos_i = cos_i.map(Expr::abs);
@@ -207,27 +214,24 @@ impl Compiler {
             Axis::U
         };
         let bits = self.bits[usize::from(axis == Axis::V)];
-        let owned = expr.clone();
+        let part = expr.part(id);
         let value = move |coordinate: f64| {
-            let mut values = Vec::new();
-            let at = Variables {
+            part.eval(&Variables {
                 u: coordinate,
                 v: coordinate,
                 ..Variables::default()
-            };
-            owned.eval_in(&at, &mut values);
-            values[id.index()]
+            })
         };
         if needs.is_empty() {
             return Some(self.constant(value(0.5)));
         }
-        let sampled = Sampled::of_centre(bits, value);
+        let value = move |index: u32| value(cell_centre(index, bits));
         // A function that does not vary over its cells is a constant, whatever it looks like.
-        if let Some((first, rest)) = sampled.table().and_then(<[f64]>::split_first)
-            && rest.iter().all(|value| value == first)
-        {
-            return Some(self.constant(*first));
+        let first = value(0);
+        if bits <= TABLE_BITS && (1..1 << bits).all(|index| value(index) == first) {
+            return Some(self.constant(first));
         }
+        let sampled = Sampled::stored(bits, self.most_stored, value);
         Some(self.push(Step::Sampled(axis, sampled)))
     }
 

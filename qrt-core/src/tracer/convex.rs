@@ -398,10 +398,11 @@ pub(super) fn covered(geometry: &Geometry, plane: usize, faces: &[usize]) -> boo
     if others.is_empty() {
         return false;
     }
-    let others = Outlines::new(geometry.planes[plane].axis, others);
+    let mut others = Outlines::new(geometry.planes[plane].axis, others);
+    others.ask_from(0);
     faces
         .iter()
-        .any(|&face| others.first_overlapped(0, outline(face)).is_some())
+        .any(|&face| others.first_overlapped(outline(face)).is_some())
 }
 
 #[cfg(test)]

@@ -281,13 +281,12 @@ impl Geometry {
         };
         let overlap = !fill_once(axis, faces.iter().map(outline));
         let outlines = || emitting.iter().map(|&n| outline(&faces[n])).collect();
-        let outlines = overlap.then(|| Outlines::new(axis, outlines()));
-        for (number, face) in faces.iter_mut().enumerate() {
-            let earlier = emitting.partition_point(|&other| other <= number);
-            let outline = &self.corners[face.label as usize];
-            let covered = outlines
-                .as_ref()
-                .and_then(|outlines| outlines.first_overlapped(earlier, outline));
+        let mut outlines = overlap.then(|| Outlines::new(axis, outlines()));
+        for (number, face) in faces.iter_mut().enumerate().rev() {
+            let covered = outlines.as_mut().and_then(|outlines| {
+                outlines.ask_from(emitting.partition_point(|&other| other <= number));
+                outlines.first_overlapped(&self.corners[face.label as usize])
+            });
             face.covers = covered.map(|covered| covered as u32);
             face.hides_emitter = !face.emits && number < last;
         }

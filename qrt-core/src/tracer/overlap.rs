@@ -5,6 +5,11 @@ use glam::{DVec2, DVec3};
 use std::collections::{HashMap, HashSet};
 use std::f64::consts::TAU;
 
+/// What may be asked of a tree for each polygon that it is asked about, on the average: a rectangle is one, a
+/// polygon [`OF_POLYGON`]. Beyond it, polygons that may overlap are not looked at any more.
+const ASKED: u64 = 1024;
+const OF_POLYGON: u64 = 8;
+
 /// Polygons of one plane, in a tree of rectangles around them, so that those that a polygon overlaps are
 /// found without asking all.
 pub(super) struct Outlines<'a> {
@@ -13,14 +18,22 @@ pub(super) struct Outlines<'a> {
     polygons: Vec<&'a [DVec3]>,
     /// The root last.
     nodes: Vec<Node>,
+    /// By polygon: its node.
+    leaves: Vec<usize>,
+    /// The polygons of this number and greater ones are asked.
+    start: usize,
+    /// What may still be asked.
+    left: u64,
 }
 
 struct Node {
     rectangle: Rectangle,
-    /// The least and the greatest number of a polygon below.
-    numbers: [usize; 2],
+    /// The least number below of a polygon that is asked; none yet, the greatest number there is.
+    least: usize,
     /// Two nodes; none where there is one polygon.
     children: Option<[usize; 2]>,
+    /// The node above; of the root, itself.
+    parent: usize,
 }
 
 /// Low and high corner.
@@ -60,12 +73,15 @@ impl Rectangle {
 }
 
 impl<'a> Outlines<'a> {
-    /// At least one polygon on a plane whose main axis is `axis`.
+    /// At least one polygon on a plane whose main axis is `axis`. None is asked yet.
     pub(super) fn new(axis: usize, polygons: Vec<&'a [DVec3]>) -> Self {
         let mut all = Self {
             axis,
+            nodes: Vec::with_capacity(2 * polygons.len()),
+            leaves: vec![0; polygons.len()],
+            start: polygons.len(),
             polygons,
-            nodes: Vec::new(),
+            left: 0,
         };
         let around = |number: usize| (Rectangle::of(axis, all.polygons[number]), number);
         let mut leaves: Vec<(Rectangle, usize)> = (0..all.polygons.len()).map(around).collect();
@@ -74,13 +90,16 @@ impl<'a> Outlines<'a> {
     }
 
     fn grow(&mut self, leaves: &mut [(Rectangle, usize)]) -> usize {
+        let parent = self.nodes.len();
         if let [(rectangle, number)] = *leaves {
+            self.leaves[number] = parent;
             self.nodes.push(Node {
                 rectangle,
-                numbers: [number; 2],
+                least: usize::MAX,
                 children: None,
+                parent,
             });
-            return self.nodes.len() - 1;
+            return parent;
         }
         let around = leaves.iter().map(|(rectangle, _)| *rectangle);
         let wide = around.reduce(Rectangle::and).map_or(0, |around| {
@@ -93,40 +112,67 @@ impl<'a> Outlines<'a> {
         });
         let (left, right) = leaves.split_at_mut(half);
         let children = [self.grow(left), self.grow(right)];
-        let [a, b] = children.map(|child| &self.nodes[child]);
-        self.nodes.push(Node {
-            rectangle: a.rectangle.and(b.rectangle),
-            numbers: [
-                a.numbers[0].min(b.numbers[0]),
-                a.numbers[1].max(b.numbers[1]),
-            ],
-            children: Some(children),
+        let parent = self.nodes.len();
+        let [a, b] = children.map(|child| {
+            self.nodes[child].parent = parent;
+            self.nodes[child].rectangle
         });
-        self.nodes.len() - 1
+        self.nodes.push(Node {
+            rectangle: a.and(b),
+            least: usize::MAX,
+            children: Some(children),
+            parent,
+        });
+        parent
     }
 
-    /// The first of the polygons from number `start` on with which `outline` has more than edges in common.
-    pub(super) fn first_overlapped(&self, start: usize, outline: &[DVec3]) -> Option<usize> {
+    /// Asks the polygons of this number and greater ones, too, from here on: it never becomes greater.
+    pub(super) fn ask_from(&mut self, start: usize) {
+        for number in (start..self.start).rev() {
+            let mut node = self.leaves[number];
+            loop {
+                self.nodes[node].least = number;
+                let parent = self.nodes[node].parent;
+                if parent == node {
+                    break;
+                }
+                node = parent;
+            }
+        }
+        self.start = self.start.min(start);
+    }
+
+    /// The first of the polygons that are asked with which `outline` has more than edges in common. Where polygons
+    /// lie over each other by the thousand without overlapping, it may be the first of all.
+    pub(super) fn first_overlapped(&mut self, outline: &[DVec3]) -> Option<usize> {
+        let root = self.nodes.len() - 1;
         let rectangle = Rectangle::of(self.axis, outline);
-        let mut first = None;
-        let mut pending = vec![self.nodes.len() - 1];
-        while let Some(node) = pending.pop() {
-            let node = &self.nodes[node];
-            let [least, greatest] = node.numbers;
-            let comes_later = first.is_some_and(|first| first <= least);
-            if greatest < start || comes_later || !node.rectangle.meets(rectangle) {
+        self.left += ASKED;
+        let mut first = usize::MAX;
+        let mut pending = vec![root];
+        while let Some(number) = pending.pop() {
+            let node = &self.nodes[number];
+            self.left = self.left.saturating_sub(1);
+            if node.least >= first || !node.rectangle.meets(rectangle) {
                 continue;
             }
             match node.children {
-                None if overlap(outline, self.polygons[least]) => first = Some(least),
-                None => {}
+                None => {
+                    if self.left == 0 {
+                        return Some(self.start);
+                    }
+                    self.left = self.left.saturating_sub(OF_POLYGON);
+                    if overlap(outline, self.polygons[node.least]) {
+                        first = node.least;
+                    }
+                }
                 Some([a, b]) => {
-                    let a_first = self.nodes[a].numbers[0] <= self.nodes[b].numbers[0];
+                    let a_first = self.nodes[a].least <= self.nodes[b].least;
                     pending.extend(if a_first { [b, a] } else { [a, b] });
                 }
             }
         }
-        first
+        (first < usize::MAX).then_some(first)
     }
 }
 
@@ -283,16 +329,57 @@ mod tests {
     fn the_tree_finds_what_asking_all_finds() {
         let mut state = 7;
         let all: Vec<Vec<DVec3>> = (0..300).map(|_| triangle(&mut state)).collect();
-        let outlines = Outlines::new(2, all.iter().map(Vec::as_slice).collect());
+        let mut outlines = Outlines::new(2, all.iter().map(Vec::as_slice).collect());
         let mut found = 0;
-        for start in 0..300 {
+        for start in (0..300).rev() {
+            outlines.ask_from(start);
             for _ in 0..10 {
                 let one = triangle(&mut state);
                 let asked = (start..300).find(|&n| overlap(&one, &all[n]));
-                assert_eq!(outlines.first_overlapped(start, &one), asked);
+                assert_eq!(outlines.first_overlapped(&one), asked);
                 found += usize::from(asked.is_some());
             }
         }
         assert!((1000..2990).contains(&found), "{found}");
+    }
+
+    /// Squares one upon the other, in heaps, and thin ones side by side whose rectangles meet.
+    #[test]
+    fn however_polygons_lie_few_are_asked() {
+        const COUNT: usize = 20_000;
+        let mut state = 3;
+        let heap: Vec<Vec<DVec3>> = (0..COUNT).map(|_| triangle(&mut state)).collect();
+        let strip = |n: usize| {
+            let x = n as f64;
+            let corner = |x: f64, y: f64| DVec3::new(x, y, 1.0);
+            let far = 10.0 * COUNT as f64;
+            vec![
+                corner(x, -x),
+                corner(x + 0.5, -x - 0.5),
+                corner(x + far + 0.5, far - x - 0.5),
+                corner(x + far, far - x),
+            ]
+        };
+        let strips: Vec<Vec<DVec3>> = (0..COUNT).map(strip).collect();
+        for (all, exact) in [(&heap, true), (&strips, false)] {
+            let mut outlines = Outlines::new(2, all.iter().map(Vec::as_slice).collect());
+            let mut asked = 0;
+            for number in (0..COUNT).rev() {
+                outlines.ask_from(number + 1);
+                let left = outlines.left + ASKED;
+                let found = outlines.first_overlapped(&all[number]);
+                asked += left - outlines.left;
+                if exact && number % 100 == 0 {
+                    let first = (number + 1..COUNT).find(|&n| overlap(&all[number], &all[n]));
+                    assert_eq!(found, first);
+                }
+            }
+            let each = asked / COUNT as u64;
+            println!("{each} asked for each");
+            assert!(
+                each <= if exact { 300 } else { ASKED },
+                "{each} asked for each"
+            );
+        }
     }
 }

@@ -5,7 +5,7 @@ use std::fmt;
 use std::sync::Arc;
 
 /// Tables of more index bits than this are not stored: machines evaluate the function instead.
-const TABLE_BITS: u32 = 14;
+pub(super) const TABLE_BITS: u32 = 14;
 
 /// A function of one sample coordinate's index.
 #[derive(Clone)]
@@ -18,7 +18,16 @@ pub struct Sampled {
 impl Sampled {
     /// A function of the index, `0..2^bits`.
     pub fn of_index(bits: u32, function: impl Fn(u32) -> f64 + Send + Sync + 'static) -> Self {
-        let entries = if bits <= TABLE_BITS { 1 << bits } else { 0 };
+        Self::stored(bits, TABLE_BITS, function)
+    }
+
+    /// The same, whose table is not stored if it has more index bits than `most`.
+    pub(super) fn stored(
+        bits: u32,
+        most: u32,
+        function: impl Fn(u32) -> f64 + Send + Sync + 'static,
+    ) -> Self {
+        let entries = if bits <= most { 1 << bits } else { 0 };
         let table = (0..entries).map(&function).collect();
         Self {
             bits,

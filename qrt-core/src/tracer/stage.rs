@@ -7,9 +7,10 @@ use super::lights::{Lamps, LightStage};
 use super::pixel_class::PixelClass;
 use super::places::Places;
 use super::{Arith, bound, geometry};
-use crate::scene::Material;
+use crate::scene::{DepthSampling, Material};
 use crate::valid::{Surface, ValidScene};
 use glam::DVec3;
+use std::collections::HashSet;
 
 /// A scene made ready for the tracer, for `C` colour channels that share their paths.
 #[derive(Clone, Debug)]
@@ -99,29 +100,34 @@ impl<const C: usize> Stage<C> {
         } else {
             (Places::surfaces(surfaces.len()), None)
         };
-        let scatters: Vec<_> = depths
-            .iter()
-            .enumerate()
-            .skip(1)
-            .map(|(depth, written)| {
-                let mut scatter =
-                    ScatterStage::new(&surfaces, channels, depth, written.bits, written.map);
-                if let (Some(lamps), Some(bits)) = (&lamps, sampling.light(depth)) {
-                    let asked = (depth, bits, sampling.lights);
-                    let radiance = emitters.radiance();
-                    let lights = LightStage::new(
-                        (lamps, &places),
-                        &surfaces,
-                        radiance,
-                        &surface_of,
-                        &scatter,
-                        asked,
-                    );
-                    scatter.sample_lights(lights);
+        let squares = depths.iter().skip(1).map(|depth| (depth.bits, depth.map));
+        let squares = squares.collect::<HashSet<_>>().len();
+        let mut scatters: Vec<ScatterStage<C>> = Vec::with_capacity(depths.len());
+        for (depth, written) in depths.iter().enumerate().skip(1) {
+            let same =
+                |other: &DepthSampling| (other.bits, other.map) == (written.bits, written.map);
+            let mut scatter = match depths[1..depth].iter().position(same) {
+                Some(other) => scatters[other].at_depth(depth),
+                None => {
+                    let square = (written.bits, written.map);
+                    ScatterStage::new(&surfaces, channels, depth, square, squares)
                 }
-                scatter
-            })
-            .collect();
+            };
+            if let (Some(lamps), Some(bits)) = (&lamps, sampling.light(depth)) {
+                let asked = (depth, bits, sampling.lights);
+                let radiance = emitters.radiance();
+                let lights = LightStage::new(
+                    (lamps, &places),
+                    &surfaces,
+                    radiance,
+                    &surface_of,
+                    &scatter,
+                    asked,
+                );
+                scatter.sample_lights(lights);
+            }
+            scatters.push(scatter);
+        }
         let unit = scatters.iter().any(|scatter| scatter.asks_for_angles);
         let refraction = bound::refraction(&geometry, &surfaces, &surface_of, &starts);
         let direct = class == PixelClass::MayMeetLamp;

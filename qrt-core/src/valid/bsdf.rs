@@ -10,10 +10,12 @@
 //! bound of the weight is a proof by interval arithmetic.
 
 use super::CustomBsdf;
-use crate::expr::{Expr, Variable};
+use crate::expr::{Expr, Variable, Variables};
 use crate::sampling::maps;
 use crate::scene::{Bsdf, Jacobian, Rgb};
 use crate::syntax::{Bsdf as Fault, Path, Problem};
+use std::cell::OnceCell;
+use std::rc::Rc;
 
 mod bound;
 mod coverage;
@@ -34,6 +36,99 @@ mod tests;
 /// than once, `QRT0420` a density that is not the map's, `QRT0421` a map that leaves out directions
 /// that the value reflects to.
 pub fn compile(bsdf: &Bsdf) -> Result<CustomBsdf, Vec<Problem>> {
+    compile_with(bsdf, &mut KnownMap::default())
+}
+
+/// The work of checking one BSDF at least, in nodes of expressions that are evaluated: 0.5 ms.
+const LEAST_WORK: u64 = 1 << 18;
+/// Points of the square and of the quadrature at which a value is evaluated for each viewer.
+const VALUES: u64 = 6400;
+/// As often its map is evaluated, and what follows from it.
+const MAPPED: u64 = 1 << 17;
+/// Work that takes about a minute, and for most half of one.
+const MINUTE: u64 = 1 << 35;
+/// Checking the BSDFs of a scene may take so many minutes.
+pub(super) const MOST_MINUTES: u64 = 10;
+
+/// About how many minutes it takes to check such a BSDF after `last`, whose map may be the same.
+pub(super) fn minutes(bsdf: &Bsdf, last: Option<&Bsdf>) -> f64 {
+    // A node takes at least a byte, and most take two.
+    let nodes = |text: &String| text.len() as u64 / 2;
+    let viewers = |text: &String| match text {
+        text if text.contains(Variable::CosA.name()) => 76,
+        text if text.contains(Variable::CosO.name()) => 19,
+        _ => 1,
+    };
+    let values = bsdf
+        .value
+        .iter()
+        .map(|text| nodes(text) * viewers(text) * VALUES);
+    let known = last.is_some_and(|last| last.map == bsdf.map);
+    let maps = bsdf.map.iter().filter(|_| !known);
+    let maps = maps.map(|text| nodes(text) * MAPPED);
+    let work = LEAST_WORK + values.sum::<u64>() + maps.sum::<u64>();
+    work as f64 / MINUTE as f64
+}
+
+/// The map of the last BSDF, and what was found out about it: materials of one scene mostly have one map.
+#[derive(Default)]
+pub(super) struct KnownMap(Option<([Expr; 3], Rc<MapChecks>)>);
+
+/// What is worked out about a map, once for all values.
+struct MapChecks {
+    /// What is wrong with it by itself.
+    problem: Option<Problem>,
+    /// `J |phi_z|`.
+    projected_jacobian: Expr,
+    /// Its directions at [`shape::points`].
+    directions: OnceCell<Vec<[f64; 3]>>,
+    /// Its sums over the square.
+    quadrature: light::Quadrature,
+    /// What it covers, by the first of the rules.
+    cells: OnceCell<Vec<coverage::Cell>>,
+}
+
+impl MapChecks {
+    fn new(map: &[Expr; 3]) -> Self {
+        let problem = shape::map(map);
+        let projected_jacobian = match problem {
+            None => maps::projected_jacobian(map),
+            // It is not asked for.
+            Some(_) => map[2].clone(),
+        };
+        Self {
+            problem,
+            quadrature: light::Quadrature::default(),
+            projected_jacobian,
+            directions: OnceCell::new(),
+            cells: OnceCell::new(),
+        }
+    }
+
+    fn directions(&self, map: &[Expr; 3]) -> &[[f64; 3]] {
+        self.directions.get_or_init(|| {
+            let mut room = Vec::new();
+            let direction = |at: Variables| map.each_ref().map(|c| c.eval_in(&at, &mut room));
+            shape::points().map(direction).collect()
+        })
+    }
+}
+
+impl KnownMap {
+    fn checks(&mut self, map: &[Expr; 3]) -> Rc<MapChecks> {
+        match &self.0 {
+            Some((known, checks)) if known == map => Rc::clone(checks),
+            _ => {
+                let checks = Rc::new(MapChecks::new(map));
+                self.0 = Some((map.clone(), Rc::clone(&checks)));
+                checks
+            }
+        }
+    }
+}
+
+/// As [`compile`], with what is known of the BSDF before it.
+pub(super) fn compile_with(bsdf: &Bsdf, known: &mut KnownMap) -> Result<CustomBsdf, Vec<Problem>> {
     let mut problems = Vec::new();
     let root = Path::root();
     let mut read = |text: &str, path: &Path, allowed: &[Variable]| {
@@ -67,11 +162,12 @@ pub fn compile(bsdf: &Bsdf) -> Result<CustomBsdf, Vec<Problem>> {
         return Err(problems);
     };
     let map = [x, y, z];
-    problems.extend(shape::map(&map));
+    let checks = known.checks(&map);
+    problems.extend(checks.problem.clone());
     if !problems.is_empty() {
         return Err(problems);
     }
-    let by_map = maps::projected_jacobian(&map);
+    let by_map = &checks.projected_jacobian;
     let projected_jacobian = match &stated {
         None => by_map.clone(),
         Some(None) => return Err(problems),
@@ -84,19 +180,19 @@ pub fn compile(bsdf: &Bsdf) -> Result<CustomBsdf, Vec<Problem>> {
     let value = |i: usize| root.key("value").item(i);
     let before = problems.len();
     for (i, f) in values.iter().enumerate() {
-        problems.extend(light::value(&map, f, &value(i)));
+        problems.extend(light::value(checks.directions(&map), f, &value(i)));
     }
     let mut covers_wrong = false;
     if problems.len() == before {
-        let wrong = coverage::check(&map, &by_map, &values);
+        let wrong = coverage::check(&map, by_map, &checks.cells, &values);
         covers_wrong = wrong.is_some();
         problems.extend(wrong);
     }
     if problems.len() == before {
         // What a wrong map would say of the energy is not the value's fault, nor a wrong Jacobian.
-        let quadrature = light::Quadrature::new(&map, &by_map);
+        let quadrature = &checks.quadrature;
         for (i, f) in values.iter().enumerate() {
-            problems.extend(quadrature.energy(f, &value(i)));
+            problems.extend(quadrature.energy((&map, by_map), f, &value(i)));
         }
     }
     let pdf = match pdf {

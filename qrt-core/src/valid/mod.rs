@@ -20,10 +20,13 @@ use crate::expr::Expr;
 use crate::scene::meshes::Meshes;
 use crate::scene::shape::Part;
 use crate::scene::text::Fingerprint;
-use crate::scene::{Bsdf, Dielectric, Ggx, Lambertian, Material, Mirror, Phong, Rgb, Scene};
+use crate::scene::{
+    Bsdf, Dielectric, Ggx, Lambertian, Material, Mirror, Phong, Rgb, Scene, Sequence,
+};
 pub use crate::syntax::InvalidScene;
 use crate::syntax::{self, Path, Place, Problem, Problems};
 use glam::DVec3;
+use std::collections::{HashMap, HashSet};
 use std::path::PathBuf;
 
 /// A checked scene, which everything downstream demands. It can be made by [`validate`] alone.
@@ -151,6 +154,17 @@ impl ValidScene {
         }
     }
 
+    /// The scene with only the first so many rays of each path, at least 1: what these cost tells what all will.
+    pub fn with_rays(&self, most: usize) -> Self {
+        let mut part = self.clone();
+        let sampling = &mut part.scene.sampling;
+        sampling.depths.truncate(most.max(1));
+        if sampling.sequence == Sequence::ProductLattice {
+            sampling.path_bits = sampling.lattice_bits();
+        }
+        part
+    }
+
     /// What is not wrong, but surely not meant.
     pub fn warnings(&self) -> &[Problem] {
         &self.warnings
@@ -243,7 +257,12 @@ pub(crate) fn check(
 
 fn surfaces(scene: &Scene, problems: &mut Problems, warnings: &mut Vec<Problem>) -> Vec<Surface> {
     let materials = Path::root().key("materials");
-    let surface = |(name, material): &(String, Material)| {
+    let (mut known, mut map) = (HashMap::new(), bsdf::KnownMap::default());
+    let too_many = too_many(scene, &materials);
+    let is_checked = too_many.is_none();
+    problems.extend(too_many);
+    let mut surfaces = Vec::with_capacity(scene.materials.len());
+    for (name, material) in &scene.materials {
         let path = materials.key(name.as_str());
         let (radiance, scatter) = match material {
             Material::Lambertian(part) => ([0.0; 3], matte(part.albedo)),
@@ -255,18 +274,43 @@ fn surfaces(scene: &Scene, problems: &mut Problems, warnings: &mut Vec<Problem>)
                 problems.extend(phong_energy(part, &path));
                 ([0.0; 3], Scatter::Phong(*part))
             }
+            Material::Bsdf(_) if !is_checked => ([0.0; 3], Scatter::Black),
             Material::Bsdf(part) => {
-                let scatter = custom(part, &path.key("bsdf"), problems, warnings);
+                let compiled = known
+                    .entry(part)
+                    .or_insert_with(|| bsdf::compile_with(part, &mut map));
+                let scatter = custom(part, compiled, &path.key("bsdf"), problems, warnings);
                 ([0.0; 3], scatter)
             }
         };
-        Surface {
+        surfaces.push(Surface {
             name: name.clone(),
             radiance,
             scatter,
+        });
+    }
+    surfaces
+}
+
+/// That checking all BSDFs of their own takes too long, at the one with which it does; equal ones are checked once.
+fn too_many(scene: &Scene, materials: &Path) -> Option<Problem> {
+    let (mut known, mut minutes) = (HashSet::new(), 0.0);
+    let (mut last, mut first) = (None, None);
+    for (name, material) in &scene.materials {
+        if let Material::Bsdf(part) = material
+            && known.insert(part)
+        {
+            minutes += bsdf::minutes(part, last.replace(part));
+            if minutes > bsdf::MOST_MINUTES as f64 && first.is_none() {
+                first = Some(name);
+            }
         }
+    }
+    let what = syntax::Expression::TooMany {
+        minutes: minutes.ceil() as u64,
+        most: bsdf::MOST_MINUTES,
     };
-    scene.materials.iter().map(surface).collect()
+    first.map(|name| Problem::new(materials.key(name.as_str()).key("bsdf"), what))
 }
 
 /// A Lambertian, or black where nothing is reflected: the path then ends.
@@ -298,19 +342,20 @@ fn phong_energy(phong: &Phong, path: &Path) -> Option<Problem> {
 
 fn custom(
     bsdf: &Bsdf,
+    compiled: &Result<CustomBsdf, Vec<Problem>>,
     path: &Path,
     problems: &mut Problems,
     warnings: &mut Vec<Problem>,
 ) -> Scatter {
-    match bsdf::compile(bsdf) {
+    let placed = |problem: Problem| problem.below(path);
+    match compiled {
         Ok(compiled) => {
             let written = &compiled.value[..bsdf.value.len().min(3)];
-            let found = bsdf::warnings(written).into_iter();
-            warnings.extend(found.map(|problem| problem.below(path)));
-            Scatter::Custom(Box::new(compiled))
+            warnings.extend(bsdf::warnings(written).into_iter().map(placed));
+            Scatter::Custom(Box::new(compiled.clone()))
         }
         Err(found) => {
-            problems.extend(found.into_iter().map(|problem| problem.below(path)));
+            problems.extend(found.iter().cloned().map(placed));
             Scatter::Black
         }
     }

@@ -70,5 +70,13 @@ fn listed(differences: &[Difference]) -> String {
     let line = |Difference { what, found, asked }: &Difference| {
         format!("\n  {what}: there {}, here {}", of(found), of(asked))
     };
-    differences.iter().map(line).collect()
+    let mut lines: String = differences.iter().map(line).collect();
+    if differences
+        .iter()
+        .any(|difference| difference.what == "build")
+    {
+        lines +=
+            "\n  another build of qrt may compute other bits: go on with that one, or render anew";
+    }
+    lines
 }

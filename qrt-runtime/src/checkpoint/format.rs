@@ -90,7 +90,9 @@ impl Header {
                 crop,
             })
         };
-        read().ok_or_else(damaged)
+        // Nothing else stands there, and no option twice.
+        let is_whole = |header: &Self| all.starts_with(&header.encode());
+        read().filter(is_whole).ok_or_else(damaged)
     }
 
     pub(crate) fn differences(&self, asked: &Self) -> Vec<Difference> {

@@ -5,7 +5,7 @@ use super::allowed_bytes;
 use crate::machines::Gates;
 use qrt_circuit::lower;
 use qrt_core::oracle::{MOST_BITS, Options, Oracle};
-use qrt_core::valid::ValidScene;
+use qrt_core::valid::{Scatter, ValidScene};
 use std::time::Instant;
 
 /// Bytes of a face as it is read and traced: 730 were measured, of a flat grid of 720,000 triangles.
@@ -14,10 +14,18 @@ const OF_FACE: u64 = 1000;
 const OF_PIXEL: u64 = 104;
 /// Bytes of a pixel while two pictures are compared: both, their difference, and what FLIP filters.
 const OF_COMPARED_PIXEL: u64 = 120;
-/// Up to so many faces a circuit is compiled without an estimate before it, which takes as long.
-const FEW_FACES: usize = 400;
-/// Faces of the two parts of a scene from which the whole is estimated.
+/// Up to so many operations, as [`expected_operations`] has them, a circuit is compiled without an estimate before it,
+/// which takes as long.
+const FEW_OPERATIONS: f64 = 40_000.0;
+/// Operations of a face for a ray, as of the knot, and of a node of an author's own BSDF, which takes one or two.
+const OF_RAY_AND_FACE: f64 = 31.0;
+const OF_NODE: f64 = 2.0;
+/// Faces of the two parts of a scene from which the whole is estimated; fewer where rays are many.
 const PARTS: [usize; 2] = [64, 128];
+/// Of so few faces no part is taken.
+const FEW_FACES: usize = 4;
+/// Rays of the paths of these parts, where fewer faces are not enough.
+const RAYS: [usize; 2] = [4, 8];
 
 /// The memory that work may take; three quarters of what there is, unless set.
 ///
@@ -156,19 +164,39 @@ impl Memory {
         scene: &ValidScene,
         work: CircuitWork,
     ) -> Result<Option<CircuitSize>, MemoryError> {
-        let faces = scene.polygons().len();
-        if faces <= FEW_FACES {
+        if expected_operations(scene) <= FEW_OPERATIONS {
             return Ok(None);
         }
         // What is wrong is told, with its place, where the whole is compiled.
         let Some(whole) = CircuitSize::estimated(scene) else {
             return Ok(None);
         };
-        let what = format!("the circuit of a scene of {faces} faces");
+        let (faces, rays) = (scene.polygons().len(), scene.scene().sampling.depths.len());
+        let what = format!("the circuit of a scene of {faces} faces and paths of {rays} rays");
         let lower = "use a coarser mesh, or fewer rays";
         self.keep(&what, whole.bytes(work), lower)?;
         Ok(Some(whole))
     }
+}
+
+/// About how many operations a scene's program has: enough to tell what is small.
+fn expected_operations(scene: &ValidScene) -> f64 {
+    let nodes = |scatter: &Scatter| match scatter {
+        Scatter::Custom(bsdf) => {
+            let all = bsdf.map.iter().chain(&bsdf.value).chain(&bsdf.pdf);
+            let all = all.chain([&bsdf.projected_jacobian]);
+            all.map(|value| value.nodes().len() as f64).sum()
+        }
+        _ => 0.0,
+    };
+    let mut used = vec![false; scene.surfaces().len()];
+    for polygon in scene.polygons() {
+        used[polygon.surface as usize] = true;
+    }
+    let surfaces = scene.surfaces().iter().zip(used).filter(|(_, used)| *used);
+    let nodes: f64 = surfaces.map(|(surface, _)| nodes(&surface.scatter)).sum();
+    let rays = scene.scene().sampling.depths.len() as f64;
+    rays * (OF_RAY_AND_FACE * scene.polygons().len() as f64 + OF_NODE * nodes)
 }
 
 /// What a circuit consists of.
@@ -187,14 +215,28 @@ pub struct CircuitSize {
 }
 
 impl CircuitSize {
-    /// Of a scene's oracle, if it has one; of one of many faces, estimated from two parts of it.
+    /// Of a scene's oracle, if it has one; of a large one, estimated from two parts of the scene's faces.
     pub fn estimated(scene: &ValidScene) -> Option<Self> {
-        let faces = scene.polygons().len();
-        if faces <= FEW_FACES {
+        let (faces, operations) = (scene.polygons().len(), expected_operations(scene));
+        if operations <= FEW_OPERATIONS || faces <= FEW_FACES {
+            return Self::of_rays(scene);
+        }
+        let most = (FEW_OPERATIONS / operations * faces as f64) as usize;
+        let more = most.clamp(FEW_FACES, PARTS[1]);
+        let few = PARTS[0].min(more / 2);
+        let share = (faces - few) as f64 / (more - few) as f64;
+        let [few, more] = [few, more].map(|faces| Self::of_rays(&scene.thinned(faces)));
+        Some(few?.towards(&more?, share))
+    }
+
+    /// Of a scene's oracle, if it has one; of a large one of few faces, estimated from paths of fewer rays.
+    fn of_rays(scene: &ValidScene) -> Option<Self> {
+        let rays = scene.scene().sampling.depths.len();
+        if expected_operations(scene) <= FEW_OPERATIONS || rays <= RAYS[1] {
             return Self::of(scene);
         }
-        let [few, more] = PARTS.map(|faces| Self::of(&scene.thinned(faces)));
-        let share = (faces - PARTS[0]) as f64 / (PARTS[1] - PARTS[0]) as f64;
+        let share = (rays - RAYS[0]) as f64 / (RAYS[1] - RAYS[0]) as f64;
+        let [few, more] = RAYS.map(|rays| Self::of(&scene.with_rays(rays)));
         Some(few?.towards(&more?, share))
     }
 
@@ -217,9 +259,9 @@ impl CircuitSize {
         })
     }
 
-    /// On the line from here to `other`, at `share` of the way; it may be far beyond.
+    /// On the line from here to `other`, which is larger, at `share` of the way; that is beyond.
     fn towards(&self, other: &Self, share: f64) -> Self {
-        let line = |from: f64, to: f64| from + (to - from) * share;
+        let line = |from: f64, to: f64| (from + (to - from) * share).max(to);
         Self {
             operations: line(self.operations, other.operations),
             qubits: line(self.qubits, other.qubits),
@@ -252,6 +294,73 @@ impl CircuitSize {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A tunnel of so many quads in each of two materials, which face each other, and paths of so many rays.
+    fn tunnel(material: &str, quads: usize, rays: usize) -> ValidScene {
+        use std::fmt::Write;
+        let mut text = format!(
+            "name: tunnel
+camera: {{ perspective: {{ eye: [0.1, 0.2, 3], target: [0, 0, 0], vfov: 45 }} }}
+film: {{ width: 4, height: 4 }}
+materials: {{ lamp: {{ emitter: {{ radiance: [1, 1, 1] }} }}, m: {{ {material} }} }}
+geometry:
+  - quad: {{ vertices: [[-1, -1, 4], [-1, 1, 4], [1, 1, 4], [1, -1, 4]], material: lamp }}
+"
+        );
+        for n in 0..quads {
+            let (z, up) = (n as f64 / quads as f64, 0.1 * (n % 7) as f64);
+            let _ = writeln!(
+                text,
+                "  - quad: {{ vertices: [[-1, -1, {z}], [1, -1, {z}], [1, 1, {z}], [-1, 1, {z}]], material: m }}
+  - triangle: {{ vertices: [[-1, {up}, {z}], [1, 1, {}], [0.3, -1, 3.9]], material: m }}",
+                z + 1.0
+            );
+        }
+        let rays = vec!["{ bits: [6, 6] }"; rays].join(", ");
+        let _ = writeln!(text, "sampling: {{ path_bits: 10, depths: [{rays}] }}");
+        let loaded = qrt_core::front::parse(&text, "tunnel.yaml", &[], "".as_ref());
+        loaded.unwrap_or_else(|report| panic!("{report}")).valid
+    }
+
+    #[test]
+    fn a_large_circuit_is_estimated_from_parts_of_its_scene() {
+        let grey = "lambertian: { albedo: [0.5, 0.4, 0.3] }";
+        let own = r#"bsdf: { map: ["sqrt(u)*cos(2*pi*v)", "sqrt(u)*sin(2*pi*v)", "sqrt(1-u)"], jacobian: auto,
+            value: ["0.1*cos_a^2/(1 + cos_o*cos_o) + 0.05*sqrt(1 + cos_i*cos_o)"] }"#;
+        for (material, quads, rays) in [(grey, 20, 40), (grey, 300, 3), (own, 20, 40)] {
+            let scene = tunnel(material, quads, rays);
+            let about = expected_operations(&scene);
+            assert!(about > FEW_OPERATIONS, "{about}");
+            let (told, real) = (
+                CircuitSize::estimated(&scene).unwrap(),
+                CircuitSize::of(&scene).unwrap(),
+            );
+            println!("{quads} quads, {rays} rays: {about}, {told:?}, {real:?}");
+            for (told, real) in [
+                (told.operations, real.operations),
+                (told.qubits, real.qubits),
+                (told.bits, real.bits),
+                (told.gates, real.gates),
+            ] {
+                assert!(told > 0.8 * real && told < 1.25 * real, "{told} of {real}");
+            }
+        }
+    }
+
+    /// What is compiled without an estimate is small.
+    #[test]
+    fn the_largest_circuit_that_is_not_estimated_is_small() {
+        for (quads, rays) in [(200, 3), (60, 10), (10, 60)] {
+            let scene = tunnel("lambertian: { albedo: [0.5, 0.4, 0.3] }", quads, rays);
+            assert!(expected_operations(&scene) <= FEW_OPERATIONS);
+            let size = CircuitSize::of(&scene).unwrap();
+            for work in [CircuitWork::Gates(16), CircuitWork::Export] {
+                let bytes = size.bytes(work);
+                println!("{quads} quads, {rays} rays, {work:?}: {bytes:.2e} bytes");
+                assert!(bytes < 1e9, "{bytes}");
+            }
+        }
+    }
 
     #[test]
     fn bytes_are_told_in_words() {

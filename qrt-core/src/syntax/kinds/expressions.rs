@@ -9,6 +9,9 @@ problems! {
         TooLong { bytes: usize, most: usize } = EXPR_SIZE
             "expression of {bytes} bytes; the limit is {most}";
         TooDeep { most: usize } = EXPR_SIZE "expression nested deeper than {most}";
+        TooMany { minutes: u64, most: u64 } = EXPR_SIZE
+            "checking the expressions of all BSDFs would take about {minutes} minutes; the limit is {most}"
+            help "write fewer BSDFs, or shorter expressions; equal BSDFs are checked once";
         Empty = EXPR_EMPTY "the expression is empty";
         Unexpected { found: String } = EXPR_SYNTAX "unexpected `{found}`"
             help { Some(match found.as_str() {

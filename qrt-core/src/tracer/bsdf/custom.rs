@@ -52,11 +52,12 @@ impl<const C: usize> CustomLobe<C> {
         let (weights, towards) = (of_channels(projected), of_channels(&factor));
         let with_density = |values: &'_ [Expr; C], cos_i: Option<&Expr>| {
             let roots: Vec<&Expr> = values.iter().chain(density).collect();
-            Compiled::new(&roots, square.bits, cos_i)
+            Compiled::new(&roots, (square.bits, square.most_stored), cos_i)
         };
         let [x, y, z] = map;
         Self {
-            direction: (!replaced).then(|| Compiled::new(&[x, y, z], square.bits, None)),
+            direction: (!replaced)
+                .then(|| Compiled::new(&[x, y, z], (square.bits, square.most_stored), None)),
             weight: with_density(&weights, Some(z)),
             towards: with_density(&towards, None),
             states_density: density.is_some(),

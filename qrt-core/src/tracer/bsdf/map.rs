@@ -6,6 +6,7 @@ use crate::sampling::maps;
 use crate::scene::Map;
 use crate::tracer::Arith;
 use crate::tracer::compiled::Compiled;
+use crate::tracer::sampled::TABLE_BITS;
 use crate::tracer::vector::Vector;
 use std::f64::consts::{FRAC_1_PI, PI};
 
@@ -41,7 +42,7 @@ impl DepthMap {
         let [x, y, z] = &directions;
         Self {
             map,
-            compiled: Compiled::new(&[x, y, z, &factor], bits, None),
+            compiled: Compiled::new(&[x, y, z, &factor], (bits, TABLE_BITS), None),
             directions,
             projected_jacobian,
         }

@@ -22,6 +22,7 @@ pub(crate) use emitter::{Emitters, in_units};
 pub(crate) use vertex::{Vertex, members};
 
 use super::lights::{LightStage, Towards};
+use super::sampled::TABLE_BITS;
 use super::vector::{self, Vector};
 use super::{Arith, Coordinate, Part, Sampled};
 use crate::scene::{Map, Rgb};
@@ -33,6 +34,7 @@ use map::{DepthMap, Mapped};
 use phong::PhongLobe;
 use std::f64::consts::{PI, TAU};
 use std::ops::Range;
+use std::sync::Arc;
 use vertex::{Scattered, local_outgoing};
 
 /// The lobe of a surface, or of neighbours that differ in tables alone, for one depth.
@@ -98,6 +100,23 @@ pub(crate) fn rank(scatter: &Scatter) -> u32 {
     }
 }
 
+/// Entries of tables that are stored for all lobes and depths of a stage: 256 MB.
+const MOST_STORED: usize = 1 << 25;
+
+/// How many tables a surface's lobe may have.
+fn tables(scatter: &Scatter) -> usize {
+    match scatter {
+        Scatter::Phong(_) => 3,
+        Scatter::Custom(bsdf) => {
+            let values = bsdf.map.iter().chain(&bsdf.value).chain(&bsdf.pdf);
+            let all = values.chain([&bsdf.projected_jacobian]);
+            // Of a function of a coordinate, as of its operation with another.
+            all.map(|value| value.nodes().len().div_ceil(3)).sum()
+        }
+        _ => 0,
+    }
+}
+
 /// The factor of a weight that is looked up by surface.
 fn tint(scatter: &Scatter) -> Rgb {
     match scatter {
@@ -115,7 +134,9 @@ fn tint(scatter: &Scatter) -> Rgb {
 struct Square {
     depth: usize,
     bits: [u32; 2],
-    map: DepthMap,
+    /// Tables of more index bits are not stored.
+    most_stored: u32,
+    map: Arc<DepthMap>,
     /// Cosine and sine of `2 pi v`.
     azimuth: [Sampled; 2],
 }
@@ -156,9 +177,9 @@ struct Sample<'a, A: Arith, const C: usize> {
 pub(crate) struct ScatterStage<const C: usize> {
     square: Square,
     /// The factor of the weight of each surface, per channel.
-    tint: Vec<[f64; C]>,
-    /// The surfaces that scatter, with their lobes.
-    lobes: Vec<(Range<u32>, Lobe<C>)>,
+    tint: Arc<[[f64; C]]>,
+    /// The surfaces that scatter, with their lobes; depths with one square share them.
+    lobes: Arc<[(Range<u32>, Lobe<C>)]>,
     /// Whether any lobe uses the depth's map.
     uses_map: bool,
     /// Whether any lobe reads angles to the arriving ray.
@@ -168,18 +189,25 @@ pub(crate) struct ScatterStage<const C: usize> {
 }
 
 impl<const C: usize> ScatterStage<C> {
-    /// `surfaces` are sorted by [`rank`]; the new ray is that of `depth`.
+    /// `surfaces` are sorted by [`rank`]; the new ray is that of `depth`. Of other depths there are so many
+    /// `squares` of their own.
     pub(crate) fn new(
         surfaces: &[&Surface],
         channels: [usize; C],
         depth: usize,
-        bits: [u32; 2],
-        map: Map,
+        (bits, map): ([u32; 2], Map),
+        squares: usize,
     ) -> Self {
+        let tables: usize = surfaces
+            .iter()
+            .map(|surface| tables(&surface.scatter))
+            .sum();
+        let each = MOST_STORED / (tables * squares).max(1);
         let square = Square {
             depth,
             bits,
-            map: DepthMap::new(map, bits),
+            most_stored: each.max(1).ilog2().min(TABLE_BITS),
+            map: Arc::new(DepthMap::new(map, bits)),
             azimuth: [
                 Sampled::of_centre(bits[1], |v| libm::cos(TAU * v)),
                 Sampled::of_centre(bits[1], |v| libm::sin(TAU * v)),
@@ -210,9 +238,22 @@ impl<const C: usize> ScatterStage<C> {
             tint: surfaces.iter().map(|s| pick(tint(&s.scatter))).collect(),
             uses_map: lobes.iter().any(|(_, lobe)| lobe.uses_map()),
             asks_for_angles: lobes.iter().any(|(_, lobe)| lobe.asks_for_angles()),
-            lobes,
+            lobes: lobes.into(),
             lights: None,
             square,
+        }
+    }
+
+    /// The same for another depth whose square has as many bits and the same map, and that samples no lamps yet.
+    pub(crate) fn at_depth(&self, depth: usize) -> Self {
+        let square = Square {
+            depth,
+            ..self.square.clone()
+        };
+        Self {
+            square,
+            lights: None,
+            ..self.clone()
         }
     }
 
@@ -326,7 +367,7 @@ impl<const C: usize> ScatterStage<C> {
         let (zero, one) = (cx.real(0.0), cx.real(1.0));
         let projected = self.square.map.is_projected();
         let (mut lit, mut way) = (None, None);
-        for (surfaces, lobe) in &self.lobes {
+        for (surfaces, lobe) in &*self.lobes {
             match lobe {
                 Lobe::Mirror | Lobe::Dielectric(_) => {}
                 Lobe::Lambertian if projected => {
@@ -406,7 +447,7 @@ impl<const C: usize> ScatterStage<C> {
             cx.leave();
         }
         let (mut chosen, mut asked) = (None, false);
-        for (surfaces, lobe) in &self.lobes {
+        for (surfaces, lobe) in &*self.lobes {
             if !asked && lobe.asks_for_outgoing() {
                 sample.outgoing = local_outgoing(cx, at);
                 asked = true;

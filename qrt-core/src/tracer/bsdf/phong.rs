@@ -74,15 +74,16 @@ impl<const C: usize> PhongLobe<C> {
             ((1.0 - cos) * (1.0 + cos)).sqrt()
         };
         let (diffuse, specular) = (pick(phong.diffuse), pick(phong.specular));
+        let most = square.most_stored;
         Self {
             diffuse,
             specular,
             exponent,
             has_map: !square.map.replaces() && !one_column,
             base_fraction: p,
-            on_lobe: Sampled::of_index(bits, move |c| f64::from(u64::from(c) >= split)),
-            sin: Sampled::of_index(bits, radius),
-            cos: Sampled::of_index(bits, height),
+            on_lobe: Sampled::stored(bits, most, move |c| f64::from(u64::from(c) >= split)),
+            sin: Sampled::stored(bits, most, radius),
+            cos: Sampled::stored(bits, most, height),
             base_weight: diffuse.map(|kd| if p > 0.0 { kd / p } else { 0.0 }),
             lobe_weight: specular.map(|ks| if p < 1.0 { ks * gain / (1.0 - p) } else { 0.0 }),
         }

@@ -15,6 +15,7 @@
 
 use crate::expr::{Expr, Variable, Variables};
 use crate::syntax::{Bsdf, Path, Problem};
+use std::cell::OnceCell;
 use std::f64::consts::TAU;
 
 /// Heights, from the horizon to the pole, and azimuths of the places around which is compared.
@@ -36,17 +37,26 @@ const ROWS: usize = 1024;
 /// Heights of its integrals.
 const STEPS: usize = 16 * ROWS;
 
-/// Checks that `map` covers what `values` reflect to, which are finite and not negative.
+/// Checks that `map` covers what `values` reflect to, which are finite and not negative. Its `cells` are kept for other
+/// values.
 pub(super) fn check(
     map: &[Expr; 3],
     projected_jacobian: &Expr,
+    cells: &OnceCell<Vec<Cell>>,
     values: &[Expr],
 ) -> Option<Problem> {
     let asked = Asked::of(values);
     let path = Path::root().key("map");
     let mut coarse: Option<Covered> = None;
     for points in RULES {
-        let covered = Covered::of(map, projected_jacobian, &asked, points);
+        let finer;
+        let cells = if points == RULES[0] {
+            cells.get_or_init(|| cells_of(map, projected_jacobian, points))
+        } else {
+            finer = cells_of(map, projected_jacobian, points);
+            &finer
+        };
+        let covered = Covered::of(cells, &asked);
         let Some(found) = covered.worst(&asked) else {
             return Some(Problem::new(path, Bsdf::OnlyBelow));
         };
@@ -153,17 +163,19 @@ impl Asked {
         let mut asked = Self {
             rows,
             everywhere,
-            places: vec![0.0; PLACES],
+            places: Vec::with_capacity(PLACES),
         };
-        // Rings all around, whose azimuths share alike.
+        let mut all = [0.0; PLACES / TURNS];
         for step in 0..STEPS {
             let z = (2.0 * step as f64 + 1.0) / STEPS as f64 - 1.0;
             let light = asked.at(z) * z.abs() * TAU * 2.0 / STEPS as f64 / TURNS as f64;
             for (ring, part) in rings(z) {
-                for place in &mut asked.places[ring * TURNS..(ring + 1) * TURNS] {
-                    *place += part * light;
-                }
+                all[ring] += part * light;
             }
+        }
+        // Rings all around, whose azimuths share alike.
+        for ring in all {
+            asked.places.extend([ring; TURNS]);
         }
         asked
     }
@@ -205,6 +217,45 @@ fn rings(z: f64) -> [(usize, f64); 2] {
     [(first + ring, 1.0 - part), (first + ring + 1, part)]
 }
 
+/// Where the map takes a cell of the square.
+pub(super) struct Cell {
+    z: f64,
+    /// The azimuth, in [`TURNS`].
+    turn: f64,
+    /// `|phi_z| J du dv`
+    area: f64,
+}
+
+/// The cells of a rule of so many points a side.
+fn cells_of(map: &[Expr; 3], projected_jacobian: &Expr, points: u32) -> Vec<Cell> {
+    // Points are dense where maps have their poles.
+    let tick = |i: u32| {
+        let s = (f64::from(i) + 0.5) / f64::from(points);
+        let t = s * s * s * (10.0 - s * (15.0 - 6.0 * s));
+        let rate = 30.0 * s * s * (1.0 - s) * (1.0 - s);
+        (t, rate / f64::from(points))
+    };
+    let ticks: Vec<(f64, f64)> = (0..points).map(tick).collect();
+    let mut cells = Vec::with_capacity(ticks.len() * ticks.len());
+    let mut room = Vec::new();
+    for &(u, du) in &ticks {
+        for &(v, dv) in &ticks {
+            let at = Variables {
+                u,
+                v,
+                ..Variables::default()
+            };
+            let [x, y, z] = map.each_ref().map(|c| c.eval_in(&at, &mut room));
+            cells.push(Cell {
+                z,
+                turn: (libm::atan2(y, x) / TAU).rem_euclid(1.0) * TURNS as f64,
+                area: projected_jacobian.eval_in(&at, &mut room) * du * dv,
+            });
+        }
+    }
+    cells
+}
+
 /// What a map covers.
 struct Covered {
     places: Vec<f64>,
@@ -213,38 +264,18 @@ struct Covered {
 }
 
 impl Covered {
-    fn of(map: &[Expr; 3], projected_jacobian: &Expr, asked: &Asked, points: u32) -> Self {
-        // Points are dense where maps have their poles.
-        let ticks: Vec<(f64, f64)> = (0..points)
-            .map(|i| {
-                let s = (f64::from(i) + 0.5) / f64::from(points);
-                let t = s * s * s * (10.0 - s * (15.0 - 6.0 * s));
-                let rate = 30.0 * s * s * (1.0 - s) * (1.0 - s);
-                (t, rate / f64::from(points))
-            })
-            .collect();
+    fn of(cells: &[Cell], asked: &Asked) -> Self {
         let mut places = vec![0.0; PLACES];
         let mut sides = [0.0; 2];
-        let mut room = Vec::new();
-        for &(u, du) in &ticks {
-            for &(v, dv) in &ticks {
-                let at = Variables {
-                    u,
-                    v,
-                    ..Variables::default()
-                };
-                let [x, y, z] = map.each_ref().map(|c| c.eval_in(&at, &mut room));
-                let area = projected_jacobian.eval_in(&at, &mut room) * du * dv;
-                sides[usize::from(z < -1e-9)] += area;
-                let light = asked.at(z) * area;
-                let place = (libm::atan2(y, x) / TAU).rem_euclid(1.0) * TURNS as f64;
-                let turn = (place as usize).min(TURNS - 1);
-                let part = place - turn as f64;
-                for (ring, share) in rings(z) {
-                    let row = &mut places[ring * TURNS..(ring + 1) * TURNS];
-                    row[turn] += light * share * (1.0 - part);
-                    row[(turn + 1) % TURNS] += light * share * part;
-                }
+        for &Cell { z, turn, area } in cells {
+            sides[usize::from(z < -1e-9)] += area;
+            let light = asked.at(z) * area;
+            let place = (turn as usize).min(TURNS - 1);
+            let part = turn - place as f64;
+            for (ring, share) in rings(z) {
+                let row = &mut places[ring * TURNS..(ring + 1) * TURNS];
+                row[place] += light * share * (1.0 - part);
+                row[(place + 1) % TURNS] += light * share * part;
             }
         }
         Self { places, sides }

@@ -10,9 +10,17 @@ const NEGATIVE: f64 = -1e-12;
 /// The energy that a BSDF may gain by the quadrature's error.
 const GAIN: f64 = 2e-3;
 
-/// Directions towards the viewer, and rotations of the surface's frame about its normal, that make
-/// a difference to `f`: `(cos_o, turn)`.
-fn viewers(f: &Expr) -> Vec<(f64, f64)> {
+/// A direction towards the viewer, in a frame that is rotated about the surface's normal.
+#[derive(Clone, Copy)]
+struct Viewer {
+    cos_o: f64,
+    /// The component of the viewer's direction along the surface, and where that points.
+    sin_o: f64,
+    towards: [f64; 2],
+}
+
+/// Directions towards the viewer that make a difference to `f`.
+fn viewers(f: &Expr) -> Vec<Viewer> {
     let set = f.variables(f.root());
     let oblique = set.contains(Variable::CosA);
     let cosines: Vec<f64> = if oblique || set.contains(Variable::CosO) {
@@ -26,36 +34,41 @@ fn viewers(f: &Expr) -> Vec<(f64, f64)> {
     } else {
         &[0.0]
     };
+    let viewer = |cos_o: f64, turn: f64| {
+        let angle = std::f64::consts::TAU * turn;
+        Viewer {
+            cos_o,
+            sin_o: ((1.0 - cos_o) * (1.0 + cos_o)).max(0.0).sqrt(),
+            towards: [libm::cos(angle), libm::sin(angle)],
+        }
+    };
     cosines
         .iter()
-        .flat_map(|cos_o| turns.iter().map(move |turn| (*cos_o, *turn)))
+        .flat_map(|cos_o| turns.iter().map(move |turn| viewer(*cos_o, *turn)))
         .collect()
 }
 
 /// What `f` depends on at a point of the square, seen by a viewer.
-fn seen(at: Variables, direction: [f64; 3], (cos_o, turn): (f64, f64)) -> Variables {
+fn seen(at: Variables, direction: [f64; 3], viewer: Viewer) -> Variables {
     let [x, y, z] = direction;
-    let angle = std::f64::consts::TAU * turn;
-    let along = x * libm::cos(angle) + y * libm::sin(angle);
-    let sin_o = ((1.0 - cos_o) * (1.0 + cos_o)).max(0.0).sqrt();
-    let cos_a = (z * cos_o - sin_o * along).clamp(-1.0, 1.0);
+    let along = x * viewer.towards[0] + y * viewer.towards[1];
+    let cos_a = (z * viewer.cos_o - viewer.sin_o * along).clamp(-1.0, 1.0);
     Variables {
         cos_i: z.abs(),
-        cos_o,
+        cos_o: viewer.cos_o,
         cos_a,
         ..at
     }
 }
 
-/// Checks that the value is finite and not negative.
-pub(super) fn value(map: &[Expr; 3], f: &Expr, path: &Path) -> Option<Problem> {
+/// Checks that the value is finite and not negative where the map's directions at [`points`] are these.
+pub(super) fn value(directions: &[[f64; 3]], f: &Expr, path: &Path) -> Option<Problem> {
     let viewers = viewers(f);
     let is_constant = f.constant().is_some();
     let mut room = Vec::new();
-    for at in points() {
-        let direction = map.each_ref().map(|c| c.eval_in(&at, &mut room));
+    for (at, direction) in points().zip(directions) {
         for viewer in &viewers {
-            let at = seen(at, direction, *viewer);
+            let at = seen(at, *direction, *viewer);
             let value = f.eval_in(&at, &mut room);
             let least = if is_constant { 0.0 } else { NEGATIVE };
             if value >= least && value.is_finite() {
@@ -87,11 +100,13 @@ fn situation(f: &Expr, at: &Variables) -> Vec<(&'static str, f64)> {
 
 /// Sums over the square, as integrals over directions: midpoint rules of growing size, whose
 /// directions are worked out once.
-pub(super) struct Quadrature<'a> {
-    map: &'a [Expr; 3],
-    projected_jacobian: &'a Expr,
+#[derive(Default)]
+pub(super) struct Quadrature {
     rules: [OnceCell<Vec<Sample>>; 4],
 }
+
+/// A map and its `J |phi_z|`, always those of the quadrature.
+type Mapped<'a> = (&'a [Expr; 3], &'a Expr);
 
 struct Sample {
     at: Variables,
@@ -100,17 +115,9 @@ struct Sample {
     area: f64,
 }
 
-impl<'a> Quadrature<'a> {
-    pub(super) fn new(map: &'a [Expr; 3], projected_jacobian: &'a Expr) -> Self {
-        Self {
-            map,
-            projected_jacobian,
-            rules: Default::default(),
-        }
-    }
-
+impl Quadrature {
     /// 48 x 48 samples for rule 0, and twice as many in both directions for each that follows.
-    fn rule(&self, rule: usize) -> &[Sample] {
+    fn rule(&self, (map, projected_jacobian): Mapped<'_>, rule: usize) -> &[Sample] {
         self.rules[rule].get_or_init(|| {
             let n = 48_u32 << rule;
             let centre = |k| (f64::from(k) + 0.5) / f64::from(n);
@@ -123,8 +130,8 @@ impl<'a> Quadrature<'a> {
                         v: centre(j),
                         ..Variables::default()
                     };
-                    let direction = self.map.each_ref().map(|c| c.eval_in(&at, &mut room));
-                    let area = self.projected_jacobian.eval_in(&at, &mut room);
+                    let direction = map.each_ref().map(|c| c.eval_in(&at, &mut room));
+                    let area = projected_jacobian.eval_in(&at, &mut room);
                     let area = area / f64::from(n * n);
                     samples.push(Sample {
                         at,
@@ -138,30 +145,31 @@ impl<'a> Quadrature<'a> {
     }
 
     /// What leaves towards `viewer` of a uniform unit of light.
-    fn albedo(&self, f: &Expr, viewer: (f64, f64), rule: usize) -> f64 {
+    fn albedo(&self, of: Mapped<'_>, f: &Expr, viewer: Viewer, rule: usize) -> f64 {
         let mut room = Vec::new();
         let light = |s: &Sample| f.eval_in(&seen(s.at, s.direction, viewer), &mut room) * s.area;
-        self.rule(rule).iter().map(light).sum()
+        self.rule(of, rule).iter().map(light).sum()
     }
 
     /// Checks that no viewer sees more light leave than arrives: `integral f |phi_z| J du dv <= 1`.
-    pub(super) fn energy(&self, f: &Expr, path: &Path) -> Option<Problem> {
-        let mut worst: Option<(f64, (f64, f64))> = None;
+    pub(super) fn energy(&self, of: Mapped<'_>, f: &Expr, path: &Path) -> Option<Problem> {
+        let mut worst: Option<(f64, f64)> = None;
         for viewer in viewers(f) {
-            if self.albedo(f, viewer, 0) <= 0.99 {
+            if self.albedo(of, f, viewer, 0) <= 0.99 {
                 continue;
             }
             // Near the limit, or so it seems: twice finer, until two agree.
-            let (mut coarse, mut fine) = (self.albedo(f, viewer, 1), self.albedo(f, viewer, 2));
+            let (mut coarse, mut fine) =
+                (self.albedo(of, f, viewer, 1), self.albedo(of, f, viewer, 2));
             if (fine - coarse).abs() > GAIN {
-                (coarse, fine) = (fine, self.albedo(f, viewer, 3));
+                (coarse, fine) = (fine, self.albedo(of, f, viewer, 3));
             }
             let gain = fine - 2.0 * (fine - coarse).abs();
             if gain > 1.0 + GAIN && worst.is_none_or(|(most, _)| fine > most) {
-                worst = Some((fine, viewer));
+                worst = Some((fine, viewer.cos_o));
             }
         }
-        let (albedo, (cos_o, _)) = worst?;
+        let (albedo, cos_o) = worst?;
         let set = f.variables(f.root());
         let angles = set.contains(Variable::CosO) || set.contains(Variable::CosA);
         let seen = angles.then_some(cos_o);

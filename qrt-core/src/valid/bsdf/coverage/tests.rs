@@ -62,7 +62,12 @@ fn parsed(map: &Map) -> [Expr; 3] {
 fn found(map: &Map, value: &str) -> Option<Bsdf> {
     let map = parsed(map);
     let value = Expr::parse(value, &Variable::ALL).unwrap();
-    let problem = check(&map, &maps::projected_jacobian(&map), &[value])?;
+    let problem = check(
+        &map,
+        &maps::projected_jacobian(&map),
+        &OnceCell::new(),
+        &[value],
+    )?;
     match problem.what {
         crate::syntax::What::Bsdf(what) => Some(what),
         other => panic!("{other:?}"),

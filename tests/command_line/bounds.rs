@@ -1,0 +1,296 @@
+//! What work takes is bounded, in memory and in time, and what takes too much is refused before it begins.
+#![cfg(target_os = "linux")]
+
+use crate::common::command::{Folder, signalled, worked};
+use std::fmt::Write as _;
+use std::fs;
+use std::time::{Duration, Instant};
+
+/// What a command has used, as it was read last before its end.
+#[derive(Default)]
+struct Used {
+    /// The most memory that was resident, in bytes.
+    bytes: u64,
+    /// Seconds of all processors.
+    seconds: f64,
+}
+
+/// Runs the command, which must end with this code.
+fn used(folder: &Folder, code: i32, arguments: &[&str]) -> (Used, String) {
+    let mut child = folder.started(arguments);
+    let process = child.id();
+    let mut used = Used::default();
+    while child.try_wait().unwrap().is_none() {
+        let text = fs::read_to_string(format!("/proc/{process}/status")).unwrap_or_default();
+        let line = text.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+        let kilobytes = line.and_then(|line| line.trim().strip_suffix(" kB"));
+        if let (Some(kilobytes), Some(seconds)) = (kilobytes, worked(process)) {
+            let bytes = 1024 * kilobytes.parse::<u64>().unwrap();
+            used = Used { bytes, seconds };
+        }
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    let output = child.wait_with_output().unwrap();
+    let errors = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(code), "{arguments:?}: {errors}");
+    (used, errors)
+}
+
+#[test]
+#[ignore = "a minute or two: the circuit of 1,538 faces is compiled for each of two commands"]
+fn the_knot_is_verified_and_run_gate_by_gate_in_a_gigabyte() {
+    let folder = Folder::new();
+    let knot = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes-yaml/knot.yaml");
+    // Two paths of a pixel. The estimate allows it, too.
+    let few = [
+        knot,
+        "--set",
+        "sampling.path_bits=1",
+        "--max-memory",
+        "950M",
+    ];
+    for command in [
+        &["verify", "--pixels", "1"][..],
+        &[
+            "render",
+            "--model",
+            "gates",
+            "--crop",
+            "30,30,1,1",
+            "-o",
+            "k.exr",
+        ],
+    ] {
+        let (Used { bytes: most, .. }, _) = used(&folder, 0, &[command, &few].concat());
+        assert!(most < 1_000_000_000, "{command:?}: {most} bytes");
+        // It would be 7 GB if gates were held, and is no less than what was measured of the program.
+        assert!(most > 300_000_000, "{command:?}: {most} bytes");
+    }
+}
+
+/// A scene of these materials, one for each of so many quads, whose paths have so many rays.
+fn scene(materials: &[String], quads: usize, rays: &[String]) -> String {
+    let mut text = String::from(
+        "name: large
+camera: { perspective: { eye: [0, 0, 3], target: [0, 0, 0], vfov: 45 } }
+film: { width: 1, height: 1 }
+materials:
+  lamp: { emitter: { radiance: [1, 1, 1] } }
+",
+    );
+    for (number, material) in materials.iter().enumerate() {
+        let _ = writeln!(text, "  m{number}: {{ {material} }}");
+    }
+    text += "geometry:
+  - quad: { vertices: [[-1, -1, 4], [-1, 1, 4], [1, 1, 4], [1, -1, 4]], material: lamp }
+";
+    for number in 0..quads {
+        let z = number as f64 / quads as f64;
+        let _ = writeln!(
+            text,
+            "  - quad: {{ vertices: [[-1, -1, {z}], [1, -1, {z}], [1, 1, {z}], [-1, 1, {z}]], \
+             material: m{} }}",
+            number % materials.len()
+        );
+    }
+    let rays = rays.join(", ");
+    let _ = writeln!(text, "sampling: {{ path_bits: 2, depths: [{rays}] }}");
+    text
+}
+
+fn rays(bits: u32, count: usize) -> Vec<String> {
+    vec![format!("{{ bits: [{bits}, {bits}] }}"); count]
+}
+
+fn bsdf(value: &str) -> String {
+    let map = r#"["sqrt(u)*cos(2*pi*v)", "sqrt(u)*sin(2*pi*v)", "sqrt(1-u)"]"#;
+    format!(r#"bsdf: {{ map: {map}, jacobian: auto, value: ["{value}"] }}"#)
+}
+
+#[test]
+fn circuits_of_few_faces_and_many_rays_are_refused_with_a_number() {
+    let grey = ["lambertian: { albedo: [0.5, 0.5, 0.5] }".to_owned()];
+    let folder = Folder::with("s.yaml", &scene(&grey, 350, &rays(8, 60)));
+    for command in [
+        &["render", "--model", "fixed"][..],
+        &["render", "--model", "gates"],
+        &["verify", "--pixels", "1"],
+        &["inspect"],
+        &["export", "-o", "s.qasm"],
+    ] {
+        let less = ["s.yaml", "--max-memory", "100M"];
+        let (used, errors) = used(&folder, 2, &[command, &less].concat());
+        let words = "the circuit of a scene of 351 faces and paths of 60 rays would take";
+        assert!(errors.contains(words), "{command:?}: {errors}");
+        assert!(errors.contains("GB of memory") || errors.contains("MB of memory"));
+        assert!(
+            errors.contains("or allow more with --max-memory"),
+            "{errors}"
+        );
+        let Used { bytes, seconds } = used;
+        assert!(
+            bytes < 600_000_000 && seconds < 30.0,
+            "{command:?}: {bytes} bytes, {seconds} s"
+        );
+    }
+    assert_eq!(folder.names(), ["s.yaml"]);
+}
+
+/// Each depth has tables of its own, of functions of a coordinate; depths alike share them, and many are not stored.
+#[test]
+fn tables_of_many_materials_and_rays_fit_in_a_gigabyte() {
+    let folder = Folder::new();
+    let phong = |number: usize| {
+        format!(
+            "phong: {{ diffuse: [0.1, 0.1, 0.1], specular: [0.2, 0.2, 0.2], exponent: {} }}",
+            number + 1
+        )
+    };
+    let phongs: Vec<String> = (0..1000).map(phong).collect();
+    let waves: Vec<String> = (1..100)
+        .map(|k| format!("(1 + sin({k}*u))*(1 + cos({k}*v))"))
+        .collect();
+    let own = [bsdf(&format!("0.0001*({})", waves.join("+")))];
+    // No two depths have as many bits.
+    let all: Vec<String> = (0..40)
+        .map(|n| format!("{{ bits: [{}, {}] }}", 8 + n % 7, 9 + n / 7))
+        .collect();
+    for (name, text) in [
+        ("phong.yaml", scene(&phongs, 1000, &rays(14, 60))),
+        ("own.yaml", scene(&own, 1, &rays(14, 60))),
+        ("depths.yaml", scene(&phongs, 1000, &all)),
+    ] {
+        fs::write(folder.path(name), text).unwrap();
+        let (Used { bytes, seconds }, _) = used(&folder, 0, &["render", name, "-o", "p.exr"]);
+        println!("{name}: {bytes} bytes, {seconds} s");
+        assert!(bytes < 1_000_000_000, "{name}: {bytes} bytes");
+    }
+}
+
+/// Each BSDF of its own is checked at some ten thousand points, by up to 76 viewers; one that is there again is not
+/// checked again.
+#[test]
+fn very_many_bsdfs_are_checked_soon_or_refused_and_end_at_an_interrupt() {
+    let folder = Folder::new();
+    let flat = |number: usize| bsdf(&format!("{}/pi", 0.1 + number as f64 * 1e-6));
+    let many: Vec<String> = (0..2000).map(flat).collect();
+    fs::write(folder.path("many.yaml"), scene(&many, 1, &rays(2, 2))).unwrap();
+    let (many, _) = used(&folder, 0, &["render", "many.yaml", "-q", "-o", "p.exr"]);
+    println!("{:.2} ms for each", many.seconds / 2.0);
+    assert!(many.seconds < 6.0, "{} s for 2,000", many.seconds);
+
+    // As long as they may be.
+    let longest = |number: usize| {
+        let term = |k: usize| format!("cos_a^2/(1+cos_o*{}.{number})", k + 1);
+        let terms: Vec<String> = (0..150).map(term).collect();
+        let value = format!("0.001*({})", terms.join("+"));
+        assert!(value.len() < 4096);
+        bsdf(&value)
+    };
+    let same = vec![longest(0); 100];
+    fs::write(folder.path("same.yaml"), scene(&same, 1, &rays(2, 2))).unwrap();
+    let (same, _) = used(&folder, 0, &["render", "same.yaml", "-q", "-o", "p.exr"]);
+    println!("{:.2} s for one of the longest", same.seconds);
+    assert!(same.seconds < 20.0, "{} s for one", same.seconds);
+    let all: Vec<String> = (0..400).map(longest).collect();
+    fs::write(folder.path("long.yaml"), scene(&all, 1, &rays(2, 2))).unwrap();
+    let (long, errors) = used(&folder, 2, &["render", "long.yaml", "-q"]);
+    assert!(errors.contains("error[QRT0405]"), "{errors}");
+    assert!(errors.contains("minutes; the limit is 10"), "{errors}");
+    assert!(long.seconds < 5.0, "{} s to refuse them", long.seconds);
+
+    // What may take minutes ends when it is told to.
+    fs::write(folder.path("some.yaml"), scene(&all[..60], 1, &rays(2, 2))).unwrap();
+    for command in ["render", "verify", "inspect"] {
+        let child = folder.started(&[command, "some.yaml"]);
+        std::thread::sleep(Duration::from_millis(1500));
+        let start = Instant::now();
+        let (code, said, _) = signalled(child, "-INT");
+        assert!(
+            code != Some(0) && said.is_empty(),
+            "{command}: {code:?}, {said}"
+        );
+        assert!(start.elapsed() < Duration::from_secs(5), "{command}");
+    }
+}
+
+/// Corners of a quad on a plane, by its number.
+type Corners<'a> = &'a dyn Fn(usize) -> [[f64; 2]; 4];
+
+/// A flat grid, and one polygon.
+#[test]
+fn very_many_faces_of_one_plane_are_set_up_soon() {
+    let folder = Folder::new();
+    let mut grid = String::new();
+    for n in 0..201 * 201 {
+        let _ = writeln!(grid, "v {} {} 0", n % 201, n / 201);
+    }
+    for n in (1..201 * 200).filter(|n| n % 201 != 0) {
+        let _ = writeln!(grid, "f {n} {} {} {}", n + 1, n + 202, n + 201);
+    }
+    let mut polygon = String::new();
+    for n in 0..50_000 {
+        let (sin, cos) = (f64::from(n) * std::f64::consts::TAU / 5e4).sin_cos();
+        let _ = writeln!(polygon, "v {cos} {sin} 0");
+    }
+    let corners: Vec<String> = (1..=50_000).map(|n| n.to_string()).collect();
+    let _ = writeln!(polygon, "f {}", corners.join(" "));
+    for (name, mesh) in [("grid", grid), ("polygon", polygon)] {
+        fs::write(folder.path("any.obj"), mesh).unwrap();
+        let text = scene(
+            &["lambertian: { albedo: [0, 0, 0] }".to_owned()],
+            0,
+            &rays(2, 2),
+        );
+        let placed = "geometry:\n  - mesh: { obj: any.obj, material: lamp }\n";
+        fs::write(folder.path("s.yaml"), text.replace("geometry:\n", placed)).unwrap();
+        let (Used { seconds, .. }, _) =
+            used(&folder, 0, &["render", "s.yaml", "-q", "-o", "p.exr"]);
+        println!("{name}: {seconds:.2} s");
+        // Compared in pairs, 80,000 triangles took 18 s, and 100,000 corners 35 s.
+        assert!(seconds < 4.0, "{name}: {seconds} s");
+    }
+}
+
+/// Lamps upon lamps, and lamps side by side whose rectangles meet.
+#[test]
+fn lamps_of_one_plane_are_compared_soon() {
+    const LAMPS: usize = 20_000;
+    let folder = Folder::new();
+    let head = scene(
+        &["lambertian: { albedo: [0, 0, 0] }".to_owned()],
+        0,
+        &rays(2, 2),
+    );
+    let (before, after) = head.split_once("sampling:").unwrap();
+    let heap = |n: usize| {
+        let size = 1.0 + n as f64 / LAMPS as f64;
+        [[-size, -size], [size, -size], [size, size], [-size, size]]
+    };
+    let strips = |n: usize| {
+        let x = n as f64 / LAMPS as f64;
+        let wide = 0.4 / LAMPS as f64;
+        [
+            [x, -x],
+            [x + wide, -x - wide],
+            [x + wide + 2.0, 2.0 - x - wide],
+            [x + 2.0, 2.0 - x],
+        ]
+    };
+    let lamps: [(&str, Corners<'_>); 2] = [("heap", &heap), ("strips", &strips)];
+    for (name, corners) in lamps {
+        let mut text = before.to_owned();
+        for n in 0..LAMPS {
+            let corners = corners(n).map(|[x, y]| format!("[{x}, {y}, 0]")).join(", ");
+            let _ = writeln!(
+                text,
+                "  - quad: {{ vertices: [{corners}], material: lamp }}"
+            );
+        }
+        let file = format!("{name}.yaml");
+        fs::write(folder.path(&file), format!("{text}sampling:{after}")).unwrap();
+        let (Used { seconds, .. }, _) = used(&folder, 0, &["render", &file, "-q", "-o", "p.exr"]);
+        println!("{name}: {seconds:.2} s");
+        assert!(seconds < 4.0, "{name}: {seconds} s");
+    }
+}

@@ -1,0 +1,9 @@
+use qrt::prelude::*;
+
+qrt! {
+    scene Room from "../room.yaml"
+}
+
+fn main() {
+    Room::scene();
+}

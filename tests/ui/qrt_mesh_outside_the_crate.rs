@@ -1,0 +1,16 @@
+use qrt::prelude::*;
+
+qrt! {
+    pub scene Room {
+        camera: perspective { eye: (0, 1, 5), target: (0, 1, 0), vfov: 40 },
+        film: 8 x 8,
+        material white: lambertian { albedo: rgb(0.7, 0.7, 0.7) },
+        mesh near: white { obj: "scenes/../../room.obj" },
+        mesh far: white { obj: "/etc/passwd" },
+        mesh of_library { obj: "scenes/outside.obj" },
+    }
+}
+
+fn main() {
+    Room::scene();
+}
