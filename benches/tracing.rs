@@ -2,11 +2,11 @@
 //!
 //! `cargo bench --bench tracing` prints paths per second of the Cornell box at D = 1..4 on all
 //! cores, of a 65,536-triangle mesh, and of small meshes with and without boxes in front of their
-//! faces, and the time to prepare a lamp that is one polygon of many corners. It fails where a promise
+//! faces, and the time to prepare lamps of one plane. It fails where a promise
 //! is broken: the box at D = 4 traces at least 9.3 million paths a
 //! second on two cores of this kind (what a production renderer's fastest mode traces of the same
 //! scene on two), the mesh at least a third of what the box does, from afar and close up, and four
-//! times as many corners of a polygon are prepared in at most eight times the time.
+//! times as many corners of a polygon, or lamps of one plane, in at most eight times the time.
 
 // A bench that cannot run has nothing to report.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
@@ -74,11 +74,19 @@ fn main() -> ExitCode {
         println!("  {triangles:5} triangles     {turn:8.2} | {boxes:8.2}");
     }
 
-    println!("\na lamp that is one polygon, milliseconds to prepare");
-    let [fewer, more] = [25_000, 100_000].map(|corners| {
-        let took = set_up(root, corners);
-        println!("  {corners:6} corners       {:8.1}", 1e3 * took);
-        took
+    println!("\nlamps of one plane, milliseconds to prepare");
+    let flat: [(&str, fn(u32) -> String, u32); 3] = [
+        ("corners of a polygon", polygon, 100_000),
+        ("lamps upon lamps", heap, 20_000),
+        ("lamps side by side", strips, 20_000),
+    ];
+    let growth = flat.map(|(name, obj, most)| {
+        let [fewer, more] = [most / 4, most].map(|count| {
+            let took = set_up(root, &obj(count));
+            println!("  {count:6} {name:20}   {:8.1}", 1e3 * took);
+            took
+        });
+        (name, more / fewer)
     });
 
     let mut promises = Promises::new();
@@ -95,15 +103,17 @@ fn main() -> ExitCode {
         "mesh filling the film: at least a third of the box",
         3.0 * close_speed >= box_speed,
     );
-    promises.judge(
-        "a polygon of four times the corners: at most eight times the time",
-        more <= 8.0 * fewer,
-    );
+    for (name, growth) in growth {
+        promises.judge(
+            &format!("four times as many {name}: {growth:.1} times the time, at most eight"),
+            growth <= 8.0,
+        );
+    }
     promises.exit()
 }
 
-/// The knot's scene with a lamp of so many corners, all of one plane, in the knot's place.
-fn polygon(root: &Path, corners: u32) -> ValidScene {
+/// A polygon of so many corners in the plane z = 0, as an OBJ file.
+fn polygon(corners: u32) -> String {
     let mut text = String::new();
     for corner in 0..corners {
         let turn = std::f64::consts::TAU * f64::from(corner) / f64::from(corners);
@@ -114,17 +124,55 @@ fn polygon(root: &Path, corners: u32) -> ValidScene {
     for corner in 1..=corners {
         write!(text, " {corner}").expect("a text takes all");
     }
-    let mut sets = sets(2, 2);
-    sets.push("geometry[2].mesh.material=lamp".to_owned());
-    with_obj(root, CLOSE[0], &text, sets)
+    text
 }
 
-/// Seconds from a scene with a lamp of so many corners to a machine that traces it.
-fn set_up(root: &Path, corners: u32) -> f64 {
+/// Squares of that plane that cover each other.
+fn heap(count: u32) -> String {
+    let square = |share: f64| {
+        let size = 1.0 + share;
+        [[-size, -size], [size, -size], [size, size], [-size, size]]
+    };
+    rectangles(count, square)
+}
+
+/// Oblique strips of that plane side by side: where they lie along the axes overlaps.
+fn strips(count: u32) -> String {
+    let wide = 0.4 / f64::from(count);
+    let strip = |x: f64| {
+        [
+            [x, -x],
+            [x + wide, -x - wide],
+            [x + wide + 2.0, 2.0 - x - wide],
+            [x + 2.0, 2.0 - x],
+        ]
+    };
+    rectangles(count, strip)
+}
+
+fn rectangles(count: u32, corners: impl Fn(f64) -> [[f64; 2]; 4]) -> String {
+    let mut text = String::new();
+    for number in 0..count {
+        for [x, y] in corners(f64::from(number) / f64::from(count)) {
+            writeln!(text, "v {x} {y} 0").expect("a text takes all");
+        }
+        text += "f -4 -3 -2 -1\n";
+    }
+    text
+}
+
+/// Seconds from a scene with a lamp of this shape in the knot's place to a machine that traces it.
+fn set_up(root: &Path, obj: &str) -> f64 {
+    let sets = || {
+        let mut sets = sets(2, 2);
+        sets.push("geometry[2].mesh.material=lamp".to_owned());
+        sets
+    };
     (0..RUNS)
         .map(|_| {
             let started = Instant::now();
-            std::hint::black_box(machine(&polygon(root, corners)));
+            let scene = with_obj(root, CLOSE[0], obj, sets());
+            std::hint::black_box(machine(&scene));
             started.elapsed().as_secs_f64()
         })
         .fold(f64::INFINITY, f64::min)

@@ -106,12 +106,12 @@ impl<const C: usize> Stage<C> {
         for (depth, written) in depths.iter().enumerate().skip(1) {
             let same =
                 |other: &DepthSampling| (other.bits, other.map) == (written.bits, written.map);
-            let mut scatter = match depths[1..depth].iter().position(same) {
-                Some(other) => scatters[other].at_depth(depth),
-                None => {
-                    let square = (written.bits, written.map);
-                    ScatterStage::new(&surfaces, channels, depth, square, squares)
-                }
+            let other = depths[1..depth].iter().position(same);
+            let mut scatter = if let Some(other) = other {
+                scatters[other].at_depth(depth)
+            } else {
+                let square = (written.bits, written.map);
+                ScatterStage::new(&surfaces, channels, depth, square, squares)
             };
             if let (Some(lamps), Some(bits)) = (&lamps, sampling.light(depth)) {
                 let asked = (depth, bits, sampling.lights);

@@ -167,8 +167,8 @@ static CANDIDATES: LazyLock<[Vec<Candidate>; 64]> = LazyLock::new(|| {
                 mask: u64::MAX >> (2 * (MOST_GATES - gates.len())),
             }
         });
-        all.filter(|c| (c.kinds ^ three as u64) & c.mask & 63 == 0)
-            .collect()
+        let begins = |c: &Candidate| (c.kinds & c.mask ^ three as u64 & c.mask) % 64 == 0;
+        all.filter(begins).collect()
     })
 });
 
