@@ -466,7 +466,7 @@ fn header_of_words(path: &Path, data: &[u8]) {
     let mut numbers = [0; 8];
     let first = words.next().unwrap_or_default();
     for (number, byte) in numbers.iter_mut().zip(first.bytes()) {
-        *number = u32::from(byte) << (byte & 24);
+        *number = u32::from(byte) << (byte & 0b1_1000);
     }
     let [width, height, x, y, columns, rows, low, high] = numbers;
     let mut header = Header {

@@ -106,8 +106,7 @@ impl<const C: usize> Stage<C> {
         for (depth, written) in depths.iter().enumerate().skip(1) {
             let same =
                 |other: &DepthSampling| (other.bits, other.map) == (written.bits, written.map);
-            let other = depths[1..depth].iter().position(same);
-            let mut scatter = if let Some(other) = other {
+            let mut scatter = if let Some(other) = depths[1..depth].iter().position(same) {
                 scatters[other].at_depth(depth)
             } else {
                 let square = (written.bits, written.map);
