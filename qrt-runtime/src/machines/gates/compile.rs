@@ -167,8 +167,9 @@ static CANDIDATES: LazyLock<[Vec<Candidate>; 64]> = LazyLock::new(|| {
                 mask: u64::MAX >> (2 * (MOST_GATES - gates.len())),
             }
         });
-        let begins = |c: &Candidate| (c.kinds & c.mask ^ three as u64 & c.mask) % 64 == 0;
-        all.filter(begins).collect()
+        let differs = |c: &Candidate| (c.kinds ^ three as u64) & c.mask;
+        // Of the first three alone, the lowest six bits.
+        all.filter(|c| differs(c) << 58 == 0).collect()
     })
 });
 
