@@ -75,7 +75,7 @@ fn main() -> ExitCode {
     }
 
     println!("\nlamps of one plane, milliseconds to prepare");
-    let flat: [(&str, fn(u32) -> String, u32); 3] = [
+    let flat: [(&str, Shape, u32); 3] = [
         ("corners of a polygon", polygon, 100_000),
         ("lamps upon lamps", heap, 20_000),
         ("lamps side by side", strips, 20_000),
@@ -111,6 +111,9 @@ fn main() -> ExitCode {
     }
     promises.exit()
 }
+
+/// An OBJ file of so many corners or faces.
+type Shape = fn(u32) -> String;
 
 /// A polygon of so many corners in the plane z = 0, as an OBJ file.
 fn polygon(corners: u32) -> String {
