@@ -2,8 +2,7 @@
 
 use super::terminal;
 use qrt_core::valid::ValidScene;
-use qrt_runtime::machines::Gates;
-use qrt_runtime::memory::CircuitSize;
+use qrt_runtime::memory::{CircuitSize, QUBITS_OF_ONE_TURN};
 use qrt_runtime::render::Model;
 
 /// Paths that a thread is taken to trace in a second: a round figure, for an estimate of hours or days.
@@ -24,7 +23,7 @@ fn seconds(size: Option<CircuitSize>, model: Model) -> f64 {
         Model::Real => 1.0 / PATHS,
         Model::Fixed => size.map_or(0.0, |size| size.operations / OPERATIONS),
         Model::Gates => size.map_or(0.0, |size| {
-            let many = size.qubits <= f64::from(Gates::QUBITS_OF_ONE_TURN);
+            let many = size.qubits <= f64::from(QUBITS_OF_ONE_TURN);
             size.gates / if many { GATES } else { GATES_ANEW }
         }),
     }

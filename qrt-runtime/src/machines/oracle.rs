@@ -28,8 +28,10 @@ use super::native;
 use super::native::NativeOracle;
 use super::pool::Pool;
 use super::span::Span;
+use crate::memory::{QUBITS_OF_ONE_TURN, bytes_of_rows};
 use qrt_circuit::{Operand, Word};
 use qrt_core::oracle::{Channel, LUMINANCE_CHANNEL, Oracle};
+use std::num::NonZeroUsize;
 use std::ops::Range;
 use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, PoisonError};
@@ -174,8 +176,10 @@ impl OracleMachine {
         let mut gates = Box::new(Gates::new(&circuits)?);
         let mut at_once = 1;
         if parts.streamed.is_some() {
-            *gates = gates.for_many_rows();
-            at_once = gates.rows_at_once();
+            let threads = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
+            let bytes = bytes_of_rows(threads);
+            *gates = gates.for_many_rows(bytes);
+            at_once = gates.rows_at_once(bytes);
         }
         flips::try_all(&oracle, &parts)?;
         let outputs = outputs(&oracle, colours);
@@ -395,7 +399,7 @@ impl OracleMachine {
                 parts,
             } => {
                 let large = parts.streamed.as_ref();
-                let large = large.filter(|_| parts.compute.qubits > Gates::QUBITS_OF_ONE_TURN);
+                let large = large.filter(|_| parts.compute.qubits > QUBITS_OF_ONE_TURN);
                 let turn = large.map(|streamed| &streamed.turn);
                 let _turn = turn.map(|turn| turn.lock().unwrap_or_else(PoisonError::into_inner));
                 rows.lend(

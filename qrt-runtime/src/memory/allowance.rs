@@ -2,11 +2,27 @@
 //! with the number, and with what to lower.
 
 use super::allowed_bytes;
-use crate::machines::Gates;
 use qrt_circuit::lower;
 use qrt_core::oracle::{MOST_BITS, Options, Oracle};
 use qrt_core::valid::{Scatter, ValidScene};
 use std::time::Instant;
+
+/// Bytes of the rows that the same gates run on, one after another, where these are made anew each time: of a thread,
+/// and of all.
+///
+/// Making a gate takes as long as running it on some 20,000 states.
+const MOST_BYTES_OF_ROWS: [usize; 2] = [128 << 20, 512 << 20];
+/// With more qubits than these, gates that are not held run on one thread at a time, and there are rows for one.
+pub const QUBITS_OF_ONE_TURN: u32 = 1 << 22;
+/// Bytes of a qubit in the shortest rows, of 256 states.
+const OF_QUBIT: f64 = 32.0;
+
+/// Bytes that one of so many threads has for rows that the same gates run on, where these are made anew; the shortest
+/// rows may need more.
+pub(crate) fn bytes_of_rows(threads: usize) -> usize {
+    let [of_thread, of_all] = MOST_BYTES_OF_ROWS;
+    of_thread.min(of_all / threads.max(1))
+}
 
 /// Bytes of a face as it is read and traced: 730 were measured, of a flat grid of 720,000 triangles.
 const OF_FACE: u64 = 1000;
@@ -282,7 +298,12 @@ impl CircuitSize {
             }
             // Rows; where registers are; the program with its inverse.
             CircuitWork::Gates(threads) => {
-                let rows = Gates::bytes_of_many_rows(qubits, threads);
+                let rows = if qubits > f64::from(QUBITS_OF_ONE_TURN) {
+                    OF_QUBIT * qubits
+                } else {
+                    let of_thread = bytes_of_rows(threads) as f64;
+                    of_thread.max(OF_QUBIT * qubits) * threads as f64
+                };
                 compiled.max(rows + 32.0 * qubits + 500.0 * operations)
             }
             CircuitWork::Export if self.bits <= MOST_BITS as f64 => compiled + 48.0 * self.gates,

@@ -82,8 +82,8 @@ pub(crate) struct VerifyArgs {
 /// # Errors
 /// A wrong scene, an interruption, and a check that failed.
 pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
-    let loaded = args.scene.load()?;
     let cancel = interrupt::cancel_on_interrupt()?;
+    let loaded = args.scene.load()?;
     let bar = Bar::paths(!args.json);
     let show = |progress| bar.show(progress);
     let workers = Workers {

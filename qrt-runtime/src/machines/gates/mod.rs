@@ -71,9 +71,6 @@ impl Gates {
     /// States that a machine's rows hold, at most: see [`Gates::lanes`].
     pub const LANES: usize = LANES;
 
-    /// With more qubits than these, gates that are not held run on one thread at a time: there are rows for one.
-    pub const QUBITS_OF_ONE_TURN: u32 = 1 << 22;
-
     /// A machine for circuits that share their qubits and their list of classical parameters: one
     /// circuit, or the parts of one between which the states are looked at.
     ///
@@ -103,26 +100,17 @@ impl Gates {
         self
     }
 
-    /// With rows such as [`Gates::run_gates`] is given many of; where there are very many qubits, of 256 states
-    /// each.
-    pub fn for_many_rows(self) -> Self {
-        let words = rows::words_of_many(self.wiring.rows());
+    /// With rows such as [`Gates::run_gates`] is given many of, in so many bytes: where not even one fits, rows of 256
+    /// states.
+    pub fn for_many_rows(self, bytes: usize) -> Self {
+        let words = rows::words_of_many(self.wiring.rows(), bytes);
         self.with_words(words)
     }
 
-    /// How many rows [`Gates::run_gates`] should be given, so that the time that it takes to read the gates is
-    /// shared by many states and the rows still fit into 128 MB, if one does.
-    pub fn rows_at_once(&self) -> usize {
-        rows::at_once(self.wiring.rows(), self.words)
-    }
-
-    /// Bytes of all rows of so many threads that make gates anew, for so many qubits.
-    pub(crate) fn bytes_of_many_rows(qubits: f64, threads: usize) -> f64 {
-        if qubits > f64::from(Self::QUBITS_OF_ONE_TURN) {
-            qubits * (rows::FEW_WORDS * size_of::<u64>()) as f64
-        } else {
-            rows::MOST_BYTES_AT_ONCE as f64 * threads as f64
-        }
+    /// How many rows fit into so many bytes, or one: if [`Gates::run_gates`] is given as many, the time that it takes
+    /// to read the gates is shared by many states.
+    pub fn rows_at_once(&self, bytes: usize) -> usize {
+        rows::at_once(self.wiring.rows(), self.words, bytes)
     }
 
     /// With rows of so many words, one of [`rows::LENGTHS`].

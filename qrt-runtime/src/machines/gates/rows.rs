@@ -32,21 +32,16 @@ pub(super) fn words_of(rows: usize) -> usize {
     [long, middle].into_iter().find(fit).unwrap_or(short)
 }
 
-/// Bytes that rows may have which the same gates run on, one after another, where these are made anew each time.
-///
-/// Making a gate takes as long as running it on some 20,000 states.
-pub(super) const MOST_BYTES_AT_ONCE: usize = 128 << 20;
-
-/// Words of a row where there are so many rows, and several such are run on.
-pub(super) fn words_of_many(rows: usize) -> usize {
+/// Words of a row where there are so many rows, and as many such as fit into so many bytes.
+pub(super) fn words_of_many(rows: usize, bytes: usize) -> usize {
     let words = words_of(rows);
-    let fits = rows * words * size_of::<u64>() <= MOST_BYTES_AT_ONCE;
+    let fits = rows * words * size_of::<u64>() <= bytes;
     if fits { words } else { FEW_WORDS }
 }
 
-/// How many times so many rows of so many words fit into [`MOST_BYTES_AT_ONCE`]; once, if they do not.
-pub(super) fn at_once(rows: usize, words: usize) -> usize {
-    (MOST_BYTES_AT_ONCE / (rows * words * size_of::<u64>())).max(1)
+/// How many times so many rows of so many words fit into these bytes; once, if they do not.
+pub(super) fn at_once(rows: usize, words: usize, bytes: usize) -> usize {
+    (bytes / (rows * words * size_of::<u64>())).max(1)
 }
 
 /// Words that rows are aligned to: a cache line. Vectors across two lines halve the speed.

@@ -263,8 +263,8 @@ fn rows_of_many_qubits_are_shorter() {
 fn gates_made_anew_run_on_what_fits_into_some_memory() {
     let at_once = |qubits| {
         let machine = Gates::new(&[&circuit(Vec::new(), qubits)]).unwrap();
-        let machine = machine.for_many_rows();
-        let rows = machine.rows_at_once();
+        let machine = machine.for_many_rows(128 << 20);
+        let rows = machine.rows_at_once(128 << 20);
         let bytes = (qubits as usize + 5) * machine.lanes() / 8;
         assert!(rows == 1 || (bytes * rows <= 128 << 20 && bytes * (rows + 1) > 128 << 20));
         (machine.lanes(), rows)
