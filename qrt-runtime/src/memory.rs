@@ -3,8 +3,8 @@
 
 mod allowance;
 
-pub(crate) use allowance::bytes_of_rows;
-pub use allowance::{CircuitSize, CircuitWork, Memory, MemoryError, QUBITS_OF_ONE_TURN};
+pub use allowance::{CircuitSize, CircuitWork, Memory, MemoryError};
+pub(crate) use allowance::{QUBITS_OF_ONE_TURN, bytes_of_rows};
 
 /// The most memory that was resident at any time since the process began, in bytes: Linux's
 /// `VmHWM`, right to within the few pages per core that the kernel has not yet counted. `None` on

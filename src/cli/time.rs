@@ -2,7 +2,7 @@
 
 use super::terminal;
 use qrt_core::valid::ValidScene;
-use qrt_runtime::memory::{CircuitSize, QUBITS_OF_ONE_TURN};
+use qrt_runtime::memory::CircuitSize;
 use qrt_runtime::render::Model;
 
 /// Paths that a thread is taken to trace in a second: a round figure, for an estimate of hours or days.
@@ -10,7 +10,8 @@ const PATHS: f64 = 1e6;
 /// Gates of a path that a thread is taken to run in a second, and operations: round figures, too.
 const GATES: f64 = 2e11;
 const OPERATIONS: f64 = 2e8;
-/// Gates of circuits of so many qubits that few paths run at a time, while they are made anew for these.
+/// Qubits of circuits whose gates are made anew for as few paths as have memory, and gates of these.
+const MANY_QUBITS: f64 = 4e6;
 const GATES_ANEW: f64 = 5e9;
 /// Of so few, circuits are not looked at.
 const FEW_PATHS: f64 = 65_536.0;
@@ -23,7 +24,7 @@ fn seconds(size: Option<CircuitSize>, model: Model) -> f64 {
         Model::Real => 1.0 / PATHS,
         Model::Fixed => size.map_or(0.0, |size| size.operations / OPERATIONS),
         Model::Gates => size.map_or(0.0, |size| {
-            let many = size.qubits <= f64::from(QUBITS_OF_ONE_TURN);
+            let many = size.qubits <= MANY_QUBITS;
             size.gates / if many { GATES } else { GATES_ANEW }
         }),
     }

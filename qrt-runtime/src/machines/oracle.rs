@@ -177,7 +177,7 @@ impl OracleMachine {
         let mut at_once = 1;
         if parts.streamed.is_some() {
             let threads = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
-            let bytes = bytes_of_rows(threads);
+            let bytes = bytes_of_rows(threads, parts.compute.qubits);
             *gates = gates.for_many_rows(bytes);
             at_once = gates.rows_at_once(bytes);
         }

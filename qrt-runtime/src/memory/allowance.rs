@@ -12,16 +12,20 @@ use std::time::Instant;
 ///
 /// Making a gate takes as long as running it on some 20,000 states.
 const MOST_BYTES_OF_ROWS: [usize; 2] = [128 << 20, 512 << 20];
-/// With more qubits than these, gates that are not held run on one thread at a time, and there are rows for one.
-pub const QUBITS_OF_ONE_TURN: u32 = 1 << 22;
+/// With more qubits than these, gates that are not held run on one thread at a time, which has all the rows.
+pub(crate) const QUBITS_OF_ONE_TURN: u32 = 1 << 20;
 /// Bytes of a qubit in the shortest rows, of 256 states.
-const OF_QUBIT: f64 = 32.0;
+const OF_QUBIT: usize = 32;
 
-/// Bytes that one of so many threads has for rows that the same gates run on, where these are made anew; the shortest
-/// rows may need more.
-pub(crate) fn bytes_of_rows(threads: usize) -> usize {
+/// Bytes that one of so many threads has for rows of so many qubits that the same gates run on, where these are made
+/// anew; the shortest rows may need more.
+pub(crate) fn bytes_of_rows(threads: usize, qubits: u32) -> usize {
     let [of_thread, of_all] = MOST_BYTES_OF_ROWS;
-    of_thread.min(of_all / threads.max(1))
+    if qubits > QUBITS_OF_ONE_TURN {
+        of_all
+    } else {
+        of_thread.min(of_all / threads.max(1))
+    }
 }
 
 /// Bytes of a face as it is read and traced: 730 were measured, of a flat grid of 720,000 triangles.
@@ -298,11 +302,13 @@ impl CircuitSize {
             }
             // Rows; where registers are; the program with its inverse.
             CircuitWork::Gates(threads) => {
+                let shortest = OF_QUBIT as f64 * qubits;
+                let all = MOST_BYTES_OF_ROWS[1] as f64;
                 let rows = if qubits > f64::from(QUBITS_OF_ONE_TURN) {
-                    OF_QUBIT * qubits
+                    shortest * (all / shortest).floor().max(1.0)
                 } else {
-                    let of_thread = bytes_of_rows(threads) as f64;
-                    of_thread.max(OF_QUBIT * qubits) * threads as f64
+                    let of_thread = bytes_of_rows(threads, 0) as f64;
+                    of_thread.max(shortest) * threads as f64
                 };
                 compiled.max(rows + 32.0 * qubits + 500.0 * operations)
             }
