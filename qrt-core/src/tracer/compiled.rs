@@ -46,8 +46,8 @@ struct Compiler {
 }
 
 impl Compiled {
-    /// Compiles `expressions` for coordinates of `bits`, whose tables are stored if they have at most so many; `cos_i` is `|phi_z|` where that is given, and
-    /// one of the angles else.
+    /// Compiles `expressions` for coordinates of `bits`, whose tables are stored if they have at most so
+    /// many; `cos_i` is `|phi_z|` where that is given, and one of the angles else.
     pub(crate) fn new(
         expressions: &[&Expr],
         (bits, most_stored): ([u32; 2], u32),
