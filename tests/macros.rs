@@ -9,4 +9,5 @@ mod macros {
     mod predicates;
     mod reversible;
     mod textbook;
+    mod widths_and_types;
 }

@@ -133,6 +133,24 @@ fn circuits_of_few_faces_and_many_rays_are_refused_with_a_number() {
     assert_eq!(folder.names(), ["s.yaml"]);
 }
 
+/// Under the product lattice rays may have no bits, so that path indices are no limit to them.
+#[test]
+fn a_path_of_very_many_rays_is_refused() {
+    let grey = ["lambertian: { albedo: [0.5, 0.5, 0.5] }".to_owned()];
+    let of = |count| {
+        let text = scene(&grey, 1, &rays(0, count));
+        text.replace("path_bits: 2", "sequence: product-lattice")
+    };
+    let folder = Folder::with("s.yaml", &of(1024));
+    let (Used { bytes, .. }, _) = used(&folder, 0, &["render", "s.yaml", "-q", "-o", "p.exr"]);
+    assert!(bytes < 200_000_000, "{bytes}");
+    fs::write(folder.path("s.yaml"), of(1025)).unwrap();
+    let errors = folder.fails(2, &["render", "s.yaml", "-o", "q.exr"]);
+    let words = "error[QRT0504]: the depths are 1025 rays: a path has 1024 at most";
+    assert!(errors.contains(words), "{errors}");
+    assert!(errors.contains("--> s.yaml:"), "{errors}");
+}
+
 /// Each depth has tables of its own, of functions of a coordinate; depths alike share them, and many are not stored.
 #[test]
 fn tables_of_many_materials_and_rays_fit_in_a_gigabyte() {

@@ -202,7 +202,7 @@ codes! {
         "Leave `path_bits` out under `product-lattice`, or change the bits";
     TOO_MANY_IDS = "QRT0503", "more path indices than fit into a word",
         "Use fewer path bits or comparator bits";
-    TOO_MANY_DIMENSIONS = "QRT0504", "more dimensions than the digital net has",
+    TOO_MANY_DIMENSIONS = "QRT0504", "more dimensions than a path may have",
         "Use fewer depths, or `product-lattice`";
     PRIMARY_MAP = "QRT0505", "a map of directions for the primary ray",
         "Remove it: the primary ray samples the pixel square";

@@ -11,6 +11,8 @@ pub const MAX_ID_BITS: u32 = 62;
 /// The most rays of a path under the digital net, which needs two dimensions for each, and two for
 /// each point on a lamp.
 pub const MAX_NET_DEPTHS: usize = MAX_DIMENSIONS / 2;
+/// The most rays of a path under the product lattice, most of which have no bits: each takes memory.
+const MAX_LATTICE_DEPTHS: usize = 1024;
 
 pub(super) fn check(scene: &Scene, problems: &mut Problems) {
     let sampling = &scene.sampling;
@@ -71,6 +73,10 @@ pub(super) fn check(scene: &Scene, problems: &mut Problems) {
 fn lattice(sampling: &Sampling, path: &Path, problems: &mut Problems) {
     let sum = sampling.lattice_bits();
     let depths = path.key("depths");
+    let (rays, most) = (sampling.depths.len(), MAX_LATTICE_DEPTHS);
+    if rays > most {
+        problems.add(depths.clone(), Fault::TooManyRays { rays, most });
+    }
     if sum > MAX_PATH_BITS {
         let most = MAX_PATH_BITS;
         problems.add(depths, Fault::TooManyPaths { sum, most });

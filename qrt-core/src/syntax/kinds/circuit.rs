@@ -12,6 +12,9 @@ problems! {
         TooManyDepths { dimensions: usize, most: usize } = TOO_MANY_DIMENSIONS
             "the depths need {dimensions} dimensions: the net has {most}"
             help "use fewer depths, or `product-lattice`";
+        TooManyRays { rays: usize, most: usize } = TOO_MANY_DIMENSIONS
+            "the depths are {rays} rays: a path has {most} at most"
+            help "use fewer depths";
         FewLightBits { lamps: usize, bits: u32, needed: u32 } = FEW_LIGHT_BITS
             { format!("{lamps} polygons emit, and {bits} bits choose among {}", 1_u64 << bits) }
             help "write {needed} bits or more here";
