@@ -108,60 +108,6 @@ fn auto_is_one_of_both() {
     assert_ne!(picture(QUAD, "auto"), picture(QUAD, "mis"));
 }
 
-/// Light that reaches a floor by a mirror, or through glass, alone is found by chance however lamps are sampled: no
-/// worse than without.
-#[test]
-fn light_by_mirror_or_glass_alone_is_no_worse() {
-    let above = "[[-3, 1.2, -3], [3, 1.2, -3], [3, 1.2, 3], [-3, 1.2, 3]]";
-    let lamp = |height: f64| {
-        format!(
-            "[[-0.8, {height}, -0.8], [0.8, {height}, -0.8], [0.8, {height}, 0.8], [-0.8, {height}, 0.8]]"
-        )
-    };
-    for (name, material, vertices) in [
-        // The lamp shines up at a mirror.
-        (
-            "mirror",
-            "{ mirror: { reflectance: [0.9, 0.9, 0.9] } }",
-            "[[-0.8, 0.9, -0.8], [-0.8, 0.9, 0.8], [0.8, 0.9, 0.8], [0.8, 0.9, -0.8]]".to_owned(),
-        ),
-        // It shines down through glass.
-        ("glass", "{ dielectric: { ior: 1.5 } }", lamp(1.6)),
-    ] {
-        let picture = |bits, lights, seed| {
-            let text = format!(
-                "name: hidden
-camera: {{ perspective: {{ eye: [0, 0.7, 2], target: [0, 0, 0], vfov: 30 }} }}
-film: {{ width: 8, height: 8 }}
-materials:
-  floor: {MATTE}
-  between: {material}
-  lamp: {{ emitter: {{ radiance: [6, 5, 4] }} }}
-geometry:
-  - quad: {{ vertices: [[-3, 0, -3], [-3, 0, 3], [3, 0, 3], [3, 0, -3]], material: floor }}
-  - quad: {{ vertices: {above}, material: between }}
-  - quad: {{ vertices: {vertices}, material: lamp }}
-sampling: {}
-",
-                sampling(bits, lights, "auto")
-            );
-            traced(&written(&text, &[]), seed)
-        };
-        let truth = picture(15, "none", 99);
-        assert!(mean(&truth) > 0.01, "{name}: {}", mean(&truth));
-        let error = |lights| -> f64 {
-            let all = (0..8).map(|seed| rms_difference(&picture(8, lights, seed), &truth).powi(2));
-            (all.sum::<f64>() / 8.0).sqrt()
-        };
-        let [none, auto] = ["none", "auto"].map(error);
-        println!(
-            "{name}: {none:.4} without, {auto:.4} with, of {:.4}",
-            mean(&truth)
-        );
-        assert!(none > 0.0 && auto < 1.1 * none, "{name}: {auto} of {none}");
-    }
-}
-
 /// The faces of a mesh that emits are lamps one by one, as triangles of their own are.
 #[test]
 fn a_mesh_that_emits_is_sampled_face_by_face() {
