@@ -225,3 +225,29 @@ fn very_many_bsdfs_are_checked_or_refused_and_end_at_an_interrupt() {
         assert!(start.elapsed() < Duration::from_secs(5), "{command}");
     }
 }
+
+/// A comparator of 30 bits has 2^30 thresholds: gates that tried each of them would take 256 times as long as with 22
+/// bits.
+#[test]
+fn the_widest_comparator_costs_gates_no_more_tries() {
+    let folder = Folder::new();
+    let floor = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/scenes-yaml/floor-and-light.yaml"
+    );
+    let counted = |model: &str, bits: u32| {
+        let comparator = format!("comparator.bits={bits}");
+        let sets = ["--set", "sampling.path_bits=4", "--set", &comparator];
+        let options = ["--model", model, "--crop", "8,8,4,4"];
+        let outputs = ["-o", "picture.exr", "--counts", "counts.csv"];
+        let all = [&["render", floor][..], &sets, &options, &outputs].concat();
+        let (used, _) = used(&folder, 0, &all);
+        (folder.read("counts.csv"), used.seconds)
+    };
+    let (gates, seconds) = counted("gates", 30);
+    let (_, few) = counted("gates", 22);
+    assert!(seconds < 8.0 * few, "{seconds} s, and {few} s with 22 bits");
+    // The same colours are counted as by arithmetic in fixed point.
+    let (fixed, _) = counted("fixed", 30);
+    assert!(gates == fixed);
+}
