@@ -346,7 +346,7 @@ def test_what_would_not_fit_into_memory_is_refused_before_it_begins(box):
         with pytest.raises(qrt.RequestError, match=words):
             huge.render(**options)
     knot = qrt.load(ROOT / "scenes-yaml/knot.yaml", {"film": {"width": 4, "height": 4}})
-    words = "the circuit of a scene of .* faces would take about .* coarser mesh"
+    words = "the circuit of a scene of 1538 faces and paths of 3 rays would take about .* coarser mesh"
     with pytest.raises(qrt.RequestError, match=words):
         knot.render(model="fixed", max_memory=2**20)
 
