@@ -167,7 +167,7 @@ fn forty_hostile_scenes_do_no_harm() {
 }
 
 #[test]
-#[ignore = "takes several minutes"]
+#[ignore = "takes two minutes"]
 fn a_thousand_hostile_scenes_do_no_harm() {
     survive(1000, 1000);
 }
