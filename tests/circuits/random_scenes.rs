@@ -132,7 +132,7 @@ fn of_forty_scenes_all_models_agree() {
 }
 
 #[test]
-#[ignore = "takes about an hour on two cores"]
+#[ignore = "takes five minutes on two cores"]
 fn of_ten_thousand_scenes_all_models_agree() {
     check(10_000, 1_000_000);
 }
