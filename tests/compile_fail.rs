@@ -43,6 +43,35 @@ fn every_code_of_the_macros_is_shown_by_some_program() {
     assert!(unseen.is_empty(), "{unseen:#?}");
 }
 
+/// What the language itself refuses by the types of registers, without a word of qrt's: changing what is lent to
+/// be read, keeping what is lent for a while, a register of another width, and a function where a macro stands.
+const OF_THE_LANGUAGE: [&str; 6] = [
+    "compiled_id_changes_within",
+    "compiled_register_is_changed",
+    "compiled_register_leaves_within",
+    "predicate_changes_the_path",
+    "predicate_register_of_another_width",
+    "qrt_term_that_is_not_reversible",
+];
+
+#[test]
+fn every_error_has_a_help_line() {
+    let mut without = Vec::new();
+    for entry in std::fs::read_dir("tests/ui").unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_some_and(|end| end == "stderr") {
+            let text = std::fs::read_to_string(&path).unwrap();
+            let errors = format!("\n{text}");
+            let mut errors = errors.split("\nerror").skip(1);
+            if !errors.all(|error| error.contains("help: ")) {
+                without.push(path.file_stem().unwrap().to_str().unwrap().to_owned());
+            }
+        }
+    }
+    without.sort();
+    assert_eq!(without, OF_THE_LANGUAGE);
+}
+
 fn is_of_macros(code: &str) -> bool {
     code.starts_with("QRT07") || code.starts_with("QRT08")
 }

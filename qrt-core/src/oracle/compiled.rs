@@ -275,6 +275,16 @@ impl<S, X, Y, Z> fmt::Debug for Vector<S, X, Y, Z> {
     }
 }
 
+/// A scene that is `S`: a field belongs to the paths of its own scene alone.
+#[diagnostic::on_unimplemented(
+    message = "a field of `{Self}` is not on the paths of `{S}`",
+    label = "of another scene",
+    note = "help: take the field from `{S}::LAYOUT`"
+)]
+pub trait IsScene<S> {}
+
+impl<S> IsScene<S> for S {}
+
 /// The registers of a path, while they are computed.
 pub struct Computed<'a, S, R> {
     fields: &'a [&'a R],
@@ -295,7 +305,7 @@ impl<'a, S: CompiledOracle, R> Computed<'a, S, R> {
 
     /// The bits of a field, as operations read them.
     #[inline(always)]
-    pub fn word<T: Format>(&self, field: &Field<S, T>) -> Word<&'a R> {
+    pub fn word<O: IsScene<S>, T: Format>(&self, field: &Field<O, T>) -> Word<&'a R> {
         field.word.of(|_| self.fields[field.place])
     }
 
