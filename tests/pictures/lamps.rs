@@ -203,6 +203,50 @@ fn every_material_reflects_as_much_of_a_lamp() {
     agree("mirror", mirror, QUAD, "auto", &ways);
 }
 
+/// A floor whose lamp shines only on a mirror, or only through glass: no point of it is ever connected,
+/// and its paths are worth no less than without lamps that are sampled.
+#[test]
+fn light_by_mirror_or_glass_alone_is_no_worse() {
+    let seen = |between: &str, lights: &str, bits: u32, seed: u64| -> Vec<[f64; 3]> {
+        let text = format!(
+            "name: between
+camera: {{ perspective: {{ eye: [0, 0.7, 2.5], target: [0, 0, 1.4], vfov: 30 }} }}
+film: {{ width: 8, height: 8 }}
+materials:
+  floor: {{ lambertian: {{ albedo: [0.8, 0.8, 0.8] }} }}
+  mirror: {{ mirror: {{ reflectance: [0.9, 0.9, 0.9] }} }}
+  glass: {{ dielectric: {{ ior: 1.5 }} }}
+  lamp: {{ emitter: {{ radiance: [5, 5, 5] }} }}
+geometry:
+  - quad: {{ vertices: [[-3, 0, -3], [-3, 0, 3], [3, 0, 3], [3, 0, -3]], material: floor }}
+{between}sampling: {}
+",
+            sampling(bits, lights, "auto")
+        );
+        let real = Real::new(&written(&text, &[]), seed).unwrap();
+        let pixels: Vec<[u32; 2]> = (0..64).map(|k| [k % 8, k / 8]).collect();
+        let paths = real.paths() as f64;
+        let sums = real.sums(&pixels);
+        sums.iter()
+            .map(|sum| sum.colour.map(|c| c / paths))
+            .collect()
+    };
+    const MIRROR: &str = "  - quad: { vertices: [[-3, 1.2, -3], [3, 1.2, -3], [3, 1.2, 3], [-3, 1.2, 3]], material: mirror }
+  - quad: { vertices: [[-0.8, 0.9, -0.8], [-0.8, 0.9, 0.8], [0.8, 0.9, 0.8], [0.8, 0.9, -0.8]], material: lamp }\n";
+    const GLASS: &str = "  - quad: { vertices: [[-3, 1.2, -3], [3, 1.2, -3], [3, 1.2, 3], [-3, 1.2, 3]], material: glass }
+  - quad: { vertices: [[-0.8, 1.6, -0.8], [0.8, 1.6, -0.8], [0.8, 1.6, 0.8], [-0.8, 1.6, 0.8]], material: lamp }\n";
+    for between in [MIRROR, GLASS] {
+        let truth = seen(between, "none", 15, 99);
+        assert!(mean(&truth) > 0.01, "{}", mean(&truth));
+        let error = |lights| {
+            let of = |seed| rms_difference(&seen(between, lights, 8, seed), &truth).powi(2);
+            ((1..=32).map(of).sum::<f64>() / 32.0).sqrt() / mean(&truth)
+        };
+        let [with, without] = ["auto", "none"].map(error);
+        assert!(with < 1.02 * without, "{with} with, {without} without");
+    }
+}
+
 /// Pixels of the box that see no lamp: RMSE over the mean against many more paths.
 #[test]
 fn the_box_needs_few_paths() {

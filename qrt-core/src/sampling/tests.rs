@@ -38,10 +38,9 @@ fn of_ray(depth: usize, axis: usize) -> Coordinate {
     [Coordinate::u(depth), Coordinate::v(depth)][axis]
 }
 
-/// Film, lamp, ray, lamp, ray: a path's first choices have the first dimensions, and rays of scenes
-/// without lamps have those that they always had.
+/// Film, ray, ray, lamp, lamp: beside lamps rays have the dimensions that they have without.
 #[test]
-fn points_on_lamps_have_dimensions_before_their_ray() {
+fn points_on_lamps_have_the_dimensions_after_all_rays() {
     let mut written = sampling(Sequence::DigitalNet, 8, &[[8, 8]; 3]);
     let order = |sampling: &Sampling| {
         let points = PathPoints::new(sampling).unwrap();
@@ -58,10 +57,7 @@ fn points_on_lamps_have_dimensions_before_their_ray() {
         depth.light = Some([5, 6]);
     }
     let lamps = [1, 2].map(|k| [Coordinate::light_u(k), Coordinate::light_v(k)]);
-    assert_eq!(
-        order(&written),
-        [rays[0], lamps[0], rays[1], lamps[1], rays[2]].concat()
-    );
+    assert_eq!(order(&written), [rays.concat(), lamps.concat()].concat());
     let points = PathPoints::new(&written).unwrap();
     assert_eq!(points.bits(Coordinate::light_v(2)), 6);
     written.lights = Lights::None;

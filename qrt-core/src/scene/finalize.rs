@@ -35,18 +35,14 @@ impl Sampling {
     }
 
     /// The squares that a path samples, in the order of a sequence's dimensions, each with its depth
-    /// and its bits: for each ray the point on a lamp, if there is one, and then the ray itself. A
-    /// path's first choices have the first dimensions, which sequences spread best.
+    /// and its bits: those of all rays, and then the points on lamps. So rays have the dimensions that
+    /// they have without lamps: light that only they find is sampled no worse for being beside lamps.
     pub fn squares(&self) -> impl Iterator<Item = (usize, Square, [u32; 2])> + '_ {
-        self.depths
-            .iter()
-            .enumerate()
-            .flat_map(|(depth, sampling)| {
-                let light = self.light(depth).map(|bits| (depth, Square::Light, bits));
-                light
-                    .into_iter()
-                    .chain([(depth, Square::Ray, sampling.bits)])
-            })
+        let rays = self.depths.iter().enumerate();
+        let rays = rays.map(|(depth, sampling)| (depth, Square::Ray, sampling.bits));
+        let lights = (0..self.depths.len())
+            .filter_map(|depth| Some((depth, Square::Light, self.light(depth)?)));
+        rays.chain(lights)
     }
 }
 

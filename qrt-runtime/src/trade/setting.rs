@@ -3,6 +3,7 @@
 use crate::named::named;
 use crate::render::Model;
 use qrt_core::oracle::DEFAULT_FRACTION;
+use qrt_core::sampling::Square;
 use qrt_core::scene::{
     Counting, DepthSampling, Estimator, Map, Nearest, Sampling, Sequence, Uncompute,
 };
@@ -223,22 +224,16 @@ pub(super) fn depths(scene: &Sampling, count: usize) -> Vec<DepthSampling> {
     depths
 }
 
-/// A lattice of so many bits, the earlier coordinates first.
+/// A lattice of so many bits, the first dimensions first.
 fn even(lattice: &mut Sampling) {
-    let lit: Vec<bool> = (0..lattice.depths.len())
-        .map(|depth| lattice.light(depth).is_some())
-        .collect();
-    let (bits, coordinates) = (lattice.path_bits, 2 * lattice.squares().count() as u32);
+    let squares: Vec<_> = lattice.squares().collect();
+    let (bits, coordinates) = (lattice.path_bits, 2 * squares.len() as u32);
     let of = |k: u32| bits / coordinates + u32::from(k < bits % coordinates);
-    let mut next = 0;
-    let mut square = || {
-        next += 2;
-        [of(next - 2), of(next - 1)]
-    };
-    for (depth, lit) in lattice.depths.iter_mut().zip(lit) {
-        if lit {
-            depth.light = Some(square());
+    for (k, (depth, square, _)) in (0..coordinates).step_by(2).zip(squares) {
+        let bits = [of(k), of(k + 1)];
+        match square {
+            Square::Ray => lattice.depths[depth].bits = bits,
+            Square::Light => lattice.depths[depth].light = Some(bits),
         }
-        depth.bits = square();
     }
 }

@@ -53,24 +53,26 @@ fn rivals_are_measured_against_the_same_limit() {
     let mut bench = bench(&scene);
     let nets = rival(&mut bench, &scene, Sweep::ClassicalNet);
     assert_eq!(nets.len(), 6);
-    let mut compared = 0;
+    let mut smaller = vec![];
     for setting in of(&scene, Sweep::Paths) {
         if setting.sequence == Sequence::DigitalNet {
             let paths = f64::from(1 << setting.path_bits);
             let counted = bench.row(setting).unwrap().unwrap();
             let (_, off) = nets.iter().find(|(number, _)| *number == paths).unwrap();
             let ratio = off / counted.errors[0].value;
-            // Of smaller nets there are several, of which the scene's is the first.
-            let (least, most) = if paths == 1024.0 {
-                (1.0 - 1e-9, 1.0 + 1e-9)
+            if paths == 1024.0 {
+                assert!((ratio - 1.0).abs() < 1e-9, "{ratio}");
             } else {
-                (0.5, 2.0)
-            };
-            assert!((least..most).contains(&ratio), "{paths}: {ratio}");
-            compared += 1;
+                smaller.push(ratio);
+            }
         }
     }
-    assert_eq!(compared, 4);
+    // Of smaller nets there are several, of which the scene's is the first, by chance nearer or farther.
+    let middle = smaller.iter().product::<f64>().cbrt();
+    assert!(
+        smaller.len() == 3 && (0.6..1.7).contains(&middle),
+        "{smaller:?}"
+    );
     let random = rival(&mut bench, &scene, Sweep::RandomPaths);
     // More paths are tried than of a net, which is ahead with as many.
     assert!(random.len() > nets.len() && nets[5].1 < 0.3 * random[5].1);
@@ -104,6 +106,6 @@ sampling:";
     let mut lattices = of(&scene, Sweep::Paths).into_iter();
     let few = lattices.find(|setting| setting.sequence == Sequence::ProductLattice);
     let why = bench.row(few.unwrap()).unwrap().unwrap_err();
-    assert_eq!(why, "3 polygons emit, and 1 bits choose among 2");
+    assert_eq!(why, "3 polygons emit, and 0 bits choose among 1");
     assert!(bench.row(lattices.next_back().unwrap()).unwrap().is_ok());
 }
