@@ -318,6 +318,19 @@ impl Expr {
         arena.finish(ids[self.root.index()])
     }
 
+    /// Numerator and denominator of a quotient; of anything else itself and 1.
+    pub fn fraction(&self) -> [Self; 2] {
+        let part = |id| {
+            let mut arena = Arena::default();
+            arena.import(self);
+            arena.finish(id)
+        };
+        match self.nodes[self.root.index()] {
+            Node::Div(a, b) => [part(a), part(b)],
+            _ => [self.clone(), Self::from(1)],
+        }
+    }
+
     fn with(&self, other: &Self, node: impl Fn(Id, Id) -> Node) -> Self {
         let mut arena = Arena::default();
         let a = arena.import(self);

@@ -50,6 +50,27 @@ pub fn projected_jacobian(map: &[Expr; 3]) -> Expr {
     (&(&x_u * &y_v) - &(&x_v * &y_u)).abs().simplify()
 }
 
+/// The same by the square of the distance to the normal, `q = x^2 + y^2`, and the azimuth, `t = Y / X` with what
+/// `y / x` is without common factors:
+///
+/// `|phi_z| J = |q_u a_v - q_v a_u| / 2`, `a_u = (X Y_u - Y X_u) / (X^2 + Y^2)`.
+///
+/// The radius, whose derivative has a pole at the normal of most maps, is in none of the factors. So a bound can be
+/// shown where it has a shape that depends on the azimuth, as that of an anisotropic lobe.
+pub fn projected_jacobian_by_azimuth(map: &[Expr; 3]) -> Expr {
+    let [x, y, _] = map;
+    let square = (&x.powi(2) + &y.powi(2)).simplify();
+    let [sine, cosine] = (y / x).simplify().fraction();
+    let turn = |axis| {
+        let both = &(&cosine * &sine.diff(axis)) - &(&sine * &cosine.diff(axis));
+        both.simplify()
+    };
+    let area = &(&square.diff(Variable::U).simplify() * &turn(Variable::V))
+        - &(&square.diff(Variable::V).simplify() * &turn(Variable::U));
+    let length = &Expr::from(2) * &(&sine.powi(2) + &cosine.powi(2));
+    (&area.abs() / &length).simplify()
+}
+
 /// `J = |dphi/du x dphi/dv|` of a map onto the unit sphere, simplified: the solid angle per unit of
 /// the square, 1 over the pdf. It is the [`projected_jacobian`] over `|phi_z|`.
 pub fn jacobian(map: &[Expr; 3]) -> Expr {
@@ -140,6 +161,35 @@ mod tests {
             // Their mean points along z: every azimuth is there as often as its opposite.
             for component in &phi[..2] {
                 assert!(integral(|at| component.eval(at)).abs() < 1e-15);
+            }
+        }
+    }
+    /// Both forms are the same number, of lobes of any shape.
+    #[test]
+    fn the_azimuth_leads_to_the_same_jacobian() {
+        for [a, b] in [[0.5, 0.5], [0.5, 0.2], [0.3, 0.02], [1.0, 0.7]] {
+            let square = format!("(1-u+u*({a}^2*cos(2*pi*v)^2+{b}^2*sin(2*pi*v)^2))");
+            let map = [
+                format!("{a}*cos(2*pi*v)*sqrt(u/{square})"),
+                format!("{b}*sin(2*pi*v)*sqrt(u/{square})"),
+                format!("sqrt((1-u)/{square})"),
+            ];
+            let map = map.map(|text| Expr::parse(&text, &Variable::SQUARE).unwrap());
+            let (plain, other) = (
+                projected_jacobian(&map),
+                projected_jacobian_by_azimuth(&map),
+            );
+            for k in 0..100 {
+                let at = Variables {
+                    u: (f64::from(k) + 0.5) / 100.0,
+                    v: (f64::from(k) * 0.618).fract(),
+                    ..Variables::default()
+                };
+                let (plain, other) = (plain.eval(&at), other.eval(&at));
+                assert!(
+                    (plain / other - 1.0).abs() < 1e-9,
+                    "{a} {b}: {plain} {other}"
+                );
             }
         }
     }

@@ -92,7 +92,12 @@ impl MapChecks {
     fn new(map: &[Expr; 3]) -> Self {
         let problem = shape::map(map);
         let projected_jacobian = match problem {
-            None => maps::projected_jacobian(map),
+            None => {
+                let plain = maps::projected_jacobian(map);
+                let bounded = |weight: &Expr| bound::supremum(weight).is_finite();
+                let other = (!bounded(&plain)).then(|| maps::projected_jacobian_by_azimuth(map));
+                other.filter(bounded).unwrap_or(plain)
+            }
             // It is not asked for.
             Some(_) => map[2].clone(),
         };
