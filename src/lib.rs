@@ -94,6 +94,13 @@
 struct Readme;
 
 /// Points and directions: the vectors that scenes are written with, in the version that qrt uses.
+///
+/// ```
+/// use qrt::core::scene::Perspective;
+/// let eye = qrt::glam::DVec3::new(0.0, 1.0, 2.0);
+/// let camera = Perspective { eye, ..Perspective::default() };
+/// assert_eq!(camera.eye.length_squared(), 5.0);
+/// ```
 pub use glam;
 /// Reversible circuits: registers, operations, programs, gates and their costs.
 pub use qrt_circuit as circuit;

@@ -32,7 +32,12 @@ pub struct Recorder {
     /// The operation that computes each register.
     computed: HashMap<RegisterId, u32>,
     block: BlockId,
+    /// How many instructions it records.
+    most: usize,
 }
+
+/// The instructions of a routine: more than the circuits of meshes have, and less than a gigabyte.
+const MOST: usize = 1 << 24;
 
 /// A register of a [`Recorder`]: a handle on a register of the program that it records.
 #[derive(Debug, PartialEq, Eq)]
@@ -69,6 +74,9 @@ static RECORDERS: AtomicU32 = AtomicU32::new(0);
 
 impl Recorder {
     /// Records a program of one block, whose operations are lowered in `style`.
+    ///
+    /// Recording panics at its operation 2^24 + 1: loops that call routines with loops would otherwise fill
+    /// any memory.
     pub fn new(style: Style) -> Self {
         let program = Program {
             blocks: vec![Block::default()],
@@ -80,6 +88,7 @@ impl Recorder {
             style,
             computed: HashMap::new(),
             block: BlockId::ROOT,
+            most: MOST,
         }
     }
 
@@ -92,6 +101,7 @@ impl Recorder {
         style: Style,
     ) -> Self {
         let mut recorder = Self::new(style);
+        recorder.most = usize::MAX;
         let registers = registers.iter().map(register);
         recorder.program.registers = registers.collect();
         recorder.program.blocks = blocks;
@@ -192,6 +202,12 @@ impl Recorder {
     }
 
     fn step(&mut self, op: u32, inverse: bool) {
+        assert!(
+            self.program.instructions.len() < self.most,
+            "QRT0811: a program of more than {} operations, each of which becomes gates of its own: \
+             write fewer passes of loops and fewer calls within them",
+            self.most
+        );
         let block = self.block;
         let instruction = Instruction { op, inverse, block };
         self.program.instructions.push(instruction);
@@ -230,6 +246,24 @@ impl Machine for Recorder {
                 self.block = block;
                 Vec::new()
             }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{When, Word};
+
+    /// Calls in loops of routines with loops are told of, before they fill the memory.
+    #[test]
+    #[should_panic(expected = "a program of more than 3 operations")]
+    fn no_routine_is_endless() {
+        let mut m = Recorder::new(Style::InPlace);
+        m.most = 3;
+        let [a, mut b] = ["a", "b"].map(|name| m.input(&Declaration::work(name, Type::UInt, 4)));
+        for _ in 0..4 {
+            m.add_into(&mut b, Word::unsigned(&a, 0, 4).into(), false, When::Always);
         }
     }
 }

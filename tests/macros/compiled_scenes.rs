@@ -1,6 +1,7 @@
 //! What `qrt!` compiles is the circuit of the scene: the same program, computed and undone, the
 //! same numbers on every machine, and the same picture.
 
+use qrt::circuit::{Declaration, Type};
 use qrt::core::inspect::Inspection;
 use qrt::core::oracle::{Options as Compile, Oracle};
 use qrt::prelude::*;
@@ -246,6 +247,21 @@ fn the_layout_reads_rays_of_unit_length_inside_the_box() {
         state.clean().unwrap();
     }
     assert!(hits > 50, "{hits} hits");
+}
+
+/// What is computed among a path's registers and never undone is found when all of them are zero again.
+#[test]
+fn what_is_left_within_a_path_is_found() {
+    let (mut state, id) = State::path::<Box>(1, [30, 20], 3).unwrap();
+    Box::within(&mut state, &id, |state, computed| {
+        let mut own = state.zero(&Declaration::work("own", Type::UInt, 8));
+        let distance = computed.word(&Box::LAYOUT.ray0.distance).register;
+        let held = Operand::unsigned(distance, 0, 8);
+        assert_ne!(state.operand(Operand::unsigned(distance, 0, 8)), 0);
+        state.xor_into(&mut own, held, None);
+    });
+    let told = state.clean().unwrap_err().to_string();
+    assert!(told.contains("`own`"), "{told}");
 }
 
 /// The macro's tokens and the file's text are one scene, one program and one picture.

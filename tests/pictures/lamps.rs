@@ -207,6 +207,10 @@ fn every_material_reflects_as_much_of_a_lamp() {
 /// and its paths are worth no less than without lamps that are sampled.
 #[test]
 fn light_by_mirror_or_glass_alone_is_no_worse() {
+    const MIRROR: &str = "  - quad: { vertices: [[-3, 1.2, -3], [3, 1.2, -3], [3, 1.2, 3], [-3, 1.2, 3]], material: mirror }
+  - quad: { vertices: [[-0.8, 0.9, -0.8], [-0.8, 0.9, 0.8], [0.8, 0.9, 0.8], [0.8, 0.9, -0.8]], material: lamp }\n";
+    const GLASS: &str = "  - quad: { vertices: [[-3, 1.2, -3], [3, 1.2, -3], [3, 1.2, 3], [-3, 1.2, 3]], material: glass }
+  - quad: { vertices: [[-0.8, 1.6, -0.8], [0.8, 1.6, -0.8], [0.8, 1.6, 0.8], [-0.8, 1.6, 0.8]], material: lamp }\n";
     let seen = |between: &str, lights: &str, bits: u32, seed: u64| -> Vec<[f64; 3]> {
         let text = format!(
             "name: between
@@ -231,10 +235,6 @@ geometry:
             .map(|sum| sum.colour.map(|c| c / paths))
             .collect()
     };
-    const MIRROR: &str = "  - quad: { vertices: [[-3, 1.2, -3], [3, 1.2, -3], [3, 1.2, 3], [-3, 1.2, 3]], material: mirror }
-  - quad: { vertices: [[-0.8, 0.9, -0.8], [-0.8, 0.9, 0.8], [0.8, 0.9, 0.8], [0.8, 0.9, -0.8]], material: lamp }\n";
-    const GLASS: &str = "  - quad: { vertices: [[-3, 1.2, -3], [3, 1.2, -3], [3, 1.2, 3], [-3, 1.2, 3]], material: glass }
-  - quad: { vertices: [[-0.8, 1.6, -0.8], [0.8, 1.6, -0.8], [0.8, 1.6, 0.8], [-0.8, 1.6, 0.8]], material: lamp }\n";
     for between in [MIRROR, GLASS] {
         let truth = seen(between, "none", 15, 99);
         assert!(mean(&truth) > 0.01, "{}", mean(&truth));

@@ -132,7 +132,8 @@ impl Scope {
         let source = quote::quote!(#binary);
         // They meet at the fraction that their sum would have.
         let sum = self.added(&a.size, &b.size, false, &source)?;
-        self.check_bits(&sum.width, &source)?;
+        let help = "compare numbers of 62 bits or fewer, such as `a[0..62]`";
+        self.check_bits(&sum.width, &source, help)?;
         Some((Box::new(a), Box::new(b)))
     }
 }

@@ -428,11 +428,17 @@ impl Scope {
     /// Complains about what is too long to be read by an operation.
     #[cfg_attr(test, track_caller)]
     pub(super) fn check_operand(&mut self, number: &Number) -> Option<()> {
-        self.check_bits(&number.size.width.clone(), &number.source)
+        let help = "compute it from fewer bits, such as `a[0..16]`";
+        self.check_bits(&number.size.width.clone(), &number.source, help)
     }
 
     #[cfg_attr(test, track_caller)]
-    pub(super) fn check_bits(&mut self, width: &Dim, source: &TokenStream) -> Option<()> {
+    pub(super) fn check_bits(
+        &mut self,
+        width: &Dim,
+        source: &TokenStream,
+        help: &str,
+    ) -> Option<()> {
         let message = "QRT0829: a number of more than 63 bits";
         let fits = |part: &Linear| Linear::from(63).minus(part);
         let parts: Vec<Linear> = width.parts().iter().map(fits).collect();
@@ -440,7 +446,6 @@ impl Scope {
             return Some(());
         }
         let shown = format!("`{}` can take more than 63 bits", text(source));
-        let help = "compute it from fewer bits, such as `a[0..16]`";
         self.problems.add(codes::REV_TOO_WIDE, source, &shown, help);
         None
     }

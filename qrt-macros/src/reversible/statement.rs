@@ -411,16 +411,34 @@ impl Scope {
     /// operations of its own.
     fn check_passes(&mut self, place: &Expr) {
         const MOST: i64 = 1_000_000;
-        let mut all = 1_i64;
-        for (_, [first, end]) in self.loops.clone() {
-            let least = self.least(&first.minus(&end));
-            if let Some(minus) = least.known() {
-                all = all.saturating_mul(minus.saturating_neg().max(0));
+        let around = self.loops.clone();
+        let passes: Vec<Linear> = around
+            .iter()
+            .map(|(_, [first, end])| self.least(&first.minus(end)).times(-1))
+            .collect();
+        let known: Option<Vec<i64>> = passes.iter().map(Linear::known).collect();
+        let Some(known) = known else {
+            let message = "QRT0811: a loop of more than 1,000,000 passes";
+            if let [(_, [first, end])] = &around[..] {
+                self.holds(&end.minus(first).times(-1).plus(&MOST.into()), message);
             } else {
-                let message = "QRT0811: a loop of more than 1,000,000 passes";
-                self.holds(&end.minus(&first).times(-1).plus(&MOST.into()), message);
+                let message = "QRT0811: loops within loops of more than 1,000,000 passes in all";
+                let passes = passes.iter().map(Linear::signed_tokens);
+                let product = quote!({
+                    let mut all: ::core::primitive::i64 = 1;
+                    #({
+                        let passes = #passes;
+                        all = all.saturating_mul(if passes > 0 { passes } else { 0 });
+                    })*
+                    all <= #MOST
+                });
+                self.demand(product, message);
             }
-        }
+            return;
+        };
+        let all = known
+            .into_iter()
+            .fold(1_i64, |all, passes| all.saturating_mul(passes.max(0)));
         if all > MOST {
             let message = format!("{all} passes, each of which becomes gates of its own");
             let help = "write loops of 1,000,000 passes or fewer, and call the function again";

@@ -568,6 +568,17 @@ fn what_constants_must_fulfil_is_asked_of_them() {
             ),
         ),
         (
+            "W <= 1000000",
+            "QRT0811: a loop of more than 1,000,000 passes",
+            quote!(
+                fn f<const W: u32>(a: &UInt<4>, b: &mut UInt<4>) {
+                    for _ in 0..W {
+                        b += a;
+                    }
+                }
+            ),
+        ),
+        (
             "W <= 43",
             "QRT0829: a number of more than 63 bits",
             quote!(
@@ -581,5 +592,39 @@ fn what_constants_must_fulfil_is_asked_of_them() {
         assert_eq!(problems.messages(), [""; 0]);
         let demand = format!("const {{ :: core :: assert ! ({condition} , {message:?}) }}");
         assert!(tokens.to_string().contains(&demand), "{demand}: {tokens}");
+    }
+}
+
+/// The passes of loops within loops count together, those of a triangle as those of its square.
+#[test]
+fn the_passes_of_all_loops_around_are_bounded() {
+    for item in [
+        quote!(
+            fn f<const W: u32>(a: &UInt<4>, b: &mut UInt<4>) {
+                for _ in 0..W {
+                    for _ in 0..W {
+                        b += a;
+                    }
+                }
+            }
+        ),
+        quote!(
+            fn f(a: &UInt<4>, b: &mut UInt<4>) {
+                for i in 0..PASSES {
+                    for _ in 0..1000 {
+                        for _ in 0..i {
+                            b += a;
+                        }
+                    }
+                }
+            }
+        ),
+    ] {
+        let (tokens, problems) = expanded(&TokenStream::new(), item);
+        assert_eq!(problems.messages(), [""; 0]);
+        let tokens = tokens.to_string();
+        let message = "QRT0811: loops within loops of more than 1,000,000 passes in all";
+        assert!(tokens.contains("all = all . saturating_mul"), "{tokens}");
+        assert!(tokens.contains(&format!("{message:?}")), "{tokens}");
     }
 }
