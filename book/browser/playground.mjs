@@ -1,5 +1,6 @@
 // The playground, tried as a reader would: see test.mjs.
 
+import { spawn } from "node:child_process";
 import { mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -7,6 +8,8 @@ import { join } from "node:path";
 /** Milliseconds from the page to the first picture of the Cornell box, and from a key to its underline. */
 const FIRST_PICTURE = 3000;
 const UNDERLINE = 60;
+/** The same wherever it is tried once more, and where the command answers over HTTP. */
+const UNDERLINE_AGAIN = 250;
 
 const SELECTOR = 'figure[data-figure="playground"]';
 
@@ -48,13 +51,57 @@ class Playground {
     return this.page.until((s) => !document.querySelector(s).dataset.busy, [SELECTOR], 120_000);
   }
 
+  /** Chooses the arithmetic. */
+  async arithmetic(model) {
+    await this.page.call((s, model) => {
+      const choice = document.querySelector(`${s} [name=model]`);
+      choice.value = model;
+      choice.dispatchEvent(new Event("input"));
+    }, SELECTOR, model);
+    await this.idle();
+  }
+
+  /** The first line that the editor shows as a whole. */
+  top() {
+    return this.page.call((selector) => {
+      const view = document.querySelector(selector).qrtEditor;
+      const { top } = view.scrollDOM.getBoundingClientRect();
+      const line = view.lineBlockAtHeight(top - view.documentTop + 0.5);
+      const whole = line.top + view.documentTop >= top - 0.5 ? line : view.lineBlockAtHeight(line.bottom + 0.5);
+      return view.state.doc.lineAt(whole.from).text;
+    }, SELECTOR);
+  }
+
+  /** Moves the mouse to a place in the first picture, in parts of its size; presses it there, if so asked. */
+  async point(x, y, press = false) {
+    const at = await this.page.call((s, x, y) => {
+      const canvas = document.querySelector(`${s} canvas`);
+      canvas.scrollIntoView({ block: "center" });
+      const box = canvas.getBoundingClientRect();
+      return { x: box.x + x * box.width, y: box.y + y * box.height };
+    }, SELECTOR, x, y);
+    await this.page.send("Input.dispatchMouseEvent", { type: "mouseMoved", ...at });
+    if (!press) return;
+    for (const type of ["mousePressed", "mouseReleased"]) {
+      await this.page.send("Input.dispatchMouseEvent", { type, ...at, button: "left", clickCount: 1 });
+    }
+  }
+
+  /** Until that pixel is looked at. */
+  looked(x, y) {
+    return this.page.until((s, words) => {
+      const pixel = document.querySelector(`${s} .qrt-pixel`);
+      return !pixel.dataset.busy && pixel.querySelector("h3")?.textContent === words;
+    }, [SELECTOR, `Pixel ${x}, ${y}`]);
+  }
+
   read() {
     return this.page.call((selector) => {
       const figure = document.querySelector(selector);
       const told = {};
       for (const span of figure.querySelectorAll("[data-name]")) told[span.dataset.name] = span.dataset.value;
       const codes = [...figure.querySelectorAll(".qrt-problems li")].map((item) => item.dataset.code);
-      const levels = [...figure.querySelectorAll("canvas")].map((canvas) => {
+      const levels = [...figure.querySelectorAll("canvas")].filter((canvas) => canvas.offsetParent).map((canvas) => {
         const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
         return Array.from(data);
       });
@@ -64,8 +111,94 @@ class Playground {
   }
 }
 
+/** Changes a colour, and types an error: what is on the page is SMALL. `soon` is how soon that is underlined. */
+async function edits(tried, where, { fail, qrt }, soon) {
+  const { page } = tried;
+  // A colour: the picture changes.
+  const before = (await tried.read()).levels[0];
+  await page.call((s) => {
+    const view = document.querySelector(s).qrtEditor;
+    const at = view.state.doc.toString().indexOf("0.8, 0.5, 0.2");
+    view.dispatch({ changes: { from: at, to: at + 3, insert: "0.1" } });
+  }, SELECTOR);
+  await page.until((s) => document.querySelector(s).dataset.busy, [SELECTOR]);
+  await tried.idle();
+  const after = (await tried.read()).levels[0];
+  if (before.every((level, k) => level === after[k])) fail(where, "a change of colour changes nothing");
+
+  // An error, typed: the word before `albedo`'s colon.
+  await page.call((s) => {
+    const view = document.querySelector(s).qrtEditor;
+    const at = view.state.doc.toString().indexOf("albedo") + 6;
+    view.focus();
+    view.dispatch({ selection: { anchor: at } });
+    performance.clearMeasures("qrt-underline");
+  }, SELECTOR);
+  for (const key of ["x", "y", "z"]) {
+    await page.key(key);
+    await page.value("new Promise((resolve) => setTimeout(resolve, 150))");
+  }
+  await tried.idle();
+  const wrong = await tried.read();
+  if (!wrong.underlined.includes("albedoxyz")) fail(where, `underlined is ${JSON.stringify(wrong.underlined)}`);
+  const scratch = mkdtempSync(join(tmpdir(), "qrt-book-"));
+  const file = join(scratch, "wrong.yaml");
+  writeFileSync(file, await tried.text());
+  let expected = "";
+  try {
+    qrt("inspect", file);
+  } catch (error) {
+    expected = error.stderr;
+  }
+  rmSync(scratch, { recursive: true });
+  const codes = [...expected.matchAll(/^error\[(\w+)\]/gm)].map(([, code]) => code);
+  if (!codes.length || codes.join() !== wrong.codes.join()) fail(where, `lists ${wrong.codes}, but qrt says ${codes}`);
+  const delays = await page.call(() => performance.getEntriesByName("qrt-underline").map(({ duration }) => duration));
+  const longest = Math.max(...delays);
+  console.log(`${where}: from a key to its underline ${longest.toFixed(0)} ms at most`);
+  if (delays.length < 3 || longest > soon) fail(where, `underlines ${delays.length} keys, after ${longest.toFixed(0)} ms at most`);
+}
+
+/** The same page, served by the command. */
+async function served(browser, tools) {
+  const { fail, barriers, command, overflowing, sizes } = tools;
+  const scratch = mkdtempSync(join(tmpdir(), "qrt-book-"));
+  writeFileSync(join(scratch, "small.yaml"), SMALL);
+  const child = spawn(command, ["playground", join(scratch, "small.yaml")], { stdio: ["ignore", "pipe", "inherit"] });
+  try {
+    const line = await new Promise((resolve, reject) => {
+      child.stdout.once("data", (data) => resolve(String(data)));
+      child.once("exit", () => reject(new Error("qrt playground ended")));
+    });
+    const address = line.match(/http:\S+/)[0];
+    for (const scheme of ["light", "dark"]) {
+      for (const size of sizes) {
+        const where = `qrt playground, ${scheme} at ${size[0]}`;
+        const page = await browser.page();
+        await page.size(...size);
+        await page.send("Emulation.setEmulatedMedia", { features: [{ name: "prefers-color-scheme", value: scheme }] });
+        await page.visit(address);
+        const tried = new Playground(page);
+        await tried.ready();
+        await page.until(() => performance.getEntriesByName("qrt-first-picture").length > 0, [], 60_000);
+        await tried.idle();
+        await page.until((s) => document.querySelector(`${s} .qrt-cost [data-name=toffoli]`), [SELECTOR], 60_000);
+        for (const barrier of await barriers(page)) fail(where, barrier);
+        for (const out of await page.call(overflowing)) fail(where, `sticks out of the page: ${out}`);
+        await edits(tried, where, tools, UNDERLINE_AGAIN);
+        for (const complaint of new Set(page.complaints)) fail(where, complaint);
+        await page.send("Page.close").catch(() => {});
+      }
+    }
+  } finally {
+    child.kill();
+    rmSync(scratch, { recursive: true });
+  }
+}
+
 /** Tries all of it on the page `name`; `tools` are those of test.mjs. */
-export async function playground(browser, address, name, { fail, check, checkAll, qrt, root, themes, sizes, faint, overflowing, screenshots }) {
+export async function playground(browser, address, name, tools) {
+  const { fail, check, checkAll, qrt, root, themes, sizes, faint, overflowing, barriers, screenshots } = tools;
   const open = async (theme, size, hash) => {
     const page = await browser.page();
     await page.size(...size);
@@ -90,6 +223,11 @@ export async function playground(browser, address, name, { fail, check, checkAll
     const [took] = await first();
     console.log(`${where}: the first picture ${took.toFixed(0)} ms after the page was asked for`);
     if (took > FIRST_PICTURE) fail(where, `the first picture comes after ${took.toFixed(0)} ms`);
+    // What an example says of itself stands above what is shown.
+    const named = (scene) => tried.page.until((s) => document.querySelector(s).qrtEditor.scrollDOM.scrollTop > 0, [SELECTOR])
+      .then(() => tried.top(), () => "")
+      .then((line) => line.startsWith("name:") || fail(where, `${scene} is shown from "${line}" on`));
+    await named("the first example");
     const scenes = readdirSync(join(root, "scenes-yaml")).filter((file) => file.endsWith(".yaml"));
     const offered = await tried.page.call((s) => [...document.querySelectorAll(`${s} [name=example] option`)].map((o) => o.value), SELECTOR);
     check(where, "the number of examples", offered.length, scenes.length);
@@ -105,6 +243,7 @@ export async function playground(browser, address, name, { fail, check, checkAll
       const { codes, said, levels, state_of_scene } = await tried.read();
       if (state_of_scene !== "valid" || codes.length) fail(where, `${scene} has problems: ${codes} ${said}`);
       if (!levels[0].some((level, k) => k % 4 < 3 && level > 0)) fail(where, `${scene} is black`);
+      await named(scene);
     }
     await close(tried, where);
   }
@@ -125,25 +264,30 @@ export async function playground(browser, address, name, { fail, check, checkAll
     await tried.replace(SMALL);
     await page.until((s) => document.querySelector(s).dataset.busy, [SELECTOR]);
     await tried.idle();
-    for (const model of ["real", "fixed"]) {
-      await page.call((s, model) => {
-        const choice = document.querySelector(`${s} [name=model]`);
-        choice.value = model;
-        choice.dispatchEvent(new Event("input"));
-      }, SELECTOR, model);
-      await tried.idle();
+    for (const choice of ["real", "fixed", "both"]) {
+      await tried.arithmetic(choice);
       const { told, levels } = await tried.read();
+      const model = choice === "both" ? "real" : choice;
       const exact = rendered("--model", model, "--estimator", "exact");
       const counted = rendered("--model", model);
+      const pictures = [exact, counted];
       const mean = exact.reduce((a, b) => a + b) / exact.length;
       const squares = counted.reduce((sum, value, k) => sum + (value - exact[k]) ** 2, 0);
-      check(`${where}, ${model}`, "the mean", told.mean, mean, 1e-9);
-      check(`${where}, ${model}`, "the error of counting", told.rmse, Math.sqrt(squares / exact.length) / mean, 1e-9);
+      check(`${where}, ${choice}`, "the mean", told.mean, mean, 1e-9);
+      check(`${where}, ${choice}`, "the error of counting", told.rmse, Math.sqrt(squares / exact.length) / mean, 1e-9);
+      if (choice === "both") {
+        // The circuit's integers between the two, and how far they are off.
+        const beside = rendered("--model", "fixed", "--estimator", "exact");
+        pictures.splice(1, 0, beside);
+        const apart = beside.reduce((sum, value, k) => sum + (value - exact[k]) ** 2, 0);
+        check(`${where}, ${choice}`, "how far integers are off", told.apart, Math.sqrt(apart / exact.length) / mean, 1e-9);
+      }
+      check(`${where}, ${choice}`, "the number of pictures", levels.length, pictures.length);
       // As the exposure is at first: twice as bright.
       const srgb = (v) => level(2 * v);
       const level = (v) => Math.round(255 * (v <= 0.0031308 ? 12.92 * v : 1.055 * Math.min(v, 1) ** (1 / 2.4) - 0.055));
-      for (const [k, picture] of [exact, counted].entries()) {
-        checkAll(`${where}, ${model}`, "levels", levels[k].filter((_, at) => at % 4 < 3), picture.map(srgb));
+      for (const [k, picture] of pictures.entries()) {
+        checkAll(`${where}, ${choice}`, "levels", levels[k].filter((_, at) => at % 4 < 3), picture.map(srgb));
       }
     }
     // Its oracle.
@@ -152,6 +296,20 @@ export async function playground(browser, address, name, { fail, check, checkAll
     const inspected = JSON.parse(qrt("inspect", file, "--json"));
     check(where, "Toffolis", told.toffoli, inspected.gates.toffoli);
     check(where, "qubits", told.qubits, inspected.qubits.peak);
+
+    // A pixel, by mouse: the one under it, until a click keeps one, and again from a click on that one on.
+    await tried.point(0.51, 0.01);
+    await tried.looked(6, 0);
+    await tried.point(0.01, 0.99, true);
+    await tried.looked(0, 7);
+    await tried.point(0.51, 0.51);
+    await page.value("new Promise((resolve) => setTimeout(resolve, 200))");
+    await tried.looked(0, 7).catch(() => fail(where, "the mouse moves from the pixel that was kept"));
+    await tried.point(0.99, 0.01, true);
+    await tried.looked(11, 0);
+    await tried.point(0.99, 0.01, true);
+    await tried.point(0.51, 0.51);
+    await tried.looked(6, 4);
 
     // A pixel, by keyboard.
     await page.call((s) => document.querySelector(`${s} canvas`).focus(), SELECTOR);
@@ -165,49 +323,13 @@ export async function playground(browser, address, name, { fail, check, checkAll
     checkAll(where, "channels of a pixel", shown.split(" ").map(Number), exact.slice(place, place + 3), 1e-12);
     check(where, "its amplitude", means.amplitude, means.good / (256 * 2 ** inspected.comparator_bits), 1e-12);
 
-    // A colour: the picture changes.
-    const before = (await tried.read()).levels[0];
+    // What the schema suggests where a key is typed: erase it, and ask.
     await page.call((s) => {
       const view = document.querySelector(s).qrtEditor;
-      const at = view.state.doc.toString().indexOf("0.8, 0.5, 0.2");
-      view.dispatch({ changes: { from: at, to: at + 3, insert: "0.1" } });
-    }, SELECTOR);
-    await page.until((s) => document.querySelector(s).dataset.busy, [SELECTOR]);
-    await tried.idle();
-    const after = (await tried.read()).levels[0];
-    if (before.every((level, k) => level === after[k])) fail(where, "a change of colour changes nothing");
-
-    // An error, typed: the word before `albedo`'s colon.
-    await page.call((s) => {
-      const view = document.querySelector(s).qrtEditor;
-      const at = view.state.doc.toString().indexOf("albedo") + 6;
       view.focus();
-      view.dispatch({ selection: { anchor: at } });
-      performance.clearMeasures("qrt-underline");
+      view.dispatch({ selection: { anchor: view.state.doc.toString().indexOf("albedo") + 6 } });
     }, SELECTOR);
-    for (const key of ["x", "y", "z"]) {
-      await page.key(key);
-      await page.value("new Promise((resolve) => setTimeout(resolve, 150))");
-    }
-    await tried.idle();
-    const wrong = await tried.read();
-    if (!wrong.underlined.includes("albedoxyz")) fail(where, `underlined is ${JSON.stringify(wrong.underlined)}`);
-    let expected = "";
-    writeFileSync(file, (await tried.text()));
-    try {
-      qrt("inspect", file);
-    } catch (error) {
-      expected = error.stderr;
-    }
-    const codes = [...expected.matchAll(/^error\[(\w+)\]/gm)].map(([, code]) => code);
-    if (!codes.length || codes.join() !== wrong.codes.join()) fail(where, `lists ${wrong.codes}, but qrt says ${codes}`);
-    const delays = await page.call(() => performance.getEntriesByName("qrt-underline").map(({ duration }) => duration));
-    const longest = Math.max(...delays);
-    console.log(`${where}: from a key to its underline ${longest.toFixed(0)} ms at most`);
-    if (delays.length < 3 || longest > UNDERLINE) fail(where, `underlines ${delays.length} keys, after ${longest.toFixed(0)} ms at most`);
-
-    // What the schema suggests there: erase, ask, and take the first.
-    for (let k = 0; k < 9; k++) await page.key("Backspace");
+    for (let k = 0; k < 6; k++) await page.key("Backspace");
     await page.send("Input.dispatchKeyEvent", { type: "rawKeyDown", key: " ", code: "Space", windowsVirtualKeyCode: 32, modifiers: 2 });
     await page.send("Input.dispatchKeyEvent", { type: "keyUp", key: " ", code: "Space", windowsVirtualKeyCode: 32, modifiers: 2 });
     await page.until(() => document.querySelector(".cm-tooltip-autocomplete li"), []).catch(() => fail(where, "nothing is suggested"));
@@ -244,6 +366,7 @@ export async function playground(browser, address, name, { fail, check, checkAll
       await page.until((s) => document.querySelector(`${s} .qrt-pixel [data-name=mean]`), [SELECTOR]);
       await page.until((s) => document.querySelector(`${s} .qrt-stages`), [SELECTOR], 60_000);
       for (const words of await faint(page, SELECTOR)) fail(where, words);
+      for (const barrier of await barriers(page)) fail(where, barrier);
       for (const out of await page.call(overflowing)) fail(where, `sticks out of the page: ${out}`);
       const unnamed = await page.call((s) => [...document.querySelectorAll(`${s} :is(input, select, button, canvas, progress)`)]
         .filter((e) => !(e.labels?.length || e.ariaLabel || e.textContent.trim())).map((e) => e.outerHTML.slice(0, 80)), SELECTOR);
@@ -255,8 +378,10 @@ export async function playground(browser, address, name, { fail, check, checkAll
         }, SELECTOR);
         await page.picture(join(screenshots, `playground-${theme}-${size[0]}.png`), { ...box, scale: 1 });
       }
+      await edits(tried, where, tools, theme === themes[0] && size === sizes[0] ? UNDERLINE : UNDERLINE_AGAIN);
       await close(tried, where);
     }
   }
+  await served(browser, tools);
   console.log(`${name}: the playground, tried`);
 }

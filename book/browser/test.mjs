@@ -102,8 +102,8 @@ function overflowing() {
 }
 
 /** What keeps readers out of the page that is open, if it is serious. */
-async function barriers(page, name) {
-  if (!axe || PARTS.includes(name)) return [];
+async function barriers(page) {
+  if (!axe) return [];
   await page.value(`${axe}; 0`);
   const found = await page.call(async () => {
     const { violations } = await window.axe.run(document, { resultTypes: ["violations"] });
@@ -114,17 +114,33 @@ async function barriers(page, name) {
     .map(({ id, html, count }) => `a barrier: ${id}, ${count} times, such as ${html}`);
 }
 
-/** Every page, wide and narrow. Answers those with figures. */
+/** Has every document of a page begin in that theme. */
+const themed = (page, theme) => page.send("Page.addScriptToEvaluateOnNewDocument", {
+  source: `localStorage.setItem("mdbook-theme", "${theme}");`,
+});
+
+/** Every page, wide and narrow in the first theme, wide in the others. Answers those with figures. */
 async function everyPage(browser, address) {
+  let found = [];
+  // One theme after another: all pages that are open have one, since they share what is stored.
+  for (const theme of THEMES) {
+    const withFigures = await everyPageIn(browser, address, theme);
+    if (theme === THEMES[0]) found = withFigures;
+  }
+  return found;
+}
+
+async function everyPageIn(browser, address, theme) {
   const waiting = pages(folder).sort();
   const count = waiting.length;
   const withFigures = [];
   const sizes = [];
   await Promise.all(Array.from({ length: TABS }, async () => {
     const page = await browser.page();
+    await themed(page, theme);
     for (let name; (name = waiting.shift()); ) {
-      for (const size of [WIDE, PHONE]) {
-        const where = `${name} at ${size[0]}`;
+      for (const size of theme === THEMES[0] ? [WIDE, PHONE] : [WIDE]) {
+        const where = `${name}, ${theme} at ${size[0]}`;
         await page.size(...size);
         await page.visit(`${address}/${name}`);
         // What scripts do once a page is there, they do now.
@@ -132,7 +148,7 @@ async function everyPage(browser, address) {
         for (const complaint of new Set(page.complaints)) fail(where, complaint);
         for (const out of await page.call(overflowing)) fail(where, `sticks out of the page: ${out}`);
         if (size === WIDE) {
-          for (const barrier of await barriers(page, name)) fail(where, barrier);
+          if (!PARTS.includes(name)) for (const barrier of await barriers(page)) fail(where, barrier);
           sizes.push([[...page.loaded.values()].reduce((a, b) => a + b, 0), name]);
           if (await page.value("document.querySelector('figure.qrt-interactive[data-figure]') !== null")) withFigures.push(name);
         }
@@ -140,7 +156,8 @@ async function everyPage(browser, address) {
     }
   }));
   sizes.sort((a, b) => b[0] - a[0]);
-  console.log(`${count} pages, wide and narrow`);
+  console.log(`${count} pages, ${theme}`);
+  if (theme !== THEMES[0]) return [];
   for (const [wasm, most] of Object.entries(WASM)) {
     const { size } = statSync(join(folder, "interactive", wasm));
     if (size >= most) fail(wasm, `it has ${size} bytes; less than ${most} are allowed`);
@@ -448,7 +465,7 @@ async function stills(browser, address) {
   if ((await shown()) !== "undefined true") fail("call", `begins with ${await shown()}, by itself though motion is not wanted`);
   await slide("call", 0, steps);
   await page.until(() => document.querySelector("figure[data-still=call] img.qrt-shown").naturalWidth > 0);
-  if ((await shown()) !== `s${steps} true`) fail("call", `shows ${await shown()} after all ${steps} boxes`);
+  if ((await shown()) !== `s${steps} true`) fail("call", `shows ${await shown()} after all ${steps} stages`);
   await page.call(() => document.querySelector("figure[data-still=call] input").focus());
   await page.key("ArrowLeft");
   if (!(await shown()).startsWith(`s${steps - 1} `)) fail("call", "does not move by keyboard");
@@ -459,7 +476,7 @@ const { server, address } = await serve(folder);
 const browser = await Browser.start(CHROMIUM);
 try {
   const withFigures = process.env.ONLY ? [process.env.ONLY] : await everyPage(browser, address);
-  const tools = { fail, check, checkAll, qrt, root, themes: THEMES, sizes: [WIDE, PHONE], faint, overflowing, screenshots: SCREENSHOTS };
+  const tools = { fail, check, checkAll, qrt, root, themes: THEMES, sizes: [WIDE, PHONE], faint, overflowing, barriers, command: QRT, screenshots: SCREENSHOTS };
   for (const name of withFigures) {
     await figures(browser, address, name);
     if (name === "playground.html") await playground(browser, address, name, tools);

@@ -18,7 +18,7 @@ export function start(body, qrt, figure) {
   let timer = null;
 
   const controls = new Controls(body, update);
-  const id = controls.slider("id", "path id", { min: 0, max: ids - 1, value: 5 });
+  const id = controls.slider("id", "path index", { min: 0, max: ids - 1, value: 5 });
   const comparator = controls.slider("comparator", "comparator", { min: 0, max: comparators - 1, value: 2 });
   const step = controls.slider("step", "operations run", {
     min: 0, max: about.operations, value: 0, told: (n) => `${n} of ${about.operations}`,
@@ -77,12 +77,12 @@ export function start(body, qrt, figure) {
     play.textContent = "play";
   }
 
-  /** A square for every basis state: ids from left to right, comparators from below. */
+  /** A square for every basis state: path indices from left to right, comparators from below. */
   function drawSigns() {
     const size = 14;
     const [width, height] = [ids * size, comparators * size];
     const svg = shape("svg", { viewBox: `-18 -16 ${width + 20} ${height + 34}`, role: "img", "aria-label": "the sign of every basis state" });
-    svg.append(shape("text", { x: 0, y: -5, class: "qrt-title" }, "sign of every (id, comparator)"));
+    svg.append(shape("text", { x: 0, y: -5, class: "qrt-title" }, "sign of every (path index, comparator)"));
     const made = [];
     for (let y = 0; y < comparators; y++) {
       for (let x = 0; x < ids; x++) {
@@ -98,7 +98,7 @@ export function start(body, qrt, figure) {
         made.push(cell);
       }
     }
-    svg.append(shape("text", { x: width / 2, y: height + 14, class: "qrt-tick", "text-anchor": "middle" }, "id →"));
+    svg.append(shape("text", { x: width / 2, y: height + 14, class: "qrt-tick", "text-anchor": "middle" }, "path index →"));
     svg.append(shape("text", { x: -6, y: height / 2, class: "qrt-tick", "text-anchor": "middle", transform: `rotate(-90 -6 ${height / 2})` }, "comparator →"));
     signs.append(svg);
     return made;
@@ -131,14 +131,14 @@ export function start(body, qrt, figure) {
       phase.classList.toggle("qrt-now", last >= Number(phase.dataset.from) && last < Number(phase.dataset.to));
     }
     told.textContent = position === 0
-      ? "Before the first operation: all ids and comparators in superposition, every other qubit zero."
+      ? "Before the first operation: all path indices and comparators in superposition, every other qubit zero."
       : `Operation ${position}, in ${blocks[last]}: ${steps[last]}. Gates: ${grouped(about.gates[last])}, of which Toffolis: ${grouped(about.toffolis[last])}.`;
     const ancillas = now.held - about.id_bits - about.comparator_bits;
     const flipped = now.signs.reduce((sum, sign) => sum + sign, 0);
     readouts.show([
       ["negative", "sign of this state", now.negative, now.negative ? "−" : "+"],
       ["flipped", "states with a flipped phase", flipped, `${flipped} of ${ids * comparators}`],
-      ["held", "qubits in use besides id and comparator", ancillas, `${ancillas} of ${grouped(about.qubits - about.id_bits - about.comparator_bits)}`],
+      ["held", "qubits in use besides path index and comparator", ancillas, `${ancillas} of ${grouped(about.qubits - about.id_bits - about.comparator_bits)}`],
       ["unowned_are_zero", "all others looked at, on every state:", now.unowned_are_zero, now.unowned_are_zero ? "zero" : "not zero"],
       ["position", "operations run", now.position, `${now.position} of ${about.operations}`],
     ]);

@@ -36,7 +36,7 @@ export function start(body, qrt, figure) {
     draw(Math.floor(drawing.clientWidth));
     readouts.show([
       ["theta", "θ", answer.theta, digits(answer.theta, 6)],
-      ["good", `good ids S, of ${grouped(answer.total)}:`, answer.good, grouped(answer.good)],
+      ["good", `good path indices S, of ${grouped(answer.total)}:`, answer.good, grouped(answer.good)],
       ["amplitude", "amplitude", answer.amplitude, digits(answer.amplitude, 6)],
       ["likeliest", "likeliest S", answer.likeliest, grouped(answer.likeliest)],
       ["estimate", "estimate", answer.estimate, digits(answer.estimate, 6)],

@@ -13,6 +13,10 @@ import { suggestions } from "./playground-complete.js";
 const SLICE = 60;
 const REST = 120;
 const COST_REST = 400;
+// Milliseconds between two looks at pixels that the pointer passes.
+const POINT = 50;
+// What `open` calls the arithmetic.
+const MODELS = { real: 0, fixed: 1, both: 2 };
 const FIRST_SCENE = "lit-box";
 
 const sleep = (time) => new Promise((resolve) => setTimeout(resolve, time));
@@ -39,10 +43,33 @@ async function unpacked(word) {
 
 /** One picture: what it holds, and the canvas that shows it. */
 class Picture {
-  constructor(words) {
-    this.canvas = element("canvas", { class: "qrt-pixels", width: 1, height: 1, role: "img", "aria-label": `the picture, ${words}` });
-    this.box = element("div", {}, this.canvas, element("div", { class: "qrt-caption" }, words));
+  constructor(words, hint) {
+    // An application, so that who hears the page can use the arrow keys, too.
+    this.canvas = element("canvas", {
+      class: "qrt-pixels", width: 1, height: 1, tabindex: 0, role: "application",
+      "aria-roledescription": "picture", "aria-describedby": hint,
+    });
+    this.mark = element("div", { class: "qrt-mark", hidden: true, "aria-hidden": "true" });
+    this.caption = element("div", { class: "qrt-caption" });
+    this.box = element("div", {}, element("div", { class: "qrt-under" }, this.canvas, this.mark), this.caption);
     this.exposure = 2;
+    this.say(words);
+  }
+
+  /** What it is called. */
+  say(words) {
+    this.caption.textContent = words;
+    this.canvas.setAttribute("aria-label", `the picture, ${words}`);
+  }
+
+  /** Frames a pixel, if there is one; `kept` says that the pointer does not move the frame. */
+  frame(pixel, kept) {
+    this.mark.hidden = !pixel;
+    if (!pixel) return;
+    const { width, height } = this.canvas;
+    const share = (part, whole) => `${(100 * part) / whole}%`;
+    Object.assign(this.mark.style, { left: share(pixel[0], width), top: share(pixel[1], height), width: share(1, width), height: share(1, height) });
+    this.mark.classList.toggle("qrt-kept", kept);
   }
 
   /** Begins anew; what was there stays to be seen until it is painted over. */
@@ -149,7 +176,7 @@ export async function start(body, figure) {
   // What is shown.
   const controls = new Controls(body, changed);
   const examples = controls.choice("example", "begin with", []);
-  const model = controls.choice("model", "arithmetic", [["real", "real numbers"], ["fixed", "the circuit's integers"]]);
+  const model = controls.choice("model", "arithmetic", [["real", "real numbers"], ["fixed", "the circuit's integers"], ["both", "both, side by side"]]);
   const estimator = controls.choice("estimator", "estimator", [["", "the scene's"]]);
   const bits = controls.slider("phase_bits", "queries a run, at most", { min: 1, max: 16, value: 8, told: (t) => grouped(2 ** t - 1) });
   const exposure = controls.slider("exposure", "exposure", { min: -4, max: 6, step: 0.5, value: 1, told: (e) => `${e > 0 ? "+" : ""}${e}` });
@@ -158,15 +185,20 @@ export async function start(body, figure) {
   const said = element("div", { class: "qrt-said", role: "status" });
   const editor = element("div", { class: "qrt-editor" });
   const problems = element("ol", { class: "qrt-problems", "aria-live": "polite", "aria-label": "what is wrong with the scene" });
-  const [exact, counted] = ["all paths, exactly", "counted"].map((words) => new Picture(words));
+  const hint = element("p", { class: "qrt-hint", id: "qrt-hint" }, "Point at a pixel, or choose one with the arrow keys: it is looked at below. A click keeps it; a click on it lets it go.");
+  const [exact, beside, counted] = Array.from({ length: 3 }, () => new Picture("", hint.id));
+  const pictures = [exact, beside, counted];
   const progress = element("progress", { max: 1, value: 0, "aria-label": "how far the picture is" });
   const left = element("div", { class: "qrt-write" }, editor, problems);
-  const right = element("div", { class: "qrt-see" }, element("div", { class: "qrt-pair" }, exact.box, counted.box), progress);
+  const right = element("div", { class: "qrt-see" }, element("div", { class: "qrt-pair" }, ...pictures.map(({ box }) => box)), hint, progress);
   body.append(said, element("div", { class: "qrt-desk" }, left, right));
   const readouts = new Readouts(right);
   const chart = element("div", { class: "qrt-chart" });
   const cost = element("section", { class: "qrt-cost", "aria-label": "cost of the oracle" });
-  const pixel = element("section", { class: "qrt-pixel", "aria-label": "the chosen pixel" });
+  // What is read out of a pixel is what is told of it, not its drawings.
+  const pixelTold = element("div", { "aria-live": "polite", "aria-atomic": "true" });
+  const pixelDrawn = element("div");
+  const pixel = element("section", { class: "qrt-pixel", "aria-label": "the chosen pixel" }, pixelTold, pixelDrawn);
   right.append(chart);
   body.append(element("div", { class: "qrt-desk" }, cost, pixel));
 
@@ -176,7 +208,10 @@ export async function start(body, figure) {
   let run = 0;
   let film = [0, 0];
   let cursor = null;
+  let kept = false;
+  let looking = false;
   let loading = false;
+  name();
 
   const view = new cm.EditorView({
     parent: editor,
@@ -192,7 +227,7 @@ export async function start(body, figure) {
         ])),
         cm.autocompletion({ override: [complete], activateOnTyping: true }),
         cm.keymap.of([...cm.completionKeymap, ...cm.lintKeymap, ...cm.searchKeymap, ...cm.historyKeymap, ...cm.defaultKeymap]),
-        cm.EditorView.contentAttributes.of({ "aria-label": "the scene, in YAML", spellcheck: "false" }),
+        cm.EditorView.contentAttributes.of({ "aria-label": "the scene, in YAML", spellcheck: "false", tabindex: "0" }),
         cm.EditorView.updateListener.of((update) => {
           if (update.docChanged) edited();
         }),
@@ -208,6 +243,15 @@ export async function start(body, figure) {
     const { word, options } = suggestions(context.state.doc.toString(), context.pos, at);
     if (!options.length || (!word && !context.explicit)) return null;
     return { from: context.pos - word.length, options, validFor: /^[\w-]*$/ };
+  }
+
+  /** What each picture is called, and whether there are two or three. */
+  function name() {
+    const both = model.value === "both";
+    beside.box.hidden = !both;
+    exact.say(both ? "real numbers, exactly" : "all paths, exactly");
+    beside.say("the circuit's integers, exactly");
+    counted.say(both ? "real numbers, counted" : "counted");
   }
 
   function tell(words) {
@@ -250,7 +294,11 @@ export async function start(body, figure) {
     underline(answer);
     performance.measure("qrt-underline", { start: asked, end: performance.now() });
     if (!answer.valid) {
-      run++;
+      // A picture that is not finished is begun anew when the text comes back.
+      if (run !== figure.qrtDone) {
+        run++;
+        valid = "";
+      }
       progress.hidden = true;
       figure.dataset.state_of_scene = "wrong";
       delete figure.dataset.busy;
@@ -260,6 +308,7 @@ export async function start(body, figure) {
     tell(answer.planned ? "This scene asks for an accuracy. The playground shows it with the parameters that it would have without; qrt render plans them." : "");
     if (mine === valid) {
       if (run === figure.qrtDone) delete figure.dataset.busy;
+      if (cost.dataset.busy) reckon(mine);
       return;
     }
     const rest = loading ? 0 : REST;
@@ -267,15 +316,22 @@ export async function start(body, figure) {
     await sleep(rest);
     if (mine !== text) return;
     valid = mine;
-    cursor = null;
-    pixel.replaceChildren();
+    kept = false;
+    point(null);
+    for (const part of [pixelTold, pixelDrawn]) part.replaceChildren();
     paint();
     reckon(mine);
   }
 
   function changed(input) {
     if (input === examples) return void load(examples.value);
-    if (input === exposure) return void [exact, counted].forEach((picture) => picture.expose(2 ** Number(exposure.value)));
+    if (input === exposure) return void pictures.forEach((picture) => picture.expose(2 ** Number(exposure.value)));
+    if (input === model) name();
+    if (input === seed && cursor) {
+      // The same pixel, of other paths.
+      point([...cursor]);
+      look();
+    }
     if (valid) paint(input === estimator || input === bits);
   }
 
@@ -289,15 +345,18 @@ export async function start(body, figure) {
     loading = true;
     // What an example says of itself can be scrolled to; the scene is what is shown.
     const begin = Math.max(found.search(/^\w/m), 0);
-    view.dispatch({
-      changes: { from: 0, to: view.state.doc.length, insert: found },
-      selection: { anchor: begin },
-      effects: cm.EditorView.scrollIntoView(begin, { y: "start" }),
-    });
+    const effects = cm.EditorView.scrollIntoView(begin, { y: "start" });
+    view.dispatch({ changes: { from: 0, to: view.state.doc.length, insert: found }, selection: { anchor: begin }, effects });
+    // An editor that was never laid out has no heights to scroll by, and forgets where to: once more.
+    const { doc } = view.state;
+    requestAnimationFrame(() => requestAnimationFrame(() => {
+      if (view.state.doc === doc) view.dispatch({ effects });
+    }));
   }
 
   /** Calls `work(worker, part, first, count)` for all pixels of all painters; false if another run has begun. */
-  async function everywhere(mine, sizes, work) {
+  async function everywhere(mine, sizes, picture, work) {
+    Object.assign(total, { sum: 0, squares: 0, queries: 0 });
     let done = 0;
     const whole = sizes.reduce((a, b) => a + b, 0);
     const shares = painters.map(async (painter, part) => {
@@ -320,17 +379,31 @@ export async function start(body, figure) {
     return all.every(Boolean);
 
     function taken(part, answer) {
-      const picture = answer.squares === undefined ? exact : counted;
       for (let k = 0; k < answer.count; k++) {
         picture.put(part + (answer.first + k) * painters.length, answer.radiance, 3 * k);
       }
       picture.show();
-      if (answer.squares !== undefined) for (const name of ["sum", "squares", "queries"]) total[name] += answer[name];
+      for (const name of Object.keys(total)) total[name] += answer[name] ?? 0;
     }
   }
 
   const total = { sum: 0, squares: 0, queries: 0 };
   let sizes = [];
+  let apart = [];
+
+  /** The mean of what was gone through last, and how far it is off, as a share of the mean. */
+  function off() {
+    const values = 3 * film[0] * film[1];
+    const mean = total.sum / values;
+    return [mean, mean > 0 ? Math.sqrt(total.squares / values) / mean : 0];
+  }
+
+  const percent = (share) => `${digits(100 * share, 3)} %`;
+
+  /** What is measured: paths, how far the two arithmetics are apart, and more. */
+  function measured(now, ...more) {
+    readouts.show([["paths", "paths a pixel", 2 ** now, grouped(2 ** now)], ...apart, ...more]);
+  }
 
   /** The picture from the first path on; or, where all are traced, the counting alone. */
   async function paint(countOnly = false) {
@@ -340,10 +413,10 @@ export async function start(body, figure) {
     progress.hidden = false;
     try {
       const begun = performance.now();
-      const number = model.value === "real" ? 0 : 1;
+      const both = model.value === "both";
       if (!traced) {
         delete figure.dataset.traced;
-        const opened = await Promise.all(painters.map((painter, part) => painter.call("open", [number, whole(seed), part, painters.length], valid)));
+        const opened = await Promise.all(painters.map((painter, part) => painter.call("open", [MODELS[model.value], whole(seed), part, painters.length], valid)));
         if (mine !== run) return;
         const wrong = opened.find(({ error }) => error);
         if (wrong) throw new Error(wrong.error);
@@ -360,13 +433,20 @@ export async function start(body, figure) {
           bits.value = phase_bits;
           bits.tell();
         }
-        exact.begin(width, height);
-        counted.begin(width, height);
+        for (const picture of pictures) picture.begin(width, height);
+        point(cursor);
+        apart = [];
         for (let now = 0; ; now = Math.min(now + 2, path_bits)) {
-          const ready = await everywhere(mine, sizes, (first, count) => ["trace", [first, count, now]]);
+          const ready = await everywhere(mine, sizes, exact, (first, count) => ["trace", [first, count, now]]);
           if (!ready) return;
+          if (both) {
+            const too = await everywhere(mine, sizes, beside, (first, count) => ["beside", [first, count, now]]);
+            if (!too) return;
+            const [, share] = off();
+            apart = [["apart", "integers against real numbers (RMSE) over the mean", share, percent(share)]];
+          }
           if (now === 0) performance.measure("qrt-first-picture", { start: begun, end: performance.now() });
-          readouts.show([["paths", "paths a pixel", 2 ** now, grouped(2 ** now)]]);
+          measured(now);
           if (now === path_bits) break;
         }
         figure.dataset.traced = "true";
@@ -375,21 +455,18 @@ export async function start(body, figure) {
       const points = [];
       const most = whole(bits);
       for (let now = Math.min(3, most); now <= most; now++) {
-        Object.assign(total, { sum: 0, squares: 0, queries: 0 });
-        const ready = await everywhere(mine, sizes, (first, count) => ["estimate", [first, count, now], estimator.value]);
+        const ready = await everywhere(mine, sizes, counted, (first, count) => ["estimate", [first, count, now], estimator.value]);
         if (!ready) return;
-        const pixels = film[0] * film[1];
-        const mean = total.sum / (3 * pixels);
-        const rmse = mean > 0 ? Math.sqrt(total.squares / (3 * pixels)) / mean : 0;
-        const queries = total.queries / pixels;
+        const [mean, rmse] = off();
+        const queries = total.queries / (film[0] * film[1]);
         points.push([queries, rmse]);
         chart.replaceChildren(curve(points));
-        readouts.show([
-          ["paths", "paths a pixel", 2 ** Number(figure.dataset.path_bits), grouped(2 ** Number(figure.dataset.path_bits))],
+        measured(
+          Number(figure.dataset.path_bits),
           ["queries", "queries a pixel", queries, grouped(queries)],
-          ["rmse", "error of counting (RMSE) over the mean", rmse, `${digits(100 * rmse, 3)} %`],
+          ["rmse", "error of counting (RMSE) over the mean", rmse, percent(rmse)],
           ["mean", "mean radiance", mean, digits(mean, 4)],
-        ]);
+        );
       }
     } catch (error) {
       if (mine !== run || error instanceof Interrupted) return;
@@ -442,12 +519,30 @@ export async function start(body, figure) {
     cost.replaceChildren(title, list.box, table, frame);
   }
 
-  /** The paths of a pixel. */
+  /** Looks at the chosen pixel; those that were passed meanwhile are passed over. */
   async function look() {
-    const [x, y] = cursor;
-    const mine = valid;
+    if (looking) return;
+    looking = true;
     pixel.dataset.busy = "true";
-    if (!pixel.firstChild) pixel.append(element("h3", {}, `Pixel ${x}, ${y}`), element("p", {}, "tracing its paths ..."));
+    try {
+      for (let last = null; cursor && last !== cursor; ) {
+        last = cursor;
+        await paths(...last);
+      }
+    } finally {
+      looking = false;
+      delete pixel.dataset.busy;
+    }
+  }
+
+  /** The paths of a pixel. */
+  async function paths(x, y) {
+    const mine = valid;
+    const title = element("h3", {}, `Pixel ${x}, ${y}`);
+    if (!pixelTold.firstChild) {
+      pixelTold.append(title);
+      pixelDrawn.append(element("p", {}, "tracing its paths ..."));
+    }
     let answer;
     try {
       answer = await looker.call("pixel", [x, y, whole(seed), 8], mine);
@@ -455,13 +550,16 @@ export async function start(body, figure) {
       if (error instanceof Interrupted) return;
       answer = { error: error.message };
     }
-    if (mine !== valid || x !== cursor?.[0] || y !== cursor?.[1]) return;
-    delete pixel.dataset.busy;
-    const title = element("h3", {}, `Pixel ${x}, ${y}`);
-    if (answer.error) return void pixel.replaceChildren(title, element("p", {}, answer.error));
+    if (mine !== valid || !cursor) return;
+    if (answer.error) {
+      pixelTold.replaceChildren(title, element("p", {}, answer.error));
+      return void pixelDrawn.replaceChildren();
+    }
     const { channel, good, total: ids, mean, histogram, paths, probability, theta, phase_bits } = answer;
     const name = ["red", "green", "blue"][channel];
-    const list = new Readouts(pixel);
+    const list = new Readouts(pixelTold);
+    // What is around it is read out as a whole.
+    list.box.setAttribute("aria-live", "off");
     list.show([
       ["mean", "radiance", Array.from(mean).join(" "), Array.from(mean, (v) => digits(v, 3)).join(", ")],
       ["good", `good indices, ${name}`, good[channel], `${grouped(good[channel])} of ${grouped(ids)}`],
@@ -481,8 +579,8 @@ export async function start(body, figure) {
       const radiance = rest.pop();
       table.append(element("tr", {}, ...[id, rest.join(": "), radiance].map((cell) => element("td", {}, cell))));
     }
-    pixel.replaceChildren(
-      title, list.box,
+    pixelTold.replaceChildren(title, list.box);
+    pixelDrawn.replaceChildren(
       element("div", { class: "qrt-caption" }, `${grouped(paths)} paths by brightness: each bar half as bright as the one before`), paths_of,
       element("div", { class: "qrt-caption" }, `what a phase register of ${phase_bits} bits shows, sine window`), outcomes,
       brightest.length ? table : element("p", {}, "No path carries light."),
@@ -490,26 +588,60 @@ export async function start(body, figure) {
   }
 
   /** Points at pixels, by mouse and by arrows. */
-  for (const { canvas } of [exact, counted]) {
-    canvas.tabIndex = 0;
-    canvas.setAttribute("aria-roledescription", "picture; arrow keys choose a pixel");
-    canvas.addEventListener("click", (event) => {
+  for (const { canvas } of pictures) {
+    const under = ({ clientX, clientY }) => {
       const { left, top, width, height } = canvas.getBoundingClientRect();
-      choose(((event.clientX - left) * film[0]) / width, ((event.clientY - top) * film[1]) / height);
+      choose(((clientX - left) * film[0]) / width, ((clientY - top) * film[1]) / height);
+    };
+    // A finger that moves scrolls the page; it chooses by touching.
+    let passing = null;
+    canvas.addEventListener("pointermove", (event) => {
+      if (event.pointerType === "touch") return;
+      if (!passing) {
+        setTimeout(() => {
+          if (!kept && passing) under(passing);
+          passing = null;
+        }, POINT);
+      }
+      passing = event;
+    });
+    canvas.addEventListener("click", (event) => {
+      const before = cursor;
+      under(event);
+      keep(!(kept && cursor === before));
     });
     canvas.addEventListener("keydown", (event) => {
+      if (event.key === "Escape") keep(false);
       const step = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1], Enter: [0, 0] }[event.key];
       if (!step) return;
       event.preventDefault();
       const [x, y] = cursor ?? [film[0] >> 1, film[1] >> 1];
       choose(x + step[0], y + step[1]);
+      // Chosen by keyboard, it is not lost to a mouse that is nudged.
+      keep(true);
     });
   }
 
   function choose(x, y) {
+    // There are no pixels before the picture of this text is begun.
+    if (figure.dataset.opened !== valid || !valid) return;
     const inside = (value, size) => Math.min(Math.max(Math.floor(value), 0), size - 1);
-    cursor = [inside(x, film[0]), inside(y, film[1])];
-    look();
+    const [column, row] = [inside(x, film[0]), inside(y, film[1])];
+    const same = cursor?.[0] === column && cursor[1] === row;
+    point(same ? cursor : [column, row]);
+    if (!same) look();
+  }
+
+  /** Whether the pointer no longer moves the choice. */
+  function keep(yes) {
+    kept = yes && cursor !== null;
+    point(cursor);
+  }
+
+  /** Frames the chosen pixel in every picture. */
+  function point(chosen) {
+    cursor = chosen;
+    for (const picture of pictures) picture.frame(cursor, kept);
   }
 
   async function link() {

@@ -29,7 +29,7 @@
     return { input, tell, get value() { return Number(input.value); } };
   }
 
-  /** One oracle call, box by box: the drawing has a state for each fragment #s0, #s1, ... */
+  /** One oracle call, stage by stage: the drawing has a state for each fragment #s0, #s1, ... */
   function call(figure) {
     const still = figure.querySelector("img");
     const STEPS = Number(figure.dataset.steps);
@@ -38,7 +38,7 @@
     still.replaceWith(stage);
     stage.append(still);
     for (let step = 1; step <= STEPS; step++) {
-      const image = element("img", { src: `${still.getAttribute("src")}#s${step}`, alt: `The call after box ${step}` });
+      const image = element("img", { src: `${still.getAttribute("src")}#s${step}`, alt: `The call after stage ${step}` });
       images.push(image);
       stage.append(image);
     }
@@ -46,7 +46,7 @@
     const play = element("button", { type: "button" }, "play");
     controls.append(play);
     const told = (step) => (step ? `${step} of ${STEPS}` : "all");
-    const step = slider(controls, "box", { min: 0, max: STEPS, value: 0, told }, show);
+    const step = slider(controls, "stage", { min: 0, max: STEPS, value: 0, told }, show);
     stage.after(controls);
     let timer = null;
     function show() {

@@ -69,10 +69,21 @@ fn a_table_plots_and_a_page_that_do_not_depend_on_threads() {
         assert!(text.contains("prefers-color-scheme:dark"));
     }
     let once = timeless(&folder);
+    let shown = picture(&folder);
     std::fs::remove_dir_all(folder.path("out")).unwrap();
     let quiet = folder.works(&trade("3", &["-q"]));
     assert!(quiet.is_empty());
     assert_eq!(timeless(&folder), once);
+    assert_eq!(picture(&folder), shown);
+}
+
+/// The address of the page's picture of the scene: all of it.
+fn picture(folder: &Folder) -> String {
+    let page = String::from_utf8(folder.read("out/index.html")).unwrap();
+    let start = page.find("data:image/png;base64,").expect("a picture");
+    let end = page[start..].find('"').unwrap();
+    assert!(end > 200, "{end} bytes");
+    page[start..start + end].to_owned()
 }
 
 #[test]

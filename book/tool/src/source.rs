@@ -131,7 +131,8 @@ fn page(path: &str, file: &File) -> String {
             escaped(name)
         );
     }
-    page.push_str(".</p></header>\n<pre>");
+    // It scrolls where lines are long: by keyboard, too.
+    page.push_str(".</p></header>\n<pre tabindex=\"0\">");
     for (index, line) in file.text.lines().enumerate() {
         let _ = writeln!(page, "<b id=L{}></b>{}", index + 1, escaped(line));
     }

@@ -1,7 +1,7 @@
-//! One call of an oracle, box by box: which registers hold something, and what becomes of the signs.
+//! One call of an oracle, stage by stage: which registers hold something, and what becomes of the signs.
 //!
 //! The drawing has all steps in it. Without a fragment it shows the whole call; with the fragment
-//! `#s5` it shows what there is after the fifth box. A script of the book goes through the steps.
+//! `#s5` it shows what there is after the fifth stage. A script of the book goes through the steps.
 
 use super::{Body, Figure, scene};
 use qrt::core::inspect::{Frame, Inspection, Part, grouped};
@@ -53,7 +53,11 @@ pub(super) fn animated() -> Figure {
     let good: i64 = counts.iter().sum();
     let (boxes, wires) = (frame.boxes.len(), frame.wires.len());
     let bottom = TOP + CELL[1] * wires as f64;
-    let mut canvas = Canvas::new("One call of the oracle, box by box", 682.0, bottom + 150.0);
+    let mut canvas = Canvas::new(
+        "One call of the oracle, stage by stage",
+        682.0,
+        bottom + 150.0,
+    );
     let column = |k: usize| LEFT + CELL[0] * k as f64;
     for part in Part::ALL {
         let of = |b: &&qrt::core::inspect::FrameBox| b.part == part;
@@ -70,7 +74,12 @@ pub(super) fn animated() -> Figure {
     }
     for (row, wire) in frame.wires.iter().enumerate() {
         let y = TOP + CELL[1] * row as f64;
-        canvas.text("end", [LEFT - 52.0, y + 16.0], &wire.name);
+        let name = if wire.name == "id" {
+            "path index"
+        } else {
+            &wire.name
+        };
+        canvas.text("end", [LEFT - 52.0, y + 16.0], name);
         canvas.text(
             "small soft end",
             [LEFT - 10.0, y + 16.0],
@@ -101,7 +110,7 @@ pub(super) fn animated() -> Figure {
     canvas.text(
         "step t0",
         [14.0, line],
-        "All steps at once: what is held, from the box that computes it to its inverse.",
+        "All steps at once: what is held, from the stage that computes it to its inverse.",
     );
     for (k, item) in frame.boxes.iter().enumerate() {
         let mark = if item.inverse { "†" } else { "" };
@@ -146,9 +155,9 @@ pub(super) fn animated() -> Figure {
     );
     let total = inspection.total();
     let says = format!(
-        "One call of the oracle of a lamp before a wall, pixel ({}, {}), red: {boxes} boxes on {wires} \
-         bundles of qubits, {} Toffoli. Coloured cells are bundles that hold something during a box: \
-         they fill during compute, box {flip} flips the signs of {good} of 256 indices, and they empty \
+        "One call of the oracle of a lamp before a wall, pixel ({}, {}), red: {boxes} stages on {wires} \
+         bundles of qubits, {} Toffoli. Coloured cells are bundles that hold something during a stage: \
+         they fill during compute, stage {flip} flips the signs of {good} of 256 indices, and they empty \
          again. The grid below has the signs, 32 paths by 8 thresholds.",
         PIXEL[0],
         PIXEL[1],

@@ -59,7 +59,7 @@ fn held(inspection: &Inspection) -> Vec<Held> {
         let register = &inspection.whole.registers[lifetime.register.index()];
         let span = &lifetime.instructions;
         let stage = if inspection.whole.inputs.contains(&lifetime.register) {
-            register.name.clone()
+            named(&register.name)
         } else {
             let within = stages
                 .iter()
@@ -103,7 +103,7 @@ pub(super) fn registers() -> Figure {
     let x = |instruction: usize| left + (right - left) * times[instruction] / last;
     let mut at = 14.0;
     for role in Role::ALL {
-        let name = role.to_string();
+        let name = named(&role.to_string());
         canvas.rectangle(class(role), [at, 38.0, 12.0, 12.0]);
         canvas.text("small", [at + 17.0, 48.0], &name);
         at += 34.0 + 7.0 * name.len() as f64;
@@ -138,6 +138,11 @@ pub(super) fn registers() -> Figure {
         grouped(inspection.layout.registers())
     );
     Figure::drawn(canvas, says)
+}
+
+/// What the book calls a register or a role.
+fn named(name: &str) -> String {
+    if name == "id" { "path index" } else { name }.to_owned()
 }
 
 /// The class of a role's colour.

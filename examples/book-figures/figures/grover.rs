@@ -158,7 +158,7 @@ pub(super) fn sign() -> Figure {
         let label = if right {
             ""
         } else {
-            "what the outcome y = 0, 1, … 16 says: N sin²(πy/T) ids"
+            "what the outcome y = 0, 1, … 16 says: N sin²(πy/T) path indices"
         };
         panel.axes(&mut canvas, [&outcomes, &levels], [label, "probability"]);
         let class = if right { "s2" } else { "s3" };
@@ -178,7 +178,7 @@ pub(super) fn sign() -> Figure {
     let [right, wrong] = [likeliest[0], likeliest[1]];
     let says = format!(
         "Probability of a phase register's outcomes by a state vector of 11 qubits, gate by \
-         gate. With O_0 right the likeliest outcome is y = {} ({:.3}), which says {:.1} of 64 ids; \
+         gate. With O_0 right the likeliest outcome is y = {} ({:.3}), which says {:.1} of 64 path indices; \
          S is 13. With the other sign it is y = {} ({:.3}), which says {:.1}; N - S is 51.",
         right.0, right.1, right.2, wrong.0, wrong.1, wrong.2
     );

@@ -122,7 +122,7 @@ fn estimators(amplitudes: &str, error: &str, title: &str, axis: &str, what: &str
     let says = format!("{what} {}.", says.join("; "));
     let series = names.iter().map(|name| {
         let points = of(name).into_iter().map(|[x, y]| (x, y));
-        Series::of(name, points, Drawn::Fit)
+        Series::of(name, points, Drawn::Fit).styled(style(name))
     });
     let plot = Plot {
         title: title.to_owned(),
@@ -208,7 +208,7 @@ pub(super) fn trade() -> Figure {
         name: name.to_owned(),
         points,
         drawn,
-        style: None,
+        style: Some(style(name)),
     };
     let ends = [front.first(), front.last()].map(|p| p.map_or([0.0; 2], |p| [p.x, 100.0 * p.y]));
     let [own] = points(&table, &[("sweep", "scene")], "e_total")[..] else {
@@ -271,7 +271,7 @@ pub(super) fn parts() -> Figure {
         name: name.to_owned(),
         points: points(&table, &asked, error),
         drawn: Drawn::Joined,
-        style: None,
+        style: Some(style(name)),
     });
     let plot = Plot {
         title: "Where the Cornell box's error comes from".to_owned(),

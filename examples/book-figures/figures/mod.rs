@@ -119,12 +119,7 @@ pub(crate) fn folder() -> PathBuf {
 
 /// The style of what comes in several figures, so that it has one colour in all of them.
 fn style(name: &str) -> usize {
-    match name {
-        "product lattice" | "paper" => 3,
-        "random paths" | "monte-carlo" => 1,
-        "digital net" => 2,
-        _ => 0,
-    }
+    qrt::runtime::trade::style(name).unwrap_or_else(|| panic!("`{name}` has no style"))
 }
 
 /// The Cornell box of the example scenes, with overrides.

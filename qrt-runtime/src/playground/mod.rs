@@ -10,15 +10,17 @@
 //! | `examples` | | | their names, a line each |
 //! | `example` | | its name | its text |
 //! | `check` | | a scene | its problems and warnings, and what it is |
-//! | `open` | model (0 real, 1 fixed), seed, part, parts | a scene | what the picture is |
+//! | `open` | model (0 real, 1 fixed, 2 both), seed, part, parts | a scene | what the picture is |
 //! | `trace` | first, count, bits | | the means of the first `2^bits` paths of these pixels |
+//! | `beside` | first, count, bits | | of both: the fixed means of the same paths, and how far they are off |
 //! | `estimate` | first, count, phase bits | an estimator, or nothing | what it says of them |
 //! | `cost` | | a scene | Toffolis, qubits, stages; the oracle as an SVG |
 //! | `pixel` | column, row, seed, phase bits | a scene | its paths, its counts and their distribution |
 //!
 //! A playground has one picture, or every `parts`-th pixel of one, from the `part`-th on, so that
 //! several share the work. Pixels are numbered by rows, from the top, within the part. Lists of
-//! colours are linear radiance: red, green and blue of a pixel, then of the next.
+//! colours are linear radiance: red, green and blue of a pixel, then of the next. Where both models
+//! are asked for, the picture is the real one, and the fixed one lies beside it.
 //!
 //! A scene that asks for an `accuracy` is shown with the parameters that it would have without:
 //! planning takes longer than anybody waits who is writing.
@@ -56,6 +58,8 @@ pub struct Playground<'a> {
     examples: &'a [(&'a str, &'a str)],
     files: Files<'a>,
     picture: Option<Picture>,
+    /// The same with the circuit's integers, where both are asked for.
+    beside: Option<Picture>,
 }
 
 /// Why there is no answer.
@@ -110,6 +114,7 @@ impl<'a> Playground<'a> {
             examples,
             files: files.most_faces(MOST_FACES),
             picture: None,
+            beside: None,
         }
     }
 
@@ -132,6 +137,7 @@ impl<'a> Playground<'a> {
                 let [first, count, bits] = whole("trace", numbers)?;
                 picture.trace(first as usize, count as usize, bits as u32)
             }),
+            "beside" => self.beside(numbers),
             "estimate" => self.picture().and_then(|picture| {
                 let [first, count, phase_bits] = whole("estimate", numbers)?;
                 picture.estimate(text, phase_bits as u32, first as usize, count as usize)
@@ -164,18 +170,30 @@ impl<'a> Playground<'a> {
     fn open(&mut self, numbers: &[f64], text: &str) -> Result<Answer, Refused> {
         let [model, seed, part, parts] = whole("open", numbers)?;
         self.picture = None;
+        self.beside = None;
         let scene = self.scene(text)?;
         let film = scene.scene().film;
         if u64::from(film.width) * u64::from(film.height) > MOST_PIXELS {
             return Err(Refused::TooManyPixels);
         }
-        let model = if model == 0 {
-            Model::Real
-        } else {
+        let of = |model| Picture::new(&scene, model, seed, (part, parts.max(1)));
+        if model == 2 {
+            self.beside = Some(of(Model::Fixed)?);
+        }
+        let picture = of(if model == 1 {
             Model::Fixed
-        };
-        let picture = Picture::new(&scene, model, seed, (part, parts.max(1)))?;
+        } else {
+            Model::Real
+        })?;
         Ok(self.picture.insert(picture).description())
+    }
+
+    fn beside(&mut self, numbers: &[f64]) -> Result<Answer, Refused> {
+        let [first, count, bits] = whole("beside", numbers)?;
+        let real = self.picture.as_ref().ok_or(Refused::NotOpen)?;
+        let fixed = self.beside.as_mut().ok_or(Refused::NotOpen)?;
+        let traced = fixed.trace(first as usize, count as usize, bits as u32)?;
+        fixed.against(real, traced)
     }
 
     fn picture(&mut self) -> Result<&mut Picture, Refused> {

@@ -205,6 +205,24 @@ impl Picture {
             .list("radiance", means.into_iter().flatten()))
     }
 
+    /// What was `traced` here, and how far it is from what `other` has of the same paths: the sum
+    /// of the other's values, and of the squares of the differences.
+    pub(super) fn against(&self, other: &Self, traced: Answer) -> Result<Answer, Refused> {
+        let [first, count] = ["first", "count"].map(|name| traced.number_of(name).unwrap_or(0.0));
+        let range = self.range(first as usize, count as usize);
+        let (mut sum, mut squares) = (0.0, 0.0);
+        for place in range {
+            if other.paths.get(place) != self.paths.get(place) {
+                return Err(Refused::NotTraced);
+            }
+            for (own, expected) in self.mean(place).iter().zip(other.mean(place)) {
+                sum += expected;
+                squares += (own - expected) * (own - expected);
+            }
+        }
+        Ok(traced.number("sum", sum).number("squares", squares))
+    }
+
     fn mean(&self, place: usize) -> [f64; 3] {
         let machine = self.machine(self.pixels[place]);
         machine.mean(

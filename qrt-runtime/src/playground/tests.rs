@@ -91,6 +91,44 @@ fn pictures_are_those_that_are_rendered_whoever_shares_them() {
 }
 
 #[test]
+fn both_pictures_lie_side_by_side_with_their_distance() {
+    let mut playground = Playground::new(&[], Files::held(&[]));
+    let open = playground.call("open", &[2.0, 3.0, 0.0, 1.0], FLOOR);
+    let pixels = open.number_of("pixels").unwrap();
+    let early = playground.call("beside", &[0.0, 5.0, 6.0], "");
+    assert!(early.text_of("error").unwrap().contains("traced first"));
+    let real = list(
+        &playground.call("trace", &[0.0, pixels, 6.0], ""),
+        "radiance",
+    );
+    // A part had been traced before it was refused: those pixels are told apart.
+    let (mut fixed, mut sum, mut squares) = (Vec::new(), 0.0, 0.0);
+    while fixed.len() < real.len() {
+        let first = (fixed.len() / 3) as f64;
+        let answer = playground.call("beside", &[first, pixels, 6.0], "");
+        fixed.extend(list(&answer, "radiance"));
+        sum += answer.number_of("sum").unwrap();
+        squares += answer.number_of("squares").unwrap();
+    }
+    for (model, found) in [(Model::Real, &real), (Model::Fixed, &fixed)] {
+        for (found, expected) in found.iter().zip(rendered(model, "exact")) {
+            assert!((found - expected).abs() < 1e-12, "{}", model.name());
+        }
+    }
+    let off = real.iter().zip(&fixed).map(|(a, b)| (a - b) * (a - b));
+    let off: f64 = off.sum();
+    assert!(off > 0.0 && (squares - off).abs() < 1e-12 * off);
+    assert!((sum - real.iter().sum::<f64>()).abs() < 1e-9);
+    // Counted is the real one.
+    let counted = playground.call("estimate", &[0.0, pixels, 7.0], "sine");
+    assert_eq!(list(&counted, "radiance"), rendered(Model::Real, "sine"));
+    // Where one is asked for, none lies beside it.
+    playground.call("open", &[1.0, 3.0, 0.0, 1.0], FLOOR);
+    let alone = playground.call("beside", &[0.0, 5.0, 6.0], "");
+    assert!(alone.text_of("error").unwrap().contains("no picture"));
+}
+
+#[test]
 fn problems_are_at_their_places_as_scripts_count() {
     let text = FLOOR.replace("name: floor", "name: \"\u{1f308} über\"");
     let wrong = text.replace("albedo: [0.8", "albdo: [0.8");

@@ -3,6 +3,7 @@
 use super::fronts::fronts;
 use super::rivals;
 use super::setting::Sweep;
+use super::styles::{free, hollow, style};
 use super::table::Row;
 use super::{Band, Trade};
 use qrt_core::scene::{Estimator, Sequence};
@@ -26,7 +27,7 @@ pub(super) const DEPTH: usize = 4;
 pub(super) const TOTAL: usize = 5;
 
 /// What errors are called on plots.
-const NAMES: [&str; 6] = [
+pub(super) const NAMES: [&str; 6] = [
     "paths, E_R",
     "comparators, E_C",
     "width, E_W",
@@ -84,7 +85,7 @@ pub(super) fn series<'a>(
         name: name.to_owned(),
         points,
         drawn,
-        style: None,
+        style: style(name),
     }
 }
 
@@ -163,7 +164,7 @@ fn counting(trade: &Trade) -> Figure {
 }
 
 fn repetitions(trade: &Trade) -> Figure {
-    let mut all = Vec::new();
+    let mut all: Vec<Series> = Vec::new();
     let own = trade.scene().map(|row| row.setting.estimator);
     for estimator in estimators(trade, Sweep::Repetitions) {
         // The scene's own needs no name.
@@ -172,13 +173,16 @@ fn repetitions(trade: &Trade) -> Figure {
         } else {
             format!("{estimator}, ")
         };
-        for (sweep, name) in [
-            (Sweep::Counting, format!("{name}larger")),
-            (Sweep::Repetitions, format!("{name}again")),
+        let filled = style(estimator.name()).unwrap_or(0);
+        for (sweep, name, style) in [
+            (Sweep::Counting, format!("{name}larger"), filled),
+            (Sweep::Repetitions, format!("{name}again"), hollow(filled)),
         ] {
             let rows = trade.of(sweep);
             let rows = rows.filter(|row| row.setting.estimator == estimator);
-            all.push(series(&name, rows, |row| row.queries, COUNTING, Drawn::Fit));
+            let found = series(&name, rows, |row| row.queries, COUNTING, Drawn::Fit);
+            let style = free(style, &all);
+            all.push(found.styled(style));
         }
     }
     Figure {

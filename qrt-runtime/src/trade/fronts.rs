@@ -2,6 +2,7 @@
 
 use super::figures::{Figure, TOTAL, series};
 use super::setting::Sweep;
+use super::styles::style;
 use super::table::Row;
 use super::{Trade, pareto};
 use qrt_drawing::{Axis, Drawn, Plot, Series};
@@ -60,7 +61,10 @@ pub(super) fn fronts(trade: &Trade) -> impl Iterator<Item = Figure> {
                 x: Axis::log(axis),
                 y: Axis::log("total: RMSE / mean radiance"),
                 series: vec![
-                    Series::of("all settings", others, Drawn::Points),
+                    Series {
+                        style: style("all settings"),
+                        ..Series::of("all settings", others, Drawn::Points)
+                    },
                     series("the front", best.into_iter(), price, TOTAL, Drawn::Steps),
                 ],
             },

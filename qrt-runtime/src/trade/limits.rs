@@ -57,7 +57,7 @@ impl Bench<'_> {
     }
 
     /// Means over all paths of a scene.
-    fn means(&self, scene: &ValidScene, key: u64) -> Result<Means, TradeError> {
+    pub(super) fn means(&self, scene: &ValidScene, key: u64) -> Result<Means, TradeError> {
         let real = Real::new(scene, self.seed ^ key)?;
         let bits = [scene.scene().sampling.path_bits];
         let mut means = prefix_means(&real, &self.pixels, &bits, &self.workers)?;

@@ -61,8 +61,10 @@ mod fronts;
 mod limits;
 mod page;
 mod pareto;
+mod preview;
 mod rivals;
 mod setting;
+mod styles;
 mod summary;
 mod sweep;
 mod table;
@@ -73,6 +75,7 @@ pub use band::Band;
 pub use error::TradeError;
 pub use pareto::pareto;
 pub use setting::{Setting, Sweep};
+pub use styles::style;
 pub use table::{ERRORS, Row};
 
 use crate::render::Portion;
@@ -173,7 +176,12 @@ pub fn trade(
     for figure in &figures {
         write(&format!("{}.svg", figure.name), &figure.plot.draw().svg())?;
     }
-    write("index.html", &page::html(&measured, &figures))?;
+    let preview = || preview::Preview::of(scene, options);
+    let preview = (options.workers).run(preview)??;
+    write(
+        "index.html",
+        &page::html(&measured, preview.as_ref(), &figures),
+    )?;
     Ok(measured)
 }
 

@@ -1,23 +1,24 @@
 //! `index.html`: tables and plots together, in one file that asks nobody for anything.
 
-use super::figures::Figure;
+use super::figures::{Figure, NAMES};
 use super::fronts::{PRICES, candidates, front};
+use super::preview::Preview;
 use super::summary::differs;
-use super::table::{ERRORS, Row};
+use super::table::Row;
 use super::{Band, Sweep, Trade};
 use super::{advice, rivals};
 use qrt_core::inspect::grouped;
 use qrt_drawing::{coloured, escaped, style_sheet};
 use std::fmt::Write as _;
 
-/// What errors mean, as [`ERRORS`].
+/// What errors mean, as [`NAMES`].
 const MEANINGS: [&str; 6] = [
-    "paths: their exact mean, against far more paths with other shifts",
-    "comparators: the count of thresholds, against the mean of the same paths",
-    "width: the circuit's numbers, against real ones on the same paths and comparators",
-    "counting: what the estimator says, against S/N",
-    "depth: paths of D rays, against paths so long that almost nothing more comes",
-    "total: what the estimator says, against the limit of D rays",
+    "their exact mean, against far more paths with other shifts",
+    "the count of thresholds, against the mean of the same paths",
+    "the circuit's numbers, against real ones on the same paths and comparators",
+    "what the estimator says, against S/N",
+    "paths of D rays, against paths so long that almost nothing more comes",
+    "what the estimator says, against the limit of D rays",
 ];
 
 const RULES: &str = "\
@@ -27,25 +28,30 @@ font:16px/1.5 system-ui,-apple-system,'Segoe UI','DejaVu Sans',sans-serif}
 h1{font-size:1.5rem;margin:.5rem 0}h2{font-size:1.2rem;margin:2rem 0 .5rem}
 p,figcaption{max-width:46rem}figcaption,.soft{color:$soft}figcaption{font-size:.9rem}
 .figures{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,520px),1fr));gap:1.5rem}
-figure{margin:0;min-width:0}.wide{overflow-x:auto}.wide svg{display:block;min-width:min(460px,100%);width:100%}
+figure{margin:0;min-width:0}.wide{overflow-x:auto}.wide svg{display:block;min-width:500px;width:100%}
+.scene{display:grid;grid-template-columns:minmax(0,1fr);gap:1rem}.scene img{display:block;width:100%;max-width:24rem;height:auto;image-rendering:pixelated}
+.scene pre{max-height:24rem;overflow:auto;margin:.5rem 0;font-size:.8125rem}
+@media(min-width:700px){.scene.two{grid-template-columns:minmax(0,24rem) minmax(0,1fr)}}
+.wide:focus-visible{outline:2px solid $s0;outline-offset:2px}
 table{border-collapse:collapse;font-size:.875rem;font-variant-numeric:tabular-nums}
 th,td{padding:.25rem .6rem;text-align:right;border-bottom:1px solid $grid;white-space:nowrap}
 th{font-weight:600;text-align:right;color:$soft}.left,th.left{text-align:left}
-.says{white-space:normal;min-width:8rem}.range{color:$soft;font-size:.8em}details{margin:.5rem 0}summary{cursor:pointer;padding:.3rem 0}
+.own td{vertical-align:top}.own .left{white-space:normal}.range{color:$soft}details{margin:.5rem 0}summary{cursor:pointer;padding:.3rem 0}
 code{font-size:.9em}";
 
-pub(super) fn html(trade: &Trade, figures: &[Figure]) -> String {
+pub(super) fn html(trade: &Trade, preview: Option<&Preview>, figures: &[Figure]) -> String {
     let name = escaped(&trade.name);
     let [pixels, film] = trade.pixels;
     let mut out = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
          <title>{name}: speed against accuracy</title>\n<style>\n{}{}\n</style>\n</head>\n\
-         <body>\n<h1>{name}: speed against accuracy</h1>\n\
+         <body>\n<main>\n<h1>{name}: speed against accuracy</h1>\n\
          <p>{} settings, measured by qrt {} on {} of {} pixels, seed {}. Errors are root mean squares \
          over pixels and channels, relative to the mean radiance {:.4}, with 95&nbsp;% intervals of a \
          bootstrap over pixels; the limit is the mean of 2<sup>{}</sup> paths with other shifts. All \
-         rows are in <a href=\"trade.csv\">trade.csv</a>.</p>\n",
+         rows are in <a href=\"trade.csv\">trade.csv</a>, whose columns have the errors' names in \
+         small letters.</p>\n",
         coloured(RULES),
         style_sheet(),
         trade.rows.len(),
@@ -56,6 +62,7 @@ pub(super) fn html(trade: &Trade, figures: &[Figure]) -> String {
         trade.scene().map_or(0.0, |row| row.mean),
         trade.reference_bits,
     );
+    scene(&mut out, trade, preview);
     let sentences = advice::sentences(trade);
     if !sentences.is_empty() {
         let lines = sentences
@@ -69,11 +76,6 @@ pub(super) fn html(trade: &Trade, figures: &[Figure]) -> String {
     }
     let _ = writeln!(
         out,
-        "<details><summary>The scene's text</summary><pre class=\"wide\">{}</pre></details>",
-        escaped(&trade.scene_text)
-    );
-    let _ = writeln!(
-        out,
         "<h2>Against classical rivals</h2>\n<p>{}</p>\n<ul>",
         escaped(rivals::ABOUT)
     );
@@ -84,8 +86,9 @@ pub(super) fn html(trade: &Trade, figures: &[Figure]) -> String {
     for figure in figures {
         let _ = writeln!(
             out,
-            "<figure id=\"{}\"><div class=\"wide\">{}</div><figcaption>{}</figcaption></figure>",
+            "<figure id=\"{}\">{}{}</div><figcaption>{}</figcaption></figure>",
             figure.name,
+            wide("plot"),
             figure.plot.draw().inline_svg(),
             escaped(figure.says)
         );
@@ -116,8 +119,52 @@ pub(super) fn html(trade: &Trade, figures: &[Figure]) -> String {
         let what = escaped(&format!("{}: {why}", differs(setting)));
         let _ = writeln!(out, "<p>Left out: {what}.</p>");
     }
-    out.push_str("</body>\n</html>\n");
+    out.push_str("</main>\n</body>\n</html>\n");
     out
+}
+
+/// What is wider than a phone is scrolled in its own place, by keyboard, too.
+fn wide(what: &str) -> String {
+    format!("<div class=\"wide\" role=\"group\" aria-label=\"{what}\" tabindex=\"0\">")
+}
+
+/// The scene: its picture, if there is one, and its text.
+fn scene(out: &mut String, trade: &Trade, preview: Option<&Preview>) {
+    let two = if preview.is_some() { " two" } else { "" };
+    let _ = writeln!(out, "<div class=\"scene{two}\">");
+    if let Some(preview) = preview {
+        let every = match preview.step {
+            1 => "Every pixel".to_owned(),
+            step => format!("One pixel of every {step} by {step}"),
+        };
+        let _ = writeln!(
+            out,
+            "<figure><img src=\"{}\" width=\"{}\" height=\"{}\" alt=\"The scene {}, a small \
+             picture\"><figcaption>{every}, the exact mean of 2<sup>{}</sup> paths that sample \
+             lamps, at exposure {}.</figcaption></figure>",
+            preview.address(),
+            preview.width,
+            preview.height,
+            escaped(&trade.name),
+            preview.path_bits,
+            signed(preview.exposure),
+        );
+    }
+    let _ = writeln!(
+        out,
+        "<details open><summary>The scene's text</summary><pre class=\"wide\" role=\"group\" \
+         aria-label=\"the scene's text\" tabindex=\"0\">{}</pre></details>\n</div>",
+        escaped(&trade.scene_text)
+    );
+}
+
+/// A whole number with its sign.
+fn signed(value: f64) -> String {
+    let sign = if value < 0.0 { "\u{2212}" } else { "+" };
+    match value.abs() {
+        0.0 => "0".to_owned(),
+        size => format!("{sign}{size:.0}"),
+    }
 }
 
 /// The scene as it is.
@@ -125,18 +172,19 @@ fn own(out: &mut String, row: &Row) {
     let _ = writeln!(
         out,
         "<h2>The scene as it is</h2>\n<p>{}: {} queries of a pixel, each of {} Toffoli gates on {} \
-         qubits.</p>\n<div class=\"wide\"><table>\n<tr><th class=\"left\">error</th><th>RMSE</th>\
-         <th>95&nbsp;%</th><th class=\"left\">of</th></tr>",
+         qubits.</p>\n{}<table class=\"own\">\n<tr><th class=\"left\">error</th><th>RMSE<br>95&nbsp;% \
+         interval</th></tr>",
         escaped(&differs(&row.setting)),
         grouped(row.queries.round() as u64),
         grouped(row.cost.toffoli),
         grouped(row.cost.qubits),
+        wide("errors of the scene as it is"),
     );
-    for ((name, band), meaning) in ERRORS.iter().zip(row.errors).zip(MEANINGS) {
+    for ((name, band), meaning) in NAMES.iter().zip(row.errors).zip(MEANINGS) {
         let _ = writeln!(
             out,
-            "<tr><td class=\"left\"><code>{name}</code></td><td>{}</td><td class=\"range\">{} to \
-             {}</td><td class=\"left says\">{meaning}</td></tr>",
+            "<tr><td class=\"left\"><b>{name}</b>: {meaning}</td><td>{}<br><span class=\"range\">{} to \
+             {}</span></td></tr>",
             percent(band.value),
             percent(band.low),
             percent(band.high)
@@ -172,13 +220,11 @@ fn value(sweep: Sweep, row: &Row) -> String {
 }
 
 fn table(out: &mut String, rows: &[&Row], name: impl Fn(&Row) -> String) {
-    out.push_str("<div class=\"wide\"><table>\n<tr><th class=\"left\">setting</th>");
-    for (error, meaning) in ERRORS.iter().zip(MEANINGS) {
-        let word = meaning.split(':').next().unwrap_or_default();
-        let _ = write!(
-            out,
-            "<th title=\"{meaning}\"><code>{error}</code><br>{word}</th>"
-        );
+    out.push_str(&wide("settings"));
+    out.push_str("<table>\n<tr><th class=\"left\">setting</th>");
+    for (name, meaning) in NAMES.iter().zip(MEANINGS) {
+        let name = name.replace(", ", ",<br>");
+        let _ = write!(out, "<th title=\"{meaning}\">{name}</th>");
     }
     out.push_str(
         "<th>queries</th><th>Toffoli</th><th>qubits</th><th>Toffoli \u{d7} queries</th>\

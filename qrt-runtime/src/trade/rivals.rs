@@ -5,6 +5,7 @@ use super::bench::{Bench, picked};
 use super::error::TradeError;
 use super::figures::{COUNTING, Figure, TOTAL, series};
 use super::setting::{FINE, Setting, Sweep};
+use super::styles::free;
 use super::sweep::most_paths;
 use super::table::Row;
 use super::{Band, Trade, pareto};
@@ -12,7 +13,7 @@ use crate::machines::Real;
 use crate::sample::{self, Means, SampleError, Sum};
 use crate::workers::Workers;
 use qrt_core::oracle::CallCost;
-use qrt_core::scene::{Estimator, Lights, Sampling};
+use qrt_core::scene::{Estimator, Lights, Sampling, Sequence};
 use qrt_core::tracer::{PixelClass, PixelClasses};
 use qrt_drawing::{Axis, Drawn, Fit, Plot};
 use rayon::prelude::*;
@@ -273,8 +274,21 @@ pub(super) fn figure(trade: &Trade) -> Figure {
     let name = ours.peek().map(|row| row.setting.estimator);
     let name = name.map_or("counting", Estimator::name);
     let price = |row: &Row| row.queries;
-    let mut all = vec![series(name, ours, price, COUNTING, Drawn::Fit)];
-    all.extend(RIVALS.map(|(sweep, name)| series(name, trade.of(sweep), price, TOTAL, Drawn::Fit)));
+    let mut ours = series(name, ours, price, COUNTING, Drawn::Fit);
+    let rivals = RIVALS.map(|(sweep, name)| {
+        // By its own name: the other is a part of sentences, and too long for a legend.
+        let net = Sequence::DigitalNet.name();
+        let name = if sweep == Sweep::ClassicalNet {
+            net
+        } else {
+            name
+        };
+        series(name, trade.of(sweep), price, TOTAL, Drawn::Fit)
+    });
+    // Counting by random paths is like random paths, but not the same.
+    ours.style = ours.style.map(|style| free(style, &rivals));
+    let mut all = vec![ours];
+    all.extend(rivals);
     Figure {
         name: "rivals",
         plot: Plot {

@@ -433,9 +433,17 @@ fn the_page_is_whole_and_asks_nobody() {
     assert!(page.contains("<h2>What to change next</h2>") && page.contains("<details open>"));
     assert!(page.contains("radiance: [3, 2, 1]"), "the scene's text");
     assert!(
-        page.contains("<code>e_r</code><br>paths</th>"),
+        page.contains(">paths,<br>E_R</th>")
+            && page.contains("<b>paths, E_R</b>: their exact mean"),
         "what an error is of"
     );
+    assert!(!page.contains("e_r"), "one spelling");
+    let picture = page
+        .matches("<img src=\"data:image/png;base64,iVBORw0KGgo")
+        .count();
+    assert_eq!(picture, usize::from(cfg!(feature = "png")));
+    let at = |words: &str| page.find(words).unwrap_or(usize::MAX);
+    assert!(at("<div class=\"scene") < at("<h2>What to change next"));
     // Only the names of formats are addresses.
     for part in page.split("http").skip(1) {
         assert!(part.starts_with("://www.w3.org/2000/svg"), "{part:.60}");
@@ -448,7 +456,7 @@ fn the_page_is_whole_and_asks_nobody() {
             );
         }
     }
-    assert_eq!(page.matches("<figure").count(), 13);
+    assert_eq!(page.matches("<figure id=").count(), 13);
     let summary = measured.summary();
     for words in [
         "slope of E_T over queries: monte-carlo -0.",

@@ -1,0 +1,76 @@
+//! One colour and one mark for one thing, in every plot.
+
+use qrt_drawing::{STYLES, Series};
+
+/// The style ([`Series::style`]) of what comes in several plots, by its name: estimators, sequences
+/// of paths, parts of the error, and what they are compared with. None of anything else.
+///
+/// ```
+/// use qrt_runtime::trade::style;
+/// assert_eq!(style("digital-net"), style("digital net"));
+/// assert_ne!(style("paper"), style("adaptive-bayes"));
+/// assert_eq!(style("qubits"), None);
+/// ```
+pub fn style(name: &str) -> Option<usize> {
+    // Styles 7 to 13 are 0 to 6 with hollow marks. No estimator has the style of the net, and no two
+    // have the same.
+    Some(match name {
+        "adaptive-bayes" | "counting" | "total" => 0,
+        "monte-carlo" | "random paths" | "counting, E_T" => 1,
+        "digital-net" | "digital net" | "paths, E_R" => 2,
+        "paper" | "product-lattice" | "product lattice" | "comparators, E_C" => 3,
+        "sine" | "width, E_W" => 4,
+        "mlae" | "the front" | "depth, E_D" => 5,
+        "iqae" => 6,
+        "random-depth" => 7,
+        "qcoin" => 8,
+        "posterior-mean" => 9,
+        "abrams-williams" => 10,
+        "chebyshev" => 11,
+        "qss" => 12,
+        "miqae" | "all settings" => 13,
+        _ => return None,
+    })
+}
+
+/// The style of the same colour, hollow where the other is filled.
+pub(super) fn hollow(style: usize) -> usize {
+    (style + STYLES / 2) % STYLES
+}
+
+/// `wanted`, or the first style that none of a plot's series has.
+pub(super) fn free(wanted: usize, others: &[Series]) -> usize {
+    let taken = |style: &usize| others.iter().any(|series| series.style == Some(*style));
+    let mut choice = std::iter::once(wanted).chain(0..STYLES);
+    choice.find(|style| !taken(style)).unwrap_or(wanted)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use qrt_core::scene::{Estimator, Sequence};
+    use qrt_drawing::Drawn;
+
+    /// In one plot stand all estimators, or both sequences beside random paths.
+    #[test]
+    fn what_stands_in_one_plot_is_told_apart() {
+        let estimators = Estimator::ALL.iter().filter(|e| **e != Estimator::Exact);
+        let net = style(Sequence::DigitalNet.name());
+        let mut found: Vec<Option<usize>> = estimators.map(|e| style(e.name())).collect();
+        assert!(!found.contains(&None) && !found.contains(&net));
+        found.sort_unstable();
+        found.dedup();
+        assert_eq!(found.len(), Estimator::ALL.len() - 1);
+        assert!(found.iter().flatten().all(|style| *style < STYLES));
+        let paths = ["digital-net", "product-lattice", "random paths"].map(style);
+        assert!(paths[0] != paths[1] && paths[1] != paths[2] && paths[0] != paths[2]);
+    }
+
+    #[test]
+    fn a_style_that_is_taken_gives_way() {
+        let taken = |style| Series::of("", [], Drawn::Points).styled(style);
+        assert_eq!(free(3, &[]), 3);
+        assert_eq!(free(1, &[taken(1), taken(0)]), 2);
+        assert_eq!(hollow(hollow(4)), 4);
+    }
+}
