@@ -39,8 +39,8 @@ for bits in (5, 7, 9):
     error = numpy.sqrt(numpy.mean((picture.pixels - exact.pixels) ** 2)) / mean
     print(f"{picture.queries.mean():8.0f} queries a pixel: {error:.2%} of the mean")
 #>       93 queries a pixel: 26.80% of the mean
-#>      381 queries a pixel: 6.65% of the mean
-#>     1533 queries a pixel: 1.31% of the mean
+#>      381 queries a pixel: 6.63% of the mean
+#>     1533 queries a pixel: 1.32% of the mean
 
 # %% [markdown]
 # What is counted is a circuit, and this is what one call of it costs:
