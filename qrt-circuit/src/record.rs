@@ -36,7 +36,7 @@ pub struct Recorder {
     most: usize,
 }
 
-/// The instructions of a routine: more than the circuits of meshes have, and less than a gigabyte.
+/// The instructions of a routine, at most: a hundred times those that trace a mesh of 1,536 faces.
 const MOST: usize = 1 << 24;
 
 /// A register of a [`Recorder`]: a handle on a register of the program that it records.
