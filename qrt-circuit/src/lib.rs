@@ -165,6 +165,7 @@
 #![forbid(unsafe_code)]
 
 mod controlled;
+mod cores;
 mod evaluate;
 pub mod export;
 pub mod format;
@@ -181,6 +182,7 @@ mod register;
 mod text;
 
 pub use controlled::{Controlled, controlled, unconditional};
+pub use cores::Cores;
 pub use evaluate::{Contents, Unclean};
 pub use gate::{Circuit, Gate, Gates, Qubit};
 pub use host::{Caller, Frame, Handed, Host, HostOf, Is, Reversible, Running};

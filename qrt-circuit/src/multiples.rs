@@ -14,9 +14,10 @@
 //! optimised, where whatever is not an operator or an index into a slice is a call: hence plain loops,
 //! and sets of their own.
 
-use std::collections::HashMap;
+use crate::Cores;
+use std::collections::{HashMap, HashSet};
 use std::hash::{Hash, Hasher};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// So many candidates are compared by what they leave to do, at most.
 const COMPARED: usize = 64;
@@ -87,33 +88,36 @@ impl Hash for Multiples {
     }
 }
 
-/// Calls `found` with all sums of `known` and another multiple that are `multiple`, as far as their
-/// terms are at most `most`: the other multiple, the sum without its zeros, the term of `known`, and
-/// which of the two is subtracted from which.
-fn partners(multiple: i64, known: i64, most: i64, mut found: impl FnMut(Partner)) {
+/// Calls `found` with all sums of `known` and another one of `all` that are `multiple`, as far as their
+/// terms are at most `most`.
+fn partners(multiple: i64, known: i64, most: i64, all: &Set, mut found: impl FnMut(Partner)) {
     let mut offer = |whole: i64, term: Term| {
         let shifted = term.factor << term.shift;
         let difference = whole - shifted;
-        if difference != 0 {
+        let other = if difference < 0 {
+            -difference
+        } else {
+            difference
+        };
+        if difference != 0 && all.contains(odd_part(other)) {
             found(Partner {
                 whole,
                 term,
-                other: if difference < 0 {
-                    -difference
-                } else {
-                    difference
-                },
+                other,
                 minus: difference < 0,
                 from_other: false,
             });
         }
-        found(Partner {
-            whole,
-            term,
-            other: whole + shifted,
-            minus: true,
-            from_other: true,
-        });
+        let other = whole + shifted;
+        if all.contains(odd_part(other)) {
+            found(Partner {
+                whole,
+                term,
+                other,
+                minus: true,
+                from_other: true,
+            });
+        }
     };
     let mut shift = 0;
     while shift < CONSTANT_BITS && known << shift <= most {
@@ -129,40 +133,61 @@ fn partners(multiple: i64, known: i64, most: i64, mut found: impl FnMut(Partner)
     }
 }
 
-/// As [`partners`], with the other multiples alone. Both are odd, so that an even number comes of them
-/// where neither is shifted, and nowhere else.
-#[inline(always)]
-fn others(multiple: i64, known: i64, most: i64, mut found: impl FnMut(i64)) {
-    if known <= most {
-        let difference = multiple - known;
-        if difference > 0 {
-            found(odd_part(difference));
-        } else if difference < 0 {
-            found(odd_part(-difference));
+/// The other multiples of which one and `known` are the terms of `multiple`, some of them more than
+/// once.
+struct Others {
+    numbers: [i64; 4 * CONSTANT_BITS as usize],
+    count: usize,
+}
+
+impl Others {
+    /// Both numbers are odd, so that an even one comes of them where neither is shifted, and nowhere
+    /// else.
+    #[inline(always)]
+    fn of(multiple: i64, known: i64, most: i64) -> Self {
+        let mut numbers = [0; 4 * CONSTANT_BITS as usize];
+        let mut count = 0;
+        if known <= most {
+            let difference = multiple - known;
+            if difference != 0 {
+                let distance = if difference < 0 {
+                    -difference
+                } else {
+                    difference
+                };
+                numbers[count] = odd_part(distance);
+                count += 1;
+            }
+            numbers[count] = odd_part(multiple + known);
+            count += 1;
         }
-        found(odd_part(multiple + known));
-    }
-    let mut shift = 1;
-    while shift < CONSTANT_BITS && known << shift <= most {
-        let difference = multiple - (known << shift);
-        found(if difference < 0 {
-            -difference
-        } else {
-            difference
-        });
-        found(multiple + (known << shift));
-        shift += 1;
-    }
-    shift = 1;
-    while shift < CONSTANT_BITS && multiple << shift <= most {
-        let difference = (multiple << shift) - known;
-        found(if difference < 0 {
-            -difference
-        } else {
-            difference
-        });
-        found((multiple << shift) + known);
-        shift += 1;
+        let mut shift = 1;
+        while shift < CONSTANT_BITS && known << shift <= most {
+            let shifted = known << shift;
+            let difference = multiple - shifted;
+            numbers[count] = if difference < 0 {
+                -difference
+            } else {
+                difference
+            };
+            numbers[count + 1] = multiple + shifted;
+            count += 2;
+            shift += 1;
+        }
+        shift = 1;
+        while shift < CONSTANT_BITS && multiple << shift <= most {
+            let shifted = multiple << shift;
+            let difference = shifted - known;
+            numbers[count] = if difference < 0 {
+                -difference
+            } else {
+                difference
+            };
+            numbers[count + 1] = shifted + known;
+            count += 2;
+            shift += 1;
+        }
+        Self { numbers, count }
     }
 }
 
@@ -188,11 +213,6 @@ struct Partner {
 }
 
 impl Partner {
-    /// The other term's multiple.
-    fn factor(&self) -> i64 {
-        self.other >> self.other.trailing_zeros()
-    }
-
     fn sum(&self) -> Sum {
         let other = Term::of(self.other);
         let (a, b) = if self.minus && !self.from_other {
@@ -211,26 +231,35 @@ impl Partner {
 
 /// A set of odd numbers.
 struct Set {
-    /// 0 where there is none; a power of two of them.
-    places: Vec<i64>,
+    /// All of them in the order in which they came, as far as there are any.
+    all: Box<[i64]>,
     held: usize,
+    /// 0 where there is none; a power of two of them, twice as many as fit into `all`.
+    places: Box<[i64]>,
 }
 
 impl Set {
     fn new() -> Self {
         Self {
-            places: vec![0; 64],
+            all: Box::new([0; 32]),
             held: 0,
+            places: Box::new([0; 64]),
         }
+    }
+
+    /// From where on the number is searched for.
+    #[inline(always)]
+    fn first_place(places: &[i64], number: i64) -> usize {
+        // 32 bits by 32 bits, which cannot overflow.
+        let folded = (number ^ number >> 32) as u32 as u64;
+        ((folded * 0x9e37_79b1) >> 24) as usize & (places.len() - 1)
     }
 
     /// Where the number is, or would be.
     #[inline(always)]
     fn place(places: &[i64], number: i64) -> usize {
         let last = places.len() - 1;
-        // 32 bits by 32 bits, which cannot overflow.
-        let folded = (number ^ number >> 32) as u32 as u64;
-        let mut place = ((folded * 0x9e37_79b1) >> 24) as usize & last;
+        let mut place = Self::first_place(places, number);
         while places[place] != 0 && places[place] != number {
             place = (place + 1) & last;
         }
@@ -250,29 +279,36 @@ impl Set {
             return;
         }
         places[place] = number;
+        self.all[self.held] = number;
         self.held += 1;
-        if 2 * self.held > self.places.len() {
-            let larger = vec![0; 4 * self.places.len()];
-            let old = std::mem::replace(&mut self.places, larger);
-            for number in old {
-                if number != 0 {
-                    let place = Self::place(&self.places, number);
-                    self.places[place] = number;
-                }
-            }
+        if self.held == self.all.len() {
+            self.grow();
         }
     }
 
-    /// All of them, in no order.
-    #[inline(always)]
-    fn each(&self, mut see: impl FnMut(i64)) {
-        let places: &[i64] = &self.places;
-        let mut place = 0;
-        while place < places.len() {
-            if places[place] != 0 {
-                see(places[place]);
+    fn grow(&mut self) {
+        let mut all = vec![0; 4 * self.all.len()].into_boxed_slice();
+        all[..self.held].copy_from_slice(&self.all);
+        let mut places = vec![0; 2 * all.len()].into_boxed_slice();
+        let mut next = 0;
+        while next < self.held {
+            places[Self::place(&places, all[next])] = all[next];
+            next += 1;
+        }
+        (self.all, self.places) = (all, places);
+    }
+
+    /// Removes all of them, and keeps the room.
+    fn clear(&mut self) {
+        let last = self.places.len() - 1;
+        while self.held > 0 {
+            self.held -= 1;
+            // From there on, places are taken up to the number's own at least.
+            let mut place = Self::first_place(&self.places, self.all[self.held]);
+            while self.places[place] != 0 {
+                self.places[place] = 0;
+                place = (place + 1) & last;
             }
-            place += 1;
         }
     }
 }
@@ -292,23 +328,39 @@ impl Multiples {
 
     /// The same, by what is known of constants: the sums follow from these alone.
     pub fn known(products: &[(i64, u32)], known: &mut KnownSums) -> Option<Self> {
-        let constants = 1..1 << CONSTANT_BITS;
-        if products
-            .iter()
-            .any(|(factor, _)| !constants.contains(factor))
-        {
-            return None;
+        Self::all(&[products.into()], known, Cores::One).pop()?
+    }
+
+    /// As [`Multiples::known`], of several numbers' products.
+    pub fn all(
+        products: &[Box<[(i64, u32)]>],
+        known: &mut KnownSums,
+        cores: Cores,
+    ) -> Vec<Option<Self>> {
+        let odd: Vec<Option<Vec<i64>>> = products.iter().map(|own| odd_factors(own)).collect();
+        let unknown = odd.iter().flatten();
+        let unknown = unknown.filter(|odd| !known.found.contains_key(*odd));
+        let unknown: Vec<&Vec<i64>> = unknown.collect::<HashSet<_>>().into_iter().collect();
+        // Room that has been made is used again: it is most of what a search allocates.
+        let rooms = Mutex::new(Vec::new());
+        let rooms = || rooms.lock().unwrap_or_else(PoisonError::into_inner);
+        let found = cores.map(&unknown, 4, |odd| {
+            let room = rooms().pop().unwrap_or_else(Set::new);
+            let (sums, room) = Search::of(odd, room);
+            rooms().push(room);
+            sums.into()
+        });
+        for (odd, sums) in unknown.into_iter().zip(found) {
+            known.found.insert(odd.clone(), sums);
         }
-        let odd = products.iter().map(|(factor, _)| Term::of(*factor).factor);
-        let mut odd: Vec<i64> = odd.collect();
-        odd.sort_unstable();
-        odd.dedup();
-        let sums = known.found.entry(odd);
-        let sums = sums.or_insert_with_key(|odd| Search::of(odd).into());
-        Some(Self {
-            products: products.into(),
-            sums: Arc::clone(sums),
-        })
+        let own = products.iter().zip(&odd);
+        let own = own.map(|(products, odd)| {
+            Some(Self {
+                products: products.clone(),
+                sums: Arc::clone(known.found.get(odd.as_ref()?)?),
+            })
+        });
+        own.collect()
     }
 
     /// The constants, and how many of their products' lowest bits are dropped.
@@ -319,6 +371,20 @@ impl Multiples {
     pub(crate) fn sums(&self) -> &[(i64, Sum)] {
         &self.sums
     }
+}
+
+/// The constants without their zeros, in ascending order; none if one is below 1 or has more than 40
+/// bits.
+fn odd_factors(products: &[(i64, u32)]) -> Option<Vec<i64>> {
+    let constants = 1..1 << CONSTANT_BITS;
+    let odd = products.iter().map(|(factor, _)| {
+        let is_constant = constants.contains(factor);
+        is_constant.then(|| Term::of(*factor).factor)
+    });
+    let mut odd: Vec<i64> = odd.collect::<Option<_>>()?;
+    odd.sort_unstable();
+    odd.dedup();
+    Some(odd)
 }
 
 struct Search {
@@ -353,22 +419,35 @@ impl Wanted {
     }
 }
 
+impl Wanted {
+    fn insert_all(&mut self, others: &Others, known: &Set) {
+        let mut next = 0;
+        while next < others.count {
+            self.insert(others.numbers[next], known);
+            next += 1;
+        }
+    }
+}
+
 impl Search {
-    /// The sums by which these odd numbers, in ascending order, are computed.
-    fn of(odd: &[i64]) -> Vec<(i64, Sum)> {
+    /// The sums by which these odd numbers, in ascending order, are computed. The set is empty, and
+    /// returned so.
+    fn of(odd: &[i64], room: Set) -> (Vec<(i64, Sum)>, Set) {
         let mut search = Self {
             most: odd.last().map_or(1, |most| most << 2),
             known: vec![1],
             is_known: Set::new(),
             reached: 0,
-            near: Set::new(),
+            near: room,
             wanted: Vec::new(),
         };
         search.is_known.insert(1);
         for &multiple in odd {
             search.want(multiple);
         }
-        std::iter::from_fn(|| search.step()).collect()
+        let sums = std::iter::from_fn(|| search.step()).collect();
+        search.near.clear();
+        (sums, search.near)
     }
 
     fn want(&mut self, multiple: i64) {
@@ -385,9 +464,8 @@ impl Search {
             is_near: false,
         };
         for &known in &self.known {
-            others(multiple, known, self.most, |other| {
-                wanted.insert(other, &self.is_known);
-            });
+            let others = Others::of(multiple, known, self.most);
+            wanted.insert_all(&others, &self.is_known);
         }
         // The sum of a multiple with itself, shifted.
         let mut shift = 1;
@@ -460,14 +538,11 @@ impl Search {
     fn add(&mut self, multiple: i64) -> Option<(i64, Sum)> {
         let mut best: Option<(i32, Sum)> = None;
         for &known in &self.known {
-            partners(multiple, known, self.most, |partner| {
-                let other = partner.factor();
-                if self.is_known.contains(other) {
-                    let sum = partner.sum();
-                    let price = sum.price(multiple);
-                    if best.is_none_or(|(least, _)| price < least) {
-                        best = Some((price, sum));
-                    }
+            partners(multiple, known, self.most, &self.is_known, |partner| {
+                let sum = partner.sum();
+                let price = sum.price(multiple);
+                if best.is_none_or(|(least, _)| price < least) {
+                    best = Some((price, sum));
                 }
             });
         }
@@ -479,9 +554,8 @@ impl Search {
                 wanted.is_near = true;
                 continue;
             }
-            others(wanted.multiple, multiple, self.most, |other| {
-                wanted.insert(other, &self.is_known);
-            });
+            let others = Others::of(wanted.multiple, multiple, self.most);
+            wanted.insert_all(&others, &self.is_known);
         }
         best.map(|(_, sum)| (multiple, sum))
     }
@@ -500,7 +574,10 @@ impl Search {
             // Nothing is two sums away: what has the fewest digits of all that would help is wanted, too.
             let (mut fewest, mut simplest) = (u32::MAX, Vec::new());
             for wanted in &self.wanted {
-                wanted.from.each(|other| {
+                let from = &wanted.from;
+                let mut next = 0;
+                while next < from.held {
+                    let other = from.all[next];
                     if other <= self.most && digits(other) <= fewest {
                         if digits(other) < fewest {
                             fewest = digits(other);
@@ -508,7 +585,8 @@ impl Search {
                         }
                         simplest.push(other);
                     }
-                });
+                    next += 1;
+                }
             }
             // Of these, the least of those that most would be one sum from.
             simplest.sort_unstable();
@@ -528,23 +606,33 @@ impl Search {
         self.reach();
         let mut helpful = Vec::new();
         for wanted in &self.wanted {
-            wanted.from.each(|other| {
-                if self.near.contains(other) {
-                    helpful.push(other);
+            let from = &wanted.from;
+            let mut next = 0;
+            while next < from.held {
+                if self.near.contains(from.all[next]) {
+                    helpful.push(from.all[next]);
                 }
-            });
+                next += 1;
+            }
         }
         helpful.sort_unstable();
         // Those that help most, in ascending order.
+        let helpful: &[i64] = &helpful;
         let (mut most, mut best) = (0, Vec::new());
-        for run in helpful.chunk_by(i64::eq) {
-            if run.len() > most {
-                most = run.len();
+        let mut first = 0;
+        while first < helpful.len() {
+            let mut end = first + 1;
+            while end < helpful.len() && helpful[end] == helpful[first] {
+                end += 1;
+            }
+            if end - first > most {
+                most = end - first;
                 best.clear();
             }
-            if run.len() == most {
-                best.push(run[0]);
+            if end - first == most {
+                best.push(helpful[first]);
             }
+            first = end;
         }
         if most == self.wanted.len() || best.is_empty() {
             return best.first().copied();
@@ -554,11 +642,19 @@ impl Search {
         for &between in best.iter().take(COMPARED) {
             let mut left = 0;
             for wanted in &self.wanted {
+                if least.is_some_and(|(fewest, _)| left >= fewest) {
+                    break;
+                }
                 if !wanted.from.contains(between) {
-                    let mut fewest = u32::MAX;
-                    others(wanted.multiple, between, self.most, |other| {
-                        fewest = fewest.min(digits(other));
-                    });
+                    let others = Others::of(wanted.multiple, between, self.most);
+                    let (mut fewest, mut next) = (u32::MAX, 0);
+                    while next < others.count {
+                        let own = digits(others.numbers[next]);
+                        if own < fewest {
+                            fewest = own;
+                        }
+                        next += 1;
+                    }
                     left += fewest;
                 }
             }
@@ -574,7 +670,6 @@ impl Search {
 mod tests {
     use super::*;
     use proptest::prelude::*;
-    use std::collections::HashSet;
 
     /// Checks that each sum is what it says, of what was made before it, and returns how many there are.
     fn checked(wanted: &[i64]) -> usize {
@@ -625,6 +720,18 @@ mod tests {
         }
         let by_digits: usize = odd().map(|constant| digits(constant) as usize - 1).sum();
         assert!(8 * fewer > by_digits, "{fewer} of {by_digits}");
+    }
+
+    #[test]
+    fn sums_are_the_same_wherever_they_are_searched_for() {
+        // As many as lead to sets of thousands, in rooms that others have left.
+        let products: Vec<Box<[(i64, u32)]>> = (0..64)
+            .map(|set| (1..13).map(|n| ((set * 131 + n) * 7_919 * n, 0)).collect())
+            .collect();
+        let all = Multiples::all(&products, &mut KnownSums::default(), Cores::All);
+        for (products, found) in products.iter().zip(all) {
+            assert_eq!(Multiples::new(products), found);
+        }
     }
 
     proptest! {

@@ -42,7 +42,9 @@ use crate::sampling::{PathPoints, SamplingError};
 use crate::scene::ComparatorAt;
 use crate::tracer::{Arith, PixelClass, Stage};
 use crate::valid::ValidScene;
-use qrt_circuit::{Bit, BlockId, Instruction, Op, Operand, Program, RegisterId, Word, lower};
+use qrt_circuit::{
+    Bit, BlockId, Cores, Instruction, Op, Operand, Program, RegisterId, Word, lower,
+};
 use recording::{PrimaryHit, Recording};
 use std::fmt;
 
@@ -212,7 +214,7 @@ impl Oracle {
     /// As [`Oracle::new`], and if there are more than [`MOST_FACES`] faces.
     pub fn given_primary_hit(scene: &ValidScene, class: PixelClass) -> Result<Self, OracleError> {
         let options = Options::of_class(class);
-        let mut recording = Recording::new(scene, [0, 1, 2], options, PrimaryHit::Given)?;
+        let recording = Recording::new(scene, [0, 1, 2], options, PrimaryHit::Given)?;
         Ok(recording.oracle(&[0, 1, 2]))
     }
 
@@ -223,27 +225,33 @@ impl Oracle {
     /// # Errors
     /// As [`Oracle::new`].
     pub fn all(scene: &ValidScene) -> Result<([Self; 3], Self), OracleError> {
-        let (channels, rgb, _) = Self::all_recorded(scene)?;
+        let (channels, rgb, _) = Self::all_recorded(scene, Cores::One)?;
         Ok((channels, rgb))
     }
 
     /// The oracle of all three channels together, and what a call of that of the most expensive
-    /// channel costs: [`call_cost`] of [`Oracle::all`], sooner.
+    /// channel costs: [`call_cost`] of [`Oracle::all`], sooner, and on all cores.
     ///
     /// # Errors
     /// As [`Oracle::new`].
     pub fn rgb_and_cost(scene: &ValidScene) -> Result<(Self, CallCost), OracleError> {
-        let (channels, rgb, mut recording) = Self::all_recorded(scene)?;
-        let cost = budget::call_cost_by(&channels, recording.figures());
+        let (channels, rgb, recording) = Self::all_recorded(scene, Cores::All)?;
+        let cost = budget::call_cost_by(&channels, &mut recording.known());
         Ok((rgb, cost))
     }
 
-    fn all_recorded(scene: &ValidScene) -> Result<([Self; 3], Self, Recording), OracleError> {
+    fn all_recorded(
+        scene: &ValidScene,
+        cores: Cores,
+    ) -> Result<([Self; 3], Self, Recording), OracleError> {
         let options = Options::default();
-        let mut recording = Recording::new(scene, [0, 1, 2], options, PrimaryHit::Traced)?;
-        let channels = [0, 1, 2].map(|channel| recording.oracle(&[channel]));
-        let rgb = recording.oracle(&[0, 1, 2]);
-        Ok((channels, rgb, recording))
+        let recording = Recording::new(scene, [0, 1, 2], options, PrimaryHit::Traced)?;
+        recording.known().cores = cores;
+        let wanted: [&[usize]; 4] = [&[0], &[1], &[2], &[0, 1, 2]];
+        let oracles = cores.map(&wanted, 1, |places| recording.oracle(places));
+        let [r, g, b, rgb] = <[Self; 4]>::try_from(oracles)
+            .unwrap_or_else(|_| unreachable!("one for each that is wanted"));
+        Ok(([r, g, b], rgb, recording))
     }
 
     /// The oracle of the luminance alone: see [`luminance`].
@@ -268,7 +276,7 @@ impl Oracle {
         channels: [usize; C],
         options: Options,
     ) -> Result<Self, OracleError> {
-        let mut recording = Recording::new(scene, channels, options, PrimaryHit::Traced)?;
+        let recording = Recording::new(scene, channels, options, PrimaryHit::Traced)?;
         Ok(recording.oracle(&std::array::from_fn::<_, C, _>(|place| place)))
     }
 
@@ -282,17 +290,17 @@ impl Oracle {
 
     /// How many qubits a call needs: the most in use at any time, channel number 0 being compared.
     pub fn qubits(&self) -> u32 {
-        self.qubits_by(&mut lower::KnownFigures::default())
+        lower::most_qubits(&self.upto_flip())
     }
 
-    /// As [`Oracle::qubits`], by what is known of operations.
-    fn qubits_by(&self, known: &mut lower::KnownFigures) -> u32 {
-        // Uncompute holds at each instruction what compute does.
+    /// Compute, and then the comparison and the flip of channel number 0. Uncompute holds at each
+    /// instruction what compute does.
+    fn upto_flip(&self) -> Program {
         let mut upto = self.flip(0);
         let compute = self.program.instructions.iter().copied();
         upto.instructions.splice(0..0, compute);
         upto.inputs.clone_from(&self.program.inputs);
-        known.most_qubits(&upto)
+        upto
     }
 
     /// How many qubits the comparator has.
@@ -326,46 +334,40 @@ impl Oracle {
         };
         program.blocks.push(label.block(Some(BlockId::ROOT)));
         let first = program.ops.len() as u32;
+        let steps = self.flip_steps(channel);
+        let instruction = |&(step, inverse): &(u32, bool)| Instruction {
+            op: first + step,
+            inverse,
+            block,
+        };
+        program.instructions = steps.order.iter().map(instruction).collect();
+        program.ops.extend(steps.ops);
+        program.inputs = self.program.outputs();
+        program
+    }
+
+    /// What [`Oracle::flip`] consists of.
+    fn flip_steps(&self, channel: usize) -> FlipSteps {
         let count = self.channels[channel].count;
         if let (0, Operand::Word(word)) = (self.comparator_bits(), count) {
             // Without comparators the count is one bit, whose phase is flipped as it stands.
             let bit = Bit::at(word.register, word.offset);
-            program.ops.push(Op::Phase { bit });
-            program.instructions = vec![Instruction {
-                op: first,
-                inverse: false,
-                block,
-            }];
-            program.inputs = self.program.outputs();
-            return program;
+            return FlipSteps {
+                ops: vec![Op::Phase { bit }],
+                order: &[(0, false)],
+            };
         }
-        let comparator = Word {
-            register: self.comparator,
-            offset: 0,
-            width: self.comparator_bits(),
-            signed: false,
-            shift: 0,
-        };
-        program.ops.push(Op::Less {
+        let comparator = Word::unsigned(self.comparator, 0, self.comparator_bits());
+        let less = Op::Less {
             a: Operand::Word(comparator),
             b: count,
             target: self.flag,
-        });
-        program.ops.push(Op::Phase {
-            bit: Bit {
-                register: self.flag,
-                index: 0,
-                inverted: false,
-            },
-        });
-        let step = |op: u32, inverse: bool| Instruction { op, inverse, block };
-        program.instructions = vec![
-            step(first, false),
-            step(first + 1, false),
-            step(first, true),
-        ];
-        program.inputs = self.program.outputs();
-        program
+        };
+        let bit = Bit::at(self.flag, 0);
+        FlipSteps {
+            ops: vec![less, Op::Phase { bit }],
+            order: &[(0, false), (1, false), (0, true)],
+        }
     }
 
     /// The whole oracle of channel number `channel` of [`Oracle::channels`]: compute, compare,
@@ -380,6 +382,12 @@ impl Oracle {
         whole.inputs.clone_from(&self.program.inputs);
         whole
     }
+}
+
+struct FlipSteps {
+    ops: Vec<Op>,
+    /// Which of them run, one after another, and whether backwards.
+    order: &'static [(u32, bool)],
 }
 
 /// One more than the greatest label of a face that a ray can meet.

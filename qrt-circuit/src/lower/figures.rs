@@ -1,13 +1,13 @@
 //! What operations cost and how many qubits they take, found once for all that are alike.
 
-use super::super::{Op, Program, RegisterId};
+use super::super::{Cores, Op, RegisterId};
 use super::cost::{Cost, counted};
 use super::place::canonical;
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
 
 /// What the lowering of an operation tells.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Figures {
     /// What the operation costs, and its inverse: [`super::costs`].
     pub costs: [Cost; 2],
@@ -38,7 +38,9 @@ pub struct Figures {
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct KnownFigures {
-    found: HashMap<Shape, Figures, BuildHasherDefault<Quick>>,
+    /// Where the figures of each are in `found`.
+    places: HashMap<Shape, usize, BuildHasherDefault<Quick>>,
+    found: Vec<Figures>,
 }
 
 /// An operation on registers that are numbered in the order in which it names them, and their
@@ -49,8 +51,38 @@ impl KnownFigures {
     /// The figures of an operation, given the widths of its registers.
     pub fn of(&mut self, op: &Op, width: impl Fn(RegisterId) -> u32) -> Figures {
         let (op, widths) = canonical(op, width);
-        let found = self.found.entry((op, widths.into()));
-        *found.or_insert_with_key(|(op, widths)| counted(op, widths))
+        let place = self.places.entry((op, widths.into()));
+        let place = *place.or_insert_with_key(|(op, widths)| {
+            self.found.push(counted(op, widths));
+            self.found.len() - 1
+        });
+        self.found[place]
+    }
+
+    /// The figures of operations, one by one, given the widths of their registers.
+    pub fn all(
+        &mut self,
+        ops: &[&Op],
+        width: impl Fn(RegisterId) -> u32 + Sync,
+        cores: Cores,
+    ) -> Vec<Figures> {
+        let shape = |op: &&Op| {
+            let (op, widths) = canonical(op, &width);
+            (op, Box::from(widths))
+        };
+        let mut new: Vec<Shape> = Vec::new();
+        let mut places = Vec::with_capacity(ops.len());
+        for shape in cores.map(ops, 64, shape) {
+            let next = self.found.len() + new.len();
+            let place = *self.places.entry(shape).or_insert_with_key(|shape| {
+                new.push(shape.clone());
+                next
+            });
+            places.push(place);
+        }
+        let figures = cores.map(&new, 16, |(op, widths)| counted(op, widths));
+        self.found.extend(figures);
+        places.into_iter().map(|place| self.found[place]).collect()
     }
 
     /// How many operations there are that differ.
@@ -61,37 +93,6 @@ impl KnownFigures {
     /// Whether there is none.
     pub fn is_empty(&self) -> bool {
         self.found.is_empty()
-    }
-
-    /// How many qubits a program has: the most in use at any time. As [`super::most_qubits`].
-    pub fn most_qubits(&mut self, program: &Program) -> u32 {
-        let mut held = vec![false; program.registers.len()];
-        let (mut in_use, mut most) = (0, 0);
-        for input in &program.inputs {
-            if !std::mem::replace(&mut held[input.index()], true) {
-                in_use += program.width(*input);
-            }
-        }
-        most = most.max(in_use);
-        for instruction in &program.instructions {
-            let op = &program.ops[instruction.op as usize];
-            let fresh = op.fresh();
-            for register in &fresh {
-                if !std::mem::replace(&mut held[register.index()], true) {
-                    in_use += program.width(*register);
-                }
-            }
-            let borrowed = self.of(op, |register| program.width(register)).borrowed;
-            most = most.max(in_use + borrowed);
-            if instruction.inverse {
-                for register in &fresh {
-                    if std::mem::replace(&mut held[register.index()], false) {
-                        in_use -= program.width(*register);
-                    }
-                }
-            }
-        }
-        most
     }
 }
 

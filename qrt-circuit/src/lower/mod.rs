@@ -47,7 +47,8 @@ pub use ghosts::with_ghosts;
 pub use place::{
     circuit, each_instruction, parts, parts_between, scratch_width, try_each_instruction,
 };
-pub use size::{Size, depth, most_qubits, size};
+pub use scale::least_toffoli;
+pub use size::{Size, depth, most_qubits, most_qubits_by, size};
 pub use table::best_low;
 
 use super::{Bit, Gate, Gates, Op, Operand, Qubit, RegisterId, Style, When, Word};
@@ -73,7 +74,7 @@ struct Lowering {
 }
 
 impl Gates for Lowering {
-    #[inline]
+    #[inline(always)]
     fn gate(&mut self, gate: Gate) {
         self.gates.push(gate);
     }
@@ -117,15 +118,22 @@ impl Lowering {
 
     /// Allocates the next garbage bit.
     fn garbage_bit(&mut self) -> Qubit {
-        let scratch = self.scratch.as_ref();
-        let own = scratch.and_then(|scratch| scratch.get(self.garbage.len()));
-        let qubit = own.copied().unwrap_or_else(|| self.pool.make());
+        let next = self.garbage.len();
+        let qubit = match &self.scratch {
+            Some(scratch) if next < scratch.len() => scratch[next],
+            _ => self.pool.make(),
+        };
         self.garbage.push(qubit);
         qubit
     }
 
     fn allocate_garbage(&mut self, bits: usize) -> Vec<Qubit> {
-        (0..bits).map(|_| self.garbage_bit()).collect()
+        let mut qubits = Vec::with_capacity(bits);
+        // A plain loop: where nobody optimises it, as in a macro, an iterator takes longer.
+        while qubits.len() < bits {
+            qubits.push(self.garbage_bit());
+        }
+        qubits
     }
 
     /// Runs backwards what was emitted from `start` to `end`.

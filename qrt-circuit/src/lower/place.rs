@@ -30,7 +30,10 @@ impl Pool {
     /// Makes a qubit that has not been in use before.
     pub(super) fn make(&mut self) -> Qubit {
         self.made += 1;
-        self.peak = self.peak.max(self.in_use());
+        let in_use = self.in_use();
+        if in_use > self.peak {
+            self.peak = in_use;
+        }
         self.made - 1
     }
 

@@ -6,7 +6,7 @@
 //! Toffolis.
 
 use super::super::multiples::{Multiples, Term};
-use super::super::{Style, Word};
+use super::super::{Op, RegisterId, Style, Word};
 use super::multiply::Landing;
 use super::{Gates, Lowering, Qubit, Wire, extended, invert, qubits};
 
@@ -86,6 +86,50 @@ impl Rows {
         let adds = |row: &Row| !row.subtract && row.place < needed;
         self.negative && self.added.first().is_some_and(adds)
     }
+}
+
+/// No more Toffolis than an operation has, found without its gates: of use for products with a constant
+/// out of place, and 0 for all others.
+pub fn least_toffoli(op: &Op, width: impl Fn(RegisterId) -> u32) -> u64 {
+    let &Op::Scale {
+        a,
+        factor,
+        drop,
+        style: Style::OutOfPlace,
+        target,
+        ..
+    } = op
+    else {
+        return 0;
+    };
+    let rows = Rows::new(a, factor);
+    let (bits, signed) = rows.extent();
+    let target = vec![0; width(target) as usize];
+    let needed = Landing::new(rows.shift, drop, &target).needed(bits, signed);
+    let own = a.width as usize;
+    // One for each carry out of a bit of the longer number, but for the first, which may be free, and the
+    // last, where two tops may be one.
+    let mut least = if rows.negative && !rows.fused(needed) {
+        own.min(rows.first.0.min(needed)).saturating_sub(2)
+    } else {
+        0
+    };
+    for (index, row) in rows.added.iter().enumerate() {
+        let end = row.after.0.min(needed);
+        if index == 0 && rows.fused(needed) {
+            // Between the two copies there may be constants alone.
+            least += (own.min(row.place) + own.min(end - row.place)).saturating_sub(3);
+        } else if row.place < row.before.0.min(end) {
+            let longer = own.max(row.before.0 - row.place);
+            let bits = end - row.place;
+            least += if a.signed || row.before.1 {
+                longer.min(bits).saturating_sub(2)
+            } else {
+                longer.min(bits - 1)
+            };
+        }
+    }
+    least as u64
 }
 
 /// Bits of the numbers in `range` times `factor`.

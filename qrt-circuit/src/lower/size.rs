@@ -1,6 +1,8 @@
 //! How many qubits circuits have, and their Toffoli depth.
 
 use super::super::{Circuit, Gate, Program, Qubit};
+#[cfg(doc)]
+use super::figures::Figures;
 use super::figures::KnownFigures;
 use super::place::each_instruction;
 
@@ -33,7 +35,41 @@ pub fn size(program: &Program) -> Size {
 
 /// The qubits of [`size`] alone.
 pub fn most_qubits(program: &Program) -> u32 {
-    KnownFigures::default().most_qubits(program)
+    let mut known = KnownFigures::default();
+    most_qubits_by(program, |op| {
+        let op = &program.ops[op];
+        known.of(op, |register| program.width(register)).borrowed
+    })
+}
+
+/// As [`most_qubits`], by what each operation, of this number, borrows: [`Figures::borrowed`].
+pub fn most_qubits_by(program: &Program, mut borrowed: impl FnMut(usize) -> u32) -> u32 {
+    let mut held = vec![false; program.registers.len()];
+    let (mut in_use, mut most) = (0, 0);
+    for input in &program.inputs {
+        if !std::mem::replace(&mut held[input.index()], true) {
+            in_use += program.width(*input);
+        }
+    }
+    most = most.max(in_use);
+    for instruction in &program.instructions {
+        let number = instruction.op as usize;
+        let fresh = program.ops[number].fresh();
+        for register in &fresh {
+            if !std::mem::replace(&mut held[register.index()], true) {
+                in_use += program.width(*register);
+            }
+        }
+        most = most.max(in_use + borrowed(number));
+        if instruction.inverse {
+            for register in &fresh {
+                if std::mem::replace(&mut held[register.index()], false) {
+                    in_use -= program.width(*register);
+                }
+            }
+        }
+    }
+    most
 }
 
 /// The Toffoli depth of a circuit: each gate runs as early as its qubits allow, and only Toffolis

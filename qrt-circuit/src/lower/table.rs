@@ -125,15 +125,20 @@ impl Truths {
         let length = columns.iter().map(|column| column.len()).max().unwrap_or(0);
         let length = length.clamp(1, all);
         let padded = length.next_multiple_of(1 << low);
+        // Plain loops: where nobody optimises them, as in a macro, iterators take ten times as long.
         let bits = |index: usize, column: &[i64]| {
-            let width = width(index);
-            let mut bits = vec![vec![0_u64; padded.div_ceil(64)]; width];
-            let last = column.last().copied().unwrap_or(0);
-            for place in 0..padded {
-                let entry = column.get(place).copied().unwrap_or(last);
-                let (word, at) = (place / 64, place % 64);
-                for (bit, vector) in bits.iter_mut().enumerate() {
-                    vector[word] |= (entry >> bit.min(63) & 1).cast_unsigned() << at;
+            let mut entries = column.to_vec();
+            entries.resize(padded, column.last().copied().unwrap_or(0));
+            let entries: &[i64] = &entries;
+            let mut bits = vec![vec![0_u64; padded.div_ceil(64)]; width(index)];
+            for (bit, vector) in bits.iter_mut().enumerate() {
+                let vector: &mut [u64] = vector;
+                let bit = bit.min(63);
+                let mut place = 0;
+                while place < entries.len() {
+                    let own = entries[place] >> bit & 1;
+                    vector[place / 64] |= (own as u64) << (place % 64);
+                    place += 1;
                 }
             }
             bits

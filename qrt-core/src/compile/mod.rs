@@ -42,7 +42,7 @@ mod value;
 
 pub use label::{Label, PixelWord, Role, StageName};
 pub use names::{NamedPlace, Place};
-pub(crate) use passes::{Known, assemble};
+pub(crate) use passes::{Known, assemble, locked};
 pub use strategy::{Garbage, Scope, Strategy};
 pub use value::{Bool, Index, Real};
 

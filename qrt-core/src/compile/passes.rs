@@ -11,12 +11,14 @@
 //!    [`super::recompute`].
 
 use super::{Label, Passes, PixelWord, Recorded, Strategy, recompute};
+use qrt_circuit::lower::{self, Figures};
 use qrt_circuit::{
-    Bit, Block, BlockId, Instruction, KnownSums, Multiples, Op, Program, Register, RegisterId,
-    Style, Word, lower,
+    Bit, Block, BlockId, Cores, Instruction, KnownSums, Multiples, Op, Program, Register,
+    RegisterId, Style, Word,
 };
 use std::collections::{HashMap, HashSet};
-use std::sync::Arc;
+use std::hash::BuildHasherDefault;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// What passes work on.
 #[derive(Clone, Debug, Default)]
@@ -30,12 +32,95 @@ pub(super) struct Draft {
 /// recording.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Known {
-    /// [`lower::best_low`]
-    lows: HashMap<Box<[RegisterId]>, u32>,
-    /// What operations cost, and the width of their garbage.
-    pub(crate) figures: lower::KnownFigures,
-    /// [`Multiples::known`]
-    multiples: KnownSums,
+    /// On how many threads it is found.
+    pub(crate) cores: Cores,
+    /// [`lower::best_low`], by the targets of a table.
+    lows: QuickMap<Box<[RegisterId]>, u32>,
+    /// By the targets of products of one number: how they are computed together, where that is cheaper.
+    together: QuickMap<Box<[RegisterId]>, Option<Arc<Multiples>>>,
+    sums: KnownSums,
+    figures: lower::KnownFigures,
+    /// By the register that they compute first: the figures of operations that no pass changes.
+    of_recorded: Vec<Option<Figures>>,
+    /// By the registers that they compute: the figures of tables and products.
+    of_merged: QuickMap<Box<[RegisterId]>, Figures>,
+}
+
+/// A map whose keys nobody chooses to collide.
+type QuickMap<K, V> = HashMap<K, V, BuildHasherDefault<lower::Quick>>;
+
+/// What is known, for the caller alone until it is given back. What a thread has found out before it
+/// panicked is true.
+pub(crate) fn locked(known: &Mutex<Known>) -> MutexGuard<'_, Known> {
+    known.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Where the figures of an operation are kept.
+enum Place {
+    Recorded(usize),
+    Merged(Box<[RegisterId]>),
+    /// Copies are numbered anew in each program.
+    Nowhere,
+}
+
+impl Known {
+    /// What operations cost, one by one, and the width of their garbage.
+    pub(crate) fn figures<'a>(
+        &mut self,
+        ops: impl Iterator<Item = &'a Op>,
+        registers: &[Register],
+    ) -> Vec<Figures> {
+        let mut figures = Vec::new();
+        let mut unknown = Vec::new();
+        for op in ops {
+            let place = self.place(op);
+            let known = match &place {
+                Place::Recorded(first) => self.of_recorded[*first],
+                Place::Merged(targets) => self.of_merged.get(targets).copied(),
+                Place::Nowhere => None,
+            };
+            if known.is_none() {
+                unknown.push((figures.len(), op, place));
+            }
+            figures.push(known.unwrap_or_default());
+        }
+        let ops: Vec<&Op> = unknown.iter().map(|&(_, op, _)| op).collect();
+        let width = |id: RegisterId| registers[id.index()].width;
+        let found = self.figures.all(&ops, width, self.cores);
+        for ((at, _, place), found) in unknown.into_iter().zip(found) {
+            figures[at] = found;
+            match place {
+                Place::Recorded(first) => self.of_recorded[first] = Some(found),
+                Place::Merged(targets) => {
+                    self.of_merged.insert(targets, found);
+                }
+                Place::Nowhere => {}
+            }
+        }
+        figures
+    }
+
+    fn place(&self, op: &Op) -> Place {
+        if let Op::Table { targets, .. } | Op::Multiples { targets, .. } = op {
+            return Place::Merged(targets.clone());
+        }
+        let first = op.targets().first().map(|target| target.index());
+        match first.filter(|first| *first < self.of_recorded.len()) {
+            Some(first) => Place::Recorded(first),
+            None => Place::Nowhere,
+        }
+    }
+
+    /// Keeps whether products of one number are computed together, as `op` does.
+    fn decide(&mut self, op: Op, is_cheaper: bool) {
+        if let Op::Multiples {
+            products, targets, ..
+        } = op
+        {
+            self.together
+                .insert(targets, is_cheaper.then_some(products));
+        }
+    }
 }
 
 impl Draft {
@@ -87,13 +172,12 @@ impl Draft {
     }
 
     /// Gives every garbage register the width that its operation needs.
-    pub(super) fn size_scratch(&mut self, known: &mut Known) {
-        for (op, _) in &self.ops {
-            let registers = &self.registers;
-            if let Some(scratch) = op.scratch() {
-                let figures = known.figures.of(op, |id| registers[id.index()].width);
-                self.registers[scratch.index()].width = figures.scratch;
-            }
+    pub(super) fn size_scratch(&mut self, known: &Mutex<Known>) {
+        let ops = self.ops.iter().map(|(op, _)| op);
+        let ops = ops.filter(|op| op.scratch().is_some());
+        let figures = locked(known).figures(ops.clone(), &self.registers);
+        for (scratch, figures) in ops.filter_map(Op::scratch).zip(figures) {
+            self.registers[scratch.index()].width = figures.scratch;
         }
     }
 }
@@ -118,7 +202,7 @@ pub(super) fn needed(draft: &mut Draft, roots: &[RegisterId]) {
 }
 
 /// Makes one table of all that have the same address and can run where the first one does.
-pub(super) fn merge_tables(draft: &mut Draft, known_of: &mut Known) {
+pub(super) fn merge_tables(draft: &mut Draft, known_of: &Mutex<Known>) {
     let mut defined: Vec<Option<usize>> = vec![None; draft.registers.len()];
     let mut groups: HashMap<(Vec<Bit>, Option<BlockId>), Vec<usize>> = HashMap::new();
     for (place, (op, block)) in draft.ops.iter().enumerate() {
@@ -190,13 +274,8 @@ pub(super) fn merge_tables(draft: &mut Draft, known_of: &mut Known) {
         }
         let targets: Box<[RegisterId]> = targets.into();
         let op = Op::Table {
-            low: match how {
-                Style::OutOfPlace => *known_of
-                    .lows
-                    .entry(targets.clone())
-                    .or_insert_with(|| lower::best_low(address.len() as u32, &columns)),
-                Style::InPlace => 0,
-            },
+            // Found below.
+            low: 0,
             style: how,
             address: address.into(),
             columns: Arc::from(columns),
@@ -205,6 +284,7 @@ pub(super) fn merge_tables(draft: &mut Draft, known_of: &mut Known) {
         };
         inserted.push((start, op, block));
     }
+    choose_lows(inserted.iter_mut().map(|(_, op, _)| op), known_of);
     inserted.sort_by_key(|&(place, ..)| place);
     let mut inserted = inserted.into_iter().peekable();
     let mut merged = Vec::with_capacity(draft.ops.len());
@@ -219,11 +299,38 @@ pub(super) fn merge_tables(draft: &mut Draft, known_of: &mut Known) {
     draft.ops = merged;
 }
 
+/// Chooses by how many low bits of its address each table that leaves garbage selects.
+fn choose_lows<'a>(tables: impl Iterator<Item = &'a mut Op>, known: &Mutex<Known>) {
+    let mut tables: Vec<&mut Op> = tables.collect();
+    let mut known = locked(known);
+    let unknown = tables.iter().filter_map(|table| match &**table {
+        Op::Table {
+            address,
+            columns,
+            targets,
+            style: Style::OutOfPlace,
+            ..
+        } if !known.lows.contains_key(targets) => Some((address.len() as u32, columns, targets)),
+        _ => None,
+    });
+    let unknown: Vec<_> = unknown.collect();
+    let found = known.cores.map(&unknown, 1, |(bits, columns, _)| {
+        lower::best_low(*bits, columns)
+    });
+    let targets = unknown.iter().map(|(.., targets)| (*targets).clone());
+    known.lows.extend(targets.zip(found).collect::<Vec<_>>());
+    for table in &mut tables {
+        if let Op::Table { low, targets, .. } = table {
+            *low = known.lows.get(&*targets).copied().unwrap_or(0);
+        }
+    }
+}
+
 /// So many products are computed together, at most.
 const TOGETHER: usize = 12;
 
 /// Computes products of one number with constants by sums that they share, where that is cheaper.
-fn share_multiples(draft: &mut Draft, strategy: Strategy, known: &mut Known) {
+fn share_multiples(draft: &mut Draft, strategy: Strategy, known: &Mutex<Known>) {
     // What is in a scope is not there for others.
     let is_scope = |block: &BlockId| {
         let stage = Label::of(&draft.blocks[block.index()]).stage;
@@ -240,54 +347,99 @@ fn share_multiples(draft: &mut Draft, strategy: Strategy, known: &mut Known) {
     }
     let mut groups: Vec<((Word, _), Vec<usize>)> = groups.into_iter().collect();
     groups.sort_by_key(|(_, places)| places[0]);
+    let groups = groups.iter().map(|(_, places)| places);
+    let chunks: Vec<&[usize]> = groups.flat_map(|places| places.chunks(TOGETHER)).collect();
+    let mut known = locked(known);
+    learn_together(draft, &chunks, &mut known);
     let mut gone = vec![false; draft.ops.len()];
-    for ((a, _), places) in groups {
-        for places in places.chunks(TOGETHER) {
-            let mut products = Vec::new();
-            let mut targets = Vec::new();
-            let mut leavings = None;
-            for &place in places {
-                if let Op::Scale {
-                    factor,
-                    drop,
-                    target,
-                    scratch,
-                    ..
-                } = draft.ops[place].0
-                {
-                    products.push((factor, drop));
-                    targets.push(target);
-                    leavings.get_or_insert(scratch);
-                }
-            }
-            let planned = Multiples::known(&products, &mut known.multiples).map(Arc::new);
-            let (Some(products), Some(scratch)) = (planned, leavings) else {
-                continue;
-            };
-            let together = Op::Multiples {
-                a,
-                products,
-                targets: targets.into(),
-                scratch,
-            };
-            let width = |id: RegisterId| draft.registers[id.index()].width;
-            let mut toffoli = |op: &Op| known.figures.of(op, width).costs[0].toffoli;
-            // Those that come apart are counted until they cost more.
-            let (most, mut apart) = (toffoli(&together), 0);
-            let costs_less = places.iter().any(|&place| {
-                apart += toffoli(&draft.ops[place].0);
-                most < apart
-            });
-            if costs_less {
-                draft.ops[places[0]].0 = together;
-                for &place in &places[1..] {
-                    gone[place] = true;
-                }
-            }
+    for places in chunks {
+        let first = &draft.ops[places[0]].0;
+        let targets = targets_of(draft, places);
+        let (Some(Some(products)), &Op::Scale { a, scratch, .. }) =
+            (known.together.get(&targets), first)
+        else {
+            continue;
+        };
+        draft.ops[places[0]].0 = Op::Multiples {
+            a,
+            products: Arc::clone(products),
+            targets,
+            scratch,
+        };
+        for &place in &places[1..] {
+            gone[place] = true;
         }
     }
     let mut gone = gone.into_iter();
     draft.ops.retain(|_| !gone.next().unwrap_or(false));
+}
+
+fn targets_of(draft: &Draft, places: &[usize]) -> Box<[RegisterId]> {
+    let targets = places.iter().map(|&place| draft.ops[place].0.targets());
+    targets.flatten().collect()
+}
+
+/// Finds out which products of one number, those at each of these places, are cheaper together.
+fn learn_together(draft: &Draft, chunks: &[&[usize]], known: &mut Known) {
+    let new = chunks
+        .iter()
+        .map(|places| (*places, targets_of(draft, places)));
+    let new = new.filter(|(_, targets)| !known.together.contains_key(targets));
+    let new: Vec<(&[usize], Box<[RegisterId]>)> = new.collect();
+    let products = new.iter().map(|(places, _)| {
+        let scales = places.iter().filter_map(|&place| match draft.ops[place].0 {
+            Op::Scale { factor, drop, .. } => Some((factor, drop)),
+            _ => None,
+        });
+        scales.collect()
+    });
+    let products: Vec<Box<[(i64, u32)]>> = products.collect();
+    let planned = Multiples::all(&products, &mut known.sums, known.cores);
+    let mut together = Vec::new();
+    for ((places, targets), products) in new.into_iter().zip(planned) {
+        match (products, &draft.ops[places[0]].0) {
+            (Some(products), &Op::Scale { a, scratch, .. }) => {
+                let op = Op::Multiples {
+                    a,
+                    products: products.into(),
+                    targets,
+                    scratch,
+                };
+                together.push((places, op));
+            }
+            _ => {
+                known.together.insert(targets, None);
+            }
+        }
+    }
+    let toffoli = |figures: Figures| figures.costs[0].toffoli;
+    let costs = known.figures(together.iter().map(|(_, op)| op), &draft.registers);
+    let apart = |&place: &usize| &draft.ops[place].0;
+    let width = |id: RegisterId| draft.registers[id.index()].width;
+    // What they cost apart is counted where it is not clear.
+    let mut unclear = Vec::new();
+    for ((places, op), most) in together.into_iter().zip(costs.into_iter().map(toffoli)) {
+        let least: u64 = places
+            .iter()
+            .map(|place| lower::least_toffoli(apart(place), width))
+            .sum();
+        if most < least {
+            known.decide(op, true);
+        } else {
+            unclear.push((places, op, most));
+        }
+    }
+    let all = unclear
+        .iter()
+        .flat_map(|(places, ..)| places.iter().map(apart));
+    let mut costs = known
+        .figures(all, &draft.registers)
+        .into_iter()
+        .map(toffoli);
+    for (places, op, most) in unclear {
+        let apart: u64 = costs.by_ref().take(places.len()).sum();
+        known.decide(op, most < apart);
+    }
 }
 
 /// A block's content, in order.
@@ -471,9 +623,12 @@ pub(crate) fn assemble(
     passes: Passes,
     strategy: Strategy,
     inputs: &[RegisterId],
-    known: &mut Known,
+    known: &Mutex<Known>,
 ) -> (Program, HashMap<RegisterId, RegisterId>) {
     let mut draft = recorded.draft;
+    locked(known)
+        .of_recorded
+        .resize(draft.registers.len(), None);
     if passes.needed {
         let mut kept = roots.to_vec();
         kept.extend(recorded.records);

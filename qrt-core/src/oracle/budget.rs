@@ -1,11 +1,11 @@
 //! What a scene allows its circuit, and what is wrong when there is no circuit.
 
 use super::{MOST_FACES, Oracle, OracleError};
-use crate::compile::BuildError;
+use crate::compile::{self, BuildError};
 use crate::scene::{Nearest, Uncompute};
 use crate::syntax::{Circuit, Path, Problem, Problems};
 use crate::valid::ValidScene;
-use qrt_circuit::lower;
+use qrt_circuit::lower::{self, Figures};
 
 /// What one call of an oracle costs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,27 +18,39 @@ pub struct CallCost {
 
 /// The cost of a call of the most expensive of these oracles, each of which is of one channel.
 pub fn call_cost(channels: &[Oracle]) -> CallCost {
-    call_cost_by(channels, &mut lower::KnownFigures::default())
+    call_cost_by(channels, &mut compile::Known::default())
 }
 
 /// As [`call_cost`], by what is known of operations.
-pub(super) fn call_cost_by(channels: &[Oracle], known: &mut lower::KnownFigures) -> CallCost {
-    let mut dearest = None;
+pub(super) fn call_cost_by(channels: &[Oracle], known: &mut compile::Known) -> CallCost {
+    let mut dearest: Option<(u64, &Oracle, Vec<Figures>)> = None;
     for oracle in channels {
         let program = &oracle.program;
-        let mut toffoli = lower::toffoli(&oracle.flip(0));
-        for instruction in &program.instructions {
-            let op = &program.ops[instruction.op as usize];
-            let figures = known.of(op, |register| program.width(register));
-            toffoli += 2 * figures.costs[0].toffoli;
-        }
-        if dearest.is_none_or(|(most, _)| most < toffoli) {
-            dearest = Some((toffoli, oracle));
+        let flip = oracle.flip_steps(0);
+        let ops = program.ops.iter().chain(&flip.ops);
+        let figures = known.figures(ops, &program.registers);
+        let toffoli = |op: usize| figures[op].costs[0].toffoli;
+        let once = program.instructions.iter();
+        let once: u64 = once
+            .map(|instruction| toffoli(instruction.op as usize))
+            .sum();
+        let steps = flip.order.iter();
+        let steps = steps.map(|(step, _)| toffoli(program.ops.len() + *step as usize));
+        let toffoli = 2 * once + steps.sum::<u64>();
+        if dearest.as_ref().is_none_or(|&(most, ..)| most < toffoli) {
+            dearest = Some((toffoli, oracle, figures));
         }
     }
+    let Some((toffoli, oracle, figures)) = dearest else {
+        return CallCost {
+            qubits: 0,
+            toffoli: 0,
+        };
+    };
+    let qubits = lower::most_qubits_by(&oracle.upto_flip(), |op| figures[op].borrowed);
     CallCost {
-        qubits: dearest.map_or(0, |(_, oracle)| u64::from(oracle.qubits_by(known))),
-        toffoli: dearest.map_or(0, |(toffoli, _)| toffoli),
+        qubits: u64::from(qubits),
+        toffoli,
     }
 }
 
@@ -195,6 +207,23 @@ sampling:
 "
         );
         parse(&text, "tilted.yaml", &[], "".as_ref()).unwrap_or_else(|report| panic!("{report}"))
+    }
+
+    #[test]
+    fn what_is_found_on_all_cores_is_what_is_found_on_one() {
+        let loaded =
+            tilted("phong: { diffuse: [0.2, 0.3, 0.4], specular: [0.5, 0.5, 0.1], exponent: 12 }");
+        for uncompute in [Uncompute::Keep, Uncompute::Scoped] {
+            let mut scene = loaded.valid.scene().clone();
+            scene.circuit.uncompute = uncompute;
+            let scene = scene.validate("".as_ref()).unwrap();
+            let (channels, rgb) = Oracle::all(&scene).unwrap();
+            let (sooner, cost) = Oracle::rgb_and_cost(&scene).unwrap();
+            assert_eq!(rgb.program, sooner.program);
+            assert_eq!(call_cost(&channels), cost);
+            let toffoli = |oracle: &Oracle| lower::toffoli(&oracle.whole(0));
+            assert_eq!(channels.iter().map(toffoli).max(), Some(cost.toffoli));
+        }
     }
 
     /// A cosine is at most 1, and so are its powers.

@@ -9,6 +9,7 @@ use crate::tracer::{Arith, FaceTable, Named, Part, PixelClass, Quantity, Stage};
 use crate::valid::ValidScene;
 use qrt_circuit::lower::{self, Cost};
 use qrt_circuit::{Bit, BlockId, Instruction, Op, Operand, Program, RegisterId, Word};
+use std::sync::Mutex;
 
 /// Most faces of a table that is looked up by a face's number: one number of 16 bits stands for
 /// none.
@@ -134,7 +135,7 @@ impl NearestOracle {
             options.passes,
             strategy,
             &[id, primitive, best_distance, best_primitive],
-            &mut compile::Known::default(),
+            &Mutex::default(),
         );
         let rename = |register: RegisterId| *renamed.get(&register).unwrap_or(&register);
         Ok(Some(Self {

@@ -12,8 +12,9 @@ use crate::tracer::{
     self, Arith, FaceTable, PrimaryHitGiven, Quantity, Records, Search, Stage, trace,
 };
 use crate::valid::ValidScene;
-use qrt_circuit::{Operand, Program, RegisterId, Type, Word, lower};
+use qrt_circuit::{Operand, Program, RegisterId, Type, Word};
 use std::collections::HashSet;
+use std::sync::{Mutex, MutexGuard};
 
 /// Channels by number.
 const CHANNELS: [&str; 5] = ["r", "g", "b", "luminance", "predicate"];
@@ -71,7 +72,7 @@ pub(super) struct Recording {
     strategy: Strategy,
     options: Options,
     known: Oracle,
-    ops: compile::Known,
+    ops: Mutex<compile::Known>,
 }
 
 impl Recording {
@@ -180,7 +181,7 @@ impl Recording {
             strategy,
             options,
             known,
-            ops: compile::Known::default(),
+            ops: Mutex::default(),
         })
     }
 
@@ -190,13 +191,13 @@ impl Recording {
         self.strategy = strategy;
     }
 
-    /// What is known of operations.
-    pub(super) fn figures(&mut self) -> &mut lower::KnownFigures {
-        &mut self.ops.figures
+    /// What is known of operations; others wait until it is given back.
+    pub(super) fn known(&self) -> MutexGuard<'_, compile::Known> {
+        compile::locked(&self.ops)
     }
 
     /// The oracle of the channels at these places among those recorded.
-    pub(super) fn oracle(&mut self, places: &[usize]) -> Oracle {
+    pub(super) fn oracle(&self, places: &[usize]) -> Oracle {
         let mut outputs: Vec<Channel> = places
             .iter()
             .map(|&place| self.known.channels[place].clone())
@@ -211,7 +212,7 @@ impl Recording {
             self.options.passes,
             self.strategy,
             &inputs,
-            &mut self.ops,
+            &self.ops,
         );
         let rename = |operand: Operand| match operand {
             Operand::Word(word) => Operand::Word(Word {

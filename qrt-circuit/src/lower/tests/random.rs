@@ -1,10 +1,12 @@
 //! Every operation of up to 32 bits, at random, and programs of several operations.
 
 use super::super::super::{
-    Bit, BlockId, Contents, Gate, Instruction, Multiples, Op, Operand, RegisterId, Style, When,
-    Word,
+    Bit, BlockId, Contents, Cores, Gate, Instruction, Multiples, Op, Operand, RegisterId, Style,
+    When, Word,
 };
-use super::super::{KnownFigures, circuit, costs, depth, most_qubits, scratch_width, tally};
+use super::super::{
+    KnownFigures, circuit, costs, depth, least_toffoli, most_qubits, scratch_width, tally,
+};
 use super::simulate::{Bench, program};
 use proptest::prelude::*;
 
@@ -236,6 +238,35 @@ proptest! {
         prop_assert_eq!(figures.costs, costs(&op, |id| program.width(id)));
         prop_assert_eq!(figures.scratch, scratch_width(&op, |id| program.width(id)));
     }
+}
+
+/// What is found without the gates of a product with a constant is nearly all of its Toffolis, and what
+/// is found on all cores what is found one by one.
+#[test]
+fn products_with_constants_are_nearly_counted_without_their_gates() {
+    let width = |register: RegisterId| [12, 31, 0][register.index()];
+    let scale = |factor| Op::Scale {
+        a: Word::unsigned(RegisterId(0), 0, 12),
+        factor,
+        drop: 4,
+        style: Style::OutOfPlace,
+        target: RegisterId(1),
+        scratch: RegisterId(2),
+    };
+    let ops: Vec<Op> = (1_i64..2000).map(|step| scale(step * 521 + 1)).collect();
+    let toffoli: u64 = ops.iter().map(|op| costs(op, width)[0].toffoli).sum();
+    let least: u64 = ops.iter().map(|op| least_toffoli(op, width)).sum();
+    assert!(10 * least > 9 * toffoli, "{least} of {toffoli}");
+    let ops: Vec<&Op> = ops.iter().collect();
+    let mut known = KnownFigures::default();
+    let each: Vec<_> = ops.iter().map(|op| known.of(op, width)).collect();
+    let [all, again] = [KnownFigures::default(), known].map(|mut known| {
+        let all = known.all(&ops, width, Cores::All);
+        assert_eq!(known.len(), ops.len());
+        all
+    });
+    assert_eq!(each, all);
+    assert_eq!(each, again);
 }
 
 /// A chain of products of which each reads the one before, computed, undone and computed again.

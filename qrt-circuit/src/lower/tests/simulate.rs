@@ -4,7 +4,7 @@ use super::super::super::{
     Block, BlockId, Circuit, Contents, Gate, Instruction, Op, Parameter, Program, Register,
     RegisterId, Type,
 };
-use super::super::{circuit, cost, scratch_width};
+use super::super::{circuit, cost, least_toffoli, scratch_width};
 
 /// A program of one operation and, if `undone`, its inverse; `widths` are of all registers but the
 /// scratch register, which is the last.
@@ -116,6 +116,8 @@ impl Bench {
                 "{op:?} {widths:?}"
             );
             assert!(cost.and_measured <= cost.toffoli);
+            let least = least_toffoli(op, |id| program.width(id));
+            assert!(least <= cost.toffoli, "{least}: {op:?} {widths:?}");
         }
         Self {
             op: op.clone(),

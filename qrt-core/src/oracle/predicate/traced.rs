@@ -10,6 +10,7 @@ use crate::scene::Nearest;
 use crate::tracer::{Arith, Records, Search, Segment, Stage, vector};
 use crate::valid::ValidScene;
 use qrt_circuit::{RegisterId, Type};
+use std::sync::Mutex;
 
 /// The oracle of a path's numbers, and the registers that hold them.
 pub(super) fn traced(
@@ -81,7 +82,7 @@ pub(super) fn traced(
         options.passes,
         strategy,
         &[id, comparator],
-        &mut compile::Known::default(),
+        &Mutex::default(),
     );
     let rename = |register: RegisterId| *renamed.get(&register).unwrap_or(&register);
     for channel in &mut channels {
