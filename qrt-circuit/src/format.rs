@@ -145,7 +145,9 @@ impl<R: fmt::Debug, T> fmt::Debug for Reg<R, T> {
 }
 
 impl<R, T: Format> Reg<R, T> {
-    fn new(register: R) -> Self {
+    /// A register that was declared with this format.
+    #[doc(hidden)]
+    pub fn new(register: R) -> Self {
         Self {
             register,
             format: PhantomData,
@@ -156,6 +158,12 @@ impl<R, T: Format> Reg<R, T> {
     #[inline(always)]
     pub fn zero<M: Machine<Register = R>>(machine: &mut M, name: &'static str) -> Self {
         Self::new(machine.zero(&Declaration::work(name, T::TYPE, T::WIDTH)))
+    }
+
+    /// Undoes the operation that computed the register.
+    #[inline(always)]
+    pub fn undo<M: Machine<Register = R>>(self, machine: &mut M) {
+        machine.undo([self.register]);
     }
 
     /// Frees a register of one's own, which holds 0 again.

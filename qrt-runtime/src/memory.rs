@@ -4,7 +4,7 @@
 mod allowance;
 
 pub use allowance::{CircuitSize, CircuitWork, Memory, MemoryError};
-pub(crate) use allowance::{QUBITS_OF_ONE_TURN, bytes_of_rows};
+pub(crate) use allowance::{QUBITS_OF_ONE_TURN, bytes_of_rows, bytes_of_templates};
 
 /// The most memory that was resident at any time since the process began, in bytes: Linux's
 /// `VmHWM`, right to within the few pages per core that the kernel has not yet counted. `None` on

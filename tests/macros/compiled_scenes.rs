@@ -249,6 +249,53 @@ fn the_layout_reads_rays_of_unit_length_inside_the_box() {
     assert!(hits > 50, "{hits} hits");
 }
 
+/// Whether a ray meets something within half a unit of the circuit's.
+#[reversible]
+fn is_near(found: &Bool, distance: &UFixed<2, 16>, near: &mut Bool) {
+    near ^= found && distance < 0.5;
+}
+
+/// A field is a register that a reversible function takes; what the function leaves is the caller's.
+#[test]
+fn a_function_takes_fields_as_registers() {
+    let (pixel, ray) = ([30, 20], Box::LAYOUT.ray0);
+    let mut count = [0; 2];
+    for path in 0..64 {
+        let (mut state, id) = State::path::<Box>(1, pixel, path).unwrap();
+        let mut near = Reg::zero(&mut state, "near");
+        let expected = Box::within(&mut state, &id, |state, path| {
+            path.with(state, &ray.found, |state, found| {
+                path.with(state, &ray.distance, |state, distance| {
+                    is_near(state, found, distance, &mut near);
+                });
+            });
+            let bits = |state: &State, word: Word<&_>| state.bits(word.register);
+            let found = ray.found.value(bits(state, path.word(&ray.found)), pixel);
+            let distance = ray
+                .distance
+                .value(bits(state, path.word(&ray.distance)), pixel);
+            found == 1.0 && distance < 0.5
+        });
+        assert_eq!(
+            state.bits(near.register()),
+            u64::from(expected),
+            "path {path}"
+        );
+        count[usize::from(expected)] += 1;
+        // The same again undoes it: all that is left is the path's index.
+        Box::within(&mut state, &id, |state, path| {
+            path.with(state, &ray.found, |state, found| {
+                path.with(state, &ray.distance, |state, distance| {
+                    is_near(state, found, distance, &mut near);
+                });
+            });
+        });
+        near.free(&mut state);
+        state.clean().unwrap();
+    }
+    assert!(count[0] > 0, "{count:?}");
+}
+
 /// What is computed among a path's registers and never undone is found when all of them are zero again.
 #[test]
 fn what_is_left_within_a_path_is_found() {

@@ -39,19 +39,21 @@ pub struct Figures {
 #[derive(Clone, Debug, Default)]
 pub struct KnownFigures {
     /// Where the figures of each are in `found`.
-    places: HashMap<Shape, usize, BuildHasherDefault<Quick>>,
+    places: QuickMap<Shape, usize>,
     found: Vec<Figures>,
 }
 
 /// An operation on registers that are numbered in the order in which it names them, and their
 /// widths.
-type Shape = (Op, Box<[u32]>);
+pub(super) type Shape = (Op, Box<[u32]>);
+
+/// A map whose keys nobody chooses to collide.
+pub(super) type QuickMap<K, V> = HashMap<K, V, BuildHasherDefault<Quick>>;
 
 impl KnownFigures {
     /// The figures of an operation, given the widths of its registers.
     pub fn of(&mut self, op: &Op, width: impl Fn(RegisterId) -> u32) -> Figures {
-        let (op, widths) = canonical(op, width);
-        let place = self.places.entry((op, widths.into()));
+        let place = self.places.entry(canonical(op, width));
         let place = *place.or_insert_with_key(|(op, widths)| {
             self.found.push(counted(op, widths));
             self.found.len() - 1
@@ -66,10 +68,7 @@ impl KnownFigures {
         width: impl Fn(RegisterId) -> u32 + Sync,
         cores: Cores,
     ) -> Vec<Figures> {
-        let shape = |op: &&Op| {
-            let (op, widths) = canonical(op, &width);
-            (op, Box::from(widths))
-        };
+        let shape = |op: &&Op| canonical(op, &width);
         let mut new: Vec<Shape> = Vec::new();
         let mut places = Vec::with_capacity(ops.len());
         for shape in cores.map(ops, 64, shape) {

@@ -34,6 +34,7 @@ mod scale;
 mod size;
 mod square;
 mod table;
+mod template;
 #[cfg(test)]
 mod tests;
 mod walk;
@@ -50,6 +51,7 @@ pub use place::{
 pub use scale::least_toffoli;
 pub use size::{Size, depth, most_qubits, most_qubits_by, size};
 pub use table::best_low;
+pub use template::{Templates, try_each_template};
 
 use super::{Bit, Gate, Gates, Op, Operand, Qubit, RegisterId, Style, When, Word};
 use place::Pool;

@@ -2,6 +2,7 @@
 
 use super::super::{Circuit, Gate, Op, Program, Qubit, RegisterId};
 use super::Lowering;
+use super::figures::Shape;
 use std::cell::RefCell;
 use std::convert::Infallible;
 
@@ -43,6 +44,11 @@ impl Pool {
         self.idle.push(qubit);
     }
 
+    /// The qubits that are free, in the order in which they were freed.
+    pub(super) fn idle(&self) -> &[Qubit] {
+        &self.idle
+    }
+
     /// How many qubits there are.
     pub(super) fn made(&self) -> u32 {
         self.made
@@ -61,7 +67,7 @@ impl Pool {
 
 impl Lowering {
     /// A lowering with the program's inputs placed.
-    fn on(program: &Program) -> Self {
+    pub(super) fn on(program: &Program) -> Self {
         let mut lowering = Self {
             registers: vec![Vec::new(); program.registers.len()],
             ..Self::default()
@@ -97,10 +103,7 @@ impl Lowering {
 
     /// Emits an operation or its inverse, and says how many qubits are in use meanwhile.
     fn instruction(&mut self, program: &Program, op: &Op, inverse: bool) -> u32 {
-        let fresh = op.fresh();
-        for register in &fresh {
-            self.place(*register, program.width(*register));
-        }
+        self.place_fresh(program, op);
         self.pool.peak = self.pool.in_use();
         let scratch = op.scratch().map(|id| self.register(id));
         self.scratch = Some(scratch.unwrap_or_default());
@@ -108,11 +111,23 @@ impl Lowering {
         self.lower(op);
         if inverse {
             self.gates[start..].reverse();
-            for register in fresh.iter().rev() {
-                self.displace(*register);
-            }
+            self.displace_fresh(op);
         }
         self.pool.peak
+    }
+
+    /// Allocates the qubits of what an operation computes, as far as they are not there.
+    pub(super) fn place_fresh(&mut self, program: &Program, op: &Op) {
+        for register in op.fresh() {
+            self.place(register, program.width(register));
+        }
+    }
+
+    /// Frees them.
+    pub(super) fn displace_fresh(&mut self, op: &Op) {
+        for register in op.fresh().into_iter().rev() {
+            self.displace(register);
+        }
     }
 }
 
@@ -130,22 +145,28 @@ pub fn scratch_width(op: &Op, width: impl Fn(RegisterId) -> u32) -> u32 {
 
 /// An operation on registers that are numbered in the order in which it names them, and the widths of
 /// these; that of its garbage register, which is still to be found, is 0.
-pub(super) fn canonical(op: &Op, width: impl Fn(RegisterId) -> u32) -> (Op, Vec<u32>) {
+pub(super) fn canonical(op: &Op, width: impl Fn(RegisterId) -> u32) -> Shape {
     let scratch = op.scratch();
+    let (op, registers) = numbered(op);
+    let width = |id: RegisterId| if Some(id) == scratch { 0 } else { width(id) };
+    (op, registers.into_iter().map(width).collect())
+}
+
+/// An operation on registers that are numbered in the order in which it names them, and these.
+pub(super) fn numbered(op: &Op) -> (Op, Vec<RegisterId>) {
     // Shared by what is read and what is written.
-    let known = RefCell::new((Vec::new(), Vec::new()));
+    let known = RefCell::new(Vec::new());
     let number = |id: RegisterId| {
-        let (ids, widths) = &mut *known.borrow_mut();
+        let ids = &mut *known.borrow_mut();
         let place = ids.iter().position(|known| *known == id);
         let place = place.unwrap_or_else(|| {
             ids.push(id);
-            widths.push(if Some(id) == scratch { 0 } else { width(id) });
             ids.len() - 1
         });
         RegisterId(place as u32)
     };
     let op = op.clone().map(number, number);
-    (op, known.into_inner().1)
+    (op, known.into_inner())
 }
 
 /// A lowering with registers of these widths on qubits of their own.

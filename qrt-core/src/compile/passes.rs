@@ -39,7 +39,8 @@ pub(crate) struct Known {
     /// By the targets of products of one number: how they are computed together, where that is cheaper.
     together: QuickMap<Box<[RegisterId]>, Option<Arc<Multiples>>>,
     sums: KnownSums,
-    figures: lower::KnownFigures,
+    /// The figures of operations that are alike.
+    pub(crate) alike: lower::KnownFigures,
     /// By the register that they compute first: the figures of operations that no pass changes.
     of_recorded: Vec<Option<Figures>>,
     /// By the registers that they compute: the figures of tables and products.
@@ -47,7 +48,10 @@ pub(crate) struct Known {
 }
 
 /// A map whose keys nobody chooses to collide.
-type QuickMap<K, V> = HashMap<K, V, BuildHasherDefault<lower::Quick>>;
+pub(super) type QuickMap<K, V> = HashMap<K, V, BuildHasherDefault<lower::Quick>>;
+
+/// By register that was recorded, the copy that stands for it.
+pub(super) type Renamed = QuickMap<RegisterId, RegisterId>;
 
 /// What is known, for the caller alone until it is given back. What a thread has found out before it
 /// panicked is true.
@@ -86,7 +90,7 @@ impl Known {
         }
         let ops: Vec<&Op> = unknown.iter().map(|&(_, op, _)| op).collect();
         let width = |id: RegisterId| registers[id.index()].width;
-        let found = self.figures.all(&ops, width, self.cores);
+        let found = self.alike.all(&ops, width, self.cores);
         for ((at, _, place), found) in unknown.into_iter().zip(found) {
             figures[at] = found;
             match place {
@@ -454,10 +458,12 @@ struct Scheduler<'a> {
     /// Whether the work of each block is undone at its end.
     scopes: Vec<bool>,
     items: Vec<Vec<Item>>,
-    /// By register: the blocks around the ops that read it, none for what stays to the end.
-    readers: HashMap<RegisterId, Vec<Option<BlockId>>>,
+    /// By register, but for copies: the blocks around the ops that read it, none for what stays to the end.
+    readers: Vec<Vec<Option<BlockId>>>,
     /// Copies that stand for registers of finished scopes.
-    renamed: HashMap<RegisterId, RegisterId>,
+    renamed: Renamed,
+    /// By copy: the registers that it stands for.
+    stands_for: QuickMap<RegisterId, Vec<RegisterId>>,
 }
 
 /// The order of instructions: all at once, or scope by scope. `roots` outlive everything; under
@@ -466,7 +472,7 @@ pub(super) fn schedule(
     draft: &mut Draft,
     strategy: Strategy,
     roots: &[RegisterId],
-) -> (Vec<Instruction>, HashMap<RegisterId, RegisterId>) {
+) -> (Vec<Instruction>, Renamed) {
     if strategy.recomputes() {
         return recompute::schedule(draft, strategy, roots);
     }
@@ -477,26 +483,28 @@ pub(super) fn schedule(
             inverse: false,
             block,
         });
-        return (instructions.collect(), HashMap::new());
+        return (instructions.collect(), Renamed::default());
     }
-    let mut readers: HashMap<RegisterId, Vec<Option<BlockId>>> = HashMap::new();
+    let mut readers = vec![Vec::new(); draft.registers.len()];
     for root in roots {
-        readers.entry(*root).or_default().push(None);
-    }
-    for (op, block) in &draft.ops {
-        for read in op.reads() {
-            readers.entry(read).or_default().push(Some(*block));
-        }
+        readers[root.index()].push(None);
     }
     // Blocks stand in their parents where their first op does.
-    let mut placed: HashSet<BlockId> = HashSet::new();
+    let mut placed = vec![false; draft.blocks.len()];
     let mut items: Vec<Vec<Item>> = vec![Vec::new(); draft.blocks.len()];
-    for (place, (_, block)) in draft.ops.iter().enumerate() {
-        let path = draft.ancestors(*block);
-        for pair in path.windows(2) {
-            if placed.insert(pair[0]) {
-                items[pair[1].index()].push(Item::Block(pair[0]));
+    for (place, (op, block)) in draft.ops.iter().enumerate() {
+        for read in op.reads() {
+            let readers: &mut Vec<Option<BlockId>> = &mut readers[read.index()];
+            if readers.last() != Some(&Some(*block)) {
+                readers.push(Some(*block));
             }
+        }
+        let mut at = *block;
+        while let Some(parent) = draft.blocks[at.index()].parent
+            && !std::mem::replace(&mut placed[at.index()], true)
+        {
+            items[parent.index()].push(Item::Block(at));
+            at = parent;
         }
         items[block.index()].push(Item::Op(place));
     }
@@ -506,7 +514,8 @@ pub(super) fn schedule(
         draft,
         items,
         readers,
-        renamed: HashMap::new(),
+        renamed: Renamed::default(),
+        stands_for: QuickMap::default(),
     };
     let instructions = scheduler.block(BlockId::ROOT);
     (instructions, scheduler.renamed)
@@ -520,9 +529,15 @@ impl Scheduler<'_> {
         for item in std::mem::take(&mut self.items[block.index()]) {
             match item {
                 Item::Op(op) => {
-                    let renamed = |read| self.renamed.get(&read).copied().unwrap_or(read);
                     let at = &mut self.draft.ops[op].0;
-                    *at = at.clone().map(renamed, |computed| computed);
+                    if at
+                        .reads()
+                        .iter()
+                        .any(|read| self.renamed.contains_key(read))
+                    {
+                        let renamed = |read| self.renamed.get(&read).copied().unwrap_or(read);
+                        *at = at.clone().map(renamed, |computed| computed);
+                    }
                     forward.push(Instruction {
                         op: op as u32,
                         inverse: false,
@@ -538,38 +553,30 @@ impl Scheduler<'_> {
         let parent = self.draft.blocks[block.index()]
             .parent
             .unwrap_or(BlockId::ROOT);
-        // What was computed here, or copied here by scopes within, and is read outside.
-        let mut held: Vec<RegisterId> = Vec::new();
-        for instruction in &forward {
+        // What was computed here, or copied here by scopes within: by register, the instruction that did.
+        let mut held: QuickMap<RegisterId, usize> = QuickMap::default();
+        for (place, instruction) in forward.iter().enumerate() {
             for target in self.draft.ops[instruction.op as usize].0.targets() {
                 if instruction.inverse {
-                    held.retain(|&register| register != target);
+                    held.remove(&target);
                 } else {
-                    held.push(target);
+                    held.insert(target, place);
                 }
             }
         }
-        let outside: Vec<RegisterId> = held
-            .into_iter()
-            .filter(|register| self.read_outside(*register, block))
-            .collect();
+        let is_read = |(register, _): &(RegisterId, usize)| self.read_outside(*register, block);
+        let mut outside: Vec<(RegisterId, usize)> = held.into_iter().filter(is_read).collect();
+        outside.sort_unstable_by_key(|&(register, place)| (place, register));
         // A result of an operation without garbage may stay as it is.
-        let mut stays: HashSet<usize> = HashSet::new();
+        let mut stays: HashSet<usize, BuildHasherDefault<lower::Quick>> = HashSet::default();
         let mut copies = Vec::new();
-        for register in outside {
-            let own = forward.iter().find(|instruction| {
-                let op = &self.draft.ops[instruction.op as usize].0;
-                !instruction.inverse && op.targets().contains(&register)
-            });
-            let simple = own.filter(|instruction| {
-                let op = &self.draft.ops[instruction.op as usize];
-                op.1 == block && op.0.scratch().is_none()
-            });
-            match simple {
-                Some(instruction) => {
-                    stays.insert(instruction.op as usize);
-                }
-                None => copies.push(self.copy(register, parent)),
+        for (register, place) in outside {
+            let op = forward[place].op as usize;
+            let (computed, own) = &self.draft.ops[op];
+            if *own == block && computed.scratch().is_none() {
+                stays.insert(op);
+            } else {
+                copies.push(self.copy(register, parent));
             }
         }
         let backward: Vec<Instruction> = forward
@@ -587,31 +594,33 @@ impl Scheduler<'_> {
     }
 
     fn read_outside(&self, register: RegisterId, block: BlockId) -> bool {
-        // A copy is read by whoever read the original.
-        let mut names = vec![register];
-        let mut at = register;
-        while let Some((original, _)) = self.renamed.iter().find(|&(_, &copy)| copy == at) {
-            names.push(*original);
-            at = *original;
+        // A copy is read by whoever read what it stands for.
+        let originals = self.stands_for.get(&register).into_iter().flatten();
+        let mut readers = originals
+            .chain([&register])
+            .filter_map(|name| self.readers.get(name.index()));
+        readers.any(|all| all.iter().any(|reader| !self.is_within(*reader, block)))
+    }
+
+    /// Whether a reader is in this block, or in one within it.
+    fn is_within(&self, reader: Option<BlockId>, block: BlockId) -> bool {
+        let mut at = reader;
+        while let Some(own) = at {
+            if own == block {
+                return true;
+            }
+            at = self.draft.blocks[own.index()].parent;
         }
-        names.iter().any(|name| {
-            self.readers.get(name).is_some_and(|readers| {
-                readers.iter().any(|reader| {
-                    reader.is_none_or(|reader| !self.draft.ancestors(reader).contains(&block))
-                })
-            })
-        })
+        false
     }
 
     fn copy(&mut self, register: RegisterId, parent: BlockId) -> Instruction {
         let (id, instruction) = self.draft.copy(register, parent);
         // Earlier names lead to the newest copy.
-        for copy in self.renamed.values_mut() {
-            if *copy == register {
-                *copy = id;
-            }
-        }
-        self.renamed.insert(register, id);
+        let mut names = self.stands_for.remove(&register).unwrap_or_default();
+        names.push(register);
+        self.renamed.extend(names.iter().map(|name| (*name, id)));
+        self.stands_for.insert(id, names);
         instruction
     }
 }
@@ -624,7 +633,7 @@ pub(crate) fn assemble(
     strategy: Strategy,
     inputs: &[RegisterId],
     known: &Mutex<Known>,
-) -> (Program, HashMap<RegisterId, RegisterId>) {
+) -> (Program, Renamed) {
     let mut draft = recorded.draft;
     locked(known)
         .of_recorded

@@ -11,7 +11,7 @@
 //!   such as a search's nearest hit so far, one part in three stays, or in four (Bennett 1989);
 //! - parts of which everything is read outside stay as they are, and are not computed twice.
 
-use super::passes::Draft;
+use super::passes::{Draft, Renamed};
 use super::{Label, StageName, Strategy};
 use qrt_circuit::{BlockId, Instruction, RegisterId, lower};
 use std::collections::{BTreeSet, HashMap, HashSet};
@@ -57,7 +57,7 @@ struct Scheduler<'a> {
     /// What outlives everything.
     roots: HashSet<RegisterId>,
     /// Copies that stand for registers of finished scopes.
-    renamed: HashMap<RegisterId, RegisterId>,
+    renamed: Renamed,
     /// What copies are copies of.
     originals: HashMap<RegisterId, RegisterId>,
     /// By operation.
@@ -69,7 +69,7 @@ pub(super) fn schedule(
     draft: &mut Draft,
     strategy: Strategy,
     roots: &[RegisterId],
-) -> (Vec<Instruction>, HashMap<RegisterId, RegisterId>) {
+) -> (Vec<Instruction>, Renamed) {
     let mut readers: HashMap<RegisterId, Vec<usize>> = HashMap::new();
     let mut items: Vec<Vec<Item>> = vec![Vec::new(); draft.blocks.len()];
     let mut placed: HashSet<BlockId> = HashSet::new();
@@ -90,7 +90,7 @@ pub(super) fn schedule(
         items,
         readers,
         roots: roots.iter().copied().collect(),
-        renamed: HashMap::new(),
+        renamed: Renamed::default(),
         originals: HashMap::new(),
         toffoli: HashMap::new(),
     };

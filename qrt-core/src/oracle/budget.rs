@@ -26,9 +26,11 @@ pub(super) fn call_cost_by(channels: &[Oracle], known: &mut compile::Known) -> C
     let mut dearest: Option<(u64, &Oracle, Vec<Figures>)> = None;
     for oracle in channels {
         let program = &oracle.program;
+        let mut figures = known.figures(program.ops.iter(), &program.registers);
+        // Each channel compares a number of its own, into the same flag.
         let flip = oracle.flip_steps(0);
-        let ops = program.ops.iter().chain(&flip.ops);
-        let figures = known.figures(ops, &program.registers);
+        let width = |register| program.width(register);
+        figures.extend(flip.ops.iter().map(|op| known.alike.of(op, width)));
         let toffoli = |op: usize| figures[op].costs[0].toffoli;
         let once = program.instructions.iter();
         let once: u64 = once
@@ -223,6 +225,11 @@ sampling:
             assert_eq!(call_cost(&channels), cost);
             let toffoli = |oracle: &Oracle| lower::toffoli(&oracle.whole(0));
             assert_eq!(channels.iter().map(toffoli).max(), Some(cost.toffoli));
+            let mut of_most = channels
+                .iter()
+                .filter(|oracle| toffoli(oracle) == cost.toffoli);
+            let qubits = of_most.next().map(|oracle| u64::from(oracle.qubits()));
+            assert_eq!(qubits, Some(cost.qubits));
         }
     }
 

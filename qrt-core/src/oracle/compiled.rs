@@ -4,7 +4,7 @@ use super::{Channel, Oracle};
 use crate::compile::{NamedPlace, PixelWord};
 use crate::sampling::{PathPoints, SamplingError};
 use crate::valid::ValidScene;
-use qrt_circuit::format::Format;
+use qrt_circuit::format::{Format, Reg};
 use qrt_circuit::{
     Block, BlockId, Declaration, Machine, Op, Operand, Program, Recorded, Recorder, RegisterId,
     Style, Tag, Type, Word,
@@ -307,6 +307,33 @@ impl<'a, S: CompiledOracle, R> Computed<'a, S, R> {
     #[inline(always)]
     pub fn word<O: IsScene<S>, T: Format>(&self, field: &Field<O, T>) -> Word<&'a R> {
         field.word.of(|_| self.fields[field.place])
+    }
+
+    /// Hands over a field as a register of its format, such as reversible functions take: a copy of its
+    /// bits, which is undone when `apply` returns. What the bits of a number stand for, its sign and what is
+    /// the same on all paths of a pixel, [`Field::value`] knows; a truth is handed over as it is.
+    #[inline(always)]
+    pub fn with<M, O, T, A>(
+        &self,
+        machine: &mut M,
+        field: &Field<O, T>,
+        apply: impl FnOnce(&mut M, &Reg<R, T>) -> A,
+    ) -> A
+    where
+        M: Machine<Register = R>,
+        O: IsScene<S>,
+        T: Format,
+    {
+        let bits = self.word(field);
+        let declared = Declaration::work("field", T::TYPE, T::WIDTH);
+        let copy = Reg::new(if field.negated && T::TYPE == Type::Bool {
+            machine.subtract(&declared, Operand::Constant(1), Operand::Word(bits))
+        } else {
+            machine.copy(&declared, bits)
+        });
+        let applied = apply(machine, &copy);
+        copy.undo(machine);
+        applied
     }
 
     /// How many of the comparator's thresholds the colour of each channel exceeds, before it is cut

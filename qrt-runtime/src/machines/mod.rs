@@ -26,7 +26,7 @@ pub mod statevector;
 mod transpose;
 
 pub use fixed::{Extremes, Fixed, Lanes, contents};
-pub use gates::{Dirty, Gates, InvalidGate, Rows};
+pub use gates::{Dirty, Gates, InvalidGate, Queue, Rows, Template};
 pub use instructions::{InstructionSet, InstructionsError};
 pub use native::NativeOracle;
 pub use nearest::{Answers, Asked, Candidate, NearestMachine};

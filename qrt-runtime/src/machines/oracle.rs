@@ -22,13 +22,14 @@ pub use primary_hits::{PathRun, PrimaryHits};
 pub(super) use through_gates::check;
 
 use super::fixed::{self, Fixed};
-use super::gates::{Gates, Rows};
+use super::gates::{Gates, Rows, Template};
 use super::instructions::InstructionSet;
 use super::native;
 use super::native::NativeOracle;
 use super::pool::Pool;
 use super::span::Span;
-use crate::memory::{QUBITS_OF_ONE_TURN, bytes_of_rows};
+use crate::memory::{QUBITS_OF_ONE_TURN, bytes_of_rows, bytes_of_templates};
+use qrt_circuit::lower::Templates;
 use qrt_circuit::{Operand, Word};
 use qrt_core::oracle::{Channel, LUMINANCE_CHANNEL, Oracle};
 use std::num::NonZeroUsize;
@@ -58,10 +59,11 @@ enum Machine {
     },
     Gates {
         gates: Box<Gates>,
-        /// Those of a block of paths.
-        rows: Pool<Vec<Rows>>,
-        /// How many these are.
+        /// Those of a block of paths, so many of them, and what is kept of the operations of gates that are
+        /// not held, in so many bytes.
+        rows: Pool<(Vec<Rows>, Templates<Template>)>,
         at_once: usize,
+        room: usize,
         parts: Box<OracleCircuits>,
     },
 }
@@ -174,12 +176,13 @@ impl OracleMachine {
         circuits.extend(&parts.flips);
         circuits.push(&parts.uncompute);
         let mut gates = Box::new(Gates::new(&circuits)?);
-        let mut at_once = 1;
+        let (mut at_once, mut room) = (1, 0);
         if parts.streamed.is_some() {
             let threads = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
             let bytes = bytes_of_rows(threads, parts.compute.qubits);
             *gates = gates.for_many_rows(bytes);
             at_once = gates.rows_at_once(bytes);
+            room = bytes_of_templates(threads, parts.compute.qubits);
         }
         flips::try_all(&oracle, &parts)?;
         let outputs = outputs(&oracle, colours);
@@ -187,6 +190,7 @@ impl OracleMachine {
             gates,
             rows: Pool::new(),
             at_once,
+            room,
             parts: Box::new(parts),
         };
         Ok(Self::of(oracle, seed, outputs, machine))
@@ -396,6 +400,7 @@ impl OracleMachine {
                 gates,
                 rows,
                 at_once,
+                room,
                 parts,
             } => {
                 let large = parts.streamed.as_ref();
@@ -403,7 +408,10 @@ impl OracleMachine {
                 let turn = large.map(|streamed| &streamed.turn);
                 let _turn = turn.map(|turn| turn.lock().unwrap_or_else(PoisonError::into_inner));
                 rows.lend(
-                    || (0..*at_once).map(|_| gates.rows()).collect(),
+                    || {
+                        let rows = (0..*at_once).map(|_| gates.rows()).collect();
+                        (rows, Templates::with_room(*room))
+                    },
                     |own| self.run_gates(gates, parts, own, block, (&spans, cancel)),
                 )?;
             }

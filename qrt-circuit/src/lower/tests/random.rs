@@ -7,7 +7,7 @@ use super::super::super::{
 use super::super::{
     KnownFigures, circuit, costs, depth, least_toffoli, most_qubits, scratch_width, tally,
 };
-use super::simulate::{Bench, program};
+use super::simulate::{Bench, by_templates, program};
 use proptest::prelude::*;
 
 fn style() -> impl Strategy<Value = Style> {
@@ -327,6 +327,13 @@ fn registers_take_qubits_that_others_have_left() {
     all.instructions = order.map(instruction).to_vec();
     let lowered = circuit(&all);
     assert_eq!(lowered, circuit(&all), "deterministic");
+    // Both squares are alike, and the sum is not; each is computed and undone. Without room, what is asked
+    // for again at once is there.
+    for (room, times) in [(1 << 20, 4), (0, 9)] {
+        let (gates, lowered_times) = by_templates(&all, room);
+        assert_eq!(lowered_times, times);
+        assert!(gates == lowered.gates, "{room}");
+    }
     let both = tally(&all);
     for (cost, range) in both.iter().zip(&lowered.ranges) {
         let gates = &lowered.gates[range.clone()];

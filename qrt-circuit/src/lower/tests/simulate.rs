@@ -1,10 +1,11 @@
 //! Runs an operation's gates on basis states, 64 at a time, and holds them against the integers.
 
 use super::super::super::{
-    Block, BlockId, Circuit, Contents, Gate, Instruction, Op, Parameter, Program, Register,
+    Block, BlockId, Circuit, Contents, Gate, Instruction, Op, Parameter, Program, Qubit, Register,
     RegisterId, Type,
 };
-use super::super::{circuit, cost, least_toffoli, scratch_width};
+use super::super::{Templates, circuit, cost, least_toffoli, scratch_width, try_each_template};
+use std::convert::Infallible;
 
 /// A program of one operation and, if `undone`, its inverse; `widths` are of all registers but the
 /// scratch register, which is the last.
@@ -92,6 +93,43 @@ pub(super) struct Bench {
     back: Circuit,
 }
 
+/// The gates of a program, each operation's lowered once for all that are alike, while there is so much
+/// room; and how many were lowered.
+pub(super) fn by_templates(program: &Program, room: usize) -> (Vec<Gate>, u32) {
+    let (mut gates, mut lowered) = (Vec::new(), 0);
+    let done = try_each_template(
+        program,
+        &mut Templates::with_room(room),
+        |own, _| {
+            lowered += 1;
+            Ok::<_, Infallible>((own.to_vec(), size_of_val(own)))
+        },
+        |own, qubits| {
+            let at = |qubit: Qubit| qubits[qubit as usize];
+            gates.extend(own.iter().map(|gate| match *gate {
+                Gate::X(t) => Gate::X(at(t)),
+                Gate::Cx(a, t) => Gate::Cx(at(a), at(t)),
+                Gate::Ccx(a, b, t) => Gate::Ccx(at(a), at(b), at(t)),
+                Gate::Z(q) => Gate::Z(at(q)),
+                Gate::Load {
+                    parameter,
+                    bit,
+                    target,
+                } => Gate::Load {
+                    parameter,
+                    bit,
+                    target: at(target),
+                },
+            }));
+            Ok(())
+        },
+    );
+    match done {
+        Ok(()) => (gates, lowered),
+        Err(never) => match never {},
+    }
+}
+
 impl Bench {
     /// Lowers it, and holds its costs against its gates.
     pub(super) fn new(op: &Op, widths: &[u32]) -> Self {
@@ -119,6 +157,8 @@ impl Bench {
             let least = least_toffoli(op, |id| program.width(id));
             assert!(least <= cost.toffoli, "{least}: {op:?} {widths:?}");
         }
+        let (gates, _) = by_templates(&program, 1 << 20);
+        assert!(gates == back.gates, "{op:?} {widths:?}");
         Self {
             op: op.clone(),
             program: program_forth,

@@ -1,7 +1,7 @@
 //! From a list of gates to code: runs of patterns, and the rows that they work on.
 
 use super::patterns::PATTERNS;
-use qrt_circuit::{Circuit, Gate};
+use qrt_circuit::{Circuit, Gate, Qubit};
 use std::cmp::Reverse;
 use std::sync::LazyLock;
 
@@ -65,20 +65,58 @@ impl Wiring {
 
     /// The code of `gates`, or the place of the first that is none.
     pub(super) fn compile(&self, gates: &[Gate]) -> Result<Box<[u32]>, usize> {
-        let mut rows = Vec::with_capacity(gates.len());
-        for (place, gate) in gates.iter().enumerate() {
-            rows.push(self.on_rows(*gate).ok_or(place)?);
-        }
-        Ok(code(&rows).into())
+        Ok(code(&self.all_on_rows(self.qubits, gates)?).into())
     }
 
-    /// The gate as an X, a CNOT or a Toffoli on rows, if it is one.
-    fn on_rows(&self, gate: Gate) -> Option<Gate> {
-        let is = |qubit| qubit < self.qubits;
+    /// The code of `gates` on so many qubits of their own, in which all other rows follow these; of single
+    /// gates where rows are so short that looking for longer patterns takes longer than these save.
+    pub(super) fn compile_on(
+        &self,
+        qubits: u32,
+        gates: &[Gate],
+        are_short: bool,
+    ) -> Result<Box<[u32]>, usize> {
+        let gates = self.all_on_rows(qubits, gates)?;
+        Ok(if are_short {
+            code_of_each(&gates)
+        } else {
+            code(&gates)
+        }
+        .into())
+    }
+
+    fn all_on_rows(&self, qubits: u32, gates: &[Gate]) -> Result<Vec<Gate>, usize> {
+        let mut rows = Vec::with_capacity(gates.len());
+        for (place, gate) in gates.iter().enumerate() {
+            rows.push(self.on_rows(qubits, *gate).ok_or(place)?);
+        }
+        Ok(rows)
+    }
+
+    /// Appends code that was compiled on qubits of its own, where these are `qubits`.
+    pub(super) fn relocate(&self, own: &[u32], qubits: &[Qubit], code: &mut Vec<u32>) {
+        let own_qubits = qubits.len() as u32;
+        let row = |row: &u32| match qubits.get(*row as usize) {
+            Some(qubit) => *qubit,
+            None => row - own_qubits + self.qubits,
+        };
+        let mut own = own;
+        while let [head, rest @ ..] = own {
+            let (number, count) = parts(*head);
+            let (operands, rest) = rest.split_at(count * PATTERNS[number].rows);
+            code.push(*head);
+            code.extend(operands.iter().map(row));
+            own = rest;
+        }
+    }
+
+    /// The gate as an X, a CNOT or a Toffoli on rows, of which so many are qubits, if it is one.
+    fn on_rows(&self, qubits: u32, gate: Gate) -> Option<Gate> {
+        let is = |qubit| qubit < qubits;
         match gate {
             Gate::X(t) => is(t).then_some(gate),
             Gate::Cx(a, t) => (is(a) && is(t) && a != t).then_some(gate),
-            Gate::Ccx(a, b, t) if a == b => self.on_rows(Gate::Cx(a, t)),
+            Gate::Ccx(a, b, t) if a == b => self.on_rows(qubits, Gate::Cx(a, t)),
             Gate::Ccx(a, b, t) => (is(a) && is(b) && is(t) && a != t && b != t).then_some(gate),
             Gate::Load {
                 parameter,
@@ -86,9 +124,10 @@ impl Wiring {
                 target,
             } => {
                 let (first, bits) = *self.parameters.get(parameter as usize)?;
-                (bit < bits && is(target)).then_some(Gate::Cx(first + bit, target))
+                let row = first - self.qubits + qubits + bit;
+                (bit < bits && is(target)).then_some(Gate::Cx(row, target))
             }
-            Gate::Z(q) => is(q).then_some(Gate::Cx(q, self.sign())),
+            Gate::Z(q) => is(q).then_some(Gate::Cx(q, self.sign() - self.qubits + qubits)),
         }
     }
 }
@@ -128,10 +167,32 @@ fn code(gates: &[Gate]) -> Vec<u32> {
     code
 }
 
+/// The same of patterns of one gate.
+fn code_of_each(gates: &[Gate]) -> Vec<u32> {
+    let mut code = Vec::with_capacity(3 * gates.len());
+    let (mut number, mut head) = (usize::MAX, 0);
+    for gate in gates {
+        let kind = kind(gate) as usize - 1;
+        if kind != number || code[head] >> 8 == LONGEST as u32 {
+            (number, head) = (kind, code.len());
+            code.push(number as u32);
+        }
+        code[head] += 1 << 8;
+        match *gate {
+            Gate::X(t) => code.push(t),
+            Gate::Cx(a, t) => code.extend([a, t]),
+            Gate::Ccx(a, b, t) => code.extend([a, b, t]),
+            // There are none on rows.
+            Gate::Load { .. } | Gate::Z(_) => {}
+        }
+    }
+    code
+}
+
 /// Most gates of a pattern: their kinds are the bits of a word.
 const MOST_GATES: usize = 32;
 
-/// A gate's kind, of two bits, none of which is 0.
+/// A gate's kind, of two bits, none of which is 0: one more than the number of the pattern that it alone is.
 fn kind(gate: &Gate) -> u64 {
     match gate {
         Gate::X(_) => 1,
@@ -176,58 +237,80 @@ static CANDIDATES: LazyLock<[Vec<Candidate>; 64]> = LazyLock::new(|| {
 /// No row.
 const FREE: u32 = u32::MAX;
 
+/// By the name that it has in a pattern, the row that a gate's operand is.
+#[derive(Clone, Copy)]
+struct Binding {
+    rows: [u32; ROWS],
+    /// Of the rows there are, the bits that their lowest six bits number.
+    seen: u64,
+}
+
 /// The longest pattern that `gates` begin with, whose kinds are given, and its rows.
 fn longest(gates: &[Gate], kinds: u64) -> Option<(usize, [u32; ROWS])> {
     let candidates = CANDIDATES[(kinds & 63) as usize].iter();
     let mut candidates = candidates.filter(|c| kinds & c.mask == c.kinds);
     candidates.find_map(|candidate| {
-        let mut bound = [FREE; ROWS];
+        let mut bound = Binding {
+            rows: [FREE; ROWS],
+            seen: 0,
+        };
         let pattern = PATTERNS[candidate.number].gates;
-        bind(pattern, gates, &mut bound).then_some((candidate.number, bound))
+        bound
+            .gates(pattern, gates)
+            .then_some((candidate.number, bound.rows))
     })
 }
 
-/// Binds the rows of a pattern's gates to those of `gates`, different ones to different ones.
-fn bind(pattern: &[Gate], gates: &[Gate], bound: &mut [u32; ROWS]) -> bool {
-    for (place, pair) in pattern.iter().zip(gates).enumerate() {
-        let fits = match pair {
-            (Gate::X(p), Gate::X(t)) => bind_all(bound, [(*p, *t)]),
-            (Gate::Cx(p, q), Gate::Cx(a, t)) => bind_all(bound, [(*p, *a), (*q, *t)]),
-            (Gate::Ccx(p, q, r), Gate::Ccx(a, b, t)) => {
-                let [first, second] = [p, q].map(|name| bound[*name as usize]);
-                let turned = first == *b || second == *a;
-                if [first, second] == [FREE, FREE] {
-                    // Either may be either: if it does not end well, the other is tried.
-                    let before = *bound;
-                    if bind_all(bound, [(*p, *a), (*q, *b), (*r, *t)])
-                        && bind(&pattern[place + 1..], &gates[place + 1..], bound)
-                    {
-                        return true;
+impl Binding {
+    /// Binds the rows of a pattern's gates to those of `gates`, different ones to different ones.
+    fn gates(&mut self, pattern: &[Gate], gates: &[Gate]) -> bool {
+        for (place, pair) in pattern.iter().zip(gates).enumerate() {
+            let fits = match pair {
+                (Gate::X(p), Gate::X(t)) => self.row(*p, *t),
+                (Gate::Cx(p, q), Gate::Cx(a, t)) => self.row(*p, *a) && self.row(*q, *t),
+                (Gate::Ccx(p, q, r), Gate::Ccx(a, b, t)) => {
+                    let [first, second] = [p, q].map(|name| self.rows[*name as usize]);
+                    if [first, second] == [FREE, FREE] {
+                        // Either may be either: if it does not end well, the other is tried.
+                        let before = *self;
+                        if self.toffoli([*p, *q, *r], [*a, *b, *t])
+                            && self.gates(&pattern[place + 1..], &gates[place + 1..])
+                        {
+                            return true;
+                        }
+                        *self = before;
+                        self.toffoli([*p, *q, *r], [*b, *a, *t])
+                    } else if first == *b || second == *a {
+                        self.toffoli([*p, *q, *r], [*b, *a, *t])
+                    } else {
+                        self.toffoli([*p, *q, *r], [*a, *b, *t])
                     }
-                    *bound = before;
-                    bind_all(bound, [(*p, *b), (*q, *a), (*r, *t)])
-                } else if turned {
-                    bind_all(bound, [(*p, *b), (*q, *a), (*r, *t)])
-                } else {
-                    bind_all(bound, [(*p, *a), (*q, *b), (*r, *t)])
                 }
+                _ => false,
+            };
+            if !fits {
+                return false;
             }
-            _ => false,
-        };
-        if !fits {
+        }
+        true
+    }
+
+    fn toffoli(&mut self, names: [u32; 3], rows: [u32; 3]) -> bool {
+        self.row(names[0], rows[0]) && self.row(names[1], rows[1]) && self.row(names[2], rows[2])
+    }
+
+    #[inline(always)]
+    fn row(&mut self, name: u32, row: u32) -> bool {
+        let old = self.rows[name as usize];
+        if old != FREE {
+            return old == row;
+        }
+        let bit = 1 << (row & 63);
+        if self.seen & bit != 0 && self.rows.contains(&row) {
             return false;
         }
+        self.rows[name as usize] = row;
+        self.seen |= bit;
+        true
     }
-    true
-}
-
-fn bind_all<const N: usize>(bound: &mut [u32; ROWS], pairs: [(u32, u32); N]) -> bool {
-    pairs.into_iter().all(|(name, row)| {
-        let old = bound[name as usize];
-        let free = old == FREE && !bound.contains(&row);
-        if free {
-            bound[name as usize] = row;
-        }
-        free || old == row
-    })
 }

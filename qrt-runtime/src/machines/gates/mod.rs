@@ -20,7 +20,7 @@ pub use rows::{Dirty, Rows};
 use super::instructions::InstructionSet;
 use compile::Wiring;
 use pulp::{Simd, WithSimd, bytemuck};
-use qrt_circuit::{Circuit, Gate};
+use qrt_circuit::{Circuit, Gate, Qubit};
 use rayon::prelude::*;
 use rows::LANES;
 use std::cell::Cell;
@@ -41,7 +41,7 @@ pub struct InvalidGate {
 /// Circuits, ready to be run on rows of states.
 ///
 /// ```
-/// use qrt_circuit::{Circuit, Gate};
+/// use qrt_circuit::{Circuit, Gate, Qubit};
 /// use qrt_runtime::machines::Gates;
 ///
 /// // A half adder: the sum of qubits 0 and 1, in 1 and 2.
@@ -100,14 +100,14 @@ impl Gates {
         self
     }
 
-    /// With rows such as [`Gates::run_gates`] is given many of, in so many bytes: where not even one fits, rows of 256
+    /// With rows such as [`Gates::run_queued`] is given many of, in so many bytes: where not even one fits, rows of 256
     /// states.
     pub fn for_many_rows(self, bytes: usize) -> Self {
         let words = rows::words_of_many(self.wiring.rows(), bytes);
         self.with_words(words)
     }
 
-    /// How many rows fit into so many bytes, or one: if [`Gates::run_gates`] is given as many, the time that it takes
+    /// How many rows fit into so many bytes, or one: if [`Gates::run_queued`] is given as many, the time that it takes
     /// to read the gates is shared by many states.
     pub fn rows_at_once(&self, bytes: usize) -> usize {
         rows::at_once(self.wiring.rows(), self.words, bytes)
@@ -153,17 +153,34 @@ impl Gates {
         });
     }
 
-    /// Runs gates that are no part of what was given, but work on its qubits and parameters, on all these rows.
+    /// Gates on so many qubits of their own, and on the machine's parameters, to be run wherever these qubits
+    /// are: see [`Gates::queue`].
     ///
     /// # Errors
     /// If a gate is not one.
-    pub fn run_gates(&self, gates: &[Gate], rows: &mut [Rows]) -> Result<(), InvalidGate> {
-        let code = self.wiring.compile(gates);
-        let code = code.map_err(|gate| InvalidGate { circuit: 0, gate })?;
+    pub fn template(&self, gates: &[Gate], qubits: u32) -> Result<Template, InvalidGate> {
+        let are_short = self.words <= rows::FEW_WORDS;
+        let code = self.wiring.compile_on(qubits, gates, are_short);
+        Ok(Template {
+            code: code.map_err(|gate| InvalidGate { circuit: 0, gate })?,
+            gates: gates.len(),
+        })
+    }
+
+    /// Queues the gates of a template of this machine, whose qubits these of the machine's are.
+    pub fn queue(&self, template: &Template, qubits: &[Qubit], queue: &mut Queue) {
+        self.wiring
+            .relocate(&template.code, qubits, &mut queue.code);
+        queue.gates += template.gates;
+    }
+
+    /// Runs what is queued on all these rows, and empties the queue.
+    pub fn run_queued(&self, queue: &mut Queue, rows: &mut [Rows]) {
         for rows in rows {
-            self.run_code(&code, rows);
+            self.run_code(&queue.code, rows);
         }
-        Ok(())
+        queue.code.clear();
+        queue.gates = 0;
     }
 
     /// Calls `block` for each of `0..blocks`, on all threads, each with rows of its own; they come
@@ -177,6 +194,39 @@ impl Gates {
         numbers
             .map_init(|| self.rows(), |rows, number| block(rows, number))
             .collect()
+    }
+}
+
+/// Gates on qubits of their own, as code of a machine.
+#[derive(Clone, Debug)]
+pub struct Template {
+    code: Box<[u32]>,
+    gates: usize,
+}
+
+impl Template {
+    /// Bytes that it takes.
+    pub fn bytes(&self) -> usize {
+        size_of_val(&*self.code)
+    }
+}
+
+/// Gates of a machine that are to run one after another.
+#[derive(Clone, Debug, Default)]
+pub struct Queue {
+    code: Vec<u32>,
+    gates: usize,
+}
+
+impl Queue {
+    /// How many gates there are.
+    pub fn len(&self) -> usize {
+        self.gates
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.gates == 0
     }
 }
 

@@ -278,14 +278,45 @@ fn gates_made_anew_run_on_what_fits_into_some_memory() {
     for (value, rows) in rows.iter_mut().enumerate() {
         rows.set(&[0, 1], &[3 * value as u64]);
     }
-    let gates = [Gate::Ccx(0, 1, 2), Gate::X(0)];
-    machine.run_gates(&gates, &mut rows).unwrap();
+    let template = machine
+        .template(&[Gate::Ccx(2, 0, 1), Gate::X(2)], 3)
+        .unwrap();
+    let mut queue = Queue::default();
+    machine.queue(&template, &[1, 2, 0], &mut queue);
+    assert_eq!(queue.len(), 2);
+    machine.run_queued(&mut queue, &mut rows);
+    assert!(queue.is_empty());
     let values = rows.map(|rows| {
         let mut value = [0];
         rows.get(&[0, 1, 2], &mut value);
         value[0]
     });
     assert_eq!(values, [0b001, 0b110]);
-    let refused = machine.run_gates(&[Gate::X(0), Gate::Cx(3, 3)], &mut []);
+    let refused = machine.template(&[Gate::X(0), Gate::Cx(1, 1)], 3);
     assert_eq!(refused.unwrap_err().gate, 1);
+    assert!(machine.template(&[Gate::X(3)], 3).is_err());
+}
+
+/// Signs and parameters are the machine's, wherever a template's qubits are.
+#[test]
+fn a_template_flips_the_machines_signs_and_reads_its_parameters() {
+    let machine = Gates::new(&[&circuit(Vec::new(), 9)]).unwrap();
+    let mut rows = [machine.rows()];
+    rows[0].set_parameters(&[Span {
+        lanes: 1,
+        parameters: &[0b10, 0],
+    }]);
+    let load = |bit, target| Gate::Load {
+        parameter: 0,
+        bit,
+        target,
+    };
+    let gates = [load(0, 0), load(1, 1), Gate::Z(1)];
+    let template = machine.template(&gates, 2).unwrap();
+    let mut queue = Queue::default();
+    machine.queue(&template, &[7, 4], &mut queue);
+    machine.run_queued(&mut queue, &mut rows);
+    let mut value = [0];
+    rows[0].get(&[7, 4], &mut value);
+    assert_eq!((value[0], rows[0].signs()[0] & 1), (0b10, 1));
 }

@@ -2,9 +2,10 @@
 
 use super::parts::Streamed;
 use super::{Defect, OracleBlock, OracleCircuits, OracleMachine, word_of};
-use crate::machines::gates::{Gates, Rows};
+use crate::machines::gates::{Gates, Queue, Rows, Template};
 use crate::machines::span::{self, Span};
-use qrt_circuit::{Gate, Qubit, Word, lower};
+use qrt_circuit::lower::{self, Templates};
+use qrt_circuit::{Qubit, Word};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Gates of a streamed circuit that are run together.
@@ -16,7 +17,7 @@ impl OracleMachine {
         &self,
         gates: &Gates,
         parts: &OracleCircuits,
-        rows: &mut [Rows],
+        (rows, templates): &mut (Vec<Rows>, Templates<Template>),
         block: &mut OracleBlock,
         (spans, cancel): (&[Span<'_>], Option<&AtomicBool>),
     ) -> Result<(), Defect> {
@@ -60,7 +61,7 @@ impl OracleMachine {
                 read(rows);
                 run(1 + parts.flips.len(), rows);
             }
-            Some(streamed) => streamed.run(cancel, gates, rows, read)?,
+            Some(streamed) => streamed.run(cancel, gates, (rows, templates), read)?,
         }
         let place = |lane: usize| {
             let mut start = 0;
@@ -89,35 +90,43 @@ impl Streamed {
         &self,
         cancel: Option<&AtomicBool>,
         gates: &Gates,
-        rows: &mut [Rows],
+        (rows, templates): (&mut [Rows], &mut Templates<Template>),
         read: impl FnOnce(&[Rows]),
     ) -> Result<(), Defect> {
-        let mut pending = Vec::with_capacity(2 * AT_ONCE);
+        let mut queue = Queue::default();
         let mut read = Some(read);
         let mut step = 0;
-        let run = |pending: &mut Vec<Gate>, rows: &mut [Rows]| {
+        let run = |queue: &mut Queue, rows: &mut [Rows]| {
             if cancel.is_some_and(|cancel| cancel.load(Ordering::Relaxed)) {
                 return Err(Defect::Cancelled);
             }
-            gates.run_gates(pending, rows)?;
-            pending.clear();
+            gates.run_queued(queue, rows);
             Ok(())
         };
-        lower::try_each_instruction(&self.program, |next, _| {
-            if step == self.cut {
-                run(&mut pending, rows)?;
-                if let Some(read) = read.take() {
-                    read(rows);
+        lower::try_each_template(
+            &self.program,
+            templates,
+            |own, qubits| {
+                let template = gates.template(own, qubits)?;
+                let bytes = template.bytes();
+                Ok((template, bytes))
+            },
+            |template, qubits| {
+                if step == self.cut {
+                    run(&mut queue, rows)?;
+                    if let Some(read) = read.take() {
+                        read(rows);
+                    }
                 }
-            }
-            pending.extend_from_slice(next);
-            if pending.len() >= AT_ONCE {
-                run(&mut pending, rows)?;
-            }
-            step += 1;
-            Ok::<(), Defect>(())
-        })?;
-        run(&mut pending, rows)
+                gates.queue(template, qubits, &mut queue);
+                if queue.len() >= AT_ONCE {
+                    run(&mut queue, rows)?;
+                }
+                step += 1;
+                Ok::<(), Defect>(())
+            },
+        )?;
+        run(&mut queue, rows)
     }
 }
 
