@@ -87,13 +87,6 @@ impl Case {
     }
 }
 
-fn runs_phase_estimation(name: Estimator) -> bool {
-    matches!(
-        name,
-        Estimator::Paper | Estimator::PosteriorMean | Estimator::Sine | Estimator::Qss
-    )
-}
-
 fn survives(errors: &[f64; 4]) -> bool {
     errors[3] < 0.5 * errors[1]
 }
@@ -114,7 +107,7 @@ fn tables() {
                         readout,
                     };
                     for short in [false, true] {
-                        if short && !runs_phase_estimation(name) {
+                        if short && !name.has_register() {
                             continue;
                         }
                         for known in [false, true] {

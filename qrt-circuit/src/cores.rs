@@ -48,7 +48,7 @@ impl Cores {
         };
         let mut parts = thread::scope(|scope| {
             // A machine that has no thread left does all of it on this one.
-            let spawn = |_| thread::Builder::new().spawn_scoped(scope, &work).ok();
+            let spawn = |_| thread::Builder::new().spawn_scoped(scope, work).ok();
             let others: Vec<_> = (1..threads).filter_map(spawn).collect();
             let mut parts = work();
             for other in others {

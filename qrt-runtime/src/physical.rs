@@ -174,11 +174,23 @@ impl<'a> Run<'a> {
     }
 
     fn counts(&self, planned: Option<u64>) -> Result<ChannelCounts, PhysicalError> {
-        use Estimator::{AbramsWilliams, Exact, MonteCarlo, Qcoin};
         let counting = self.scene.scene().counting;
         let estimator = counting.estimator;
-        if matches!(estimator, Exact | MonteCarlo | Qcoin | AbramsWilliams) {
-            return Err(PhysicalError::Estimator(estimator));
+        match estimator {
+            Estimator::Exact
+            | Estimator::MonteCarlo
+            | Estimator::Qcoin
+            | Estimator::AbramsWilliams => return Err(PhysicalError::Estimator(estimator)),
+            Estimator::Paper
+            | Estimator::PosteriorMean
+            | Estimator::Sine
+            | Estimator::Qss
+            | Estimator::Mlae
+            | Estimator::Iqae
+            | Estimator::Miqae
+            | Estimator::Chebyshev
+            | Estimator::RandomDepth
+            | Estimator::AdaptiveBayes => {}
         }
         let settings = Settings::of(&counting)?;
         let queries = match planned {

@@ -420,15 +420,38 @@ impl Estimator {
     /// Whether it can count the strata of the comparator one by one: it must know after every shot
     /// how far each of them is known, and go on with any.
     pub const fn counts_strata(self) -> bool {
-        matches!(self, Self::AdaptiveBayes | Self::RandomDepth)
+        match self {
+            Self::AdaptiveBayes | Self::RandomDepth => true,
+            Self::Exact
+            | Self::MonteCarlo
+            | Self::Paper
+            | Self::PosteriorMean
+            | Self::Sine
+            | Self::Qss
+            | Self::Mlae
+            | Self::Iqae
+            | Self::Miqae
+            | Self::Chebyshev
+            | Self::Qcoin
+            | Self::AbramsWilliams => false,
+        }
     }
 
     /// Whether it reads a phase register: it runs the circuit of quantum counting, again and again.
     pub const fn has_register(self) -> bool {
-        matches!(
-            self,
-            Self::Paper | Self::PosteriorMean | Self::Sine | Self::Qss
-        )
+        match self {
+            Self::Paper | Self::PosteriorMean | Self::Sine | Self::Qss => true,
+            Self::Exact
+            | Self::MonteCarlo
+            | Self::Mlae
+            | Self::Iqae
+            | Self::Miqae
+            | Self::Chebyshev
+            | Self::RandomDepth
+            | Self::AdaptiveBayes
+            | Self::Qcoin
+            | Self::AbramsWilliams => false,
+        }
     }
 
     /// Whether it looks at what is known after every shot, and may end: `exact` makes none.

@@ -1,5 +1,6 @@
 //! One colour and one mark for one thing, in every plot.
 
+use qrt_core::scene::Estimator;
 use qrt_drawing::{STYLES, Series};
 
 /// The style ([`Series::style`]) of what comes in several plots, by its name: estimators, sequences
@@ -12,24 +13,40 @@ use qrt_drawing::{STYLES, Series};
 /// assert_eq!(style("qubits"), None);
 /// ```
 pub fn style(name: &str) -> Option<usize> {
-    // Styles 7 to 13 are 0 to 6 with hollow marks. No estimator has the style of the net, and no two
-    // have the same.
+    let mut estimators = Estimator::ALL.iter();
+    if let Some(estimator) = estimators.find(|estimator| estimator.name() == name) {
+        return style_of(*estimator);
+    }
     Some(match name {
-        "adaptive-bayes" | "counting" | "total" => 0,
-        "monte-carlo" | "random paths" | "counting, E_T" => 1,
+        "counting" | "total" => 0,
+        "random paths" | "counting, E_T" => 1,
         "digital-net" | "digital net" | "paths, E_R" => 2,
-        "paper" | "product-lattice" | "product lattice" | "comparators, E_C" => 3,
-        "sine" | "width, E_W" => 4,
-        "mlae" | "the front" | "depth, E_D" => 5,
-        "iqae" => 6,
-        "random-depth" => 7,
-        "qcoin" => 8,
-        "posterior-mean" => 9,
-        "abrams-williams" => 10,
-        "chebyshev" => 11,
-        "qss" => 12,
-        "miqae" | "all settings" => 13,
+        "product-lattice" | "product lattice" | "comparators, E_C" => 3,
+        "width, E_W" => 4,
+        "the front" | "depth, E_D" => 5,
+        "all settings" => 13,
         _ => return None,
+    })
+}
+
+/// An estimator's style; none of the one that measures nothing. Styles 7 to 13 are 0 to 6 with hollow
+/// marks. No estimator has the style of the net, and no two have the same.
+fn style_of(estimator: Estimator) -> Option<usize> {
+    Some(match estimator {
+        Estimator::Exact => return None,
+        Estimator::AdaptiveBayes => 0,
+        Estimator::MonteCarlo => 1,
+        Estimator::Paper => 3,
+        Estimator::Sine => 4,
+        Estimator::Mlae => 5,
+        Estimator::Iqae => 6,
+        Estimator::RandomDepth => 7,
+        Estimator::Qcoin => 8,
+        Estimator::PosteriorMean => 9,
+        Estimator::AbramsWilliams => 10,
+        Estimator::Chebyshev => 11,
+        Estimator::Qss => 12,
+        Estimator::Miqae => 13,
     })
 }
 
@@ -48,7 +65,7 @@ pub(super) fn free(wanted: usize, others: &[Series]) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use qrt_core::scene::{Estimator, Sequence};
+    use qrt_core::scene::Sequence;
     use qrt_drawing::Drawn;
 
     /// In one plot stand all estimators, or both sequences beside random paths.

@@ -1,11 +1,12 @@
 //! Every operation of up to 32 bits, at random, and programs of several operations.
 
 use super::super::super::{
-    Bit, BlockId, Contents, Cores, Gate, Instruction, Multiples, Op, Operand, RegisterId, Style,
-    When, Word,
+    Bit, BlockId, Circuit, Contents, Cores, Gate, Instruction, Multiples, Op, Operand, RegisterId,
+    Style, When, Word,
 };
 use super::super::{
-    KnownFigures, circuit, costs, depth, least_toffoli, most_qubits, scratch_width, tally,
+    KnownFigures, Size, circuit, costs, depth, least_toffoli, most_qubits, scratch_width, size,
+    tally,
 };
 use super::simulate::{Bench, by_templates, program};
 use proptest::prelude::*;
@@ -210,6 +211,14 @@ fn content() -> impl Strategy<Value = u64> {
     ]
 }
 
+fn size_of(circuit: &Circuit) -> Size {
+    Size {
+        qubits: circuit.qubits,
+        in_use: circuit.in_use.clone(),
+        depth: depth(circuit),
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 3000, failure_persistence: None, ..ProptestConfig::default() })]
 
@@ -233,7 +242,9 @@ proptest! {
             .collect();
         bench.check(&lanes);
         let program = &bench.program;
-        prop_assert_eq!(most_qubits(program), circuit(program).qubits);
+        let lowered = circuit(program);
+        prop_assert_eq!(most_qubits(program), lowered.qubits);
+        prop_assert_eq!(size(program), size_of(&lowered));
         let figures = KnownFigures::default().of(&op, |id| program.width(id));
         prop_assert_eq!(figures.costs, costs(&op, |id| program.width(id)));
         prop_assert_eq!(figures.scratch, scratch_width(&op, |id| program.width(id)));
@@ -327,6 +338,7 @@ fn registers_take_qubits_that_others_have_left() {
     all.instructions = order.map(instruction).to_vec();
     let lowered = circuit(&all);
     assert_eq!(lowered, circuit(&all), "deterministic");
+    assert_eq!(size(&all), size_of(&lowered));
     // Both squares are alike, and the sum is not; each is computed and undone. Without room, what is asked
     // for again at once is there.
     for (room, times) in [(1 << 20, 4), (0, 9)] {
