@@ -16,7 +16,7 @@ use qrt_circuit::{
     Bit, Block, BlockId, Cores, Instruction, KnownSums, Multiples, Op, Program, Register,
     RegisterId, Style, Word,
 };
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 use std::hash::BuildHasherDefault;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -464,6 +464,11 @@ struct Scheduler<'a> {
     renamed: Renamed,
     /// By copy: the registers that it stands for.
     stands_for: QuickMap<RegisterId, Vec<RegisterId>>,
+    /// By register, one more than the place of the instruction of a block that computed it, while the block
+    /// is looked at; 0 otherwise. Maps would take most of the time where nobody optimises them.
+    computed: Vec<usize>,
+    /// By operation: whether it is left out when a block is undone, likewise.
+    stays: Vec<bool>,
 }
 
 /// The order of instructions: all at once, or scope by scope. `roots` outlive everything; under
@@ -516,6 +521,8 @@ pub(super) fn schedule(
         readers,
         renamed: Renamed::default(),
         stands_for: QuickMap::default(),
+        computed: Vec::new(),
+        stays: Vec::new(),
     };
     let instructions = scheduler.block(BlockId::ROOT);
     (instructions, scheduler.renamed)
@@ -553,43 +560,52 @@ impl Scheduler<'_> {
         let parent = self.draft.blocks[block.index()]
             .parent
             .unwrap_or(BlockId::ROOT);
-        // What was computed here, or copied here by scopes within: by register, the instruction that did.
-        let mut held: QuickMap<RegisterId, usize> = QuickMap::default();
+        // What was computed here, or copied here by scopes within, and is read outside.
+        self.computed.resize(self.draft.registers.len(), 0);
+        let mut all = Vec::new();
         for (place, instruction) in forward.iter().enumerate() {
             for target in self.draft.ops[instruction.op as usize].0.targets() {
-                if instruction.inverse {
-                    held.remove(&target);
-                } else {
-                    held.insert(target, place);
-                }
+                let computed = &mut self.computed[target.index()];
+                *computed = if instruction.inverse { 0 } else { place + 1 };
+                all.push(target);
             }
         }
-        let is_read = |(register, _): &(RegisterId, usize)| self.read_outside(*register, block);
-        let mut outside: Vec<(RegisterId, usize)> = held.into_iter().filter(is_read).collect();
-        outside.sort_unstable_by_key(|&(register, place)| (place, register));
+        let mut outside: Vec<(usize, RegisterId)> = Vec::new();
+        for register in all {
+            let computed = std::mem::take(&mut self.computed[register.index()]);
+            if computed > 0 && self.read_outside(register, block) {
+                outside.push((computed - 1, register));
+            }
+        }
+        outside.sort_unstable();
         // A result of an operation without garbage may stay as it is.
-        let mut stays: HashSet<usize, BuildHasherDefault<lower::Quick>> = HashSet::default();
         let mut copies = Vec::new();
-        for (register, place) in outside {
+        self.stays.resize(self.draft.ops.len(), false);
+        let mut stay = Vec::new();
+        for (place, register) in outside {
             let op = forward[place].op as usize;
             let (computed, own) = &self.draft.ops[op];
             if *own == block && computed.scratch().is_none() {
-                stays.insert(op);
+                self.stays[op] = true;
+                stay.push(op);
             } else {
                 copies.push(self.copy(register, parent));
             }
         }
-        let backward: Vec<Instruction> = forward
-            .iter()
-            .rev()
-            .filter(|instruction| !stays.contains(&(instruction.op as usize)))
-            .map(|instruction| Instruction {
-                inverse: !instruction.inverse,
-                ..*instruction
-            })
-            .collect();
+        let computed = forward.len();
         forward.extend(copies);
-        forward.extend(backward);
+        for place in (0..computed).rev() {
+            let instruction = forward[place];
+            if !self.stays[instruction.op as usize] {
+                forward.push(Instruction {
+                    inverse: !instruction.inverse,
+                    ..instruction
+                });
+            }
+        }
+        for op in stay {
+            self.stays[op] = false;
+        }
         forward
     }
 
