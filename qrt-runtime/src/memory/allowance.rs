@@ -30,7 +30,7 @@ pub(crate) fn bytes_of_rows(threads: usize, qubits: u32) -> usize {
 
 /// Bytes of what one of so many threads keeps of operations on so many qubits, where gates are made anew.
 ///
-/// On the scoped knot, of 596 million gates, 32 MB of a thread save a third of the time, 128 MB half of it; on
+/// On the scoped knot, of 596 million gates, 32 MB of a thread save a third of the time, 128 MB nearly half of it; on
 /// the same under `keep`, where operations that are alike lie far apart, the former a fourth and more no more.
 pub(crate) fn bytes_of_templates(threads: usize, qubits: u32) -> usize {
     if qubits > QUBITS_OF_ONE_TURN {
