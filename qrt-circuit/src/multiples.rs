@@ -94,11 +94,7 @@ fn partners(multiple: i64, known: i64, most: i64, all: &Set, mut found: impl FnM
     let mut offer = |whole: i64, term: Term| {
         let shifted = term.factor << term.shift;
         let difference = whole - shifted;
-        let other = if difference < 0 {
-            -difference
-        } else {
-            difference
-        };
+        let other = distance(whole, shifted);
         if difference != 0 && all.contains(odd_part(other)) {
             found(Partner {
                 whole,
@@ -145,50 +141,42 @@ impl Others {
     /// else.
     #[inline(always)]
     fn of(multiple: i64, known: i64, most: i64) -> Self {
-        let mut numbers = [0; 4 * CONSTANT_BITS as usize];
-        let mut count = 0;
+        let mut others = Self {
+            numbers: [0; 4 * CONSTANT_BITS as usize],
+            count: 0,
+        };
         if known <= most {
-            let difference = multiple - known;
-            if difference != 0 {
-                let distance = if difference < 0 {
-                    -difference
-                } else {
-                    difference
-                };
-                numbers[count] = odd_part(distance);
-                count += 1;
+            if multiple != known {
+                others.push(odd_part(distance(multiple, known)));
             }
-            numbers[count] = odd_part(multiple + known);
-            count += 1;
+            others.push(odd_part(multiple + known));
         }
-        let mut shift = 1;
-        while shift < CONSTANT_BITS && known << shift <= most {
-            let shifted = known << shift;
-            let difference = multiple - shifted;
-            numbers[count] = if difference < 0 {
-                -difference
-            } else {
-                difference
-            };
-            numbers[count + 1] = multiple + shifted;
-            count += 2;
-            shift += 1;
-        }
-        shift = 1;
-        while shift < CONSTANT_BITS && multiple << shift <= most {
-            let shifted = multiple << shift;
-            let difference = shifted - known;
-            numbers[count] = if difference < 0 {
-                -difference
-            } else {
-                difference
-            };
-            numbers[count + 1] = shifted + known;
-            count += 2;
-            shift += 1;
-        }
-        Self { numbers, count }
+        others.push_shifted(multiple, known, most);
+        others.push_shifted(known, multiple, most);
+        others
     }
+
+    #[inline(always)]
+    fn push_shifted(&mut self, number: i64, shifted: i64, most: i64) {
+        let mut shift = 1;
+        while shift < CONSTANT_BITS && shifted << shift <= most {
+            self.push(distance(number, shifted << shift));
+            self.push(number + (shifted << shift));
+            shift += 1;
+        }
+    }
+
+    #[inline(always)]
+    fn push(&mut self, number: i64) {
+        self.numbers[self.count] = number;
+        self.count += 1;
+    }
+}
+
+/// `|a - b|`; the library's own is a call where nobody optimises it.
+#[inline(always)]
+fn distance(a: i64, b: i64) -> i64 {
+    if a < b { b - a } else { a - b }
 }
 
 /// A number above 0 without its factors of two.
@@ -502,35 +490,16 @@ impl Search {
             if multiple <= most || known <= most {
                 reached(odd_part(multiple + known));
                 if multiple != known {
-                    let difference = multiple - known;
-                    reached(odd_part(if difference < 0 {
-                        -difference
-                    } else {
-                        difference
-                    }));
+                    reached(odd_part(distance(multiple, known)));
                 }
             }
-            let mut shift = 1;
-            while shift < CONSTANT_BITS && multiple << shift <= most {
-                let difference = (multiple << shift) - known;
-                reached((multiple << shift) + known);
-                reached(if difference < 0 {
-                    -difference
-                } else {
-                    difference
-                });
-                shift += 1;
-            }
-            shift = 1;
-            while shift < CONSTANT_BITS && known << shift <= most {
-                let difference = (known << shift) - multiple;
-                reached((known << shift) + multiple);
-                reached(if difference < 0 {
-                    -difference
-                } else {
-                    difference
-                });
-                shift += 1;
+            for (fixed, shifted) in [(known, multiple), (multiple, known)] {
+                let mut shift = 1;
+                while shift < CONSTANT_BITS && shifted << shift <= most {
+                    reached((shifted << shift) + fixed);
+                    reached(distance(shifted << shift, fixed));
+                    shift += 1;
+                }
             }
         }
     }
