@@ -297,26 +297,39 @@ fn gates_made_anew_run_on_what_fits_into_some_memory() {
     assert!(machine.template(&[Gate::X(3)], 3).is_err());
 }
 
-/// Signs and parameters are the machine's, wherever a template's qubits are.
+/// Signs and parameters are the machine's, wherever a template's qubits are, and however long its rows.
 #[test]
 fn a_template_flips_the_machines_signs_and_reads_its_parameters() {
     let machine = Gates::new(&[&circuit(Vec::new(), 9)]).unwrap();
-    let mut rows = [machine.rows()];
-    rows[0].set_parameters(&[Span {
-        lanes: 1,
-        parameters: &[0b10, 0],
-    }]);
+    let short = machine.clone().for_many_rows(0);
+    assert_eq!([machine.lanes(), short.lanes()], [2048, 256]);
     let load = |bit, target| Gate::Load {
         parameter: 0,
         bit,
         target,
     };
-    let gates = [load(0, 0), load(1, 1), Gate::Z(1)];
-    let template = machine.template(&gates, 2).unwrap();
-    let mut queue = Queue::default();
-    machine.queue(&template, &[7, 4], &mut queue);
-    machine.run_queued(&mut queue, &mut rows);
-    let mut value = [0];
-    rows[0].get(&[7, 4], &mut value);
-    assert_eq!((value[0], rows[0].signs()[0] & 1), (0b10, 1));
+    let gates = [
+        load(0, 0),
+        load(1, 1),
+        Gate::Z(1),
+        Gate::X(0),
+        Gate::X(2),
+        Gate::Ccx(0, 1, 2),
+        Gate::Cx(2, 3),
+        Gate::Cx(0, 3),
+    ];
+    for machine in [machine, short] {
+        let mut rows = [machine.rows()];
+        rows[0].set_parameters(&[Span {
+            lanes: 1,
+            parameters: &[0b10, 0],
+        }]);
+        let template = machine.template(&gates, 4).unwrap();
+        let mut queue = Queue::default();
+        machine.queue(&template, &[7, 4, 0, 8], &mut queue);
+        machine.run_queued(&mut queue, &mut rows);
+        let mut value = [0];
+        rows[0].get(&[7, 4, 0, 8], &mut value);
+        assert_eq!((value[0], rows[0].signs()[0] & 1), (0b1011, 1));
+    }
 }
