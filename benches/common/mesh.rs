@@ -30,7 +30,7 @@ pub(crate) fn sets(depth: usize, path_bits: u32) -> Vec<String> {
     ]
 }
 
-/// A knot of `2 * around * along` triangles, traced along paths of four rays.
+/// A knot of `2 * around * along` triangles, traced along paths of four rays, under `keep`.
 pub(crate) fn mesh(
     root: &Path,
     view: [&str; 3],
@@ -41,6 +41,7 @@ pub(crate) fn mesh(
     let mut sets = sets(4, path_bits);
     sets.push(format!("geometry[2].mesh.rotate={rotate}"));
     sets.push(format!("geometry[2].mesh.translate={translate}"));
+    sets.push("circuit.uncompute=keep".to_owned());
     with_obj(root, scene, &knot::torus_knot(around, along), sets)
 }
 

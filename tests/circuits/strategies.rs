@@ -6,9 +6,10 @@ use crate::common::command::Folder;
 use crate::common::scene::{from_file, written};
 use qrt::circuit::{Gate, lower};
 use qrt::core::compile::Strategy;
-use qrt::core::oracle::{Layout, Options, Oracle, call_cost};
+use qrt::core::oracle::{Layout, Layouts, Options, Oracle, call_cost};
 use qrt::core::valid::ValidScene;
 use qrt::runtime::machines::OracleMachine;
+use std::collections::HashSet;
 use std::sync::Arc;
 
 /// All paths of all pixels by gates, which refuse a circuit that leaves a qubit behind: as `keep`
@@ -53,34 +54,41 @@ fn so_do_those_of_auto_in_an_example_scene() {
         "comparator.bits=5",
     ];
     let scene = from_file("scenes-yaml/lit-box.yaml", &small);
-    agree(&scene, &Strategy::LADDER);
+    let all = Layouts::new(&scene, 0);
+    let keep = all.under(Strategy::KEEP).unwrap().cost.qubits;
+    let strategies = (1..7).map(|half| all.cheapest(keep >> half).unwrap());
+    let strategies: Vec<Strategy> = strategies.collect();
+    assert_eq!(strategies.iter().collect::<HashSet<_>>().len(), 6);
+    agree(&scene, &strategies);
 }
 
 #[test]
 fn auto_is_the_cheapest_that_fits() {
-    let (channel, keep) = Layout::of_most_expensive(&written(CORNER, &[]), Strategy::KEEP).unwrap();
-    let layouts = Strategy::LADDER
-        .map(|strategy| Layout::new(&written(CORNER, &[]), channel, strategy).unwrap());
-    let front = Layout::front(layouts.to_vec());
+    let scene = written(CORNER, &[]);
+    let (channel, keep) = Layout::of_most_expensive(&scene, Strategy::KEEP).unwrap();
+    let all = Layouts::new(&scene, channel);
+    let layouts = Strategy::all()
+        .into_iter()
+        .map(|strategy| all.under(strategy).unwrap());
+    let front = Layout::front(layouts.collect());
     assert_eq!(front[0], keep);
-    assert!(front.len() > 5);
-    for layout in &front {
+    assert!(front.len() > 20);
+    for place in (1..front.len()).step_by(3) {
         // As many as it needs, and one fewer than the next cheaper one does.
-        let next = front
-            .iter()
-            .rev()
-            .find(|l| l.cost.toffoli < layout.cost.toffoli);
-        for qubits in [
-            Some(layout.cost.qubits),
-            next.map(|next| next.cost.qubits - 1),
-        ] {
-            let Some(qubits) = qubits else { continue };
+        for qubits in [front[place].cost.qubits, front[place - 1].cost.qubits - 1] {
             let budget = format!("budget.qubits={qubits}");
             let scene = written(CORNER, &["circuit.uncompute=auto", &budget]);
             let oracle = Oracle::new(&scene, channel, Options::default()).unwrap();
-            assert_eq!(call_cost(&[oracle]), layout.cost, "{budget}");
+            assert_eq!(call_cost(&[oracle]), front[place].cost, "{budget}");
         }
     }
+    // If none does, the number that is told is the least there is.
+    let scene = written(CORNER, &["circuit.uncompute=auto", "budget.qubits=1"]);
+    let oracle = Oracle::new(&scene, channel, Options::default()).unwrap();
+    assert_eq!(
+        call_cost(&[oracle]).qubits,
+        front.last().unwrap().cost.qubits
+    );
     // Without a budget nothing is undone early.
     let scene = written(CORNER, &["circuit.uncompute=auto"]);
     assert_eq!(Options::default().strategy(&scene), Ok(Strategy::KEEP));
@@ -141,6 +149,15 @@ fn the_command_lists_the_front_and_tells_the_least() {
         fewer += usize::from(ghosts < measured);
     }
     assert!(3 * fewer > front.len(), "{fewer} of {}", front.len());
+    // What is chosen is told.
+    let budget = format!("budget.qubits={}", qubits(3));
+    let sets = ["--set", "circuit.uncompute=auto", "--set", &budget];
+    let told = folder.works(&[&["inspect", file][..], &sets].concat());
+    let chosen = front[3]["strategy"].as_str().unwrap();
+    assert!(
+        told.contains(&format!("uncompute auto ({chosen}), nearest")),
+        "{told}"
+    );
     let least = qubits(front.len() - 1);
     let auto = [
         "--set",
@@ -156,8 +173,5 @@ fn the_command_lists_the_front_and_tells_the_least() {
         .next()
         .and_then(|text| text.rsplit(' ').next());
     let number: u64 = number.unwrap().replace(',', "").parse().unwrap();
-    assert!(
-        (least..=least + least / 4).contains(&number),
-        "{number} {least}"
-    );
+    assert_eq!(number, least);
 }

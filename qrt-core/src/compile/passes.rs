@@ -16,7 +16,7 @@ use qrt_circuit::{
     Bit, Block, BlockId, Cores, Instruction, KnownSums, Multiples, Op, Program, Register,
     RegisterId, Style, Word,
 };
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::hash::BuildHasherDefault;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -49,6 +49,9 @@ pub(crate) struct Known {
 
 /// A map whose keys nobody chooses to collide.
 pub(super) type QuickMap<K, V> = HashMap<K, V, BuildHasherDefault<lower::Quick>>;
+
+/// A set like it.
+pub(super) type QuickSet<T> = HashSet<T, BuildHasherDefault<lower::Quick>>;
 
 /// By register that was recorded, the copy that stands for it.
 pub(super) type Renamed = QuickMap<RegisterId, RegisterId>;
@@ -477,9 +480,10 @@ pub(super) fn schedule(
     draft: &mut Draft,
     strategy: Strategy,
     roots: &[RegisterId],
+    known: &Mutex<Known>,
 ) -> (Vec<Instruction>, Renamed) {
     if strategy.recomputes() {
-        return recompute::schedule(draft, strategy, roots);
+        return recompute::schedule(draft, strategy, roots, known);
     }
     if strategy.is_keep() {
         let instructions = draft.ops.iter().enumerate();
@@ -666,7 +670,7 @@ pub(crate) fn assemble(
         share_multiples(&mut draft, strategy, known);
     }
     draft.size_scratch(known);
-    let (instructions, renamed) = schedule(&mut draft, strategy, roots);
+    let (instructions, renamed) = schedule(&mut draft, strategy, roots, known);
     let program = Program {
         registers: draft.registers,
         blocks: draft.blocks,

@@ -11,10 +11,11 @@
 //!   such as a search's nearest hit so far, one part in three stays, or in four (Bennett 1989);
 //! - parts of which everything is read outside stay as they are, and are not computed twice.
 
-use super::passes::{Draft, Renamed};
+use super::passes::{Draft, Known, QuickMap, QuickSet, Renamed, locked};
 use super::{Label, StageName, Strategy};
-use qrt_circuit::{BlockId, Instruction, RegisterId, lower};
-use std::collections::{BTreeSet, HashMap, HashSet};
+use qrt_circuit::{BlockId, Instruction, RegisterId};
+use std::collections::BTreeSet;
+use std::sync::Mutex;
 
 /// Narrower parts stay to the end of their scope.
 const LEAST_WIDTH: u32 = 8;
@@ -41,7 +42,7 @@ struct ItemRun {
     /// Whether it left garbage.
     garbage: bool,
     /// What it reads of others.
-    inputs: HashSet<RegisterId>,
+    inputs: QuickSet<RegisterId>,
     /// The qubits of its outputs.
     width: u32,
     toffoli: u64,
@@ -53,15 +54,15 @@ struct Scheduler<'a> {
     strategy: Strategy,
     items: Vec<Vec<Item>>,
     /// By register: the operations that read it.
-    readers: HashMap<RegisterId, Vec<usize>>,
+    readers: QuickMap<RegisterId, Vec<usize>>,
     /// What outlives everything.
-    roots: HashSet<RegisterId>,
+    roots: QuickSet<RegisterId>,
     /// Copies that stand for registers of finished scopes.
     renamed: Renamed,
     /// What copies are copies of.
-    originals: HashMap<RegisterId, RegisterId>,
-    /// By operation.
-    toffoli: HashMap<usize, u64>,
+    originals: QuickMap<RegisterId, RegisterId>,
+    /// By operation; copies have none.
+    toffoli: Vec<u64>,
 }
 
 /// As [`super::passes::schedule`].
@@ -69,10 +70,13 @@ pub(super) fn schedule(
     draft: &mut Draft,
     strategy: Strategy,
     roots: &[RegisterId],
+    known: &Mutex<Known>,
 ) -> (Vec<Instruction>, Renamed) {
-    let mut readers: HashMap<RegisterId, Vec<usize>> = HashMap::new();
+    let ops = draft.ops.iter().map(|(op, _)| op);
+    let figures = locked(known).figures(ops, &draft.registers);
+    let mut readers: QuickMap<RegisterId, Vec<usize>> = QuickMap::default();
     let mut items: Vec<Vec<Item>> = vec![Vec::new(); draft.blocks.len()];
-    let mut placed: HashSet<BlockId> = HashSet::new();
+    let mut placed: QuickSet<BlockId> = QuickSet::default();
     for (op, (code, block)) in draft.ops.iter().enumerate() {
         for read in code.reads() {
             readers.entry(read).or_default().push(op);
@@ -91,8 +95,8 @@ pub(super) fn schedule(
         readers,
         roots: roots.iter().copied().collect(),
         renamed: Renamed::default(),
-        originals: HashMap::new(),
-        toffoli: HashMap::new(),
+        originals: QuickMap::default(),
+        toffoli: figures.iter().map(|of| of.costs[0].toffoli).collect(),
     };
     let instructions = scheduler.block(BlockId::ROOT);
     (instructions, scheduler.renamed)
@@ -146,7 +150,7 @@ impl Scheduler<'_> {
     }
 
     /// The items, each as late as those that read it allow, and by operation its item's place.
-    fn sunk(&self, items: Vec<Item>) -> (Vec<Item>, HashMap<usize, usize>) {
+    fn sunk(&self, items: Vec<Item>) -> (Vec<Item>, QuickMap<usize, usize>) {
         let operations: Vec<Vec<usize>> = items
             .iter()
             .map(|item| {
@@ -155,7 +159,7 @@ impl Scheduler<'_> {
                 all
             })
             .collect();
-        let mut item_of: HashMap<usize, usize> = HashMap::new();
+        let mut item_of: QuickMap<usize, usize> = QuickMap::default();
         for (item, operations) in operations.iter().enumerate() {
             item_of.extend(operations.iter().map(|&op| (op, item)));
         }
@@ -163,7 +167,7 @@ impl Scheduler<'_> {
         for item in (0..items.len()).rev() {
             let targets = operations[item].iter();
             let targets = targets.flat_map(|&op| self.draft.ops[op].0.targets());
-            let read_by: HashSet<usize> = targets
+            let read_by: QuickSet<usize> = targets
                 .filter_map(|target| self.readers.get(&target))
                 .flatten()
                 .filter_map(|reader| item_of.get(reader).copied())
@@ -260,11 +264,11 @@ impl Scheduler<'_> {
         forward
     }
 
-    fn part(&mut self, instructions: Vec<Instruction>) -> ItemRun {
+    fn part(&self, instructions: Vec<Instruction>) -> ItemRun {
         let mut outputs: Vec<RegisterId> = Vec::new();
         let mut garbage = 0;
-        let mut inputs: HashSet<RegisterId> = HashSet::new();
-        let mut own: HashSet<RegisterId> = HashSet::new();
+        let mut inputs: QuickSet<RegisterId> = QuickSet::default();
+        let mut own: QuickSet<RegisterId> = QuickSet::default();
         let mut toffoli = 0;
         for instruction in &instructions {
             let op = &self.draft.ops[instruction.op as usize].0;
@@ -280,8 +284,8 @@ impl Scheduler<'_> {
                 outputs.extend(op.targets());
                 garbage += left;
             }
-            let cost = self.toffoli.entry(instruction.op as usize);
-            toffoli += *cost.or_insert_with(|| lower::cost(op, false, width).toffoli);
+            let cost = self.toffoli.get(instruction.op as usize);
+            toffoli += cost.copied().unwrap_or(0);
         }
         let width = |id: &RegisterId| self.draft.registers[id.index()].width;
         ItemRun {
@@ -300,13 +304,13 @@ impl Scheduler<'_> {
         &self,
         parts: &mut [ItemRun],
         steps: &mut Vec<(usize, bool)>,
-        place_of: &HashMap<usize, usize>,
+        place_of: &QuickMap<usize, usize>,
         again: bool,
     ) {
         let now = parts.len() - 1;
         let undone = parts.iter().enumerate().filter(|(_, part)| part.undone);
         // By register: the part that left it, where that is undone.
-        let mut gone: HashMap<RegisterId, usize> = undone
+        let mut gone: QuickMap<RegisterId, usize> = undone
             .flat_map(|(place, part)| part.outputs.iter().map(move |output| (*output, place)))
             .collect();
         for place in (0..parts.len()).rev() {
@@ -341,14 +345,14 @@ impl Scheduler<'_> {
         self.originals.get(&register).copied().unwrap_or(register)
     }
 
-    fn is_read_outside(&self, register: RegisterId, place_of: &HashMap<usize, usize>) -> bool {
+    fn is_read_outside(&self, register: RegisterId, place_of: &QuickMap<usize, usize>) -> bool {
         let original = self.original(register);
         let mut readers = self.readers.get(&original).into_iter().flatten();
         self.roots.contains(&original) || readers.any(|reader| !place_of.contains_key(reader))
     }
 
     /// The place of the last item of a scope that reads what a part left; none if that is read outside.
-    fn last_read(&self, part: &ItemRun, place_of: &HashMap<usize, usize>) -> Option<usize> {
+    fn last_read(&self, part: &ItemRun, place_of: &QuickMap<usize, usize>) -> Option<usize> {
         let mut last = 0;
         for output in &part.outputs {
             let original = self.original(*output);
@@ -375,7 +379,7 @@ impl Scheduler<'_> {
 /// `depth` others; whether that is all.
 fn find_again(
     parts: &[ItemRun],
-    gone: &HashMap<RegisterId, usize>,
+    gone: &QuickMap<RegisterId, usize>,
     part: &ItemRun,
     depth: usize,
     needed: &mut BTreeSet<usize>,

@@ -116,37 +116,38 @@ impl Strategy {
         runs_again: false,
     };
 
-    /// From the fewest gates to the fewest qubits, in steps: what `uncompute: auto` chooses from.
-    pub const LADDER: [Self; 23] = {
+    /// What is decided one by one, what changes most first: parts of a ray's way that are undone at their
+    /// ends, the small ones together, and garbage that is undone at once. Whichever are taken already, one
+    /// more costs no fewer Toffolis, and no more qubits but for a few that it copies.
+    pub(crate) const CHOICES: [Self; 9] = {
         use Garbage::{Products, Quotients, Tables};
         use Scope::{Body, Component, Plane, Ray, Sample, Search, Shade, Side};
-        const ALL: &[Garbage] = &[Tables, Products, Quotients];
         [
-            Self::KEEP,
-            Self::new(&[Component], &[]),
-            Self::new(&[Ray], &[]),
-            Self::new(&[], &[Quotients]),
-            Self::new(&[Component], &[Quotients]),
             Self::new(&[Plane], &[]),
-            Self::new(&[Plane, Component], &[]),
-            Self::new(&[Plane, Sample, Component, Side, Shade], &[]),
-            Self::new(&[Plane], &[Tables, Products]),
-            Self::new(&[Plane, Component], &[Tables, Products]),
-            Self::new(&[Plane, Search, Ray, Sample, Component, Side, Shade], &[]),
-            Self::new(&[Plane, Body, Component], &[Tables, Products]),
-            Self::new(&[Plane, Search, Component], &[Tables, Products]),
-            Self::new(&[Plane, Search, Ray], &[Tables, Products]),
-            Self::new(&[Plane, Search, Ray], ALL),
-            Self::new(&[Plane, Body, Search, Sample, Component, Side, Shade], ALL),
-            Self::new(&Scope::ALL, ALL),
-            Self::new(&[Plane, Sample, Component, Side, Shade], ALL).recomputing(),
-            Self::new(&[Plane, Body, Ray, Sample, Component, Side, Shade], ALL).recomputing(),
-            Self::new(&[Plane, Search, Ray, Component], ALL).recomputing(),
-            Self::new(&[Plane, Search, Ray, Sample, Component, Side, Shade], ALL).recomputing(),
-            Self::new(&Scope::ALL, ALL).recomputing(),
-            Self::new(&Scope::ALL, ALL).running_again(),
+            Self::new(&[], &[Products]),
+            Self::new(&[Ray], &[]),
+            Self::new(&[Search], &[]),
+            Self::new(&[], &[Tables]),
+            Self::new(&[], &[Quotients]),
+            Self::new(&[Body], &[]),
+            Self::new(&[Sample, Side, Shade], &[]),
+            Self::new(&[Component], &[]),
         ]
     };
+
+    /// How many choices there are of some of [`Strategy::CHOICES`].
+    pub(crate) const CHOSEN: usize = 1 << Self::CHOICES.len();
+
+    /// Those of [`Strategy::CHOICES`] whose bits are set.
+    pub(crate) fn of_choices(bits: usize) -> Self {
+        let chosen = Self::CHOICES.iter().enumerate();
+        let chosen = chosen.filter(|(place, _)| bits >> place & 1 == 1);
+        chosen.fold(Self::KEEP, |all, (_, one)| Self {
+            scopes: all.scopes | one.scopes,
+            lean: [0, 1, 2].map(|kind| all.lean[kind] | one.lean[kind]),
+            ..all
+        })
+    }
 
     /// These scopes, and operations that undo this garbage at once.
     pub const fn new(scopes: &[Scope], lean: &[Garbage]) -> Self {
@@ -200,32 +201,18 @@ impl Strategy {
             .fold(0, |number, flag| 2 * number + usize::from(*flag))
     }
 
-    /// All that are worth trying: the small parts of a ray's way together, everything else apart.
+    /// All that are worth trying. What is computed anew and leaves garbage would leave it as often.
     pub fn all() -> Vec<Self> {
-        let [plane, body, search, ray, sample, component, side, shade] =
-            Scope::ALL.map(|scope| vec![scope]);
-        let small = [sample, side, shade].concat();
-        let parts = [plane, body, search, ray, component, small];
-        let chosen = |bits: usize| {
-            let parts = parts.iter().enumerate();
-            let parts = parts.filter(move |(k, _)| bits >> k & 1 == 1);
-            parts
-                .flat_map(|(_, scopes)| scopes.clone())
-                .collect::<Vec<_>>()
-        };
-        let lean = |bits: usize| {
-            let all = Garbage::ALL.into_iter().enumerate();
-            all.filter(move |(k, _)| bits >> k & 1 == 1)
-                .map(|(_, garbage)| garbage)
-                .collect::<Vec<_>>()
-        };
-        let scopes = 0..1 << parts.len();
-        let pairs = scopes.clone().flat_map(|s| (0..8).map(move |l| (s, l)));
-        let kept = pairs.map(|(s, l)| Self::new(&chosen(s), &lean(l)));
-        // Computed anew, what leaves garbage would leave it as often.
-        let anew = scopes.map(|s| Self::new(&chosen(s), &Garbage::ALL));
-        let anew = anew.flat_map(|strategy| [strategy.recomputing(), strategy.running_again()]);
+        let kept = (0..Self::CHOSEN).map(Self::of_choices);
+        let anew = Self::all_without_garbage()
+            .flat_map(|strategy| [strategy.recomputing(), strategy.running_again()]);
         kept.chain(anew).collect()
+    }
+
+    /// Those of them that compute nothing anew and leave no garbage.
+    pub(crate) fn all_without_garbage() -> impl Iterator<Item = Self> {
+        let kept = (0..Self::CHOSEN).map(Self::of_choices);
+        kept.filter(|strategy| strategy.lean == [true; 3])
     }
 
     /// How operations are lowered that have this garbage.

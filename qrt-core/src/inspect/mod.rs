@@ -20,7 +20,7 @@ pub use layout::{Layout, Lifetime};
 pub use passes::{PassFigures, pass_figures};
 pub use stages::{Part, Stage};
 
-use crate::compile::Role;
+use crate::compile::{Role, Strategy};
 use crate::oracle::{Options, Oracle, OracleError};
 use crate::valid::ValidScene;
 use qrt_circuit::Program;
@@ -35,6 +35,8 @@ pub const CHANNELS: [&str; 3] = ["r", "g", "b"];
 pub struct Inspection {
     /// The channel: 0 red, 1 green, 2 blue.
     pub channel: usize,
+    /// What is undone when.
+    pub strategy: Strategy,
     /// The oracle of that channel.
     pub oracle: Oracle,
     /// `O_f`: all its instructions.
@@ -65,6 +67,12 @@ impl Inspection {
         options: Options,
     ) -> Result<Self, OracleError> {
         let first = channel.unwrap_or(0);
+        // Found once for all channels.
+        let strategy = options.strategy(scene)?;
+        let options = Options {
+            strategy: Some(strategy),
+            ..options
+        };
         let mut dearest = Candidate::new(scene, first, options)?;
         if channel.is_none() {
             for channel in first + 1..CHANNELS.len() {
@@ -88,6 +96,7 @@ impl Inspection {
             in_use: size.in_use,
             layout: Layout::of(&whole),
             channel,
+            strategy,
             oracle,
             whole,
             costs,

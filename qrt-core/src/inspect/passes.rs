@@ -55,6 +55,7 @@ pub fn pass_figures(
     for (name, passes) in steps {
         let options = Options {
             passes,
+            strategy: Some(inspection.strategy),
             ..Options::default()
         };
         let oracle = Oracle::new(scene, inspection.channel, options)?;

@@ -23,37 +23,51 @@ pub fn call_cost(channels: &[Oracle]) -> CallCost {
 
 /// As [`call_cost`], by what is known of operations.
 pub(super) fn call_cost_by(channels: &[Oracle], known: &mut compile::Known) -> CallCost {
-    let mut dearest: Option<(u64, &Oracle, Vec<Figures>)> = None;
-    for oracle in channels {
-        let program = &oracle.program;
-        let mut figures = known.figures(program.ops.iter(), &program.registers);
-        // Each channel compares a number of its own, into the same flag.
-        let flip = oracle.flip_steps(0);
-        let width = |register| program.width(register);
-        figures.extend(flip.ops.iter().map(|op| known.alike.of(op, width)));
-        let toffoli = |op: usize| figures[op].costs[0].toffoli;
-        let once = program.instructions.iter();
-        let once: u64 = once
-            .map(|instruction| toffoli(instruction.op as usize))
-            .sum();
-        let steps = flip.order.iter();
-        let steps = steps.map(|(step, _)| toffoli(program.ops.len() + *step as usize));
-        let toffoli = 2 * once + steps.sum::<u64>();
-        if dearest.as_ref().is_none_or(|&(most, ..)| most < toffoli) {
-            dearest = Some((toffoli, oracle, figures));
-        }
-    }
-    let Some((toffoli, oracle, figures)) = dearest else {
-        return CallCost {
-            qubits: 0,
-            toffoli: 0,
-        };
+    let priced = channels.iter().map(|oracle| {
+        let figures = figures(oracle, known);
+        (toffoli(oracle, &figures), oracle, figures)
+    });
+    // The first of those that take as many.
+    let dearest = priced.reduce(|most, next| if most.0 < next.0 { next } else { most });
+    let none = CallCost {
+        qubits: 0,
+        toffoli: 0,
     };
+    dearest.map_or(none, |(_, oracle, figures)| cost_by(oracle, &figures))
+}
+
+/// The figures of the operations of [`Oracle::flip`] of channel number 0 of an oracle, the oracle's own
+/// first.
+pub(super) fn figures(oracle: &Oracle, known: &mut compile::Known) -> Vec<Figures> {
+    let program = &oracle.program;
+    let mut figures = known.figures(program.ops.iter(), &program.registers);
+    // Each channel compares a number of its own, into the same flag.
+    let flip = oracle.flip_steps(0);
+    let width = |register| program.width(register);
+    figures.extend(flip.ops.iter().map(|op| known.alike.of(op, width)));
+    figures
+}
+
+/// What a call costs, by the figures of its operations.
+pub(super) fn cost_by(oracle: &Oracle, figures: &[Figures]) -> CallCost {
     let qubits = lower::most_qubits_by(&oracle.upto_flip(), |op| figures[op].borrowed);
     CallCost {
         qubits: u64::from(qubits),
-        toffoli,
+        toffoli: toffoli(oracle, figures),
     }
+}
+
+fn toffoli(oracle: &Oracle, figures: &[Figures]) -> u64 {
+    let program = &oracle.program;
+    let toffoli = |op: usize| figures[op].costs[0].toffoli;
+    let once = program.instructions.iter();
+    let once: u64 = once
+        .map(|instruction| toffoli(instruction.op as usize))
+        .sum();
+    let flip = oracle.flip_steps(0);
+    let steps = flip.order.iter();
+    let steps = steps.map(|(step, _)| toffoli(program.ops.len() + *step as usize));
+    2 * once + steps.sum::<u64>()
 }
 
 /// Reports the limits of the scene's `budget` that a call exceeds, each with what could be done

@@ -1,13 +1,14 @@
 //! What a scene's circuit costs under each strategy: qubits against gates.
 
 use super::recording::{PrimaryHit, Recording};
-use super::{CallCost, Options, Oracle, OracleError};
+use super::{CallCost, Options, Oracle, OracleError, budget};
 use crate::compile::Strategy;
 use crate::scene::Uncompute;
 use crate::valid::ValidScene;
-use qrt_circuit::lower;
-use std::collections::HashMap;
-use std::sync::{Mutex, PoisonError};
+use qrt_circuit::Cores;
+use qrt_circuit::lower::{self, Figures};
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// A way to lay out the circuit of a scene's channel, and what one call of it costs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,39 +34,7 @@ impl Layout {
         channel: usize,
         strategy: Strategy,
     ) -> Result<Self, OracleError> {
-        let options = Options {
-            strategy: Some(strategy),
-            ..Options::default()
-        };
-        let oracle = Oracle::new(scene, channel, options)?;
-        Ok(Self::of(&oracle, strategy))
-    }
-
-    fn of(oracle: &Oracle, strategy: Strategy) -> Self {
-        let whole = oracle.whole(0);
-        let mut known = HashMap::new();
-        let (mut toffoli, mut and_measured, mut and_with_ghosts) = (0, 0, 0);
-        let left = lower::with_ghosts(&whole);
-        for (instruction, left) in whole.instructions.iter().zip(left) {
-            let costs = known.entry(instruction.op).or_insert_with(|| {
-                let op = &whole.ops[instruction.op as usize];
-                lower::costs(op, |register| whole.width(register))
-            });
-            let cost = &costs[usize::from(instruction.inverse)];
-            toffoli += cost.toffoli;
-            and_measured += cost.and_measured;
-            and_with_ghosts += if left { cost.and_measured } else { 0 };
-        }
-        let cost = CallCost {
-            qubits: u64::from(oracle.qubits()),
-            toffoli,
-        };
-        Self {
-            strategy,
-            cost,
-            and_measured,
-            and_with_ghosts,
-        }
+        Layouts::new(scene, channel).under(strategy)
     }
 
     /// The layout of the most expensive channel, and which that is.
@@ -105,7 +74,7 @@ impl Layout {
 pub struct Layouts<'a> {
     scene: &'a ValidScene,
     channel: usize,
-    recordings: [Mutex<Option<Recording>>; Strategy::RECORDINGS],
+    recordings: [Mutex<Option<Arc<Recording>>>; Strategy::RECORDINGS],
 }
 
 impl<'a> Layouts<'a> {
@@ -123,29 +92,146 @@ impl<'a> Layouts<'a> {
     /// # Errors
     /// As [`Oracle::new`].
     pub fn under(&self, strategy: Strategy) -> Result<Layout, OracleError> {
-        let oracle = {
-            let recording = &self.recordings[strategy.recording()];
-            let mut recording = recording.lock().unwrap_or_else(PoisonError::into_inner);
-            let recording = match &mut *recording {
-                Some(recording) => recording,
-                none => {
-                    let options = Options {
-                        strategy: Some(strategy),
-                        ..Options::default()
-                    };
-                    let traced = PrimaryHit::Traced;
-                    none.insert(Recording::new(self.scene, [self.channel], options, traced)?)
-                }
-            };
-            recording.lay_out(strategy);
-            recording.oracle(&[0])
+        let (oracle, figures) = self.priced(strategy)?;
+        let whole = oracle.whole(0);
+        let left = lower::with_ghosts(&whole);
+        let (mut and_measured, mut and_with_ghosts) = (0, 0);
+        for (instruction, left) in whole.instructions.iter().zip(left) {
+            let costs = &figures[instruction.op as usize].costs;
+            let ands = costs[usize::from(instruction.inverse)].and_measured;
+            and_measured += ands;
+            and_with_ghosts += if left { ands } else { 0 };
+        }
+        Ok(Layout {
+            strategy,
+            cost: budget::cost_by(&oracle, &figures),
+            and_measured,
+            and_with_ghosts,
+        })
+    }
+
+    /// The oracle under `strategy`, and the figures of its operations.
+    fn priced(&self, strategy: Strategy) -> Result<(Oracle, Vec<Figures>), OracleError> {
+        let recording = self.recording(strategy)?;
+        let oracle = recording.oracle_under(strategy, &[0]);
+        let figures = budget::figures(&oracle, &mut recording.known());
+        Ok((oracle, figures))
+    }
+
+    /// The recording that `strategy` needs, made once.
+    fn recording(&self, strategy: Strategy) -> Result<Arc<Recording>, OracleError> {
+        let recording = &self.recordings[strategy.recording()];
+        let mut recording = recording.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(recording) = &*recording {
+            return Ok(recording.clone());
+        }
+        let options = Options {
+            strategy: Some(strategy),
+            ..Options::default()
         };
-        Ok(Layout::of(&oracle, strategy))
+        let made = Recording::new(self.scene, [self.channel], options, PrimaryHit::Traced)?;
+        Ok(recording.insert(Arc::new(made)).clone())
+    }
+
+    fn cost(&self, strategy: Strategy) -> Result<CallCost, OracleError> {
+        let (oracle, figures) = self.priced(strategy)?;
+        Ok(budget::cost_by(&oracle, &figures))
+    }
+
+    /// What each of these costs, found on all cores.
+    fn costs(&self, of: &[Strategy]) -> Result<Vec<(CallCost, Strategy)>, OracleError> {
+        let costs = Cores::All.map(of, 1, |&strategy| self.cost(strategy));
+        let costs = costs.into_iter().zip(of);
+        costs
+            .map(|(cost, &strategy)| Ok((cost?, strategy)))
+            .collect()
+    }
+
+    /// The strategy with the fewest Toffolis on at most so many qubits, of [`Strategy::all`]; the one with
+    /// the fewest qubits if all have more.
+    ///
+    /// # Errors
+    /// As [`Oracle::new`].
+    pub fn cheapest(&self, qubits: u64) -> Result<Strategy, OracleError> {
+        let kept = self.cheapest_kept(qubits)?;
+        let without_garbage: Vec<Strategy> = Strategy::all_without_garbage().collect();
+        let anew: Vec<Strategy> = without_garbage.iter().map(|s| s.recomputing()).collect();
+        if let Some((cost, strategy)) = kept {
+            // Of those that compute anew, the one without scopes has few Toffolis, if not the fewest.
+            let few = self.cost(anew[0])?.toffoli;
+            if cost.toffoli <= few - few / 3 {
+                return Ok(strategy);
+            }
+        }
+        let rank = |(cost, _): &(CallCost, Strategy)| {
+            if cost.qubits <= qubits {
+                (0, cost.toffoli, cost.qubits)
+            } else {
+                (1, cost.qubits, cost.toffoli)
+            }
+        };
+        let mut all = self.costs(&anew)?;
+        let best = all.iter().chain(&kept).map(rank).min();
+        // Running more again frees more, and has no fewer Toffolis.
+        let may_be_better = |one: &(CallCost, Strategy)| {
+            let fits = one.0.qubits <= qubits;
+            !fits && best.is_none_or(|best| best.0 == 1 || one.0.toffoli < best.1)
+        };
+        let again = without_garbage.iter().zip(&all);
+        let again = again.filter(|(_, one)| may_be_better(one));
+        let again: Vec<Strategy> = again.map(|(s, _)| s.running_again()).collect();
+        all.extend(self.costs(&again)?);
+        let best = all.into_iter().chain(kept).min_by_key(rank);
+        Ok(best.map_or(Strategy::SCOPED, |(_, strategy)| strategy))
+    }
+
+    /// The same of those that compute nothing anew; none if none fits.
+    ///
+    /// [`Strategy::CHOICES`] are decided one after another, for all that may still be the cheapest: of those
+    /// that share what is decided, none has fewer Toffolis than the one that takes no more, nor many fewer
+    /// qubits than the one that takes all others.
+    fn cheapest_kept(&self, most: u64) -> Result<Option<(CallCost, Strategy)>, OracleError> {
+        // What a part copies out before it is undone can outweigh what that frees, by a few qubits.
+        let nearly = most + most / 16;
+        let mut known: BTreeMap<usize, CallCost> = BTreeMap::new();
+        let mut best: Option<(CallCost, Strategy)> = None;
+        // What is taken, and what may still be.
+        let mut open = vec![(0, Strategy::CHOSEN - 1)];
+        let mut choices = 0..Strategy::CHOICES.len();
+        loop {
+            let wanted = open.iter().flat_map(|&(taken, free)| [taken, taken | free]);
+            let wanted: BTreeSet<usize> = wanted.filter(|bits| !known.contains_key(bits)).collect();
+            let strategies = wanted.iter().map(|&bits| Strategy::of_choices(bits));
+            let costs = self.costs(&strategies.collect::<Vec<_>>())?;
+            for (bits, (cost, strategy)) in wanted.into_iter().zip(costs) {
+                known.insert(bits, cost);
+                let is_better = |best: (CallCost, _)| {
+                    (cost.toffoli, cost.qubits) < (best.0.toffoli, best.0.qubits)
+                };
+                if cost.qubits <= most && best.is_none_or(is_better) {
+                    best = Some((cost, strategy));
+                }
+            }
+            open.retain(|(taken, free)| {
+                let least = known[taken];
+                least.qubits > most
+                    && best.is_none_or(|(cost, _)| least.toffoli < cost.toffoli)
+                    && known[&(taken | free)].qubits <= nearly
+            });
+            let Some(choice) = choices.next() else {
+                return Ok(best);
+            };
+            let bit = 1 << choice;
+            let decided = open.into_iter().map(|(taken, free)| (taken, free & !bit));
+            open = decided
+                .flat_map(|(taken, free)| [(taken, free), (taken | bit, free)])
+                .collect();
+        }
     }
 }
 
-/// The strategy of a scene's circuits. `auto` is the cheapest of [`Strategy::LADDER`] with which the
-/// dearest channel's oracle fits into `budget.qubits`; the one with the fewest qubits if none does.
+/// The strategy of a scene's circuits. `auto` is the cheapest with which the dearest channel's oracle fits
+/// into `budget.qubits`.
 pub(super) fn strategy_of(scene: &ValidScene) -> Result<Strategy, OracleError> {
     let written = scene.scene();
     match written.circuit.uncompute {
@@ -160,14 +246,5 @@ pub(super) fn strategy_of(scene: &ValidScene) -> Result<Strategy, OracleError> {
     if keep.cost.qubits <= most {
         return Ok(Strategy::KEEP);
     }
-    let all = Layouts::new(scene, channel);
-    let others = Strategy::LADDER.iter();
-    let layouts: Result<Vec<Layout>, OracleError> =
-        others.map(|&strategy| all.under(strategy)).collect();
-    let layouts = layouts?.into_iter();
-    let fits = layouts.clone().filter(|layout| layout.cost.qubits <= most);
-    let cheapest = fits.min_by_key(|layout| (layout.cost.toffoli, layout.cost.qubits));
-    let leanest = || layouts.min_by_key(|layout| (layout.cost.qubits, layout.cost.toffoli));
-    let chosen = cheapest.or_else(leanest);
-    Ok(chosen.map_or(Strategy::SCOPED, |layout| layout.strategy))
+    Layouts::new(scene, channel).cheapest(most)
 }

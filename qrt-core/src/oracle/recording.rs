@@ -185,12 +185,6 @@ impl Recording {
         })
     }
 
-    /// What is recorded is laid out under another strategy from here on, one that needs the same
-    /// recording ([`Strategy::recording`]).
-    pub(super) fn lay_out(&mut self, strategy: Strategy) {
-        self.strategy = strategy;
-    }
-
     /// What is known of operations; others wait until it is given back.
     pub(super) fn known(&self) -> MutexGuard<'_, compile::Known> {
         compile::locked(&self.ops)
@@ -198,6 +192,11 @@ impl Recording {
 
     /// The oracle of the channels at these places among those recorded.
     pub(super) fn oracle(&self, places: &[usize]) -> Oracle {
+        self.oracle_under(self.strategy, places)
+    }
+
+    /// The same under another strategy, one that needs the same recording ([`Strategy::recording`]).
+    pub(super) fn oracle_under(&self, strategy: Strategy, places: &[usize]) -> Oracle {
         let mut outputs: Vec<Channel> = places
             .iter()
             .map(|&place| self.known.channels[place].clone())
@@ -210,7 +209,7 @@ impl Recording {
             self.recorded.clone(),
             &roots,
             self.options.passes,
-            self.strategy,
+            strategy,
             &inputs,
             &self.ops,
         );

@@ -80,6 +80,9 @@ macro_rules! record {
                 )),*])
             }
         }
+
+        #[cfg(feature = "serde")]
+        $crate::scene::serde::part!($name);
     };
 
     (@required) => { true };
@@ -179,6 +182,9 @@ macro_rules! variant {
                 )),*])
             }
         }
+
+        #[cfg(feature = "serde")]
+        $crate::scene::serde::part!($name);
     };
 }
 

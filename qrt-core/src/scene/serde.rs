@@ -142,56 +142,28 @@ pub(super) fn read<'de, T: Part, D: Deserializer<'de>>(deserializer: D) -> Resul
     problems.result(part).map_err(refused)
 }
 
-/// Both directions of parts.
-macro_rules! parts {
-    ($($name:ident),*) => { $(
-        impl Serialize for super::$name {
-            fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-                Part::encode(self).serialize(serializer)
+/// Both directions of a part.
+macro_rules! part {
+    ($name:ident) => {
+        impl serde_core::Serialize for $name {
+            fn serialize<S: serde_core::Serializer>(
+                &self,
+                serializer: S,
+            ) -> Result<S::Ok, S::Error> {
+                #[allow(unused_imports, reason = "a scene has an encoding of its own")]
+                use $crate::scene::shape::Part as _;
+                serde_core::Serialize::serialize(&self.encode(), serializer)
             }
         }
-        impl<'de> Deserialize<'de> for super::$name {
-            fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-                read(deserializer)
+
+        impl<'de> serde_core::Deserialize<'de> for $name {
+            fn deserialize<D: serde_core::Deserializer<'de>>(
+                deserializer: D,
+            ) -> Result<Self, D::Error> {
+                $crate::scene::serde::read(deserializer)
             }
         }
-    )* };
-}
-parts!(
-    Camera,
-    Perspective,
-    Orthographic,
-    Film,
-    Material,
-    Lambertian,
-    Emitter,
-    Mirror,
-    Dielectric,
-    Ggx,
-    Phong,
-    Bsdf,
-    Geometry,
-    Quad,
-    Triangle,
-    Mesh,
-    Sampling,
-    DepthSampling,
-    Precision,
-    Comparator,
-    Counting,
-    Circuit,
-    Accuracy,
-    Budget
-);
-
-impl Serialize for super::Scene {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        self.encode().serialize(serializer)
-    }
+    };
 }
 
-impl<'de> Deserialize<'de> for super::Scene {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        read(deserializer)
-    }
-}
+pub(crate) use part;

@@ -192,3 +192,29 @@ fn one_of(words: &[&str]) -> String {
 fn spelled(word: &str) -> String {
     word.replace('-', "_")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use qrt_core::scene;
+
+    #[test]
+    fn every_record_has_a_key_that_may_be_written() {
+        let kinds = [scene::Camera::NAMES, scene::Material::NAMES].concat();
+        let sections = [
+            "film",
+            "mesh",
+            "depth",
+            "sampling",
+            "precision",
+            "comparator",
+            "counting",
+            "circuit",
+            "accuracy",
+            "budget",
+        ];
+        for name in kinds.iter().chain(&sections) {
+            assert!(record(name).contains(": "), "{name}: {}", record(name));
+        }
+    }
+}

@@ -82,6 +82,7 @@ pub(super) fn json(shown: &Shown<'_>) -> Value {
         "plan": plan.map(crate::cli::plan::json),
         "depths": written.sampling.depths.len(),
         "strategy": written.circuit.uncompute.name(),
+        "undone_early": inspection.strategy.to_string(),
         "nearest": written.circuit.nearest.name(),
         "qubits": { "peak": inspection.qubits, "by_role": by_role, "layout": inspection.layout.height },
         "gates": gates,

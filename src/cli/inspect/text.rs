@@ -4,6 +4,7 @@ use super::Shown;
 use qrt_circuit::lower::Cost;
 use qrt_core::compile::Role;
 use qrt_core::inspect::{BlockFigures, CHANNELS, Inspection, Part, Stage, grouped};
+use qrt_core::scene::Uncompute;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
@@ -35,6 +36,10 @@ fn headline(out: &mut String, shown: &Shown<'_>) {
     let written = scene.scene();
     let oracle = &inspection.oracle;
     let total = inspection.total();
+    let undone = match written.circuit.uncompute {
+        Uncompute::Auto => format!("auto ({})", inspection.strategy),
+        written => written.to_string(),
+    };
     let _ = writeln!(
         out,
         "{}, channel {}: one oracle call, O_f = compute, compare and flip, uncompute",
@@ -43,7 +48,7 @@ fn headline(out: &mut String, shown: &Shown<'_>) {
     );
     let _ = writeln!(
         out,
-        "{} path bits, {}, {} comparator bits, {} fraction bits, uncompute {}, nearest {}\n",
+        "{} path bits, {}, {} comparator bits, {} fraction bits, uncompute {undone}, nearest {}\n",
         oracle.points.path_bits(),
         match written.sampling.depths.len() {
             1 => "1 depth".to_owned(),
@@ -51,7 +56,6 @@ fn headline(out: &mut String, shown: &Shown<'_>) {
         },
         oracle.comparator_bits(),
         oracle.fraction,
-        written.circuit.uncompute,
         written.circuit.nearest,
     );
     let figures = [

@@ -10,7 +10,7 @@ mod references;
 
 use super::*;
 use crate::front::parse;
-use crate::scene::Phong;
+use crate::scene::{Material, Phong};
 use crate::tracer::scalar::Scalar;
 use crate::tracer::{PixelClass, Stage};
 use std::f64::consts::{PI, TAU};
@@ -153,6 +153,18 @@ const MOON: &str = "{ bsdf: {
   map: ['sqrt(1-u^4)*cos(2*pi*v)', 'sqrt(1-u^4)*sin(2*pi*v)', 'u^2'],
   value: ['0.15/(0.1 + cos_i + cos_o) * (1 + 0.5*(2*cos_i*cos_o - cos_a))', '0.1', '0.2'] } }";
 
+/// That a material of each kind is tested, but for those that send light on in single directions,
+/// or not at all.
+fn assert_all_that_scatter<const N: usize>(materials: [&str; N]) {
+    for name in Material::NAMES {
+        let tested = materials
+            .iter()
+            .any(|text| text.starts_with(&format!("{{ {name}:")));
+        let singular = ["emitter", "mirror", "dielectric"].contains(name);
+        assert!(tested != singular, "{name} is not among {materials:?}");
+    }
+}
+
 #[test]
 fn every_weight_is_the_value_times_cosine_times_jacobian() {
     let cases: [(&str, Textbook, &[&str]); 5] = [
@@ -178,6 +190,7 @@ fn every_weight_is_the_value_times_cosine_times_jacobian() {
             &["auto", "cosine-hemisphere", "uniform-hemisphere"],
         ),
     ];
+    assert_all_that_scatter(cases.map(|(material, ..)| material));
     for (material, textbook, maps) in cases {
         for map in maps {
             let specimen = Specimen::new(material, map, 20);

@@ -31,6 +31,7 @@ const DENSE: [(&str, &str); 8] = [
 
 #[test]
 fn every_density_integrates_to_one() {
+    assert_all_that_scatter(DENSE.map(|(material, _)| material));
     for (material, map) in DENSE {
         let specimen = Specimen::new(material, map, 8);
         for (theta, phi) in VIEWERS {

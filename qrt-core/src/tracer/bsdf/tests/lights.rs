@@ -1,7 +1,7 @@
 //! The two ways to find a lamp share its light: the weights of a point on it and of a ray that
 //! meets that point add up to 1, whatever the surface and wherever both are.
 
-use super::{Direction, Textbook, VIEWERS, at, dot, matte, microfacets};
+use super::{Direction, Textbook, VIEWERS, assert_all_that_scatter, at, dot, matte, microfacets};
 use crate::front::parse;
 use crate::tracer::bsdf::Vertex;
 use crate::tracer::lights::{LightStage, Towards};
@@ -126,6 +126,7 @@ fn a_point_and_the_ray_to_it_share_the_light_of_every_lobe() {
         }),
         ("cloth", cloth, |i, o| 0.2 * (1.0 + o[2]) * i[2]),
     ];
+    assert_all_that_scatter(textbook.map(|(_, material, _)| material));
     for (name, material, value) in textbook {
         for map in ["auto", "uniform-hemisphere"] {
             let name = format!("{name}, {map}");
