@@ -192,7 +192,7 @@ impl<'a> Layouts<'a> {
     /// qubits than the one that takes all others.
     fn cheapest_kept(&self, most: u64) -> Result<Option<(CallCost, Strategy)>, OracleError> {
         // What a part copies out before it is undone can outweigh what that frees, by a few qubits.
-        let nearly = most + most / 16;
+        let nearly = most.saturating_add(most / 16);
         let mut known: BTreeMap<usize, CallCost> = BTreeMap::new();
         let mut best: Option<(CallCost, Strategy)> = None;
         // What is taken, and what may still be.
