@@ -89,6 +89,19 @@ fn auto_is_the_cheapest_that_fits() {
         call_cost(&[oracle]).qubits,
         front.last().unwrap().cost.qubits
     );
+    // What was found for a scene is not taken for a part of it.
+    let written_for = |qubits: u64| {
+        let budget = format!("budget.qubits={qubits}");
+        written(CORNER, &["circuit.uncompute=auto", &budget])
+    };
+    let one_ray = written(CORNER, &[]).with_rays(1);
+    let (_, keep) = Layout::of_most_expensive(&one_ray, Strategy::KEEP).unwrap();
+    let scene = written_for(keep.cost.qubits);
+    let strategy = |scene: &ValidScene| Options::default().strategy(scene).unwrap();
+    let found = strategy(&scene);
+    assert!(found != Strategy::KEEP && found == strategy(&scene));
+    assert_eq!(strategy(&scene.with_rays(1)), Strategy::KEEP);
+    assert_eq!(strategy(&scene.clone()), found);
     // Without a budget nothing is undone early.
     let scene = written(CORNER, &["circuit.uncompute=auto"]);
     assert_eq!(Options::default().strategy(&scene), Ok(Strategy::KEEP));

@@ -231,15 +231,26 @@ impl<'a> Layouts<'a> {
 }
 
 /// The strategy of a scene's circuits. `auto` is the cheapest with which the dearest channel's oracle fits
-/// into `budget.qubits`.
+/// into `budget.qubits`; it is looked for once a scene.
 pub(super) fn strategy_of(scene: &ValidScene) -> Result<Strategy, OracleError> {
-    let written = scene.scene();
-    match written.circuit.uncompute {
+    match scene.scene().circuit.uncompute {
         Uncompute::Keep => return Ok(Strategy::KEEP),
         Uncompute::Scoped => return Ok(Strategy::SCOPED),
         Uncompute::Auto => {}
     }
-    let Some(most) = written.budget.and_then(|budget| budget.qubits) else {
+    let all = Strategy::all();
+    if let Some(&number) = scene.auto.get() {
+        return Ok(all[number]);
+    }
+    let strategy = auto(scene)?;
+    if let Some(number) = all.iter().position(|one| *one == strategy) {
+        let _ = scene.auto.set(number);
+    }
+    Ok(strategy)
+}
+
+fn auto(scene: &ValidScene) -> Result<Strategy, OracleError> {
+    let Some(most) = scene.scene().budget.and_then(|budget| budget.qubits) else {
         return Ok(Strategy::KEEP);
     };
     let (channel, keep) = Layout::of_most_expensive(scene, Strategy::KEEP)?;

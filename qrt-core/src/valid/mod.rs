@@ -28,6 +28,7 @@ use crate::syntax::{self, Path, Place, Problem, Problems};
 use glam::DVec3;
 use std::collections::{HashMap, HashSet};
 use std::path::PathBuf;
+use std::sync::OnceLock;
 
 /// A checked scene, which everything downstream demands. It can be made by [`validate`] alone.
 #[derive(Clone, Debug)]
@@ -39,6 +40,8 @@ pub struct ValidScene {
     pub(crate) firsts: Vec<usize>,
     pub(crate) files: Vec<PathBuf>,
     pub(crate) warnings: Vec<Problem>,
+    /// The number of the strategy that `uncompute: auto` takes, once it is found: it takes a search.
+    pub(crate) auto: OnceLock<usize>,
 }
 
 /// What a polygon's surface does: the scene's materials first, in their order, then those of MTL files.
@@ -150,13 +153,17 @@ impl ValidScene {
         let taken = (0..kept).map(|n| &self.polygons[n * all / kept]);
         Self {
             polygons: lamp.into_iter().chain(taken).copied().collect(),
+            auto: OnceLock::new(),
             ..self.clone()
         }
     }
 
     /// The scene with only the first so many rays of each path, at least 1: what these cost tells what all will.
     pub fn with_rays(&self, most: usize) -> Self {
-        let mut part = self.clone();
+        let mut part = Self {
+            auto: OnceLock::new(),
+            ..self.clone()
+        };
         let sampling = &mut part.scene.sampling;
         sampling.depths.truncate(most.max(1));
         if sampling.sequence == Sequence::ProductLattice {
@@ -250,6 +257,7 @@ pub(crate) fn check(
         firsts,
         files,
         warnings,
+        auto: OnceLock::new(),
     };
     lights::check(&mut valid, &mut problems);
     problems.result(valid)
