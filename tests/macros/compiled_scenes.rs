@@ -53,6 +53,23 @@ qrt! {
         comparator { bits: 12 },
         counting { phase_bits: 12 },
     }
+
+    /// Within so few qubits that most of what is undone is computed again, over and over.
+    scene Few {
+        camera: perspective { eye: (0.3, 1.5, -0.2), target: (0.3, 0, -0.2), up: (0, 0, 1), vfov: 60 },
+        film: 8 x 8,
+        material floor: lambertian { albedo: rgb(0.8, 0.5, 0.2) },
+        material lamp: emitter { radiance: rgb(10, 8, 6), albedo: rgb(0.1, 0.2, 0.3) },
+        quad floor: floor { (-4, 0, -4), (-4, 0, 4), (4, 0, 4), (4, 0, -4) },
+        quad lamp: lamp { (-0.5, 2, -0.5), (0.5, 2, -0.5), (0.5, 2, 0.5), (-0.5, 2, 0.5) },
+        sampling { path_bits: 8 },
+        depth primary { bits: (4, 4) },
+        depth secondary { bits: (4, 4) },
+        depth third { bits: (4, 4) },
+        precision { fraction: 12 },
+        circuit { uncompute: auto },
+        budget { qubits: 330 },
+    }
 }
 
 qrt! {
@@ -188,6 +205,7 @@ scenes! {
     of_the_floor_under_a_light: Floor at [5, 5];
     of_the_furnace: Furnace at [7, 7];
     of_a_circuit_that_uncomputes_early: Scoped at [3, 4];
+    of_a_circuit_of_few_qubits: Few at [3, 4];
     of_the_product_lattice: Lattice at [3, 4];
     of_sampled_lamps: Lit at [3, 4];
     of_wide_numbers_and_long_ids: Field at [2, 1];

@@ -11,6 +11,7 @@ mod lines;
 mod names;
 mod native;
 mod paths;
+mod repeats;
 mod stub;
 #[cfg(test)]
 mod tests;

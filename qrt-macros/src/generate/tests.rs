@@ -75,6 +75,18 @@ fn the_code_of_a_small_scene_is_as_it_was() {
     );
 }
 
+/// Of the box within 500 qubits, some 30,000 statements become 5,000.
+#[test]
+fn what_a_circuit_of_few_qubits_repeats_is_written_once() {
+    let box_ = include_str!("../../../scenes-yaml/cornell-box.yaml");
+    let few = format!("{box_}\ncircuit: {{ uncompute: auto }}\nbudget: {{ qubits: 500 }}\n");
+    let code = text("Box", "pub", "", (&[], &parsed(&few))).unwrap();
+    let code = &code[code.find("fn repeated_0<").unwrap()..];
+    let code = &code[..code.find("impl NativeOracle").unwrap()];
+    let [computed, undone] = [" = m.", "m.undo("].map(|call| code.matches(call).count());
+    assert!(computed + undone < 5_000, "{computed} {undone}");
+}
+
 /// The small scene folds them.
 #[test]
 fn directions_and_origins_in_registers_are_vectors_of_signed_places_with_offsets() {
