@@ -46,12 +46,42 @@ fn main() {
 }
 "#;
 
-/// By binary: its scene, what is changed of it, what is added to it, its program, and how many seconds a
-/// build after a change may take.
-const AUTHORS: [(&str, &str, &str, &str, &str, f64); 3] = [
-    ("cornell", "cornell-box", "[0.725, ", "", PROGRAM, 3.0),
-    ("few-qubits", "cornell-box", "[0.725, ", FEW, PROGRAM, 15.0),
-    ("mesh", "knot", "[0.6, ", "", MESH, 5.0),
+/// A program with a scene, and how many seconds its build after a change of the scene may take.
+struct Author {
+    binary: &'static str,
+    scene: &'static str,
+    /// What of the scene is changed: where an albedo begins.
+    changed: &'static str,
+    added: &'static str,
+    program: &'static str,
+    seconds: f64,
+}
+
+const AUTHORS: [Author; 3] = [
+    Author {
+        binary: "cornell",
+        scene: "cornell-box",
+        changed: "[0.725, ",
+        added: "",
+        program: PROGRAM,
+        seconds: 3.0,
+    },
+    Author {
+        binary: "few-qubits",
+        scene: "cornell-box",
+        changed: "[0.725, ",
+        added: FEW,
+        program: PROGRAM,
+        seconds: 15.0,
+    },
+    Author {
+        binary: "mesh",
+        scene: "knot",
+        changed: "[0.6, ",
+        added: "",
+        program: MESH,
+        seconds: 5.0,
+    },
 ];
 
 const FEW: &str = "circuit: { uncompute: auto }\nbudget: { qubits: 500 }\n";
@@ -65,19 +95,16 @@ fn main() -> ExitCode {
         promises.judge(&what, figure < bar);
     };
     judge("first build", first, 60.0, "s");
-    for (binary, scene, changed, added, _, bar) in AUTHORS {
-        user.seconds(&["build", "--bin", binary]);
+    for author in &AUTHORS {
+        let build = ["build", "--bin", author.binary];
+        user.seconds(&build);
         let builds = ["0.71", "0.72", "0.74"].map(|albedo| {
-            user.scene(binary, scene, (changed, &format!("[{albedo}, ")), added);
-            user.seconds(&["build", "--bin", binary])
+            user.scene(author, &format!("[{albedo}, "));
+            user.seconds(&build)
         });
         let least = builds.into_iter().fold(f64::INFINITY, f64::min);
-        judge(
-            &format!("build after a change of {binary}"),
-            least,
-            bar,
-            "s",
-        );
+        let what = format!("build after a change of {}", author.binary);
+        judge(&what, least, author.seconds, "s");
     }
     user.touch();
     let passes = ["rustc", "--bin", "cornell", "--", "-Ztime-passes"];
@@ -115,29 +142,34 @@ impl User {
             root.display()
         );
         std::fs::write(folder.join("Cargo.toml"), manifest).expect("a file");
-        for (binary, .., program, _) in AUTHORS {
-            let program = program.replace("NAME", binary);
-            std::fs::write(folder.join(format!("src/bin/{binary}.rs")), program).expect("a file");
+        for author in &AUTHORS {
+            let file = folder.join(format!("src/bin/{}.rs", author.binary));
+            let program = author.program.replace("NAME", author.binary);
+            std::fs::write(file, program).expect("a file");
         }
         let knot = "meshes/knot.obj";
         std::fs::copy(root.join("scenes-yaml").join(knot), folder.join(knot)).expect("a file");
         // The versions that were tested.
         std::fs::copy(root.join("Cargo.lock"), folder.join("Cargo.lock")).expect("a file");
         let user = Self { folder };
-        for (binary, scene, _, added, ..) in AUTHORS {
-            user.scene(binary, scene, ("", ""), added);
+        for author in &AUTHORS {
+            user.scene(author, author.changed);
         }
         user
     }
 
-    /// Writes a scene of this repository, with something changed and something added.
-    fn scene(&self, binary: &str, scene: &str, (from, to): (&str, &str), added: &str) {
-        let text = std::fs::read_to_string(format!("{ROOT}/scenes-yaml/{scene}.yaml"));
+    /// Writes an author's scene, with something else where an albedo begins.
+    fn scene(&self, author: &Author, changed: &str) {
+        let text = std::fs::read_to_string(format!("{ROOT}/scenes-yaml/{}.yaml", author.scene));
         let text = text.expect("the scene");
-        let changed = text.replace(from, to);
-        assert!(from.is_empty() || text != changed, "{scene} has no {from}");
-        let file = self.folder.join(format!("{binary}.yaml"));
-        std::fs::write(file, changed + "\n" + added).expect("a file");
+        let other = text.replace(author.changed, changed);
+        assert!(
+            changed == author.changed || text != other,
+            "{}",
+            author.changed
+        );
+        let file = self.folder.join(format!("{}.yaml", author.binary));
+        std::fs::write(file, other + "\n" + author.added).expect("a file");
     }
 
     /// So that the box is compiled again.
