@@ -2,6 +2,8 @@
 //!
 //! Two builds of one version may differ while qrt is worked on, and what one has left must not be
 //! gone on with by the other.
+//!
+//! It also tells the crate its own `opt-level`, which Cargo tells build scripts alone.
 
 use std::path::{Path, PathBuf};
 use std::{env, fs, io};
@@ -26,6 +28,9 @@ fn main() -> io::Result<()> {
         hash = fnv(hash, &fs::read(&file)?);
     }
     println!("cargo::rustc-env=QRT_BUILD={hash:016x}");
+    // Another build tool may not set it.
+    let level = env::var("OPT_LEVEL").unwrap_or_else(|_| "unknown".to_owned());
+    println!("cargo::rustc-env=QRT_OPT_LEVEL={level}");
     Ok(())
 }
 

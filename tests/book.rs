@@ -18,6 +18,7 @@ mod book {
 
     mod figures;
     mod listings;
+    mod measured;
     mod pages;
     mod reference;
 }

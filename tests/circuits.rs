@@ -9,6 +9,8 @@ mod circuits {
     mod rays;
 
     mod bound_programs;
+    mod coarse_scenes;
+    mod coplanar_faces;
     mod every_width;
     mod export_command;
     mod fronts;

@@ -5,6 +5,7 @@ mod common;
 
 mod pictures {
     mod cube;
+    mod glass;
     mod independent;
 
     mod asked_accuracy;

@@ -8,6 +8,7 @@ pub mod front;
 pub mod inspect;
 pub mod lights;
 pub mod oracle;
+mod polygons;
 pub mod sampling;
 pub mod scene;
 pub mod schema;

@@ -3,6 +3,8 @@
 //! Pictures, plans, checks and tables of trade-offs all take a [`Workers`]. Nothing that they find
 //! depends on it.
 
+pub(crate) mod slow_build;
+
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, Ordering};
 

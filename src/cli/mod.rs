@@ -15,6 +15,7 @@ mod interrupt;
 mod memory;
 mod merge;
 mod new;
+mod path;
 mod picture;
 mod plan;
 mod playground;

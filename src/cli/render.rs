@@ -6,7 +6,7 @@ use super::files::{Output, named_after};
 use super::picture::{self, BesideArgs, Outputs};
 use super::progress::Bar;
 use super::watch::watch;
-use super::{interrupt, memory, plan, terminal, time};
+use super::{interrupt, memory, path, plan, terminal, time};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use qrt_core::front::Loaded;
@@ -301,7 +301,8 @@ fn render(args: &RenderArgs, cancel: &AtomicBool, files: &mut Vec<PathBuf>) -> R
         Target::Picture(encoding) => {
             let rendered = render_keeping(scene, &options);
             bar.clear();
-            let (rendered, checkpoint) = rendered.map_err(|error| failure(error, &loaded))?;
+            let (rendered, checkpoint) =
+                rendered.map_err(|error| failure(error, &loaded, &options))?;
             let layers = if args.layers {
                 rendered.layers(scene)
             } else {
@@ -316,7 +317,7 @@ fn render(args: &RenderArgs, cancel: &AtomicBool, files: &mut Vec<PathBuf>) -> R
         Target::Part(portion) => {
             let rendered = render_part(scene, portion, &options);
             bar.clear();
-            let (part, checkpoint) = rendered.map_err(|error| failure(error, &loaded))?;
+            let (part, checkpoint) = rendered.map_err(|error| failure(error, &loaded, &options))?;
             let written = write_part(&outputs.picture, &part);
             (written.map(|()| part_summary(&output, &part)), checkpoint)
         }
@@ -374,8 +375,12 @@ fn tell_of_time(scene: &ValidScene, args: &RenderArgs, portions: u32) {
 }
 
 /// Why there is no picture: at its place in the scene, or with what the user can do.
-fn failure(error: RenderError, loaded: &Loaded) -> Failure {
+fn failure(error: RenderError, loaded: &Loaded, options: &Options<'_>) -> Failure {
     match error {
+        RenderError::OutOfBounds { pixel, id, .. } => {
+            let path = (options.model, options.seed, pixel, id);
+            Failure::Job(format!("{error}{}", path::in_words(&loaded.valid, path)))
+        }
         RenderError::Oracle(error) => loaded.report(vec![error.problem()]).into(),
         RenderError::Budget(problems) => loaded.report(problems).into(),
         RenderError::WouldNotFit(error) => memory::refused(&error),

@@ -30,8 +30,8 @@ const MODULES: &[(&str, &[&str])] = &[
     (
         "qrt-core/src",
         &[
-            "syntax", "expr", "lights", "scene", "schema", "sampling", "valid", "front", "tracer",
-            "compile", "oracle", "inspect",
+            "syntax", "expr", "polygons", "lights", "scene", "schema", "sampling", "valid",
+            "front", "tracer", "compile", "oracle", "inspect",
         ],
     ),
     (

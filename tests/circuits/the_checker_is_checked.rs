@@ -8,7 +8,7 @@
 use super::paths::simulator::{States, qubits};
 use super::paths::{CORNER, film, inputs, number, oracle, paths, word};
 use crate::common::scene::written;
-use qrt::circuit::{Circuit, Gate, Op, Qubit, lower};
+use qrt::circuit::{Circuit, Gate, Op, Operand, Qubit, lower};
 use qrt::core::oracle::Oracle;
 use qrt::core::valid::ValidScene;
 use qrt::runtime::machines::{Defect, OracleCircuits, OracleMachine, contents};
@@ -105,6 +105,10 @@ impl Checked {
         let report = self.verified(parts);
         match simulated {
             Simulated::Right => assert!(report.holds(), "{report:?}"),
+            // A wrong colour may be one beyond its bound: then no others are compared.
+            Simulated::Wrong(_) if matches!(report.defect, Some(Defect::OutOfBounds { .. })) => {
+                assert!(!report.holds());
+            }
             Simulated::Wrong(n) => {
                 assert_eq!((report.mismatched, &report.defect), (n, &None));
                 assert!(!report.holds() && !report.mismatches.is_empty());
@@ -452,4 +456,39 @@ fn one_wrong_gate_that_is_undone_is_caught_if_it_changes_a_path() {
         );
         assert!(caught > MUTATIONS / 4, "{caught}");
     }
+}
+
+/// Counts that are read as four times as many are those of colours beyond their bound.
+#[test]
+fn a_colour_beyond_its_bound_is_noticed_by_every_machine() {
+    let scene = written(CORNER, &[]);
+    let mut wrong = (*oracle(&scene)).clone();
+    for channel in &mut wrong.channels {
+        if let Operand::Word(word) = &mut channel.count {
+            word.shift += 2;
+        }
+    }
+    let (pixels, wrong) = (film(&wrong), Arc::new(wrong));
+    let ids = 0..1 << wrong.points.path_bits();
+    let machines = [
+        OracleMachine::fixed(Arc::clone(&wrong), SEED, false),
+        OracleMachine::gates(Arc::clone(&wrong), SEED, false).unwrap(),
+    ];
+    let found = machines.map(|machine| machine.trace(&pixels, ids.clone(), |_| {}));
+    for found in &found {
+        let Err(Defect::OutOfBounds { count, most, .. }) = found else {
+            panic!("{found:?}");
+        };
+        assert!(count > most, "{count} {most}");
+    }
+    assert_eq!(found[0], found[1]);
+    let parts = OracleCircuits::new(&wrong);
+    let options = Options {
+        pixels: pixels.len() as u64,
+        seed: SEED,
+        ..Options::default()
+    };
+    let report = verify_parts(&scene, &wrong, parts, &options).unwrap();
+    assert!(!report.holds());
+    assert!(matches!(report.defect, Some(Defect::OutOfBounds { .. })));
 }

@@ -303,3 +303,41 @@ sampling: { path_bits: 2, depths: [{ bits: [1, 1] }] }
     }
     std::fs::remove_dir_all(folder).unwrap();
 }
+
+/// The eye on a face, on an edge and at a corner of what it sees, and a film on a face: rays meet none of
+/// the faces on which they start.
+#[test]
+fn a_search_does_not_meet_the_face_on_which_the_eye_stands() {
+    let cameras = [
+        "perspective: { eye: [0, 0, 0], target: [0, 0.3, -1], vfov: 20 }",
+        // On a slanted face, whose plane rounding moves.
+        "perspective: { eye: [0.3, 0.1, 0.7], target: [0, 0.4, -1], vfov: 20 }",
+        "perspective: { eye: [-1, 0, 0], target: [0, 0.3, -1], vfov: 20 }",
+        "perspective: { eye: [-1, 0, 1], target: [0, 0.5, -1], vfov: 20 }",
+        "orthographic: { eye: [0.25, 0.8, 1], target: [0.25, 0.8, -1], height: 0.5 }",
+    ];
+    for camera in cameras {
+        let text = format!(
+            "name: eye-on-face\ncamera: {{ {camera} }}\nfilm: {{ width: 2, height: 2 }}\nmaterials:\n  white: \
+             {{ lambertian: {{ albedo: [0.5, 0.5, 0.5] }} }}\n  lamp: {{ emitter: {{ radiance: [2, 2, 2] }} \
+             }}\ngeometry:\n  - quad: {{ vertices: [[-1, 0, 1], [1, 0, 1], [1, 0, -1], [-1, 0, -1]], material: \
+             white }}\n  - quad: {{ vertices: [[-1, 0, 1], [-1, 0, -1], [-1, 2, -1], [-1, 2, 1]], material: white \
+             }}\n  - quad: {{ vertices: [[-1, 0, 1], [-1, 2, 1], [1, 2, 1], [1, 0, 1]], material: white }}\n  - \
+             triangle: {{ vertices: [[0, 0, 1], [0.6, 0, 1], [0.3, 0.3, 0.1]], material: white }}\n  - quad: {{ \
+             vertices: [[-9, -9, -3], [9, -9, -3], [9, 9, -3], [-9, 9, -3]], material: lamp }}\nsampling: {{ \
+             path_bits: 4, depths: [{{ bits: [4, 4] }}] }}\n"
+        );
+        let scene = written(&text, &[]);
+        let visibilities = [
+            (Model::Real, Visibility::Classical),
+            (Model::Fixed, Visibility::Classical),
+            (Model::Fixed, Visibility::Exhaustive),
+            (Model::Fixed, surely(Guess::Random)),
+            (Model::Gates, surely(Guess::Coherent)),
+        ];
+        for (model, visibility) in visibilities {
+            let found = render(&scene, &options(model, visibility)).unwrap();
+            assert_eq!(found.mean(), [2.0; 3], "{camera} {model:?} {visibility:?}");
+        }
+    }
+}

@@ -34,7 +34,7 @@ impl Judge {
 }
 
 /// Codes of what relates values to each other, or is about files: beyond a schema.
-const RELATIONS: [&str; 19] = [
+const RELATIONS: [&str; 20] = [
     codes::PRIMARY_LIGHT,
     codes::FEW_LIGHT_BITS,
     codes::LIGHT_UNBOUNDED,
@@ -47,6 +47,7 @@ const RELATIONS: [&str; 19] = [
     codes::ZERO_AREA,
     codes::NOT_CONVEX,
     codes::CROSSING,
+    codes::GLASS_TOUCHES,
     codes::PATH_BITS_SUM,
     codes::TOO_MANY_IDS,
     codes::TOO_MANY_DIMENSIONS,

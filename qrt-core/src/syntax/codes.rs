@@ -104,6 +104,8 @@ codes! {
         "Use a smaller scale or translation";
     MESH_TOO_MANY = "QRT0308", "more faces than a scene may have",
         "Use a coarser mesh, or fewer copies of it";
+    GLASS_TOUCHES = "QRT0309", "faces of glass that lie on each other",
+        "Leave a gap between the pieces, or let one reach into the other";
     OUTSIDE = "QRT0319", "a file outside the scene's folder",
         "Put it beside the scene, or allow its folder with `--allow-files DIR`";
     OBJ_UNREADABLE = "QRT0320", "a mesh file that cannot be read",

@@ -24,6 +24,9 @@ pub struct CameraStage {
     pub unit: bool,
     /// A bound on the distance of whatever a primary ray meets, in lengths of its direction.
     pub t_max: f64,
+    /// The number of the plane that primary rays leave, which they do not meet: where the film lies on
+    /// one, that; otherwise [`NO_PLANE`]. (An eye may be on several: their offsets say so.)
+    pub from: u32,
 }
 
 struct Basis {
@@ -168,6 +171,7 @@ impl CameraStage {
             row: (row * per_pixel).to_array(),
             unit: unit && perspective,
             t_max: far,
+            from: NO_PLANE,
         }
     }
 
@@ -193,7 +197,7 @@ impl CameraStage {
         Ray {
             origin,
             direction,
-            from: cx.index(NO_PLANE),
+            from: cx.index(self.from),
             t_max: self.t_max,
             start: Start::Camera,
         }

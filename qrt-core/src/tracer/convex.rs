@@ -8,9 +8,9 @@
 //! Where faces are missing, as the underside of a box that stands on a floor, the edges of the hole lie
 //! in a plane of their own, which bounds the body as the others do and has no face.
 
-use super::geometry::{Geometry, Plane, SAME_PLANE};
-use super::overlap::Outlines;
+use super::geometry::{Geometry, Plane};
 use super::polygon::plane_of;
+use crate::polygons::{Outlines, SAME_PLANE};
 use glam::DVec3;
 use std::collections::HashMap;
 

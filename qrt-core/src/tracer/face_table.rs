@@ -24,6 +24,8 @@ pub struct FaceTable {
     /// The form of the plane of each face, and the plane's offset as seen from the viewpoint.
     planes: Vec<[f64; 3]>,
     slots: Vec<Slot>,
+    /// For each face, 1 if primary rays start on its plane and so meet it nowhere, else 0.
+    starts_on: Vec<u32>,
     /// The label of each face, and after the last [`NO_FACE`].
     labels: Vec<u32>,
 }
@@ -54,6 +56,7 @@ impl FaceTable {
             axes: Vec::new(),
             planes: Vec::new(),
             slots: Vec::new(),
+            starts_on: Vec::new(),
             labels: Vec::new(),
         };
         let most = geometry
@@ -62,12 +65,14 @@ impl FaceTable {
             .map(|face| face.edge_tests.len())
             .max();
         listing.slots.resize(most.unwrap_or(0), Slot::default());
-        for plane in &geometry.planes {
+        for (number, plane) in (0..).zip(&geometry.planes) {
+            let starts = u32::from(stage.starts_on.contains(&number));
             let seen = |k: usize| viewpoint[(plane.axis + k) % 3];
             let [a, b] = plane.form;
             let offset = plane.offset - (seen(0) + a * seen(1) + b * seen(2));
             for face in &geometry.faces[plane.faces.clone()] {
                 listing.axes.push(plane.axis as u32);
+                listing.starts_on.push(starts);
                 listing.planes.push([a, b, offset]);
                 listing.labels.push(face.label);
                 let edge_tests = face.edge_tests.iter();
@@ -112,8 +117,10 @@ impl FaceTable {
     pub fn meet<A: Arith>(&self, cx: &mut A, ray: &Ray<A>, face: A::Index) -> (A::Bool, A::Real) {
         let crossing = self.cross(cx, ray, face);
         let meets = meets(cx, &crossing, &Looked { list: self, face });
+        let starts = cx.entry(&self.starts_on, face);
+        let starts = cx.is(starts, 1);
         let listed = cx.below(face, self.len() as u32);
-        (cx.and(meets, listed), crossing.distance)
+        (math!(cx, (meets && !starts) && listed), crossing.distance)
     }
 
     /// The hit of a ray of the camera on face number `face`; none if that is the number of faces.

@@ -4,17 +4,18 @@
 //! by a power of two so that its largest half extent lies in `(1/2, 1]`. A scene a million units
 //! across or at a billion from the origin is traced with the same precision as one at home.
 
-use super::overlap::{Outlines, fill_once};
-use super::polygon::{edge_tests, frame, plane_of, stage_units};
+use super::polygon::{edge_tests, frame, plane_of};
+use crate::polygons::{Outlines, SAME_PLANE, fill_once, stage_units};
 use crate::valid::Polygon;
 use glam::DVec3;
+use std::cmp::Ordering;
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 
 /// The face that a ray meets where it meets none.
 pub const NO_FACE: u32 = u32::MAX;
 
-/// The plane that a camera ray leaves: none.
+/// The plane that a camera ray leaves, unless all of them start on one: none.
 pub const NO_PLANE: u32 = u32::MAX;
 
 /// How far edges reach outwards, in stage units, for rays that start within one unit of the
@@ -25,9 +26,6 @@ pub const TOLERANCE: f64 = 1.0 / (1_u64 << 49) as f64;
 /// more than the edges' tolerance, less than any picture shows. A ray that starts there stands
 /// strictly inside the face, so it cannot slip past a neighbour that meets it at that edge.
 pub const INWARD: f64 = 1.0 / (1_u64 << 32) as f64;
-
-/// Planes nearer than this to each other (in coefficients and offset) are one.
-pub(super) const SAME_PLANE: f64 = 1.0 / (1_u64 << 42) as f64;
 
 /// Up to so many pairs of a plane and a corner are compared: enough for scenes whose planes are all
 /// tried for each ray.
@@ -68,6 +66,31 @@ pub struct Plane {
     pub outermost: bool,
 }
 
+impl Plane {
+    /// The offset of the plane of this form through `point`, as the tracer computes it: the difference
+    /// from [`Plane::offset`] is then zero, not almost.
+    fn height(&self, point: [f64; 3]) -> f64 {
+        let [along, first, second] = [0, 1, 2].map(|k| point[(self.axis + k) % 3]);
+        let [a, b] = self.form;
+        along + (a * first + b * second)
+    }
+
+    /// True if the plane passes through `point`, within rounding.
+    fn passes(&self, point: [f64; 3]) -> bool {
+        let height = self.height(point);
+        (self.offset - height).abs() <= ON_PLANE * (1.0 + height.abs())
+    }
+
+    /// Orders planes by where they are: by main axis, coefficients and offset.
+    fn cmp_place(&self, other: &Self) -> Ordering {
+        let key = |plane: &Self| [plane.form[0], plane.form[1], plane.offset];
+        let pairs = key(self).into_iter().zip(key(other));
+        // -0 and 0 are one coefficient.
+        let by_numbers = pairs.map(|(a, b)| (a + 0.0).total_cmp(&(b + 0.0)));
+        by_numbers.fold(self.axis.cmp(&other.axis), Ordering::then)
+    }
+}
+
 /// A convex polygon on a plane: where all half-plane edge tests pass.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Face {
@@ -75,7 +98,8 @@ pub struct Face {
     pub label: u32,
     /// Whether the face emits.
     pub emits: bool,
-    /// Whether a later face of its plane emits, which this one hides where they overlap.
+    /// True if the face emits nothing and a later face of its plane emits, which this one hides where
+    /// they overlap.
     pub hides_emitter: bool,
     /// How many emitting faces of its plane come before the first that this one may cover, if it may
     /// cover any.
@@ -83,6 +107,13 @@ pub struct Face {
     /// The half-plane edge tests. Pairs of parallel edges share one: two for a parallelogram, three
     /// for a triangle.
     pub edge_tests: Vec<EdgeTest>,
+}
+
+impl Face {
+    /// True if a search for emitters meets the face: it emits, or hides an emitter of its plane.
+    pub fn is_asked_first(&self) -> bool {
+        self.emits || self.hides_emitter
+    }
 }
 
 /// A face's frame: tangents, normal (the front) and centre.
@@ -106,7 +137,7 @@ fn without_copies(mut faces: Vec<Face>) -> Vec<Face> {
     }
     let compare = |a: &Face, b: &Face| {
         let by_numbers = numbers(a).partial_cmp(numbers(b));
-        by_numbers.unwrap_or(std::cmp::Ordering::Equal)
+        by_numbers.unwrap_or(Ordering::Equal)
     };
     let mut order: Vec<usize> = (0..faces.len()).collect();
     // Copies come one after the other, the first of the scene first.
@@ -121,7 +152,8 @@ fn without_copies(mut faces: Vec<Face>) -> Vec<Face> {
 /// All polygons of a scene, in stage units.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Geometry {
-    /// Distinct planes by main axis, then in the order of their first face.
+    /// Distinct planes by main axis, then by their coefficients and offset: an order that does not
+    /// depend on that of the scene's list.
     pub planes: Vec<Plane>,
     /// The planes with main axis x, y, z.
     pub by_axis: [Range<usize>; 3],
@@ -151,7 +183,7 @@ impl Geometry {
     /// Makes `polygons` ready for intersection; `emits` tells which emit, and `reach` are points
     /// (the eye) from which rays start too.
     pub fn new(polygons: &[Polygon], emits: impl Fn(&Polygon) -> bool, reach: &[DVec3]) -> Self {
-        let (centre, scale) = stage_units(polygons);
+        let (centre, scale) = stage_units(polygons.iter().flat_map(|polygon| &polygon.vertices));
         let staged = |p: DVec3| (p - centre) * scale;
         let far = reach
             .iter()
@@ -257,16 +289,20 @@ impl Geometry {
         plane
     }
 
+    /// The numbers of the planes on which all `points` lie, within rounding.
+    pub(super) fn planes_through(&self, points: &[DVec3]) -> Vec<u32> {
+        let through = |plane: &Plane| points.iter().all(|point| plane.passes(point.to_array()));
+        let planes = (0..).zip(&self.planes);
+        let planes = planes.filter(|(_, plane)| !points.is_empty() && through(plane));
+        planes.map(|(number, _)| number).collect()
+    }
+
     /// Moves planes that pass by `point` within rounding onto it, so that a ray from there does not
     /// meet the wall where it starts.
     pub(super) fn pass_through(&mut self, point: [f64; 3]) {
         for plane in &mut self.planes {
-            let [along, first, second] = [0, 1, 2].map(|k| point[(plane.axis + k) % 3]);
-            // As the tracer computes it: the difference is then zero, not almost.
-            let [a, b] = plane.form;
-            let height = along + (a * first + b * second);
-            if (plane.offset - height).abs() <= ON_PLANE * (1.0 + height.abs()) {
-                plane.offset = height;
+            if plane.passes(point) {
+                plane.offset = plane.height(point);
             }
         }
     }
@@ -295,7 +331,7 @@ impl Geometry {
     /// Sorts planes by main axis and lays their faces out in that order.
     fn arrange(&mut self, on_plane: Vec<Vec<Face>>) {
         let mut order: Vec<usize> = (0..self.planes.len()).collect();
-        order.sort_by_key(|&plane| self.planes[plane].axis);
+        order.sort_by(|&a, &b| self.planes[a].cmp_place(&self.planes[b]));
         let mut place = vec![0; order.len()];
         let mut planes = Vec::with_capacity(order.len());
         let mut on_plane: Vec<Option<Vec<Face>>> = on_plane.into_iter().map(Some).collect();
@@ -336,13 +372,10 @@ impl Geometry {
             return;
         }
         for plane in &mut self.planes {
-            let [a, b] = plane.form;
-            let height = |corner: &[f64; 3]| {
-                let [along, first, second] = [0, 1, 2].map(|k| corner[(plane.axis + k) % 3]);
-                along + (a * first + b * second) - plane.offset
-            };
-            plane.outermost = corners.iter().all(|corner| height(corner) <= SAME_PLANE)
+            let height = |corner: &[f64; 3]| plane.height(*corner) - plane.offset;
+            let outermost = corners.iter().all(|corner| height(corner) <= SAME_PLANE)
                 || corners.iter().all(|corner| height(corner) >= -SAME_PLANE);
+            plane.outermost = outermost;
         }
     }
 }

@@ -160,8 +160,9 @@ impl Geometry {
         hidden
     }
 
-    /// Whether it is `hidden` already, or one of these faces of plane `number` hides an emitter at this
-    /// distance.
+    /// True where `hidden` is, or where one of these faces of plane `number` stands before an emitter at
+    /// the distance `emitter`. Faces in the emitter's own plane do not: those that are listed before it,
+    /// and hide it, are met in its place ([`Geometry::nearest_emitter`]).
     #[inline(always)]
     #[allow(clippy::too_many_arguments)] // The ray is permuted once for many planes.
     pub(super) fn hidden_by<'f, A: Arith>(
@@ -178,12 +179,7 @@ impl Geometry {
         let crossing = self.cross(cx, number, ray, from);
         for face in faces.filter(|face| !face.emits) {
             let meets = meets(cx, &crossing, &*face.edge_tests);
-            let nearer = if face.hides_emitter {
-                math!(cx, crossing.distance <= emitter)
-            } else {
-                math!(cx, crossing.distance < emitter)
-            };
-            hidden = math!(cx, hidden || meets && nearer);
+            hidden = math!(cx, hidden || meets && crossing.distance < emitter);
         }
         cx.leave();
         hidden
@@ -236,14 +232,21 @@ impl<A: Arith> Running<A> {
 }
 
 impl Geometry {
-    /// The nearest emitter on the ray, hidden or not.
+    /// The nearest emitter on the ray, hidden by faces of other planes or not.
+    ///
+    /// Of faces of one plane the first in the list is met, so that those before an emitter
+    /// ([`Face::hides_emitter`]) take part: where one of them is the nearest, it is the hit, and emits
+    /// nothing.
     #[inline(always)]
     pub fn nearest_emitter<A: Arith>(&self, cx: &mut A, ray: &Ray<A>, wanted: A::Bool) -> Hit<A> {
         let mut nearest = Running::new(cx, ray.t_max);
         for (axis, planes) in self.emitting.iter().enumerate() {
             let permuted = AxisPermuted::along(axis, ray);
             for &number in planes {
-                let faces = self.faces_of(number).iter().filter(|face| face.emits);
+                let faces = self
+                    .faces_of(number)
+                    .iter()
+                    .filter(|face| face.is_asked_first());
                 nearest.meet_all(cx, self, number, faces, &permuted, ray.from);
             }
         }

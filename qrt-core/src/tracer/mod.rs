@@ -33,12 +33,12 @@ mod frame;
 mod geometry;
 mod intersect;
 mod lights;
-mod overlap;
 mod paper;
 mod pixel_class;
 mod places;
 mod polygon;
 mod ray;
+mod refraction;
 mod sampled;
 #[cfg(test)]
 mod scalar;

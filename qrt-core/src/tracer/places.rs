@@ -7,7 +7,7 @@
 //! no lamp is sampled, a place is all that is of one surface, and each may be met from each.
 //!
 //! This is so of the faces as they are written. A ray that slips through between two faces, within
-//! the tolerance of their edges, may carry more than the bound; the comparator counts it as the bound.
+//! the tolerance of their edges, may carry more than the bound: machines end with an error then.
 
 use super::geometry::Geometry;
 use crate::lights::strongest_form;

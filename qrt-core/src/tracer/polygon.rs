@@ -1,7 +1,6 @@
 //! One polygon made ready: its plane, its shading frame and its edges as half-plane tests.
 
 use super::geometry::{EdgeTest, Frame, Plane};
-use crate::valid::Polygon;
 use glam::{DVec2, DVec3};
 
 pub(super) fn plane_of(corners: &[DVec3], frame: &Frame) -> Plane {
@@ -21,23 +20,6 @@ pub(super) fn plane_of(corners: &[DVec3], frame: &Frame) -> Plane {
         emitters: 0..0,
         outermost: false,
     }
-}
-
-pub(super) fn stage_units(polygons: &[Polygon]) -> (DVec3, f64) {
-    let mut low = DVec3::INFINITY;
-    let mut high = DVec3::NEG_INFINITY;
-    for vertex in polygons.iter().flat_map(|polygon| &polygon.vertices) {
-        low = low.min(*vertex);
-        high = high.max(*vertex);
-    }
-    let centre = low * 0.5 + high * 0.5;
-    let extent = (high * 0.5 - low * 0.5).max_element();
-    if polygons.is_empty() || extent <= 0.0 {
-        return (DVec3::ZERO, 1.0);
-    }
-    // extent = m 2^e with m in [1/2, 1): 2^-e takes it to [1/2, 1).
-    let (_, exponent) = libm::frexp(extent);
-    (centre, libm::ldexp(1.0, -exponent))
 }
 
 pub(super) fn frame(corners: &[DVec3]) -> Frame {

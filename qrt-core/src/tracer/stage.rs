@@ -6,11 +6,18 @@ use super::geometry::Geometry;
 use super::lights::{Lamps, LightStage};
 use super::pixel_class::PixelClass;
 use super::places::Places;
+use super::refraction::Refraction;
 use super::{Arith, bound, geometry};
 use crate::scene::{DepthSampling, Material};
 use crate::valid::{Surface, ValidScene};
 use glam::DVec3;
 use std::collections::HashSet;
+
+/// By how much rounding may take a path's colour over its bound, in relation.
+const ROUNDING: f64 = 1e-12;
+
+/// What rounding may leave of the greatest radiance where a lamp faces away.
+const FACING_AWAY: f64 = 1e-9;
 
 /// A scene made ready for the tracer, for `C` colour channels that share their paths.
 #[derive(Clone, Debug)]
@@ -36,6 +43,8 @@ pub struct Stage<const C: usize> {
     pub(crate) t_max: f64,
     /// Where primary rays start, or the corners of the area that they start from, in stage units.
     pub(crate) starts: Vec<DVec3>,
+    /// The numbers of the planes on which all primary rays start: they meet none of these.
+    pub(crate) starts_on: Vec<u32>,
     /// Whether paths may go on beyond each face.
     pub(crate) transmits: Vec<bool>,
     /// Whether emission counts where the primary ray meets it.
@@ -128,18 +137,21 @@ impl<const C: usize> Stage<C> {
             scatters.push(scatter);
         }
         let unit = scatters.iter().any(|scatter| scatter.asks_for_angles);
-        let refraction = bound::refraction(&geometry, &surfaces, &surface_of, &starts);
+        let refraction = Refraction::new(&geometry, &surfaces, &surface_of, &starts);
         let direct = class == PixelClass::MayMeetLamp;
         let bound = {
             let of = |refraction| {
                 bound::colour(&places, emitters.radiance(), &scatters, direct, refraction)
             };
-            let (plain, alternating) = (of(None), refraction.map(|product| of(Some(product))));
-            std::array::from_fn(|c| alternating.map_or(plain[c], |other| other[c].min(plain[c])))
+            let (plain, by_solids) = (of(None), of(Some(&refraction)));
+            std::array::from_fn(|c| by_solids[c].min(plain[c]))
         };
-        let camera = CameraStage::new(&written.camera, written.film, &geometry, unit);
+        let mut camera = CameraStage::new(&written.camera, written.film, &geometry, unit);
+        let starts_on = geometry.planes_through(&starts);
         if camera.perspective {
             geometry.pass_through(camera.fixed);
+        } else if let Some(&plane) = starts_on.first() {
+            camera.from = plane;
         }
         let frames = geometry.frames.iter();
         Self {
@@ -153,6 +165,7 @@ impl<const C: usize> Stage<C> {
             black,
             scatters,
             starts,
+            starts_on,
             transmits,
             direct,
             every_hit: false,
@@ -203,6 +216,17 @@ impl<const C: usize> Stage<C> {
     /// paper `2^b`.
     pub fn bound(&self) -> [f64; C] {
         self.bound
+    }
+
+    /// The greatest colour of a path that rounding may make of one within [`Stage::bound`], per channel.
+    /// The bound and a colour multiply the same numbers in different orders; and where the bound says
+    /// that a lamp lights nothing, since it faces away, rounding may leave a trace of its light.
+    pub fn limit(&self) -> [f64; C] {
+        let radiance = self.emitters.radiance();
+        std::array::from_fn(|c| {
+            let most = radiance.iter().map(|row| row[c]).fold(0.0, f64::max);
+            self.bound[c] * (1.0 + ROUNDING) + FACING_AWAY * most
+        })
     }
 
     /// How densely the rays of `depth` that leave `face` (by its label) are sampled, per steradian

@@ -8,6 +8,7 @@ pub mod bsdf;
 mod camera;
 mod counting;
 mod geometry;
+mod glass;
 pub mod lights;
 mod parameters;
 mod sampling;
@@ -259,6 +260,7 @@ pub(crate) fn check(
         warnings,
         auto: OnceLock::new(),
     };
+    glass::check(&valid, &mut problems);
     lights::check(&mut valid, &mut problems);
     problems.result(valid)
 }

@@ -32,7 +32,7 @@ const FACES: usize = 4;
 /// Up to this many faces a loop over all of them is faster (`cargo bench --bench tracing`).
 pub(crate) const FEW_FACES: usize = 72;
 
-/// Up to this many emitting faces, a last ray asks them first.
+/// Up to this many faces that emit or hide an emitter of their plane, a last ray asks them first.
 const FEW_EMITTERS: usize = 16;
 
 /// The children of a node: their boxes by corner and axis, and where they are.
@@ -65,9 +65,7 @@ pub(crate) struct Bvh {
     /// Levels of nodes.
     levels: usize,
     packets: Vec<Packet>,
-    /// By face, in the order of [`Geometry::faces`]: whether it hides an emitter at the same
-    /// distance.
-    hides_emitter: Vec<bool>,
+    /// By face, in the order of [`Geometry::faces`]: true if it emits.
     emits: Vec<bool>,
     /// By face: the numbers of the emitting faces on its plane, and the first of them that it may
     /// cover.
@@ -101,7 +99,6 @@ impl Bvh {
                 .collect(),
             nodes: tree.nodes,
             levels: tree.levels,
-            hides_emitter: faces.iter().map(|face| face.hides_emitter).collect(),
             emits: faces.iter().map(|face| face.emits).collect(),
             emitters: faces
                 .iter()
@@ -117,7 +114,7 @@ impl Bvh {
                 .map(|face| face.label)
                 .chain([NO_FACE])
                 .collect(),
-            few_emitters: faces.iter().filter(|face| face.emits).count() <= FEW_EMITTERS,
+            few_emitters: faces.iter().filter(|face| face.is_asked_first()).count() <= FEW_EMITTERS,
         }
     }
 }

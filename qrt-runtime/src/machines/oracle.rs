@@ -9,6 +9,7 @@
 //! else but the colour. So this block is run apart, for *every* pair of a colour and a comparator:
 //! which indices have their phase flipped follows exactly, `2^c` times cheaper than path by path.
 
+mod bounds;
 mod defect;
 mod flips;
 mod parts;
@@ -416,8 +417,7 @@ impl OracleMachine {
                 )?;
             }
         }
-        self.complete(block);
-        Ok(())
+        self.complete(block)
     }
 
     /// Finds the paths' primary hits, where they are inputs of the oracle.
@@ -451,20 +451,43 @@ impl OracleMachine {
     }
 
     /// Adds the outputs that are the same on all paths, and cuts counts to the comparators' number.
-    fn complete(&self, block: &mut OracleBlock) {
+    ///
+    /// # Errors
+    /// [`Defect::OutOfBounds`], of the first path whose colour is beyond its bound by more than rounding.
+    fn complete(&self, block: &mut OracleBlock) -> Result<(), Defect> {
         let count = block.ids.len();
         for (output, values) in self.outputs.iter().zip(&mut block.values) {
             if let Operand::Constant(value) = output {
                 values[..count].fill(*value);
             }
         }
-        let most = 1 << self.oracle.comparator_bits();
+        let bits = self.oracle.comparator_bits();
+        let most = 1 << bits;
+        let slack = bounds::slack(bits, self.oracle.fraction);
         let counts = (0..self.counts()).chain(self.luminance());
-        for column in counts {
+        for (place, column) in counts.enumerate() {
+            let values = &block.values[column][..count];
+            // Without an early end, so that it takes several at a time.
+            let outside = |value: i64| value < -slack || value > most + slack;
+            if values
+                .iter()
+                .fold(false, |any, &value| any | outside(value))
+            {
+                let lane = values.iter().position(|&value| outside(value));
+                let lane = lane.unwrap_or_default();
+                return Err(Defect::OutOfBounds {
+                    pixel: block.pixel_of(lane),
+                    id: block.ids[lane],
+                    channel: self.oracle.channels[place].number,
+                    count: values[lane],
+                    most,
+                });
+            }
             for value in &mut block.values[column][..count] {
                 *value = (*value).clamp(0, most);
             }
         }
+        Ok(())
     }
 }
 
@@ -477,6 +500,19 @@ struct OracleBlock {
     /// By run: the queries that these took.
     queries: Vec<u64>,
     values: Vec<Vec<i64>>,
+}
+
+impl OracleBlock {
+    /// Column and row of the pixel whose path is in `lane`.
+    fn pixel_of(&self, lane: usize) -> [u32; 2] {
+        let mut end = 0;
+        let mut runs = self.runs.iter();
+        let run = runs.find(|run| {
+            end += run.paths.count;
+            lane < end
+        });
+        run.map_or([0, 0], |run| run.paths.pixel)
+    }
 }
 
 struct PixelRun {

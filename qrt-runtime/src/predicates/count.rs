@@ -6,7 +6,7 @@ use crate::image::{Image, Window};
 use crate::machines::{OracleMachine, Real};
 use crate::random::Stream;
 use crate::render::{Model, Options, RenderError, crop_of};
-use crate::workers::Progress;
+use crate::workers::{Progress, slow_build};
 use qrt_circuit::format::{Bool, Reg};
 use qrt_circuit::{Recorded, Recorder};
 use qrt_core::oracle::paths::PathScene;
@@ -162,7 +162,7 @@ impl Machine {
 ///
 /// The predicate flips the bit that it is given, which is 0, on good paths. It runs on a
 /// [`Recorder`], once. Of `options` count `seed`, `crop` (a pixel, a part of the film, or all of
-/// it), `model`, `estimator`, `noise` and `workers`. Under the estimator `exact` all R paths are
+/// it), `model`, `estimator`, `noise`, `workers` and `quiet`. Under the estimator `exact` all R paths are
 /// asked for, one query each. The scene's `counting.error` is a radiance, and does not count here:
 /// all queries of its counting block may be used.
 ///
@@ -198,32 +198,29 @@ pub fn count_where<S: PathScene>(
     let chunks: Vec<&[[u32; 2]]> = pixels.chunks(together).collect();
     let runs = paths.div_ceil(RUN);
     let finished = AtomicU64::new(0);
-    let progress = |done: u64| {
-        finished.fetch_add(done, Ordering::Relaxed);
-        options.workers.report(Progress::Finished(done));
-    };
-    options
-        .workers
-        .report(Progress::Started { total, resumed: 0 });
-    let counted = options.workers.run(|| {
-        let jobs = (0..chunks.len() as u64 * runs).into_par_iter();
-        let counted = jobs.map(|job| {
-            if options.workers.cancelled() {
-                return Err(RenderError::Interrupted {
-                    finished: finished.load(Ordering::Relaxed) / paths,
-                    pixels: area,
-                    checkpoint: None,
-                });
-            }
-            let (pixels, first) = (chunks[(job / runs) as usize], job % runs * RUN);
-            let ids = first..(first + RUN).min(paths);
-            let mut sums = vec![0; pixels.len()];
-            let done = (ids.end - ids.start) * pixels.len() as u64;
-            machine.add(pixels, ids, &mut sums)?;
-            progress(done);
-            Ok(sums)
-        });
-        counted.collect::<Result<Vec<Vec<u64>>, RenderError>>()
+    let counted = slow_build::noting(&options.workers, options.quiet, |workers| {
+        workers.report(Progress::Started { total, resumed: 0 });
+        workers.run(|| {
+            let jobs = (0..chunks.len() as u64 * runs).into_par_iter();
+            let counted = jobs.map(|job| {
+                if workers.cancelled() {
+                    return Err(RenderError::Interrupted {
+                        finished: finished.load(Ordering::Relaxed) / paths,
+                        pixels: area,
+                        checkpoint: None,
+                    });
+                }
+                let (pixels, first) = (chunks[(job / runs) as usize], job % runs * RUN);
+                let ids = first..(first + RUN).min(paths);
+                let mut sums = vec![0; pixels.len()];
+                let done = (ids.end - ids.start) * pixels.len() as u64;
+                machine.add(pixels, ids, &mut sums)?;
+                finished.fetch_add(done, Ordering::Relaxed);
+                workers.report(Progress::Finished(done));
+                Ok(sums)
+            });
+            counted.collect::<Result<Vec<Vec<u64>>, RenderError>>()
+        })
     })??;
     let mut good = vec![0; pixels.len()];
     for (job, sums) in counted.into_iter().enumerate() {

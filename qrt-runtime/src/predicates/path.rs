@@ -7,6 +7,7 @@ use qrt_core::oracle::paths::{PathFormats, PathNumber, PathScene, RayNumber};
 use qrt_core::oracle::{Oracle, PredicateError};
 use qrt_core::valid::ValidScene;
 use std::collections::HashMap;
+use std::fmt;
 use std::sync::Arc;
 
 /// A path, as a machine traces it.
@@ -44,6 +45,27 @@ pub struct TracedHit<'a> {
     pub front: bool,
     /// The unit normal of the face's front.
     pub normal: [f64; 3],
+}
+
+impl fmt::Display for TracedHit<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let side = if self.front { "front" } else { "back" };
+        write!(f, "the {side} of face {} (`{}`)", self.face, self.name)
+    }
+}
+
+/// What each ray meets, in one line.
+impl fmt::Display for TracedPath<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (number, ray) in self.rays.iter().enumerate() {
+            let comma = if number > 0 { ", " } else { "" };
+            match &ray.hit {
+                Some(hit) => write!(f, "{comma}ray {number} meets {hit}")?,
+                None => write!(f, "{comma}ray {number} meets nothing")?,
+            }
+        }
+        Ok(())
+    }
 }
 
 /// Traces path `id` of pixel (column, row) of a scene of `qrt!`, and reads every number of it that

@@ -174,24 +174,25 @@ pub enum RenderError {
     /// The checkpoint can't be used.
     #[error(transparent)]
     Checkpoint(#[from] CheckpointError),
-    /// Paths with a colour that is negative, not a number, or above the bound that was proven for
-    /// it: a defect of qrt. The picture would be wrong, so there is none.
+    /// A path with a colour that is negative, not a number, or above the bound that was proven for it. It
+    /// would be counted as the bound, and the picture would be too dark, so there is none.
     #[error(
-        "pixel ({}, {}): {paths} of its paths have a {} outside [0, {bound:e}], such as \
-         {colour:e}; this is a defect of qrt, please report it with the scene",
-        .pixel[0], .pixel[1], name(*.channel)
+        "path {id} of pixel ({}, {}) has a {} of {colour:e}, outside [0, {bound:e}]; {}",
+        .pixel[0], .pixel[1], name(*.channel), advice(*.fraction)
     )]
     OutOfBounds {
         /// Column and row on the film.
         pixel: [u32; 2],
-        /// 0, 1, 2: red, green, blue.
+        /// The path's index.
+        id: u64,
+        /// 0 red, 1 green, 2 blue, 3 luminance.
         channel: usize,
-        /// How many paths of the pixel.
-        paths: u64,
-        /// The colour of one of them, in radiance.
+        /// The path's colour, in radiance.
         colour: f64,
         /// The bound, in radiance.
         bound: f64,
+        /// Fraction bits of the numbers of a circuit; none of the real model.
+        fraction: Option<u32>,
     },
     /// The picture was cancelled before it was finished.
     #[error("interrupted after {finished} of {pixels} pixels{}", kept(.checkpoint.as_deref()))]
@@ -263,10 +264,21 @@ fn first(problems: &[Problem]) -> String {
 }
 
 fn name(channel: usize) -> &'static str {
-    ["red", "green", "blue"]
+    ["red", "green", "blue", "luminance"]
         .get(channel)
         .copied()
         .unwrap_or("?")
+}
+
+fn advice(fraction: Option<u32>) -> String {
+    let report = "this is a defect of qrt, please report it with the scene";
+    match fraction {
+        None => report.to_owned(),
+        Some(bits) => format!(
+            "numbers of {bits} fraction bits may be too coarse for the scene: write more \
+             (`precision.fraction`); if it stays with 24, {report}"
+        ),
+    }
 }
 
 fn outside([x, y, width, height]: &[u32; 4], [w, h]: [u32; 2]) -> String {

@@ -9,7 +9,7 @@ use super::tiles::{self, Tiles};
 use super::totals::Totals;
 use super::{RenderError, Rendered, Request};
 use crate::checkpoint::{Checkpoint, CheckpointError, Header, Tile};
-use crate::workers::Progress;
+use crate::workers::{Progress, Workers, slow_build};
 use rayon::prelude::*;
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
@@ -59,19 +59,21 @@ impl<'a> Job<'a> {
         let resumed = self.resumed.iter().filter(|&&pixel| pixel).count() as u64;
         let parts = self.kept.values().map(|part| part.paths);
         let resumed_paths = resumed * paths + parts.sum::<u64>();
-        options.workers.report(Progress::Started {
-            total: area * paths,
-            resumed: resumed_paths,
-        });
-        let worked = options.workers.run(|| {
-            let start = Instant::now();
-            // Each tile by itself: halves of a film rarely take equally long.
-            let tiles = (0..self.tiles.count() as usize).into_par_iter();
-            let done = tiles
-                .with_max_len(1)
-                .try_for_each(|number| self.tile(number as u64));
-            let seconds = start.elapsed().as_secs_f64();
-            (done, seconds, rayon::current_num_threads())
+        let worked = slow_build::noting(&options.workers, options.quiet, |workers| {
+            workers.report(Progress::Started {
+                total: area * paths,
+                resumed: resumed_paths,
+            });
+            workers.run(|| {
+                let start = Instant::now();
+                // Each tile by itself: halves of a film rarely take equally long.
+                let tiles = (0..self.tiles.count() as usize).into_par_iter();
+                let done = tiles
+                    .with_max_len(1)
+                    .try_for_each(|number| self.tile(number as u64, workers));
+                let seconds = start.elapsed().as_secs_f64();
+                (done, seconds, rayon::current_num_threads())
+            })
         });
         let (done, seconds, threads) =
             worked.unwrap_or_else(|error| (Err(Stop::from(error)), 0.0, 0));
@@ -128,9 +130,8 @@ impl<'a> Job<'a> {
         }
     }
 
-    fn tile(&self, number: u64) -> Result<(), Stop> {
-        let Request { options, crop, .. } = self.request;
-        let workers = &options.workers;
+    fn tile(&self, number: u64, workers: &Workers<'_>) -> Result<(), Stop> {
+        let crop = self.request.crop;
         let mut tile = Tile::of(self.tiles.rectangle(number));
         let resumed = |row| {
             self.resumed

@@ -4,7 +4,6 @@ use super::{RenderError, Rendered, tiles};
 use crate::image::Layer;
 use crate::machines::{Real, SingleRay};
 use glam::DVec3;
-use qrt_core::tracer::NO_PLANE;
 use qrt_core::valid::ValidScene;
 
 /// Pixels whose primary hits are found at a time.
@@ -91,7 +90,7 @@ fn first_hits(scene: &ValidScene, crop: [u32; 4]) -> Result<Vec<Option<FirstHit>
         SingleRay {
             origin,
             direction,
-            from: NO_PLANE,
+            from: camera.from,
         }
     };
     let pixels: Vec<[u32; 2]> = tiles::pixels(crop).collect();

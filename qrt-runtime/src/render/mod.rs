@@ -155,6 +155,11 @@ pub struct Options<'a> {
     pub checkpoint: Option<PathBuf>,
     /// Go on from the checkpoint, if there is one. Otherwise it is replaced, by the first tile.
     pub resume: bool,
+    /// Suppresses the note on standard error that qrt is compiled without optimisation. Without it,
+    /// the first picture or count of a process that is expected to take ten seconds or more prints
+    /// that note, with the lines of Cargo.toml that help. Builds that optimise `qrt-runtime` print
+    /// nothing.
+    pub quiet: bool,
 }
 
 impl<'a> Options<'a> {

@@ -326,7 +326,7 @@ impl OneRun {
                         path(good.cast_unsigned(), rgb);
                     }
                 });
-                traced.map_err(ended)
+                traced.map_err(|defect| ended(machine, defect))
             }
         }
     }

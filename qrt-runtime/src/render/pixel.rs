@@ -17,10 +17,6 @@ use qrt_core::scene::{Estimator, Scene};
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// By how much rounding may take a path's colour over its bound, in relation: the two multiply
-/// the same numbers in different orders.
-const ROUNDING: f64 = 1e-12;
-
 /// Paths that are traced in floating point without looking up.
 const RUN: u64 = 1 << 16;
 /// Above this many, the paths of a pixel are cut into parts for several threads.
@@ -77,6 +73,8 @@ pub(super) struct Pixels {
     source: Source,
     comparator_bits: u32,
     bound: [f64; 3],
+    /// By channel: the greatest colour of a path that is no fault of the bound.
+    limit: [f64; 3],
     seed: u64,
     paths: u64,
     counter: Option<Counter>,
@@ -101,10 +99,30 @@ pub(super) fn go_on(workers: &Workers<'_>) -> Result<(), Stop> {
     Ok(())
 }
 
-/// Why a run of paths ended early.
-pub(super) fn ended(defect: Defect) -> Stop {
+/// Why a run of paths of this machine ended early.
+pub(super) fn ended(machine: &OracleMachine, defect: Defect) -> Stop {
     match defect {
         Defect::Cancelled => Stop::Cancelled,
+        Defect::OutOfBounds {
+            pixel,
+            id,
+            channel,
+            count,
+            most,
+        } => {
+            let oracle = machine.oracle();
+            let mut channels = oracle.channels.iter();
+            let of_channel = channels.find(|found| found.number == channel);
+            let bound = of_channel.map_or(0.0, |channel| channel.scale);
+            Stop::Failed(RenderError::OutOfBounds {
+                pixel,
+                id,
+                channel,
+                colour: bound * (count as f64 / most as f64),
+                bound,
+                fraction: Some(oracle.fraction),
+            })
+        }
         defect => defect.into(),
     }
 }
@@ -120,12 +138,13 @@ impl Pixels {
         estimate: Estimator,
         options: &Options<'_>,
     ) -> Result<Self, RenderError> {
-        let (bound, paths) = match &source {
-            Source::Real(real) => (real.stage().bound(), real.paths()),
+        let (bound, limit, paths) = match &source {
+            Source::Real(real) => (real.stage().bound(), real.stage().limit(), real.paths()),
             Source::Oracle(machine) => {
                 let channels = &machine.oracle().channels;
                 let scale = |c: usize| channels.get(c).map_or(0.0, |channel| channel.scale);
-                ([scale(0), scale(1), scale(2)], machine.paths())
+                let bound = [scale(0), scale(1), scale(2)];
+                (bound, bound, machine.paths())
             }
         };
         for (channel, bound) in bound.into_iter().enumerate() {
@@ -171,6 +190,7 @@ impl Pixels {
             source,
             comparator_bits: scene.comparator.bits,
             bound,
+            limit,
             seed: options.seed,
             paths,
             counter,
@@ -331,7 +351,7 @@ impl Pixels {
                         }
                     }
                 });
-                traced.map_err(ended)
+                traced.map_err(|defect| ended(machine, defect))
             }
         }
     }
@@ -386,7 +406,7 @@ impl Pixels {
 
     fn take(&self, totals: &mut Totals, block: &PathBlock<'_>) {
         for (channel, colours) in block.colours.into_iter().enumerate() {
-            let limit = self.bound[channel] * (1.0 + ROUNDING);
+            let limit = self.limit[channel];
             let inside = |colour: f64| colour >= 0.0 && colour <= limit;
             // Without an early end, so that it takes several at a time.
             let all = colours.iter().fold(true, |all, &c| all & inside(c));
@@ -400,6 +420,8 @@ impl Pixels {
                 }
             }
             match &self.counter {
+                // Proven black; what rounding leaves is no light.
+                None if self.bound[channel] == 0.0 => {}
                 None => totals.colour[channel].add(colours),
                 Some(Counter {
                     one_run: Some(_), ..
@@ -477,16 +499,39 @@ impl Pixels {
     fn check(&self, pixel: [u32; 2], totals: &Totals) -> Result<(), RenderError> {
         let stray = totals.stray.iter().enumerate();
         let mut stray = stray.filter(|(_, (paths, _))| *paths > 0);
-        match stray.next() {
-            None => Ok(()),
-            Some((channel, &(paths, colour))) => Err(RenderError::OutOfBounds {
-                pixel,
-                channel,
-                paths,
-                colour,
-                bound: self.bound[channel],
-            }),
+        let Some((channel, &(_, colour))) = stray.next() else {
+            return Ok(());
+        };
+        Err(RenderError::OutOfBounds {
+            pixel,
+            id: self.first_of_colour(pixel, channel, colour),
+            channel,
+            colour,
+            bound: self.bound[channel],
+            fraction: None,
+        })
+    }
+
+    /// The first path of a pixel that has this colour in a channel: traced again, since sums do not tell.
+    fn first_of_colour(&self, pixel: [u32; 2], channel: usize, colour: f64) -> u64 {
+        let Source::Real(real) = &self.source else {
+            return 0;
+        };
+        for first in (0..self.paths).step_by(RUN as usize) {
+            let (mut id, mut found) = (first, None);
+            let ids = first..(first + RUN).min(self.paths);
+            real.trace_range(&[pixel], ids, |block| {
+                for &other in block.colours[channel] {
+                    let is_it = other.to_bits() == colour.to_bits();
+                    found = found.or(is_it.then_some(id));
+                    id += 1;
+                }
+            });
+            if let Some(found) = found {
+                return found;
+            }
         }
+        0
     }
 
     /// The mean of a pixel's paths: of their colours, or of the thresholds that these exceed.
@@ -524,7 +569,9 @@ impl Pixels {
 mod tests {
     use super::*;
     use crate::machines::Real;
+    use qrt_circuit::Operand;
     use qrt_core::front::parse;
+    use qrt_core::oracle::Oracle;
 
     /// A wall of radiance 2, 1, 0 that fills the picture: the colour of every path.
     const WALL: &str = "
@@ -561,15 +608,14 @@ sampling: { path_bits: 5 }
             let mut pixels = wall(estimator);
             let totals = few(&pixels);
             assert!(finish(&pixels, &totals[0]).is_ok());
-            // Rounding is no defect; anything above is.
-            pixels.bound = [2.0 - 1e-12, 1.0, 0.0];
+            pixels.limit = [2.0, 1.0, 0.0];
             assert!(finish(&pixels, &few(&pixels)[0]).is_ok());
-            pixels.bound = [2.0, 1.0 - 1e-9, 0.0];
+            pixels.limit = [2.0, 1.0_f64.next_down(), 0.0];
             match finish(&pixels, &few(&pixels)[0]) {
                 Err(Stop::Failed(RenderError::OutOfBounds {
                     pixel: [1, 0],
                     channel: 1,
-                    paths: 32,
+                    id: 0,
                     colour: 1.0,
                     ..
                 })) => {}
@@ -579,6 +625,32 @@ sampling: { path_bits: 5 }
             let parts = parts.ok().unwrap();
             assert!(finish(&pixels, &parts).is_err());
         }
+    }
+
+    #[test]
+    fn a_path_of_a_circuit_beyond_its_bound_is_reported_and_never_clamped() {
+        let scene = parse(WALL, "wall.yaml", &[], "".as_ref()).unwrap().valid;
+        let mut oracle = Oracle::rgb(&scene, qrt_core::oracle::Options::default()).unwrap();
+        // The wall is as bright as the bound: as if twice as many thresholds were below it.
+        for channel in &mut oracle.channels {
+            match &mut channel.count {
+                Operand::Constant(count) => *count *= 2,
+                Operand::Word(word) => word.shift += 1,
+            }
+        }
+        let machine = OracleMachine::fixed(oracle.into(), 0, false);
+        let source = Source::Oracle(machine);
+        let pixels = Pixels::new(source, scene.scene(), Estimator::Exact, &Options::default());
+        let (workers, kept, mut all) = (Workers::default(), Parts::default(), [None]);
+        let traced = pixels
+            .unwrap()
+            .few(&[[1, 0]], &[0], &mut all, &workers, &kept);
+        let Err(Stop::Failed(error)) = traced else {
+            panic!("it was counted");
+        };
+        let text = error.to_string();
+        let expected = "path 0 of pixel (1, 0) has a red of 4e0, outside [0, 2e0]; numbers of 16";
+        assert!(text.starts_with(expected), "{text}");
     }
 
     #[test]

@@ -55,9 +55,37 @@ impl Trio<'_> {
                 all.extend_from_slice(colours);
             }
         });
+        self.within_bounds(pixel, ids.start, &real)?;
         let fixed = self.columns(self.fixed, pixel, ids.clone())?;
         let gates = self.columns(self.gates, pixel, ids.clone())?;
         Ok(self.compare(pixel, ids.start, &real, &fixed, &gates))
+    }
+
+    /// That no colour of the real machine is beyond its bound.
+    fn within_bounds(
+        &self,
+        pixel: [u32; 2],
+        first: u64,
+        colours: &[Vec<f64>; 3],
+    ) -> Result<(), Defect> {
+        let limits = self.real.stage().limit();
+        for (channel, (colours, limit)) in colours.iter().zip(limits).enumerate() {
+            // Nor is NaN.
+            let inside = |&colour: &f64| colour >= 0.0 && colour <= limit;
+            let Some(lane) = colours.iter().position(|colour| !inside(colour)) else {
+                continue;
+            };
+            let most = 1_i64 << self.oracle.comparator_bits();
+            let scale = self.oracle.channels[channel].scale;
+            return Err(Defect::OutOfBounds {
+                pixel,
+                id: first + lane as u64,
+                channel,
+                count: (colours[lane] / scale * most as f64).ceil() as i64,
+                most,
+            });
+        }
+        Ok(())
     }
 
     fn columns(

@@ -69,6 +69,19 @@ pub(super) fn defect(defect: &Defect) -> Value {
             value["id"] = json!(id);
             value["register"] = json!("id");
         }
+        Defect::OutOfBounds {
+            pixel,
+            id,
+            channel,
+            count,
+            most,
+        } => {
+            value["pixel"] = json!(pixel);
+            value["id"] = json!(id);
+            value["channel"] = json!(channel);
+            value["count"] = json!(count);
+            value["most"] = json!(most);
+        }
         Defect::Flip {
             channel,
             count,

@@ -7,10 +7,12 @@ use super::args::{SceneArgs, ThreadsArgs};
 use super::failure::Failure;
 use super::inspect::check_circuit;
 use super::memory;
+use super::path;
 use super::progress::Bar;
 use super::{interrupt, plan, terminal, time};
 use clap::Args;
 use qrt_core::valid::ValidScene;
+use qrt_runtime::machines::Defect;
 use qrt_runtime::memory::CircuitWork;
 use qrt_runtime::plan::Options as PlanOptions;
 use qrt_runtime::render::{Model, Portion};
@@ -130,9 +132,17 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
     terminal::print(&answer)?;
     match fault(&found) {
         None => Ok(()),
-        Some(fault) => Err(Failure::Job(format!(
-            "{fault}; this is a defect of qrt, please report it with the scene"
-        ))),
+        Some(fault) => {
+            let path = match found.report.defect {
+                Some(Defect::OutOfBounds { pixel, id, .. }) => {
+                    path::in_words(&scene, (Model::Fixed, args.seed, pixel, id))
+                }
+                _ => String::new(),
+            };
+            Err(Failure::Job(format!(
+                "{fault}; this is a defect of qrt, please report it with the scene{path}"
+            )))
+        }
     }
 }
 

@@ -55,6 +55,14 @@ problems! {
             help "list the vertices in order around the outline";
     }
 
+    /// Of pieces of glass.
+    Glass {
+        Touches = GLASS_TOUCHES
+            "faces of glass lie on each other: a ray crosses the two as one, and is refracted once"
+            label "covers a face listed before"
+            help "leave a gap between the pieces, or let one reach into the other" also "the other face";
+    }
+
     /// Of a mesh as it is placed.
     Mesh {
         NoMaterial { triangles: Triangles } = OBJ_NO_MATERIAL { triangles.that("have no material") }

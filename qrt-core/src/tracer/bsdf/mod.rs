@@ -323,11 +323,6 @@ impl<const C: usize> ScatterStage<C> {
         }
     }
 
-    /// Whether surface `number` is smooth glass.
-    pub(crate) fn is_glass(&self, number: u32) -> bool {
-        matches!(self.lobe(number), Some(Lobe::Dielectric(_)))
-    }
-
     /// Whether surface `number` scatters at all.
     pub(crate) fn scatters(&self, number: u32) -> bool {
         self.lobe(number).is_some()

@@ -1,7 +1,8 @@
 //! What a search asks about rays that start somewhere: outer planes, bodies, and the other planes.
 
+use crate::polygons::SAME_PLANE;
 use crate::tracer::convex::{Body, Bound, Edges, covered, height};
-use crate::tracer::geometry::{EdgeTest, Geometry, Plane, SAME_PLANE};
+use crate::tracer::geometry::{EdgeTest, Geometry, Plane};
 use crate::tracer::polygon::edge_test;
 use crate::tracer::ray::Start;
 use glam::DVec3;
@@ -16,7 +17,7 @@ pub(super) struct Plan {
     /// Planes that are asked as [`Geometry`] asks them, and the places of their faces.
     pub(super) planes: Vec<(usize, Vec<usize>)>,
     pub(super) bodies: Vec<Met>,
-    /// Planes with emitting faces, and the places of these.
+    /// Planes with emitting faces, and the places of these and of those that hide them.
     pub(super) emitting: Vec<(usize, Vec<usize>)>,
     /// What else may stand before a lamp, as [`Geometry`] asks it: planes, and the places of their
     /// faces.
@@ -236,7 +237,7 @@ impl Planner<'_> {
             outer,
             planes: planes.collect(),
             bodies: bodies.collect(),
-            emitting: self.planes_with(|place| self.geometry.faces[place].emits),
+            emitting: self.planes_with(|place| self.geometry.faces[place].is_asked_first()),
             before_lamps: before_lamps.collect(),
         }
     }

@@ -217,11 +217,7 @@ impl<S: pulp::Simd, const W: usize> Ends<S, W> {
             Self::Emitter(_) if bvh.emits[rank] => None,
             Self::Emitter(distance) => {
                 let (meets, at) = large.meet(cx, ray);
-                let before = if bvh.hides_emitter[rank] {
-                    cx.less_equal(at, distance)
-                } else {
-                    cx.less(at, distance)
-                };
+                let before = cx.less(at, distance);
                 Some(cx.and(meets, before))
             }
             Self::Lamp(_) if !large.blocks => None,

@@ -60,9 +60,7 @@ impl Search for Hides<'_> {
     }
     #[inline(always)]
     fn meet(&mut self, rank: u32, distance: f64) -> bool {
-        let rank = rank as usize;
-        let hides = distance < self.distance || self.bvh.hides_emitter[rank];
-        hides && !self.bvh.emits[rank]
+        distance < self.distance && !self.bvh.emits[rank as usize]
     }
 }
 

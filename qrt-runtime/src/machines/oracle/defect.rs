@@ -34,6 +34,24 @@ pub enum Defect {
         /// The path's index.
         id: u64,
     },
+    /// A path whose colour is beyond its bound by more than rounding: counted, it would be cut to the bound,
+    /// and the picture would be too dark.
+    #[error(
+        "path {id} of pixel ({}, {}) exceeds {count} thresholds in {}, of {most} that its bound has",
+        .pixel[0], .pixel[1], channel_name(*.channel)
+    )]
+    OutOfBounds {
+        /// Column and row of the path's pixel.
+        pixel: [u32; 2],
+        /// The path's index.
+        id: u64,
+        /// 0 red, 1 green, 2 blue, 3 luminance, 4 a predicate.
+        channel: usize,
+        /// The thresholds that the colour exceeds; below 0 for a negative colour.
+        count: i64,
+        /// The number of thresholds up to the bound: `2^c`.
+        most: i64,
+    },
     /// It was to stop: see [`super::OracleMachine::trace_until`].
     #[error("the run was cancelled")]
     Cancelled,
@@ -76,4 +94,10 @@ pub enum Defect {
         /// The name of the register that the qubit belongs to.
         register: String,
     },
+}
+
+/// The name of a channel of an oracle.
+fn channel_name(channel: usize) -> &'static str {
+    let names = ["red", "green", "blue", "luminance", "the predicate"];
+    names.get(channel).copied().unwrap_or("?")
 }

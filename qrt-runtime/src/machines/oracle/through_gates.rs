@@ -63,20 +63,11 @@ impl OracleMachine {
             }
             Some(streamed) => streamed.run(cancel, gates, (rows, templates), read)?,
         }
-        let place = |lane: usize| {
-            let mut start = 0;
-            let runs = block.runs.iter();
-            let mut runs = runs.filter(|run| {
-                start += run.paths.count;
-                lane < start
-            });
-            runs.next().map_or([0, 0], |run| run.paths.pixel)
-        };
         let mut hits = block.hits.chunks(lanes);
         let shares = rows.iter().zip(block.ids.chunks(lanes)).enumerate();
         for (number, (rows, ids)) in shares {
             let inputs = [(&id[..], ids), (&hit, hits.next().unwrap_or_default())];
-            let path = |lane| (place(number * lanes + lane), ids[lane]);
+            let path = |lane| (block.pixel_of(number * lanes + lane), ids[lane]);
             check(rows, &inputs, path, |qubit| parts.name(&self.oracle, qubit))?;
         }
         Ok(())

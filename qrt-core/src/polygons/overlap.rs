@@ -1,6 +1,6 @@
 //! Convex polygons of one plane, of which some cover others.
 
-use super::geometry::SAME_PLANE;
+use super::SAME_PLANE;
 use glam::{DVec2, DVec3};
 use std::collections::{HashMap, HashSet};
 use std::f64::consts::TAU;
@@ -12,7 +12,7 @@ const OF_POLYGON: u64 = 8;
 
 /// Polygons of one plane, in a tree of rectangles around them, so that those that a polygon overlaps are
 /// found without asking all.
-pub(super) struct Outlines<'a> {
+pub(crate) struct Outlines<'a> {
     /// The axis that is left out of rectangles.
     axis: usize,
     polygons: Vec<&'a [DVec3]>,
@@ -74,7 +74,7 @@ impl Rectangle {
 
 impl<'a> Outlines<'a> {
     /// At least one polygon on a plane whose main axis is `axis`. None is asked yet.
-    pub(super) fn new(axis: usize, polygons: Vec<&'a [DVec3]>) -> Self {
+    pub(crate) fn new(axis: usize, polygons: Vec<&'a [DVec3]>) -> Self {
         let mut all = Self {
             axis,
             nodes: Vec::with_capacity(2 * polygons.len()),
@@ -127,7 +127,7 @@ impl<'a> Outlines<'a> {
     }
 
     /// Asks the polygons of this number and greater ones, too, from here on: it never becomes greater.
-    pub(super) fn ask_from(&mut self, start: usize) {
+    pub(crate) fn ask_from(&mut self, start: usize) {
         for number in (start..self.start).rev() {
             let mut node = self.leaves[number];
             loop {
@@ -144,7 +144,7 @@ impl<'a> Outlines<'a> {
 
     /// The first of the polygons that are asked with which `outline` has more than edges in common. Where polygons
     /// lie over each other by the thousand without overlapping, it may be the first of all.
-    pub(super) fn first_overlapped(&mut self, outline: &[DVec3]) -> Option<usize> {
+    pub(crate) fn first_overlapped(&mut self, outline: &[DVec3]) -> Option<usize> {
         let root = self.nodes.len() - 1;
         let rectangle = Rectangle::of(self.axis, outline);
         self.left += ASKED;
@@ -162,7 +162,7 @@ impl<'a> Outlines<'a> {
                         return Some(self.start);
                     }
                     self.left = self.left.saturating_sub(OF_POLYGON);
-                    if overlap(outline, self.polygons[node.least]) {
+                    if overlap(outline, self.polygons[node.least], SAME_PLANE) {
                         first = node.least;
                     }
                 }
@@ -183,7 +183,7 @@ impl<'a> Outlines<'a> {
 /// All must go around in one direction. How often a point is covered is then the winding number about
 /// it of the edges that no two polygons share. If these are one convex loop that goes around once, it
 /// is 1 within the loop, and 0 outside.
-pub(super) fn fill_once<'a>(axis: usize, polygons: impl Iterator<Item = &'a [DVec3]>) -> bool {
+pub(crate) fn fill_once<'a>(axis: usize, polygons: impl Iterator<Item = &'a [DVec3]>) -> bool {
     let flat = |corner: DVec3| DVec2::new(corner[(axis + 1) % 3], corner[(axis + 2) % 3]);
     let key = |corner: DVec2| (corner + DVec2::ZERO).to_array().map(f64::to_bits);
     let (mut edges, mut around) = (HashSet::new(), None);
@@ -233,15 +233,16 @@ fn turns_once(outline: &[DVec2], left: bool) -> bool {
     (whole - TAU).abs() < 1.0
 }
 
-/// Whether two convex polygons of one plane have more than edges in common.
-fn overlap(a: &[DVec3], b: &[DVec3]) -> bool {
+/// True if two convex polygons of one plane have a region in common that is wider than `width` across each
+/// of their edges.
+pub(super) fn overlap(a: &[DVec3], b: &[DVec3], width: f64) -> bool {
     let apart = |a: &[DVec3], b: &[DVec3]| {
         let normal = (a[1] - a[0]).cross(a[2] - a[0]).normalize();
         (0..a.len()).any(|k| {
             let (start, end) = (a[k], a[(k + 1) % a.len()]);
             let outward = (end - start).cross(normal).normalize();
             b.iter()
-                .all(|corner| outward.dot(*corner - start) >= -SAME_PLANE)
+                .all(|corner| outward.dot(*corner - start) >= -width)
         })
     };
     !apart(a, b) && !apart(b, a)
@@ -304,7 +305,7 @@ mod tests {
             assert!(
                 pairs
                     .into_iter()
-                    .all(|(a, b)| !overlap(&tiles[a], &tiles[b]))
+                    .all(|(a, b)| !overlap(&tiles[a], &tiles[b], SAME_PLANE))
             );
         }
         // A hole, an outline that is not convex, two regions, one that is turned over or there twice,
@@ -335,7 +336,7 @@ mod tests {
             outlines.ask_from(start);
             for _ in 0..10 {
                 let one = triangle(&mut state);
-                let asked = (start..300).find(|&n| overlap(&one, &all[n]));
+                let asked = (start..300).find(|&n| overlap(&one, &all[n], SAME_PLANE));
                 assert_eq!(outlines.first_overlapped(&one), asked);
                 found += usize::from(asked.is_some());
             }
@@ -370,7 +371,8 @@ mod tests {
                 let found = outlines.first_overlapped(&all[number]);
                 asked += left - outlines.left;
                 if exact && number % 100 == 0 {
-                    let first = (number + 1..COUNT).find(|&n| overlap(&all[number], &all[n]));
+                    let first =
+                        (number + 1..COUNT).find(|&n| overlap(&all[number], &all[n], SAME_PLANE));
                     assert_eq!(found, first);
                 }
             }

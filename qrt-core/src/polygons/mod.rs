@@ -1,0 +1,40 @@
+//! Convex polygons in space: which of them overlap on a plane, and which enclose a solid.
+//!
+//! Corners are in units in which the scene is about one unit large; constants here are rounding errors
+//! of such numbers.
+
+mod apart;
+mod overlap;
+mod plane;
+mod solid;
+
+pub(crate) use overlap::{Outlines, fill_once};
+pub(crate) use plane::first_overlap;
+pub(crate) use solid::{Solid, solids};
+
+use glam::DVec3;
+
+/// Planes nearer than this to each other (in coefficients and offset) are one.
+pub(crate) const SAME_PLANE: f64 = 1.0 / (1_u64 << 42) as f64;
+
+/// The centre of the box around `points`, and the power of two that scales the box's greatest half
+/// extent into `[1/2, 1)`; the origin and 1 where all of them are one point, or there are none.
+pub(crate) fn stage_units<'a>(points: impl Iterator<Item = &'a DVec3>) -> (DVec3, f64) {
+    let (low, high) = bounds(points);
+    let extent = (high * 0.5 - low * 0.5).max_element();
+    // Nor is it where there are no points.
+    let has_extent = extent > 0.0;
+    if !has_extent {
+        return (DVec3::ZERO, 1.0);
+    }
+    // extent = m 2^e with m in [1/2, 1): 2^-e takes it to [1/2, 1).
+    let (_, exponent) = libm::frexp(extent);
+    (low * 0.5 + high * 0.5, libm::ldexp(1.0, -exponent))
+}
+
+/// The least and the greatest coordinates of `points`.
+fn bounds<'a>(points: impl Iterator<Item = &'a DVec3>) -> (DVec3, DVec3) {
+    points.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| {
+        (low.min(*p), high.max(*p))
+    })
+}

@@ -1,0 +1,134 @@
+//! How much denser radiance becomes on its way through the glass of a scene.
+//!
+//! A refraction scales radiance by the squared ratio of the indices: by `1 / ior^2` against the normal of
+//! a face, by `ior^2` along it. Around a closed surface these are the steps of its winding number
+//! ([`crate::polygons::Solid`]), so the product of all of a path's refractions there depends on the path's
+//! ends alone: with `w` the number at its last vertex and `v` at the camera, it is `ior^(2 (v - w))`. A
+//! bound follows for each solid from where the camera and the last vertex may be.
+//!
+//! That takes each crossing to be traced. Faces of glass that overlap on one plane are crossed as one:
+//! scenes in which they do are refused ([`crate::valid`]), but for slivers, beside which nothing is known
+//! of any refraction.
+
+use super::geometry::Geometry;
+use crate::polygons::{SAME_PLANE, Solid, first_overlap, solids};
+use crate::valid::{Scatter, Surface};
+use glam::DVec3;
+
+/// Boxes nearer than this, in stage units, may have points in common.
+const MARGIN: f64 = 1e-9;
+
+/// More solids than this are taken to have points in common.
+const MOST_SOLIDS: usize = 4096;
+
+/// What is known of the refractions of all paths.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Refraction {
+    /// By surface: true if it is glass of which all faces are those of solids.
+    known: Vec<bool>,
+    most: f64,
+}
+
+/// A solid of glass, by what a path's colour gains at most.
+struct Piece {
+    solid: Solid,
+    /// Where the path ends within it, having started outside.
+    entered: f64,
+    /// Where the path starts within it, and ends outside.
+    left: f64,
+}
+
+impl Refraction {
+    /// Of the faces of `geometry`, whose surfaces `surface_of` numbers by label; rays of the camera leave
+    /// `starts`, or the area between them.
+    pub(super) fn new(
+        geometry: &Geometry,
+        surfaces: &[&Surface],
+        surface_of: &[u32],
+        starts: &[DVec3],
+    ) -> Self {
+        let mut known = vec![false; surfaces.len()];
+        let outlines = |wanted: &dyn Fn(usize) -> bool| -> Vec<&[DVec3]> {
+            let labels = geometry.faces.iter().map(|face| face.label as usize);
+            let labels = labels.filter(|&label| wanted(surface_of[label] as usize));
+            labels.map(|label| &*geometry.corners[label]).collect()
+        };
+        let ior = |surface: usize| match &surfaces[surface].scatter {
+            Scatter::Dielectric(glass) => Some(glass.ior),
+            _ => None,
+        };
+        let all = outlines(&|surface| ior(surface).is_some());
+        if first_overlap(&all, SAME_PLANE).is_some() {
+            return Self { known, most: 1.0 };
+        }
+        let mut pieces = Vec::new();
+        for number in 0..surfaces.len() {
+            let Some(ior) = ior(number) else {
+                continue;
+            };
+            let Some(solids) = solids(&outlines(&|surface| surface == number)) else {
+                continue;
+            };
+            known[number] = true;
+            let square = ior * ior;
+            pieces.extend(solids.into_iter().map(|solid| {
+                let inwards = if solid.outwards { 1.0 / square } else { square };
+                Piece {
+                    solid,
+                    entered: inwards.max(1.0),
+                    left: (1.0 / inwards).max(1.0),
+                }
+            }));
+        }
+        let most = most_left(&pieces, starts) * most_entered(&pieces);
+        Self { known, most }
+    }
+
+    /// True if the refractions at surface number `surface` are in [`Refraction::most`].
+    pub(super) fn is_of(&self, surface: u32) -> bool {
+        self.known[surface as usize]
+    }
+
+    /// The greatest product of the weights of all refractions of a path, at surfaces of which it is known.
+    pub(super) fn most(&self) -> f64 {
+        self.most
+    }
+}
+
+/// The greatest product of what paths gain that start within solids.
+fn most_left(pieces: &[Piece], starts: &[DVec3]) -> f64 {
+    let low = starts.iter().copied().fold(DVec3::INFINITY, DVec3::min);
+    let high = starts.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
+    let around = pieces
+        .iter()
+        .filter(|piece| piece.solid.is_near(low, high, MARGIN));
+    around.map(|piece| piece.left).product()
+}
+
+/// The greatest product of what paths gain that end within solids: of those whose boxes are connected,
+/// since no point is within others.
+fn most_entered(pieces: &[Piece]) -> f64 {
+    let gaining: Vec<&Piece> = pieces.iter().filter(|piece| piece.entered > 1.0).collect();
+    if gaining.len() > MOST_SOLIDS {
+        return gaining.iter().map(|piece| piece.entered).product();
+    }
+    let mut seen = vec![false; gaining.len()];
+    let mut most: f64 = 1.0;
+    for first in 0..gaining.len() {
+        let mut product = 1.0;
+        let mut pending = vec![first];
+        while let Some(number) = pending.pop() {
+            if std::mem::replace(&mut seen[number], true) {
+                continue;
+            }
+            let Piece { solid, entered, .. } = gaining[number];
+            product *= entered;
+            let near = |&other: &usize| {
+                !seen[other] && gaining[other].solid.is_near(solid.low, solid.high, MARGIN)
+            };
+            pending.extend((0..gaining.len()).filter(near));
+        }
+        most = most.max(product);
+    }
+    most
+}

@@ -1,0 +1,51 @@
+//! Pieces of glass that touch.
+
+use super::{Scatter, ValidScene};
+use crate::polygons::{first_overlap, stage_units};
+use crate::scene::Geometry;
+use crate::syntax::{Glass, Path, Problem, Problems};
+use glam::DVec3;
+
+/// Overlaps narrower than this, against the size of the scene, are those of meshes whose corners were
+/// rounded.
+const SLIVER: f64 = 1e-6;
+
+/// Refuses faces of glass that overlap on one plane: a ray crosses them as one, and is refracted once.
+pub(super) fn check(valid: &ValidScene, problems: &mut Problems) {
+    let is_glass = |surface: u32| {
+        let surface = valid.materials.get(surface as usize);
+        surface.is_some_and(|surface| matches!(surface.scatter, Scatter::Dielectric(_)))
+    };
+    let glass: Vec<usize> = (0..valid.polygons.len())
+        .filter(|&polygon| is_glass(valid.polygons[polygon].surface))
+        .collect();
+    // Beside faulty primitives it is not known whose polygons are whose.
+    if glass.is_empty() || problems.count() > 0 {
+        return;
+    }
+    let vertices = valid.polygons.iter().flat_map(|polygon| &polygon.vertices);
+    let (centre, scale) = stage_units(vertices);
+    let staged = |polygon: &usize| -> Vec<DVec3> {
+        let outline = valid.polygons[*polygon].outline().iter();
+        outline.map(|corner| (*corner - centre) * scale).collect()
+    };
+    let outlines: Vec<Vec<DVec3>> = glass.iter().map(staged).collect();
+    let outlines: Vec<&[DVec3]> = outlines.iter().map(Vec::as_slice).collect();
+    if let Some([first, second]) = first_overlap(&outlines, SLIVER) {
+        let place = |number: usize| place(valid, glass[number]);
+        let problem = Problem::new(place(second), Glass::Touches);
+        problems.push(problem.also(place(first)));
+    }
+}
+
+/// The place of the primitive that a polygon belongs to.
+fn place(valid: &ValidScene, polygon: usize) -> Path {
+    let primitive = valid.firsts.partition_point(|&first| first <= polygon) - 1;
+    let path = Path::root().key("geometry").item(primitive);
+    match valid.scene.geometry.get(primitive) {
+        Some(Geometry::Mesh(_)) => path.key("mesh").key("obj"),
+        Some(Geometry::Quad(_)) => path.key("quad").key("vertices"),
+        Some(Geometry::Triangle(_)) => path.key("triangle").key("vertices"),
+        None => path,
+    }
+}

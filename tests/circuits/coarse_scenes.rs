@@ -1,0 +1,368 @@
+//! Random scenes on a coarse grid, where everything coincides: faces on one plane, faces that touch, cross
+//! and enclose each other, glass closed, open and turned over, eyes and films on faces, edges and corners.
+//!
+//! Of each scene: all models agree, no path leaves its bound, and the order of the list changes nothing but
+//! what faces of one plane hide.
+
+use crate::common::numbers::Numbers;
+use qrt::core::front::parse;
+use qrt::core::valid::ValidScene;
+use qrt::prelude::*;
+use qrt::runtime::machines::Real;
+use qrt::runtime::verify::{self, verify};
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+
+type Corner = [i64; 3];
+
+/// A polygon, in halves.
+#[derive(Clone, Debug)]
+struct Face {
+    corners: Vec<Corner>,
+    material: usize,
+}
+
+impl Face {
+    /// The plane: a normal in lowest terms, up to its sign, and the offset along it.
+    fn plane(&self) -> [i64; 4] {
+        let [a, b, c] = [0, 1, 2].map(|k| self.corners[k]);
+        let difference = |p: Corner, q: Corner| [0, 1, 2].map(|k| p[k] - q[k]);
+        let (u, v) = (difference(b, a), difference(c, a));
+        let normal = [0, 1, 2].map(|k| {
+            let (next, last) = ((k + 1) % 3, (k + 2) % 3);
+            u[next] * v[last] - u[last] * v[next]
+        });
+        let divisor = normal.iter().fold(0, |d, n| gcd(d, n.abs())).max(1);
+        let first = normal.iter().find(|n| **n != 0).map_or(1, |n| n.signum());
+        let normal = normal.map(|n| n / divisor * first);
+        let offset = (0..3).map(|k| normal[k] * a[k]).sum();
+        [normal[0], normal[1], normal[2], offset]
+    }
+}
+
+fn gcd(a: i64, b: i64) -> i64 {
+    if b == 0 { a } else { gcd(b, a % b) }
+}
+
+struct Draft {
+    head: String,
+    faces: Vec<Face>,
+    rest: String,
+}
+
+impl Draft {
+    fn text(&self, faces: &[Face]) -> String {
+        let mut text = self.head.clone();
+        for face in faces {
+            let kind = if face.corners.len() == 3 {
+                "triangle"
+            } else {
+                "quad"
+            };
+            let corner = |c: &Corner| c.map(|half| half as f64 / 2.0);
+            let corners: Vec<[f64; 3]> = face.corners.iter().map(corner).collect();
+            let _ = writeln!(
+                text,
+                "  - {kind}: {{ vertices: {corners:?}, material: m{} }}",
+                face.material
+            );
+        }
+        text + &self.rest
+    }
+
+    /// The list in another order, in which faces of each plane keep theirs.
+    fn shuffled(&self, numbers: &mut Numbers) -> Vec<Face> {
+        let mut order: Vec<usize> = (0..self.faces.len()).collect();
+        for n in (1..order.len()).rev() {
+            order.swap(n, numbers.below(n + 1));
+        }
+        let mut of_plane: BTreeMap<[i64; 4], Vec<&Face>> = BTreeMap::new();
+        for face in self.faces.iter().rev() {
+            of_plane.entry(face.plane()).or_default().push(face);
+        }
+        let next = |place: &usize| {
+            let plane = self.faces[*place].plane();
+            of_plane.get_mut(&plane).and_then(Vec::pop).unwrap().clone()
+        };
+        order.iter().map(next).collect()
+    }
+}
+
+fn cuboid(numbers: &mut Numbers, material: usize) -> Vec<Face> {
+    let low = [(); 3].map(|()| numbers.below(7) as i64 - 4);
+    let high = low.map(|low| low + 1 + numbers.below(4) as i64);
+    let corner = |n: usize| [0, 1, 2].map(|k| [low, high][n >> k & 1][k]);
+    let sides = [
+        [0, 2, 3, 1],
+        [4, 5, 7, 6],
+        [0, 1, 5, 4],
+        [2, 6, 7, 3],
+        [0, 4, 6, 2],
+        [1, 3, 7, 5],
+    ];
+    let inwards = numbers.below(3) == 0;
+    let mut faces: Vec<Face> = sides
+        .iter()
+        .map(|side| {
+            let mut corners: Vec<Corner> = side.iter().map(|&n| corner(n)).collect();
+            if inwards {
+                corners.reverse();
+            }
+            Face { corners, material }
+        })
+        .collect();
+    if numbers.below(5) == 0 {
+        faces.remove(numbers.below(6));
+    }
+    faces
+}
+
+/// A tetrahedron, closed.
+fn wedge(numbers: &mut Numbers, material: usize) -> Vec<Face> {
+    let mut point = || [(); 3].map(|()| numbers.below(9) as i64 - 4);
+    let p = [point(), point(), point(), point()];
+    [[0, 1, 2], [0, 3, 1], [1, 3, 2], [2, 3, 0]]
+        .map(|side| Face {
+            corners: side.map(|n| p[n]).to_vec(),
+            material,
+        })
+        .to_vec()
+}
+
+fn square(numbers: &mut Numbers, material: usize) -> Face {
+    let axis = numbers.below(3);
+    let height = numbers.below(5) as i64 * 2 - 4;
+    let mut side = || {
+        let low = numbers.below(7) as i64 - 4;
+        [low, low + 1 + numbers.below(6) as i64]
+    };
+    let (x, y) = (side(), side());
+    let corner = |u: i64, v: i64| {
+        let mut corner = [0; 3];
+        corner[axis] = height;
+        corner[(axis + 1) % 3] = u;
+        corner[(axis + 2) % 3] = v;
+        corner
+    };
+    let mut corners = vec![
+        corner(x[0], y[0]),
+        corner(x[1], y[0]),
+        corner(x[1], y[1]),
+        corner(x[0], y[1]),
+    ];
+    if numbers.below(2) == 0 {
+        corners.reverse();
+    }
+    Face { corners, material }
+}
+
+fn draft(numbers: &mut Numbers) -> Draft {
+    let mut head = String::from("name: coarse\n");
+    let half = |numbers: &mut Numbers| (numbers.below(11) as f64 - 5.0) / 2.0;
+    let mut point = [(); 2].map(|()| [(); 3].map(|()| half(numbers)));
+    if point[0] == point[1] {
+        point[1][2] -= 1.0;
+    }
+    let [eye, target] = point;
+    let along = (0..3).find(|&k| eye[k] != target[k]).unwrap_or(0);
+    let up = if along == 1 { [0, 0, 1] } else { [0, 1, 0] };
+    let up = if (0..3).all(|k| k == along || eye[k] == target[k]) {
+        up
+    } else {
+        // No grid line is along the view.
+        [13, 17, 19]
+    };
+    let view = format!("eye: {eye:?}, target: {target:?}, up: {up:?}");
+    let _ = match numbers.below(3) {
+        0 => {
+            let height = 1 + numbers.below(6);
+            writeln!(
+                head,
+                "camera: {{ orthographic: {{ {view}, height: {height} }} }}"
+            )
+        }
+        _ => {
+            let vfov = [20, 53, 90, 120][numbers.below(4)];
+            writeln!(
+                head,
+                "camera: {{ perspective: {{ {view}, vfov: {vfov} }} }}"
+            )
+        }
+    };
+    head += "film: { width: 3, height: 2 }\nmaterials:\n";
+    let materials = [
+        "emitter: { radiance: [4, 2, 1] }",
+        "emitter: { radiance: [1, 1, 1], albedo: [0.5, 0.5, 0.5] }",
+        "lambertian: { albedo: [0.8, 0.5, 0.2] }",
+        "mirror: { reflectance: [0.9, 0.9, 0.9] }",
+        "dielectric: { ior: 1.5 }",
+        "dielectric: { ior: 0.8 }",
+        "ggx: { alpha: 0.3, reflectance: [0.8, 0.8, 0.8] }",
+    ];
+    for (number, material) in materials.iter().enumerate() {
+        let _ = writeln!(head, "  m{number}: {{ {material} }}");
+    }
+    head += "geometry:\n";
+    let lamp = numbers.below(2);
+    let mut faces = vec![square(numbers, lamp)];
+    for _ in 0..numbers.below(4) {
+        let material = [0, 1, 2, 2, 3, 6][numbers.below(6)];
+        faces.push(square(numbers, material));
+    }
+    if numbers.below(2) == 0 {
+        // A stack on the first one's plane.
+        let plane = faces[0].plane();
+        for _ in 0..1 + numbers.below(3) {
+            let other = loop {
+                let material = numbers.below(3);
+                let other = square(numbers, material);
+                if other.plane() == plane {
+                    break other;
+                }
+            };
+            let place = numbers.below(faces.len() + 1);
+            faces.insert(place, other);
+        }
+    }
+    for _ in 0..numbers.below(3) {
+        let material = [4, 4, 5, 2][numbers.below(4)];
+        faces.extend(if numbers.below(4) == 0 {
+            wedge(numbers, material)
+        } else {
+            cuboid(numbers, material)
+        });
+    }
+    let lights = ["none", "none", "auto", "mis"][numbers.below(4)];
+    let light = if lights == "none" {
+        ""
+    } else {
+        ", light: [4, 3]"
+    };
+    let second = format!(", {{ bits: [3, 3]{light} }}").repeat(numbers.below(4));
+    let nearest = ["running", "running", "paper"][numbers.below(3)];
+    let uncompute = ["keep", "keep", "scoped"][numbers.below(3)];
+    let fraction = 14 + numbers.below(5);
+    let rest = format!(
+        "precision: {{ fraction: {fraction} }}\ncomparator: {{ bits: 6 }}\ncircuit: {{ nearest: {nearest}, \
+         uncompute: {uncompute} }}\nsampling: {{ path_bits: 5, lights: {lights}, depths: [{{ bits: [3, 3] \
+         }}{second}] }}\n"
+    );
+    Draft { head, faces, rest }
+}
+
+fn valid(text: &str, sets: &[&str]) -> Option<ValidScene> {
+    let sets: Vec<String> = sets.iter().map(|&set| set.to_owned()).collect();
+    let loaded = parse(text, "coarse.yaml", &sets, "".as_ref()).ok()?;
+    Some(loaded.valid)
+}
+
+fn exact(model: Model) -> Options<'static> {
+    let mut options = Options {
+        model,
+        estimator: Some(Estimator::Exact),
+        ..Options::default()
+    };
+    options.workers.threads = std::num::NonZeroUsize::new(1);
+    options
+}
+
+fn picture(scene: &ValidScene, options: &Options<'_>, text: &str) -> Vec<[f64; 3]> {
+    let rendered = render(scene, options);
+    rendered
+        .unwrap_or_else(|error| panic!("{error}\n{text}"))
+        .image
+        .pixels
+}
+
+/// What checks of many scenes found.
+#[derive(Debug, Default)]
+struct Found {
+    scenes: u64,
+    refused: u64,
+    /// Sums over scenes: the fraction of paths that fixed and real numbers part on, and that another order
+    /// of the list parts on.
+    parted: f64,
+    /// Scenes whose picture is not black.
+    lit: u64,
+    /// Scenes of which fixed numbers see another picture in another order of the list.
+    shuffled: u64,
+}
+
+fn check(number: u64, found: &mut Found) {
+    let mut numbers = Numbers(number);
+    let draft = draft(&mut numbers);
+    let text = draft.text(&draft.faces);
+    let Some(scene) = valid(&text, &[]) else {
+        found.refused += 1;
+        return;
+    };
+    let mut options = verify::Options {
+        pixels: 1,
+        seed: number,
+        ..verify::Options::default()
+    };
+    options.workers.threads = std::num::NonZeroUsize::new(1);
+    let report = verify(&scene, &options).unwrap_or_else(|error| panic!("{error}\n{text}"));
+    assert!(report.holds(), "scene {number}: {report:?}\n{text}");
+    found.parted += report.parted;
+    let real = picture(&scene, &exact(Model::Real), &text);
+    let fixed = picture(&scene, &exact(Model::Fixed), &text);
+    let boxed = Real::new(&scene, 0).unwrap().with_boxes(true);
+    let pixels: Vec<[u32; 2]> = (0..6).map(|n| [n % 3, n / 3]).collect();
+    let plain = Real::new(&scene, 0).unwrap();
+    assert_eq!(
+        boxed.sums(&pixels),
+        plain.sums(&pixels),
+        "scene {number}\n{text}"
+    );
+    let order = draft.text(&draft.shuffled(&mut numbers));
+    let other = valid(&order, &[]).unwrap_or_else(|| panic!("scene {number}\n{text}\n{order}"));
+    let shuffled = picture(&other, &exact(Model::Real), &order);
+    assert_eq!(real, shuffled, "scene {number}\n{text}\n{order}");
+    found.shuffled += u64::from(fixed != picture(&other, &exact(Model::Fixed), &order));
+    found.lit += u64::from(real.iter().flatten().any(|&colour| colour > 0.0));
+    found.scenes += 1;
+}
+
+fn check_all(first: u64, count: u64) -> Found {
+    use std::sync::Mutex;
+    use std::sync::atomic::{AtomicU64, Ordering};
+    let (next, all) = (AtomicU64::new(0), Mutex::new(Found::default()));
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    std::thread::scope(|scope| {
+        for _ in 0..threads {
+            scope.spawn(|| {
+                let mut found = Found::default();
+                loop {
+                    let number = next.fetch_add(1, Ordering::Relaxed);
+                    if number >= count {
+                        break;
+                    }
+                    check(first + number, &mut found);
+                }
+                let mut all = all.lock().unwrap();
+                all.scenes += found.scenes;
+                all.refused += found.refused;
+                all.parted += found.parted;
+                all.lit += found.lit;
+                all.shuffled += found.shuffled;
+            });
+        }
+    });
+    let found = all.into_inner().unwrap();
+    println!("{found:?}");
+    found
+}
+
+#[test]
+fn of_sixty_scenes_everything_agrees() {
+    let found = check_all(0, 60);
+    assert!(found.scenes >= 30 && found.lit >= 15, "{found:?}");
+}
+
+#[test]
+#[ignore = "takes minutes"]
+fn of_ten_thousand_scenes_everything_agrees() {
+    let found = check_all(1_000_000, 10_000);
+    assert!(found.scenes >= 5_000 && found.lit >= 2_500, "{found:?}");
+}
