@@ -9,6 +9,7 @@ use qrt_circuit::{
 use qrt_core::expr::{Domain, Expr, Variable, Variables};
 use qrt_core::front::{Files, parse_with};
 use qrt_core::scene::Scene;
+use qrt_core::valid::Polygon;
 use qrt_runtime::checkpoint::{Checkpoint, CheckpointError, Header, Part, Tile};
 use qrt_runtime::render::Merge;
 use std::collections::{BTreeMap, HashMap};
@@ -20,15 +21,17 @@ pub(crate) fn scene(data: &[u8]) {
     let Ok(text) = std::str::from_utf8(data) else {
         return;
     };
-    read(text, &[]);
+    let _ = read(text, &[]);
 }
 
-fn read(text: &str, files: &[(&str, &[u8])]) {
+/// The polygons of a scene, or the report of what is wrong with it.
+fn read(text: &str, files: &[(&str, &[u8])]) -> Result<Vec<Polygon>, String> {
     match parse_with(text, "any.yaml", &[], Files::held(files)) {
         Ok(loaded) => {
             let scene = loaded.valid.scene();
             let printed = Scene::from_yaml(&scene.to_yaml(), "printed.yaml");
             assert_eq!(printed.as_ref(), Ok(scene));
+            Ok(loaded.valid.polygons().to_vec())
         }
         Err(report) => {
             let shown = report.render(false);
@@ -37,11 +40,13 @@ fn read(text: &str, files: &[(&str, &[u8])]) {
                 !shown.contains(|c: char| c.is_control() && c != '\n'),
                 "{shown:?}"
             );
+            Err(shown)
         }
     }
 }
 
-/// Reads a mesh and, after a byte 0, its material library.
+/// Reads a mesh and, after a byte 0, its material library. However their lines end, they are the same mesh, or have
+/// the same faults at the same lines.
 pub(crate) fn mesh(data: &[u8]) {
     const SCENE: &str = "
 name: any
@@ -53,13 +58,21 @@ sampling: { path_bits: 2 }
 ";
     let cut = data.iter().position(|byte| *byte == 0);
     let (obj, mtl) = data.split_at(cut.unwrap_or(data.len()));
-    read(
-        SCENE,
-        &[
-            ("any.obj", obj),
-            ("any.mtl", mtl.get(1..).unwrap_or_default()),
-        ],
-    );
+    let mtl = mtl.get(1..).unwrap_or_default();
+    let plain = read(SCENE, &[("any.obj", obj), ("any.mtl", mtl)]);
+    if data.contains(&b'\r') {
+        return;
+    }
+    for end in ["\r\n", "\r"] {
+        let ended = |text: &[u8]| {
+            text.split(|byte| *byte == b'\n')
+                .collect::<Vec<_>>()
+                .join(end.as_bytes())
+        };
+        let (obj, mtl) = (ended(obj), ended(mtl));
+        let ended = read(SCENE, &[("any.obj", &obj), ("any.mtl", &mtl)]);
+        assert_eq!(ended, plain, "lines that end in {end:?}");
+    }
 }
 
 /// Reads an expression. Its text as it is printed is the same expression; values lie in the range that interval

@@ -76,6 +76,9 @@ fn meshes() {
         b"mtllib any.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n\0newmtl a\nKd 1 1 1\n"
             .to_vec(),
     );
+    seeds.push(
+        b"v 0 0 0 # from parts\\left\\\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 \\\n 4 4 \\\n# c:\\\nf 1 3 4 1\n".to_vec(),
+    );
     tried(targets::mesh, &seeds, 2000);
 }
 

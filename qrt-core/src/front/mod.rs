@@ -8,7 +8,7 @@ pub mod yaml;
 use crate::scene::Scene;
 use crate::scene::shape::Part;
 use crate::syntax::tree::Node;
-use crate::syntax::{File, InvalidScene, Place, Problem, Problems, Report, Source};
+use crate::syntax::{File, InvalidScene, Place, Problem, Problems, Report, Source, line_after};
 use crate::valid::{self, ValidScene};
 pub use files::Files;
 pub(crate) use files::Unread;
@@ -187,8 +187,7 @@ fn read_file(
     let bytes = read(MAX_BYTES).map_err(unreadable)?;
     let text = String::from_utf8(bytes).map_err(|error| {
         let byte = error.utf8_error().valid_up_to();
-        let before = &error.as_bytes()[..byte];
-        let line = before.split(|&byte| byte == b'\n').count();
+        let line = line_after(&error.as_bytes()[..byte]);
         fail(File::NotUtf8 { byte, line })
     })?;
     Ok(Source::new(name, text))

@@ -18,7 +18,7 @@ mod tests;
 use super::{Files, Unread};
 use crate::scene::meshes::{MOST_FACES, Meshes, ObjError, ObjFace, ObjMesh};
 use crate::scene::{Geometry, Scene};
-use crate::syntax::MeshFile;
+use crate::syntax::{MeshFile, line_after, line_starts};
 use glam::DVec3;
 use mtl::Materials;
 use scan::Scanner;
@@ -206,21 +206,23 @@ fn parse(
 /// A file as text. Bytes that are not UTF-8 do no harm in a comment.
 fn text_of<'a>(path: &Path, bytes: &'a [u8]) -> Result<Cow<'a, str>, ObjError> {
     if let Some(at) = bytes.iter().position(|byte| *byte == 0) {
-        let line = bytes[..at].split(|byte| *byte == b'\n').count();
+        let line = line_after(&bytes[..at]);
         return Err(ObjError::new(MeshFile::NotText, path, line));
     }
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     Ok(String::from_utf8_lossy(bytes))
 }
 
-/// The statements of a text, each with the line it starts in: comments and blank lines left out,
-/// continued lines joined, no blanks around them.
+/// The statements of a text, each with the line it starts in: lines of comments alone and blank lines
+/// left out, continued lines joined, no blanks around them.
+///
+/// A backslash at the end of a line continues it, unless it belongs to a comment, which ends with its line.
 fn statements(text: &str) -> impl Iterator<Item = (usize, Cow<'_, str>)> {
-    let mut lines = (1..).zip(text.split('\n').map(str::trim));
+    let mut lines = (1..).zip(lines(text).map(str::trim));
     let next = move || {
-        let (line, first) = lines.find(|(_, text)| !text.is_empty() && !text.starts_with('#'))?;
+        let (line, first) = lines.next()?;
         let mut text = Cow::Borrowed(first);
-        while text.ends_with('\\')
+        while is_continued(&text)
             && let Some((_, next)) = lines.next()
         {
             let joined = text.to_mut();
@@ -233,12 +235,28 @@ fn statements(text: &str) -> impl Iterator<Item = (usize, Cow<'_, str>)> {
         }
         Some((line, text))
     };
-    std::iter::from_fn(next).filter(|(_, text)| !text.is_empty())
+    std::iter::from_fn(next).filter(|(_, text)| !(text.is_empty() || text.starts_with('#')))
+}
+
+/// The lines of a text, without what ends them but perhaps a CR.
+fn lines(text: &str) -> impl Iterator<Item = &str> {
+    let ends = line_starts(text.as_bytes()).map(Some).chain([None]);
+    let mut start = 0;
+    ends.map(move |end| {
+        let line = &text[start..end.map_or(text.len(), |end| end - 1)];
+        start = end.unwrap_or(text.len());
+        line
+    })
+}
+
+/// True if a statement goes on in the next line.
+fn is_continued(text: &str) -> bool {
+    text.ends_with('\\') && !text.split_whitespace().any(|word| word.starts_with('#'))
 }
 
 /// The keyword of a statement, and what follows it.
 fn split(statement: &str) -> Result<(&str, &str), MeshFile> {
-    if statement.ends_with('\\') {
+    if is_continued(statement) {
         return Err(MeshFile::Continued);
     }
     let parts = statement.split_once(char::is_whitespace);

@@ -7,6 +7,7 @@
 pub mod codes;
 mod invalid;
 mod kinds;
+mod line;
 mod name;
 mod number;
 mod path;
@@ -16,6 +17,7 @@ pub mod tree;
 
 pub use invalid::InvalidScene;
 pub use kinds::*;
+pub(crate) use line::{line_after, line_starts};
 pub use name::{listed, nearest};
 pub use number::{grouped, number};
 pub(crate) use path::Place;

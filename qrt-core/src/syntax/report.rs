@@ -2,6 +2,7 @@
 //! line, a caret, the code, and the right thing to write.
 
 use super::kinds::{What, Words};
+use super::line::line_starts;
 use super::problem::{At, Problem};
 use super::tree::{Node, Span, Value};
 use annotate_snippets::renderer::DecorStyle;
@@ -21,7 +22,7 @@ pub struct Source {
 }
 
 impl Source {
-    /// A named text. A byte order mark at its start is dropped, and CR LF becomes LF, which is the
+    /// A named text. A byte order mark at its start is dropped. CR LF and CR become LF, which is the
     /// same to YAML.
     pub fn new(name: impl Into<String>, text: impl Into<String>) -> Self {
         let mut text = text.into();
@@ -30,6 +31,9 @@ impl Source {
         }
         if text.contains("\r\n") {
             text = text.replace("\r\n", "\n");
+        }
+        if text.contains('\r') {
+            text = text.replace('\r', "\n");
         }
         Self {
             name: name.into(),
@@ -312,12 +316,10 @@ struct Lines<'a> {
 
 impl<'a> Lines<'a> {
     fn of(text: &'a str) -> Self {
-        let feeds = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n');
+        let starts = std::iter::once(0).chain(line_starts(text.as_bytes()));
         Self {
             text,
-            starts: std::iter::once(0)
-                .chain(feeds.map(|(at, _)| at + 1))
-                .collect(),
+            starts: starts.collect(),
         }
     }
 

@@ -2,6 +2,7 @@
 
 use crate::syntax::MeshFile;
 use glam::{DVec2, DVec3};
+use std::borrow::Cow;
 
 /// More corners than a face that is not convex may have: cutting ears takes up to their cube.
 const MAX_CONCAVE: usize = 256;
@@ -9,14 +10,19 @@ const MAX_CONCAVE: usize = 256;
 /// An area, as a fraction of the square of the longest edge, that is rounding alone.
 const NO_AREA: f64 = 1e-14;
 
-/// The triangles of a polygon of three or more corners, wound as it is; none is without area.
+/// The triangles of a polygon of three or more corners, wound as it is; none is without area. A corner
+/// that repeats the one before it is dropped.
 pub(super) fn triangles(corners: &[DVec3]) -> Result<Vec<[DVec3; 3]>, MeshFile> {
+    let corners = &distinct(corners)[..];
     if let [a, b, c] = *corners {
         return if has_area([a, b, c])? {
             Ok(vec![[a, b, c]])
         } else {
             Err(MeshFile::NoArea)
         };
+    }
+    if corners.len() < 3 {
+        return Err(MeshFile::NoArea);
     }
     let flat = flatten(corners)?;
     let fan: Vec<[usize; 3]> = (1..corners.len() - 1).map(|i| [0, i, i + 1]).collect();
@@ -30,6 +36,21 @@ pub(super) fn triangles(corners: &[DVec3]) -> Result<Vec<[DVec3; 3]>, MeshFile> 
         return Err(MeshFile::ManyCorners { most: MAX_CONCAVE });
     };
     Ok(indices.iter().map(place).collect())
+}
+
+/// The corners of an outline without those that stand where the one before stands: edges without length
+/// do not change it.
+fn distinct(corners: &[DVec3]) -> Cow<'_, [DVec3]> {
+    let closes = corners.first() == corners.last();
+    if !(closes || corners.windows(2).any(|pair| pair[0] == pair[1])) {
+        return Cow::Borrowed(corners);
+    }
+    let mut kept = corners.to_vec();
+    kept.dedup();
+    if kept.len() > 1 && kept.first() == kept.last() {
+        kept.pop();
+    }
+    Cow::Owned(kept)
 }
 
 fn has_area([a, b, c]: [DVec3; 3]) -> Result<bool, MeshFile> {

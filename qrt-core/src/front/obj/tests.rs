@@ -1,5 +1,7 @@
 //! What the reader promises: right meshes as they are, wrong ones refused at their line.
 
+mod lines;
+
 use super::*;
 use crate::scene::meshes::ObjMaterial;
 use crate::syntax::codes;
@@ -79,7 +81,7 @@ fn all_ways_to_write_a_face_say_the_same() {
     ] {
         let text = format!("\u{feff}o thing\ng a b\ns off\n{vertices}{others}{face}");
         assert_eq!(read(&text).unwrap().faces, expected, "{face}");
-        let crlf = text.replace('\n', "\r\n");
+        let crlf = text.replace("\r\n", "\n").replace('\n', "\r\n");
         assert_eq!(read(&crlf).unwrap().faces, expected, "{face}");
     }
     // A face may stand before its vertices, and among groups.

@@ -1,5 +1,6 @@
 //! Lines and columns of characters to bytes.
 
+use crate::syntax::line_starts;
 use crate::syntax::tree::Span;
 use saphyr_parser::Marker;
 
@@ -18,12 +19,8 @@ pub(super) struct Locator<'a> {
 
 impl<'a> Locator<'a> {
     pub(super) fn new(text: &'a str, base: usize, number: u32) -> Self {
-        let bytes = text.as_bytes();
-        let breaks = bytes.iter().enumerate().filter(|&(at, &byte)| {
-            byte == b'\n' || (byte == b'\r' && bytes.get(at + 1) != Some(&b'\n'))
-        });
         let lines = std::iter::once(0)
-            .chain(breaks.map(|(at, _)| at + 1))
+            .chain(line_starts(text.as_bytes()))
             .collect();
         Self {
             text,
