@@ -7,7 +7,7 @@ use super::cases;
 use proptest::prelude::*;
 use qrt::core::front::yaml;
 use qrt::core::syntax::tree::{Kind, Node, Value};
-use qrt::core::syntax::{Problems, Source};
+use qrt::core::syntax::{Problems, Report, Source};
 use serde_yaml::Value as Other;
 
 fn read(text: &str) -> Option<Node> {
@@ -84,39 +84,43 @@ enum Document {
 }
 
 impl Document {
-    fn write(&self, out: &mut String, indent: usize, flow: bool) {
+    /// Writes the document with `gap` between indicators and what follows them.
+    fn write(&self, out: &mut String, gap: &str, indent: usize, flow: bool) {
         match self {
             Self::Scalar(text) => out.push_str(text),
             Self::List(items, in_flow) if flow || *in_flow || items.is_empty() => {
                 out.push('[');
                 for (i, item) in items.iter().enumerate() {
-                    out.push_str(if i > 0 { ", " } else { "" });
-                    item.write(out, indent, true);
+                    if i > 0 {
+                        *out += &format!(",{gap}");
+                    }
+                    item.write(out, gap, indent, true);
                 }
                 out.push(']');
             }
             Self::Map(entries, in_flow) if flow || *in_flow || entries.is_empty() => {
                 out.push('{');
                 for (i, (key, value)) in entries.iter().enumerate() {
-                    out.push_str(if i > 0 { ", " } else { "" });
-                    *out += key;
-                    out.push_str(": ");
-                    value.write(out, indent, true);
+                    if i > 0 {
+                        *out += &format!(",{gap}");
+                    }
+                    *out += &format!("{key}:{gap}");
+                    value.write(out, gap, indent, true);
                 }
                 out.push('}');
             }
             Self::List(items, _) => {
                 for item in items {
-                    *out += &format!("\n{:indent$}- ", "");
-                    item.write(out, indent + 2, false);
+                    *out += &format!("\n{:indent$}-{gap}", "");
+                    item.write(out, gap, indent + 2, false);
                 }
             }
             Self::Map(entries, _) => {
                 for (key, value) in entries {
-                    *out += &format!("\n{:indent$}{key}: ", "");
-                    value.write(out, indent + 1, false);
+                    *out += &format!("\n{:indent$}{key}:{gap}", "");
+                    value.write(out, gap, indent + 1, false);
                     if matches!(value, Self::Scalar(text) if text.len() % 2 == 1) {
-                        *out += " # ü";
+                        *out += &format!("{gap}# ü");
                     }
                 }
             }
@@ -164,13 +168,66 @@ proptest! {
     #[test]
     fn random_documents_are_read_alike(document in documents()) {
         let mut text = String::new();
-        document.write(&mut text, 0, false);
+        document.write(&mut text, " ", 0, false);
+        let mut tabbed = String::new();
+        document.write(&mut tabbed, "\t", 0, false);
         let other = serde_yaml::from_str::<Other>(&text);
+        if let (Some(node), Ok(other)) = (read(&text), &other) {
+            prop_assert!(read(&tabbed).is_some_and(|node| same(&node, other)), "{tabbed}\n{node:?}");
+        }
         match (read(&text), other) {
             (Some(node), Ok(other)) => prop_assert!(same(&node, &other), "{text}\n{node:?}\n{other:?}"),
             // An empty scene is an error here.
             (None, Ok(Other::Null) | Err(_)) => {}
             (node, other) => prop_assert!(false, "{text}\n{node:?}\n{other:?}"),
         }
+    }
+}
+
+/// The same document with tabs and with spaces.
+#[test]
+fn tabs_separate_as_spaces_do() {
+    for (tabbed, spaced) in [
+        ("name:\twall", "name: wall"),
+        ("name:\t\twall\t\nfilm:\t-1", "name: wall\nfilm: -1"),
+        ("name: \twall", "name: wall"),
+        ("name\t:\t1", "name: 1"),
+        ("\"a:\tb\":\tc:d\n", "\"a:\\tb\": \"c:d\"\n"),
+        ("'a:\tb':\td", "\"a:\\tb\": d"),
+        ("a:\n  -\tb\n  -\t1", "a:\n  - b\n  - 1"),
+        ("a: b\t# c:\td\nb:\t# e\n  c:\td", "a: b\nb:\n  c: d"),
+        ("a:\t[\t1\t,\tb\t]\t# c", "a: [1, b]"),
+        ("a:\t{\tb:\tc,\td\t:\t-2\t}", "a: { b: c, d: -2 }"),
+        ("a: [1,\n \t2]", "a: [1, 2]"),
+        ("a:\n\t\n  b: 1\n\t# only a comment\n", "a:\n  b: 1\n"),
+        ("a: &x\tb\nc:\t*x\t\n", "a: b\nc: b"),
+        ("a:\tb\tc:d", "a: \"b\\tc:d\""),
+    ] {
+        let right: Other = serde_yaml::from_str(spaced).unwrap();
+        let node = read(tabbed);
+        assert!(node.is_some_and(|node| same(&node, &right)), "{tabbed:?}");
+    }
+}
+
+/// Tabs that YAML does not allow are refused where they stand, with what to write.
+#[test]
+fn tabs_that_indent_are_refused() {
+    for (text, line, help) in [
+        ("a:\n\tb: 1", 2, "indent with spaces"),
+        ("a:\n  b: 1\n\tc: 2", 3, "indent with spaces"),
+        ("a:\n  b: [1,\n\t2]", 3, "indent with spaces"),
+        ("a:\n  b: \"c\n\td\"", 3, "indent with spaces"),
+        ("a: b\n\tc", 2, "indent with spaces"),
+        ("a: |\n\tb", 2, "indent with spaces"),
+        ("a:\n  -\t- b", 2, "a space in place of the tab"),
+    ] {
+        let source = Source::new("text", text);
+        let mut problems = Problems::default();
+        assert!(yaml::read(&source, 0..text.len(), 0, &mut problems).is_none());
+        let report = Report::new(vec![source], None, problems.all());
+        let told = report.problems().next().unwrap();
+        let place = told.place.as_ref().map(|place| place.line);
+        assert_eq!((told.code, place), ("QRT0103", Some(line)), "{report}");
+        assert!(told.help.unwrap_or_default().contains(help), "{report}");
     }
 }

@@ -9,6 +9,7 @@
 //! ARCHITECTURE.md says why this is not left to a reader that goes from YAML straight to types.
 
 mod locator;
+mod tabs;
 
 use crate::syntax::tree::{Entry, Node, Scalar, Span, Value, is_null};
 use crate::syntax::{Problem, Problems, Source, Yaml};
@@ -36,6 +37,8 @@ pub fn read(
     problems: &mut Problems,
 ) -> Option<Node> {
     let text = source.text.get(range.clone()).unwrap_or_default();
+    let spaced = tabs::spaced(text);
+    let text = spaced.as_ref();
     let known = problems.count();
     let mut builder = Builder {
         locator: Locator::new(text, range.start, number),
@@ -71,6 +74,10 @@ enum Refusal {
     TooDeep,
     /// A character that no editor shows.
     Invisible,
+    /// A tab in the indentation of a line.
+    Indentation,
+    /// A tab between an indicator and what follows it.
+    Separation,
     Syntax,
 }
 
@@ -81,6 +88,13 @@ impl Refusal {
             "recursion limit exceeded" => Self::TooDeep,
             "found unprintable character"
             | "a byte order mark must not appear inside a document" => Self::Invisible,
+            "tabs disallowed within this context (block indentation)"
+            | "tab cannot be used as indentation"
+            | "while scanning a plain scalar, found a tab"
+            | "a block scalar content cannot start with a tab" => Self::Indentation,
+            "':' must be followed by a valid YAML whitespace"
+            | "'-' must be followed by a valid YAML whitespace"
+            | "tabs disallowed in this context" => Self::Separation,
             _ => Self::Syntax,
         }
     }
@@ -198,18 +212,18 @@ impl<'a> Builder<'a> {
 
     fn syntax_error(&mut self, why: &str, at: usize) -> Result<(), Stop> {
         let refusal = Refusal::of(why);
-        let what = match refusal {
-            Refusal::UnknownAlias => Yaml::UnknownAlias,
-            Refusal::TooDeep => Yaml::TooDeep { most: MAX_DEPTH },
-            Refusal::Invisible | Refusal::Syntax => {
-                let is_blank = |byte: &u8| b" \t".contains(byte);
-                let mut indentation = self.locator.line_of(at).bytes().take_while(is_blank);
-                Yaml::Syntax {
-                    why: why.to_owned(),
-                    has_tab: indentation.any(|byte| byte == b'\t'),
-                    is_invisible: refusal == Refusal::Invisible,
-                }
-            }
+        let why = why.to_owned();
+        let tab = self.locator.indented_by_tab(at);
+        let (at, what) = match refusal {
+            Refusal::UnknownAlias => (at, Yaml::UnknownAlias),
+            Refusal::TooDeep => (at, Yaml::TooDeep { most: MAX_DEPTH }),
+            Refusal::Invisible => (at, Yaml::Invisible { why }),
+            Refusal::Separation => (at, Yaml::TabSeparates { why }),
+            // Of a text of several lines, the parser names the first.
+            Refusal::Indentation => (tab.unwrap_or(at), Yaml::TabIndents { why }),
+            // It may be the tab that the parser stumbled over.
+            Refusal::Syntax if tab == Some(at) => (at, Yaml::TabIndents { why }),
+            Refusal::Syntax => (at, Yaml::Syntax { why }),
         };
         let span = self.locator.word(at);
         self.stop(span, what)
@@ -398,6 +412,14 @@ mod tests {
             ("a: 1\n\0", Refusal::Invisible),
             ("a: \u{feff}1", Refusal::Invisible),
             ("a: [1 \n- ", Refusal::Syntax),
+            ("a:\n\tb: 1", Refusal::Indentation),
+            ("a:\n  b: [\n\t1]", Refusal::Indentation),
+            ("a:\n  b: \"c\n\td\"", Refusal::Indentation),
+            ("a: b\n\tc", Refusal::Indentation),
+            ("a: |\n\tb", Refusal::Indentation),
+            ("a:\tb", Refusal::Separation),
+            ("-\t- a", Refusal::Separation),
+            ("? \ta", Refusal::Separation),
         ] {
             let refused = Parser::new_from_str(text).find_map(Result::err);
             let words = refused.as_ref().map(saphyr_parser::ScanError::info);

@@ -77,10 +77,18 @@ impl<'a> Locator<'a> {
         }
     }
 
-    pub(super) fn line_of(&self, at: usize) -> &'a str {
+    /// `at`, if a tab indents its line; else the first tab that indents a line below it.
+    pub(super) fn indented_by_tab(&self, at: usize) -> Option<usize> {
         let line = self.lines.partition_point(|&start| start <= at).max(1) - 1;
-        let end = self.lines.get(line + 1).copied().unwrap_or(self.text.len());
-        &self.text[self.lines[line]..end]
+        let tab = |start: &usize| {
+            let rest = &self.text[*start..];
+            let blanks = rest.len() - rest.trim_start_matches([' ', '\t']).len();
+            rest[..blanks].find('\t').map(|tab| start + tab)
+        };
+        if tab(&self.lines[line]).is_some() {
+            return Some(at);
+        }
+        self.lines[line + 1..].iter().find_map(tab)
     }
 
     pub(super) fn is_bracket(&self, span: Span) -> bool {

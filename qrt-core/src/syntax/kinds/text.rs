@@ -22,12 +22,12 @@ problems! {
 
     /// Of a text as YAML.
     Yaml {
-        Syntax { why: String, has_tab: bool, is_invisible: bool } = SYNTAX "not YAML: {why}"
-            help { match (has_tab, is_invisible) {
-                (true, _) => Some("indent with spaces: YAML has no tabs in its indentation".into()),
-                (_, true) => Some("remove the invisible character".into()),
-                _ => None,
-            } };
+        Syntax { why: String } = SYNTAX "not YAML: {why}";
+        TabIndents { why: String } = SYNTAX "not YAML: {why}"
+            help "indent with spaces: YAML has no tabs in its indentation";
+        TabSeparates { why: String } = SYNTAX "not YAML: {why}"
+            help "write a space in place of the tab";
+        Invisible { why: String } = SYNTAX "not YAML: {why}" help "remove the invisible character";
         Empty = EMPTY "the scene is empty" help "`qrt new NAME` writes a scene to start from";
         DuplicateKey { key: String } = DUPLICATE_KEY
             { format!("the key `{}` is written twice", shorten(key)) }
