@@ -185,8 +185,14 @@ fn nobody_else_is_answered_and_nothing_breaks_it() {
     ] {
         assert_eq!(served.post(&headers, body).0, 403, "{headers}");
     }
+    for host in ["[::1]", "LocalHost", "localhost.", "127.0.0.1"] {
+        let own = format!("Host: {host}:{port}\r\nOrigin: http://{host}:{port}\r\n");
+        assert_eq!(served.post(&own, body).0, 200, "{host}");
+    }
     let own = format!("Host: 127.0.0.1:{port}\r\n");
     assert_eq!(served.post(&own, body).0, 200);
+    let twice = format!("{own}Host: example.org\r\n");
+    assert_eq!(served.post(&twice, body).0, 403);
     for (wrong, status) in [
         ("", 400),
         ("a\ncheck\n1", 400),
@@ -221,6 +227,20 @@ fn nobody_else_is_answered_and_nothing_breaks_it() {
     assert!(index.contains("no picture is open"), "{index}");
     let (index, _) = served.call("63", "trace", "0 1 1", "");
     assert!(index.contains("no picture is open"), "{index}");
+}
+
+/// Where this process may listen on port 80, and nobody does.
+#[test]
+fn at_port_80_the_printed_address_is_answered() {
+    if std::net::TcpListener::bind(("127.0.0.1", 80)).is_err() {
+        return;
+    }
+    let folder = folder();
+    let served = Served::new(&folder, &["scene.yaml", "--port", "80"]);
+    let own = "Host: 127.0.0.1\r\nOrigin: http://127.0.0.1\r\n";
+    assert_eq!(served.post(own, "a\ncheck\n\nname: 7").0, 200);
+    let other = "Host: 127.0.0.1\r\nOrigin: http://127.0.0.1:8000\r\n";
+    assert_eq!(served.post(other, "a\ncheck\n\nname: 7").0, 403);
 }
 
 #[test]

@@ -2,7 +2,7 @@
 //! other origin.
 
 use std::io::{self, Read as _, Write as _};
-use std::net::{TcpListener, TcpStream};
+use std::net::{Ipv4Addr, Ipv6Addr, TcpListener, TcpStream};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
@@ -154,14 +154,18 @@ fn heard(
             }
             _ => return Ok(Answer::wrong()),
         };
-        let header = |name: &str| {
-            let mut found = request.headers.iter();
-            let found = found.find(|header| header.name.eq_ignore_ascii_case(name))?;
-            std::str::from_utf8(found.value).ok()
+        let headers = |name: &'static str| {
+            let all = request.headers.iter();
+            let named = all.filter(move |header| header.name.eq_ignore_ascii_case(name));
+            named.map(|header| header.value)
         };
-        if !is_own(header("host"), header("origin"), port) {
+        if !is_own(headers("host"), headers("origin"), port) {
             return Ok(Answer::refused("403 Forbidden"));
         }
+        let header = |name| {
+            let value = headers(name).next()?;
+            std::str::from_utf8(value).ok()
+        };
         let length = header("content-length").unwrap_or("0").parse::<usize>();
         let Ok(length) = length else {
             return Ok(Answer::wrong());
@@ -188,11 +192,161 @@ fn heard(
     }
 }
 
-/// Whether a request is for this machine by its own name, and from a page that it served. Another
-/// site's page may send requests here, and its name may lead here.
-fn is_own(host: Option<&str>, origin: Option<&str>, port: u16) -> bool {
-    let hosts = [format!("127.0.0.1:{port}"), format!("localhost:{port}")];
-    let known = |name: &str| hosts.iter().any(|host| host == name);
-    let from = |origin: &str| origin.strip_prefix("http://").is_some_and(known);
-    host.is_some_and(known) && origin.is_none_or(from)
+/// The port of `http://` URLs that name none: browsers leave it out of `Host` and `Origin`.
+const DEFAULT_PORT: u16 = 80;
+
+/// True if a request names this server as its host, exactly once, and comes from no page but this
+/// server's. A page of another site may send requests here, and the name of another site may resolve
+/// to this machine (DNS rebinding), so that a name other than `localhost` is never trusted.
+fn is_own<'a>(
+    mut hosts: impl Iterator<Item = &'a [u8]>,
+    mut origins: impl Iterator<Item = &'a [u8]>,
+    port: u16,
+) -> bool {
+    let known = |name: &[u8]| std::str::from_utf8(name).is_ok_and(|name| is_here(name, port));
+    let from = |origin: &[u8]| {
+        let (scheme, host) = origin.split_at_checked(7).unwrap_or_default();
+        scheme.eq_ignore_ascii_case(b"http://") && known(host)
+    };
+    let (host, second) = (hosts.next(), hosts.next());
+    host.is_some_and(known) && second.is_none() && origins.all(from)
+}
+
+/// True if `authority`, as `host` or `host:port`, is this machine at `port`: `localhost` or a loopback
+/// address, in the spellings that RFC 3986 (3.2.2, 6.2.3) has for one host.
+fn is_here(authority: &str, port: u16) -> bool {
+    let (host, after) = match authority
+        .strip_prefix('[')
+        .and_then(|rest| rest.split_once(']'))
+    {
+        Some((address, after)) => {
+            let address = address.parse::<Ipv6Addr>();
+            (address.is_ok_and(|address| address.is_loopback()), after)
+        }
+        None => {
+            let name = &authority[..authority.find(':').unwrap_or(authority.len())];
+            let after = &authority[name.len()..];
+            let name = name.strip_suffix('.').unwrap_or(name);
+            let address = name.parse::<Ipv4Addr>();
+            let is_loopback = address.is_ok_and(|address| address.is_loopback());
+            (is_loopback || name.eq_ignore_ascii_case("localhost"), after)
+        }
+    };
+    let asked = match after.strip_prefix(':') {
+        None if after.is_empty() => Some(DEFAULT_PORT),
+        None => None,
+        Some("") => Some(DEFAULT_PORT),
+        Some(digits) if digits.bytes().all(|digit| digit.is_ascii_digit()) => digits.parse().ok(),
+        Some(_) => None,
+    };
+    host && asked == Some(port)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn answered(host: &str, origin: Option<&str>, port: u16) -> bool {
+        let hosts = std::iter::once(host.as_bytes());
+        is_own(hosts, origin.into_iter().map(str::as_bytes), port)
+    }
+
+    /// The WHATWG URL standard serialises a host and an origin without the scheme's default port.
+    #[test]
+    fn browsers_that_leave_port_80_out_are_answered() {
+        for host in ["127.0.0.1", "localhost", "LocalHost", "localhost.", "[::1]"] {
+            let origin = format!("http://{host}");
+            assert!(answered(host, None, 80), "{host}");
+            assert!(answered(host, Some(&origin), 80), "{host}");
+            assert!(answered(&format!("{host}:80"), Some(&origin), 80), "{host}");
+            assert!(answered(&format!("{host}:"), Some(&origin), 80), "{host}");
+            // Without a port it is port 80, and no other.
+            assert!(!answered(host, None, 8000), "{host}");
+            assert!(
+                !answered(&format!("{host}:8000"), Some(&origin), 8000),
+                "{host}"
+            );
+        }
+    }
+
+    #[test]
+    fn this_machine_has_several_names_at_any_port() {
+        for host in [
+            "127.0.0.1:8000",
+            "localhost:8000",
+            "LOCALHOST:8000",
+            "localhost.:8000",
+            "127.0.0.1.:8000",
+            "[::1]:8000",
+            "[0:0:0:0:0:0:0:1]:8000",
+        ] {
+            assert!(answered(host, None, 8000), "{host}");
+            assert!(
+                answered(host, Some(&format!("http://{host}")), 8000),
+                "{host}"
+            );
+            assert!(
+                answered(host, Some(&format!("HTTP://{host}")), 8000),
+                "{host}"
+            );
+            assert!(
+                !answered(host, Some(&format!("https://{host}")), 8000),
+                "{host}"
+            );
+            assert!(!answered(host, None, 80), "{host}");
+        }
+    }
+
+    #[test]
+    fn names_that_others_may_own_are_refused() {
+        for host in [
+            "",
+            ":80",
+            ".",
+            "..",
+            "example.org",
+            "localhost.example.org",
+            "evil.localhost",
+            "127.0.0.1.example.org",
+            "localhost..",
+            "localhost@example.org",
+            "localhost:80:80",
+            "localhost:+80",
+            "localhost:080x",
+            "localhost:65616",
+            "0.0.0.0",
+            "10.0.0.1",
+            "127.1",
+            "[::]",
+            "[::1",
+            "::1",
+            "[::1]x",
+            "[::1].:80",
+            "[::1%1]",
+            "[example.org]",
+            " localhost",
+        ] {
+            assert!(!answered(host, None, 80), "{host:?}");
+            let origin = format!("http://{host}");
+            assert!(!answered("localhost", Some(&origin), 80), "{host:?}");
+        }
+        for origin in [
+            "null",
+            "",
+            "localhost",
+            "http:/localhost",
+            "file://",
+            "ftp://localhost",
+        ] {
+            assert!(!answered("localhost", Some(origin), 80), "{origin:?}");
+        }
+        let none = std::iter::empty::<&[u8]>;
+        let own = || std::iter::once(&b"localhost"[..]);
+        assert!(is_own(own(), none(), 80));
+        assert!(!is_own(none(), none(), 80));
+        assert!(!is_own(own().chain([&b"example.org"[..]]), none(), 80));
+        assert!(!is_own(own(), std::iter::once(&b"http://\xff"[..]), 80));
+        let both = [&b"http://localhost"[..], b"http://example.org"];
+        assert!(!is_own(own(), both.into_iter(), 80));
+    }
 }
