@@ -5,6 +5,7 @@ mod common;
 
 mod command_line {
     mod bounds;
+    mod compared_pictures;
     mod count_command;
     mod files_are_safe;
     mod hostile_scenes;

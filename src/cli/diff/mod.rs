@@ -12,6 +12,7 @@ use qrt_runtime::image::compare::{
 };
 use qrt_runtime::image::{Encoding, Image, Metadata, save};
 use qrt_runtime::memory::Memory;
+use read::PlaceInFrame;
 use serde_json::json;
 use std::path::{Path, PathBuf};
 
@@ -19,6 +20,11 @@ use std::path::{Path, PathBuf};
 ///
 /// Two .exr files are compared as linear radiance, two .png files as a display shows them, linear light
 /// from 0 to 1. They must have the same size. Any program may have written them.
+///
+/// A .png may have any bit depth; its chunks cICP, sRGB and gAMA say how its levels become light, and
+/// without them it is sRGB. A .png with an ICC profile or with transparent pixels is refused, as is a .png
+/// or .exr with primaries other than those of Rec. 709, and as are two .exr of different windows. The
+/// colours of an .exr with an alpha channel are compared as in front of black, with a note.
 ///
 /// RMSE is the root of the mean squared difference over pixels and channels; relative MSE the mean of
 /// (PICTURE - REFERENCE)^2 / (REFERENCE^2 + 0.01); FLIP the mean of what someone notices who flips
@@ -81,9 +87,11 @@ pub(crate) fn run(args: &DiffArgs) -> Result<(), Failure> {
     }
     let read = if radiance { read::exr } else { read::png };
     let memory = Memory::of(args.max_memory);
-    let (reference, picture) = (read(&args.reference, memory)?, read(&args.picture, memory)?);
+    let [of_reference, of_picture] = [read(&args.reference, memory)?, read(&args.picture, memory)?];
+    let (reference, picture) = (of_reference.image, of_picture.image);
     let refused = |error: SizesDiffer| Failure::Usage(error.to_string());
     let found = difference(&reference, &picture).map_err(refused)?;
+    same_place(of_reference.place, of_picture.place)?;
     let flip = if radiance {
         flip_of_radiance
     } else {
@@ -103,6 +111,26 @@ pub(crate) fn run(args: &DiffArgs) -> Result<(), Failure> {
         text(args, &reference, &found, &flip)
     };
     terminal::print(&told)
+}
+
+/// Refuses pictures that are cut out of different places, or of frames of different sizes.
+fn same_place(one: Option<PlaceInFrame>, other: Option<PlaceInFrame>) -> Result<(), Failure> {
+    let (Some(one), Some(other)) = (one, other) else {
+        return Ok(());
+    };
+    if one == other {
+        return Ok(());
+    }
+    let told = |place: PlaceInFrame| {
+        let ([x, y], [width, height]) = (place.origin, place.frame);
+        format!("at ({x}, {y}) of {width} x {height} pixels")
+    };
+    Err(Failure::Usage(format!(
+        "the pictures are cut out of different frames (OpenEXR's `dataWindow` in `displayWindow`): one \
+         lies {}, the other {}; write both with the same windows",
+        told(one),
+        told(other)
+    )))
 }
 
 fn text(args: &DiffArgs, reference: &Image, found: &Difference, flip: &ErrorMap) -> String {
