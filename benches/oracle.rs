@@ -46,6 +46,7 @@ use qrt::circuit::lower::{self, Cost};
 use qrt::core::compile::{Passes, Strategy};
 use qrt::core::front;
 use qrt::core::oracle::{Layout, Layouts, Options, Oracle};
+use qrt::core::tracer::PixelClass;
 use qrt::core::valid::ValidScene;
 use qrt::runtime::layouts;
 use qrt::runtime::workers::Workers;
@@ -356,7 +357,7 @@ fn auto(root: &Path, qubits: u64) -> (Layout, f64) {
 fn pareto(root: &Path) -> (Vec<Layout>, f64) {
     let scene = load(root, "cornell-box", &[]);
     let started = Instant::now();
-    let front = layouts::front(&scene, 0, &Workers::default());
+    let front = layouts::front(&scene, 0, PixelClass::default(), &Workers::default());
     let front = front.unwrap_or_else(|error| panic!("{error}"));
     let seconds = started.elapsed().as_secs_f64();
     let [toffoli, qubits] = ALL_PLANES;

@@ -23,4 +23,5 @@ mod circuits {
     mod the_counting_circuit;
     mod the_shortcut_is_exact;
     mod verify_command;
+    mod what_registers_hold;
 }

@@ -11,6 +11,7 @@ mod command_line {
     mod hostile_scenes;
     mod inspect_command;
     mod kills;
+    mod one_oracle_one_number;
     mod other_renderers;
     mod parts_of_other_work;
     mod parts_of_pictures;
@@ -19,6 +20,7 @@ mod command_line {
     mod render_command;
     mod scenes_from_strangers;
     mod search_command;
+    mod shells_and_streams;
     mod small_commands;
     mod trade_command;
     mod watching;

@@ -211,6 +211,7 @@ export async function start(body, figure) {
   let kept = false;
   let looking = false;
   let loading = false;
+  let counting = false;
   name();
 
   const view = new cm.EditorView({
@@ -251,7 +252,14 @@ export async function start(body, figure) {
     beside.box.hidden = !both;
     exact.say(both ? "real numbers, exactly" : "all paths, exactly");
     beside.say("the circuit's integers, exactly");
-    counted.say(both ? "real numbers, counted" : "counted");
+    const how = counting ? "counting ..." : "counted";
+    counted.say(both ? `real numbers, ${how}` : how);
+  }
+
+  /** Says whether the counted picture is still being made. */
+  function count(now) {
+    counting = now;
+    name();
   }
 
   function tell(words) {
@@ -298,6 +306,7 @@ export async function start(body, figure) {
       if (run !== figure.qrtDone) {
         run++;
         valid = "";
+        count(false);
       }
       progress.hidden = true;
       figure.dataset.state_of_scene = "wrong";
@@ -411,6 +420,7 @@ export async function start(body, figure) {
     const mine = ++run;
     figure.dataset.busy = "true";
     progress.hidden = false;
+    count(false);
     try {
       const begun = performance.now();
       const both = model.value === "both";
@@ -452,6 +462,7 @@ export async function start(body, figure) {
         figure.dataset.traced = "true";
       }
       counted.begin(...film);
+      count(true);
       const points = [];
       const most = whole(bits);
       for (let now = Math.min(3, most); now <= most; now++) {
@@ -472,6 +483,7 @@ export async function start(body, figure) {
       if (mine !== run || error instanceof Interrupted) return;
       tell(error.message);
     }
+    count(false);
     progress.hidden = true;
     figure.qrtDone = run;
     delete figure.dataset.busy;
@@ -582,7 +594,7 @@ export async function start(body, figure) {
     pixelTold.replaceChildren(title, list.box);
     pixelDrawn.replaceChildren(
       element("div", { class: "qrt-caption" }, `${grouped(paths)} paths by brightness: each bar half as bright as the one before`), paths_of,
-      element("div", { class: "qrt-caption" }, `what a phase register of ${phase_bits} bits shows, sine window`), outcomes,
+      element("div", { class: "qrt-caption" }, `what a phase register of ${phase_bits} bits shows of ${name}, sine window`), outcomes,
       brightest.length ? table : element("p", {}, "No path carries light."),
     );
   }

@@ -11,9 +11,8 @@ use pyo3::types::PyDict;
 use qrt_circuit::export::{Export, Format};
 use qrt_circuit::lower::Cost;
 use qrt_circuit::quantum::{Conjunction, Counting, LogicalCounts, Part};
-use qrt_core::inspect::{CHANNELS, Inspection};
-use qrt_core::oracle::{CallCost, Options, Oracle as PathOracle, check_budget};
-use qrt_core::tracer::PixelClasses;
+use qrt_core::inspect::{CHANNELS, Inspection, OraclePixel};
+use qrt_core::oracle::{Oracle as PathOracle, OracleName, check_budget};
 use qrt_core::valid::ValidScene;
 use qrt_runtime::estimators::{Noise, NoiseError, Problem};
 use qrt_runtime::machines::{Defect, OracleMachine};
@@ -31,7 +30,9 @@ pub(crate) struct Oracle {
     traced: ValidScene,
     /// Queries of a pixel that are planned, by channel, where the scene asks for an accuracy.
     planned: Option<[f64; 3]>,
-    channel: usize,
+    name: OracleName,
+    which: String,
+    call: String,
     pixel: [u32; 2],
     seed: u64,
     compiled: Arc<PathOracle>,
@@ -64,20 +65,18 @@ impl Oracle {
         let (traced, planned) = scene.traced(py)?;
         let size = Memory::default().keep_circuit(&traced, CircuitWork::Program);
         size.map_err(|error| errors::request(py, error))?;
-        let options = Options::of_class(PixelClasses::new(&traced).of(pixel));
+        let place = OraclePixel { place: pixel, seed };
         let report = |problems| errors::scene(py, &scene.loaded.report(problems));
         let inspection = work::run(py, None, None, |_| {
-            Inspection::new(&traced, number, options)
+            Inspection::of_pixel(&traced, number, place)
         })?;
         let inspection = inspection.map_err(|error| report(vec![error.problem()]))?;
-        let spent = CallCost {
-            qubits: inspection.qubits.into(),
-            toffoli: inspection.total().toffoli,
-        };
-        check_budget(&traced, spent).map_err(report)?;
+        check_budget(&traced, inspection.oracle_cost().call).map_err(report)?;
         Ok(Self {
             scene: this,
-            channel: inspection.channel,
+            name: inspection.name,
+            which: inspection.which(),
+            call: inspection.call_in_words(),
             pixel,
             seed,
             cost: inspection.total(),
@@ -144,7 +143,14 @@ impl Oracle {
     /// "r", "g" or "b".
     #[getter]
     fn channel(&self) -> &'static str {
-        CHANNELS[self.channel]
+        self.name.channel_name()
+    }
+
+    /// The class of its pixel: "may-see-lamp" or "sees-no-lamp", or "all" where the scene has one oracle
+    /// for all pixels of a channel.
+    #[getter]
+    fn pixel_class(&self) -> &'static str {
+        self.name.class_name()
     }
 
     /// Column and row, from 0 at the top left.
@@ -165,7 +171,8 @@ impl Oracle {
         self.scene.clone_ref(py)
     }
 
-    /// Qubits of a call: the most in use at any time.
+    /// Qubits of a call (compute, compare and flip, uncompute): the most in use at any time. These figures
+    /// are those of `qrt inspect --pixel X,Y --channel C`, and of what `qasm` writes.
     #[getter]
     fn qubits(&self) -> u32 {
         self.qubits
@@ -189,7 +196,7 @@ impl Oracle {
         self.cost.cnot
     }
 
-    /// X gates of a call.
+    /// X gates of a call, the pixel's parameters built in.
     #[getter]
     fn x(&self) -> u64 {
         self.cost.x
@@ -266,7 +273,7 @@ impl Oracle {
             noise.unwrap_or_default(),
             seed,
             self.pixel,
-            self.channel as u8,
+            self.name.channel as u8,
         ))
     }
 
@@ -295,14 +302,16 @@ impl Oracle {
         };
         let asked = self.traced.scene().counting;
         let window = asked.estimator.register_window(asked.window);
-        let [x, y] = self.pixel;
-        let comment = format!(
-            "qrt {}: {}, channel {}, pixel {x},{y}, seed {}",
-            env!("CARGO_PKG_VERSION"),
-            self.traced.scene().name,
-            self.channel(),
-            self.seed
-        );
+        let comments = [
+            format!(
+                "qrt {}: {}, {}, seed {}",
+                env!("CARGO_PKG_VERSION"),
+                self.traced.scene().name,
+                self.which,
+                self.seed
+            ),
+            format!("One call of the oracle has {}.", self.call),
+        ];
         let written = work::run(py, None, None, |workers| {
             let failed = |error: &dyn std::error::Error| error.to_string();
             let oracle = self
@@ -323,7 +332,7 @@ impl Oracle {
                 None => export,
             };
             let mut bytes = Vec::new();
-            let written = export.write(format, &[comment], &mut bytes);
+            let written = export.write(format, &comments, &mut bytes);
             written.map_err(|e| failed(&e))?;
             String::from_utf8(bytes).map_err(|e| failed(&e))
         })?;
@@ -341,7 +350,7 @@ impl Oracle {
         measured: bool,
     ) -> PyResult<Bound<'py, PyDict>> {
         let counts = work::run(py, None, None, |_| {
-            PictureCounts::of(&self.traced, self.planned)
+            PictureCounts::of(&self.traced, self.name.class, self.planned)
         })?;
         let picture = counts.map_err(|error| match error {
             PhysicalError::Oracle(error) => {
@@ -350,7 +359,7 @@ impl Oracle {
             }
             error => errors::request(py, error),
         })?;
-        let one = picture.channels[self.channel];
+        let one = picture.channels[self.name.channel];
         let counts = match of {
             "oracle" => one.oracle,
             "channel" => one.pixel,

@@ -3,6 +3,7 @@
 import collections
 import json
 import math
+import pathlib
 import re
 
 import pytest
@@ -10,6 +11,7 @@ import pytest
 import qrt
 
 PIXEL = (1, 0)
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
 def test_an_oracle_costs_what_the_command_says(command, box):
@@ -25,6 +27,56 @@ def test_an_oracle_costs_what_the_command_says(command, box):
         box.oracle("red")
     with pytest.raises(qrt.SceneError, match="budget"):
         qrt.parse(box.to_yaml(), {"budget": {"toffoli": 10}}).oracle("r")
+
+
+# The class of a pixel's oracle, by whether it sees the lamp of the lit box.
+@pytest.mark.parametrize(
+    "scene, pixel, pixel_class",
+    [
+        ("lit-box", (4, 1), "may-see-lamp"),
+        ("lit-box", (4, 4), "sees-no-lamp"),
+        ("cornell-box", (3, 4), "all"),
+        ("room", (5, 6), "all"),
+    ],
+)
+def test_an_oracle_costs_what_every_command_says_of_it(
+    command, tmp_path, scene, pixel, pixel_class
+):
+    if scene == "room":
+        command("new", "room")
+        path = tmp_path / "room.yaml"
+    else:
+        path = ROOT / "scenes-yaml" / f"{scene}.yaml"
+    few = {"sampling.path_bits": 2, "film": {"width": 8, "height": 8}}
+    oracle = qrt.load(path, few).oracle("g", pixel, seed=5)
+    sets = ["--set", "sampling.path_bits=2", "--set", "film={ width: 8, height: 8 }", "--json"]
+    asked = ["--pixel", f"{pixel[0]},{pixel[1]}", "--channel", "g", "--seed", "5", *sets]
+    inspected = json.loads(command("inspect", str(path), *asked))
+    exported = json.loads(command("export", str(path), "-o", "one.qasm", *asked))
+    verified = command("verify", str(path), "--pixels", "64", *sets)
+    assert oracle.pixel_class == pixel_class == inspected["class"] == exported["class"]
+    assert oracle.qubits == inspected["qubits"]["peak"] == exported["qubits"]
+    gates = {
+        "toffoli": oracle.toffoli,
+        "and_measured": oracle.and_measured,
+        "cnot": oracle.cnot,
+        "x": oracle.x,
+        "toffoli_depth": oracle.toffoli_depth,
+    }
+    assert gates == inspected["gates"] == exported["oracle"]["gates"]
+    assert exported["gates"]["ccx"] == oracle.toffoli
+    assert exported["gates"]["x"] == oracle.x
+    listed = {
+        "channel": "g",
+        "class": pixel_class,
+        "qubits": oracle.qubits,
+        "toffoli": oracle.toffoli,
+    }
+    assert listed in inspected["oracles"]
+    assert listed in json.loads(verified)["oracles"]
+    text = oracle.qasm()
+    assert text.count("\nccx ") == oracle.toffoli
+    assert f"{oracle.qubits:,} qubits, {oracle.toffoli:,} Toffolis" in text
 
 
 def test_good_indices_are_those_of_the_picture(box):

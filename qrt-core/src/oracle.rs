@@ -21,6 +21,7 @@
 mod bound;
 mod budget;
 pub mod compiled;
+mod costs;
 mod layouts;
 mod nearest;
 pub mod paths;
@@ -30,6 +31,10 @@ mod recording;
 
 pub use bound::BoundProgram;
 pub use budget::{CallCost, call_cost, check_budget};
+pub use costs::{
+    OracleCost, OracleName, PARTS_OF_A_CALL, most_expensive_oracle, oracle_costs,
+    oracle_costs_under, oracle_names,
+};
 pub use layouts::{Layout, Layouts};
 pub use nearest::{MOST_FACES, NearestOracle};
 pub use phase::MOST_BITS;

@@ -3,6 +3,7 @@
 use crate::workers::{Progress, ThreadsError, Workers};
 use qrt_core::compile::Strategy;
 use qrt_core::oracle::{Layout, Layouts, OracleError};
+use qrt_core::tracer::PixelClass;
 use qrt_core::valid::ValidScene;
 use qrt_drawing::{Axis, Canvas, Drawn, Plot, Series};
 use rayon::prelude::*;
@@ -21,14 +22,15 @@ pub enum LayoutsError {
     Cancelled,
 }
 
-/// The layouts of a channel's oracle that no other beats in qubits and in Toffolis, the one with the
-/// fewest Toffolis first: of [`Strategy::all`], each compiled.
+/// The layouts of a channel's oracle, for pixels of `class`, that no other beats in qubits and in
+/// Toffolis, the one with the fewest Toffolis first: of [`Strategy::all`], each compiled.
 ///
 /// # Errors
 /// A scene without a circuit, threads that can't be started, and cancellation.
 pub fn front(
     scene: &ValidScene,
     channel: usize,
+    class: PixelClass,
     workers: &Workers<'_>,
 ) -> Result<Vec<Layout>, LayoutsError> {
     let all = Strategy::all();
@@ -36,7 +38,7 @@ pub fn front(
         total: all.len() as u64,
         resumed: 0,
     });
-    let traced = Layouts::new(scene, channel);
+    let traced = Layouts::of_class(scene, channel, class);
     let layout = |strategy: &Strategy| {
         if workers.cancelled() {
             return Err(LayoutsError::Cancelled);
@@ -82,7 +84,7 @@ mod tests {
             "/../scenes-yaml/floor-and-light.yaml"
         );
         let scene = load(file.as_ref(), &[]).unwrap().valid;
-        let front = front(&scene, 0, &Workers::default()).unwrap();
+        let front = front(&scene, 0, PixelClass::default(), &Workers::default()).unwrap();
         assert_eq!(front[0].strategy, Strategy::KEEP);
         assert!(front.len() > 5, "{}", front.len());
         for pair in front.windows(2) {

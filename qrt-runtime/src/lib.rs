@@ -21,6 +21,7 @@ pub mod sample;
 #[cfg(test)]
 mod scratch;
 pub mod search;
+pub mod shell;
 pub mod trade;
 pub mod verify;
 pub mod workers;

@@ -13,13 +13,15 @@
 //!   measures the index at most as often: a shot takes a query at least. Strata fix qubits of the index, which saves some of O_0
 //!   and is not reckoned with.
 //! * All channels of all pixels are counted, one after another on the same qubits, but those whose
-//!   proven bound is black. The oracle is the one that serves all pixels.
+//!   proven bound is black. The oracle of all pixels is that of one class of pixels, such as the
+//!   most expensive.
 
 use crate::estimators::{EstimatorError, Settings};
 use qrt_circuit::lower::{self, Cost};
 use qrt_circuit::quantum::{Conjunction, Counting, LogicalCounts, PhaseOracle, QuantumError};
 use qrt_core::oracle::{Options, Oracle, OracleError};
 use qrt_core::scene::Estimator;
+use qrt_core::tracer::PixelClass;
 use qrt_core::valid::ValidScene;
 
 /// Why a picture has no logical counts.
@@ -84,7 +86,8 @@ pub struct PictureCounts {
 }
 
 impl PictureCounts {
-    /// The counts of a scene's picture, by the scene's estimator.
+    /// The counts of a scene's picture, by the scene's estimator, with the oracles for pixels of `class`
+    /// in every pixel.
     ///
     /// Estimators that stop by themselves use fewer queries than they may: `planned` says how many, of
     /// a pixel on average, of red, green and blue ([`Figures::channel_queries`]). They are rounded
@@ -94,10 +97,14 @@ impl PictureCounts {
     ///
     /// # Errors
     /// A scene without a circuit, an estimator that runs no iterates, and counts beyond u64.
-    pub fn of(scene: &ValidScene, planned: Option<[f64; 3]>) -> Result<Self, PhysicalError> {
+    pub fn of(
+        scene: &ValidScene,
+        class: PixelClass,
+        planned: Option<[f64; 3]>,
+    ) -> Result<Self, PhysicalError> {
         let run = |channel: usize| {
             let planned = planned.map(|queries| queries[channel].ceil() as u64);
-            Run::new(scene, channel)?.counts(planned)
+            Run::new(scene, channel, class)?.counts(planned)
         };
         let channels: [ChannelCounts; 3] = [run(0)?, run(1)?, run(2)?];
         let film = scene.scene().film;
@@ -156,9 +163,13 @@ struct Run<'a> {
 }
 
 impl<'a> Run<'a> {
-    fn new(scene: &'a ValidScene, channel: usize) -> Result<Self, PhysicalError> {
-        let oracle =
-            Oracle::new(scene, channel, Options::default()).map_err(PhysicalError::Oracle)?;
+    fn new(
+        scene: &'a ValidScene,
+        channel: usize,
+        class: PixelClass,
+    ) -> Result<Self, PhysicalError> {
+        let oracle = Oracle::new(scene, channel, Options::of_class(class));
+        let oracle = oracle.map_err(PhysicalError::Oracle)?;
         let cost: Cost = lower::tally(&oracle.whole(0)).into_iter().sum();
         let counts = LogicalCounts {
             qubits: u64::from(oracle.qubits()),

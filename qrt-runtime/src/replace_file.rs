@@ -14,6 +14,12 @@ use std::path::{Path, PathBuf};
 /// What the names of partial files and checkpoints end in.
 pub const PARTIAL: &str = ".qrt-partial";
 
+/// Hexadecimal digits of a partial file's random number.
+const RANDOM_DIGITS: usize = 16;
+
+/// The longest name that file systems in use give a file, in bytes.
+const LONGEST_NAME: usize = 255;
+
 /// Random names that are tried before it is given up.
 const ATTEMPTS: u32 = 64;
 
@@ -137,20 +143,51 @@ impl Drop for Partial {
 fn partial_name(name: &OsStr) -> OsString {
     // Keyed by the system's own random numbers.
     let random = RandomState::new().build_hasher().finish();
-    let mut partial = name.to_owned();
+    let mut partial = shortened(name, RANDOM_DIGITS + 1 + PARTIAL.len());
     partial.push(format!(".{random:016x}{PARTIAL}"));
     partial
 }
 
 /// Whether `partial` is such a name.
 fn is_partial_name(partial: &OsStr, name: &OsStr) -> bool {
+    let name = shortened(name, RANDOM_DIGITS + 1 + PARTIAL.len());
     let partial = partial.as_encoded_bytes();
     let digits = partial
         .strip_prefix(name.as_encoded_bytes())
         .and_then(|rest| rest.strip_prefix(b"."))
         .and_then(|rest| rest.strip_suffix(PARTIAL.as_bytes()));
     let hexadecimal = |digit: &u8| matches!(digit, b'0'..=b'9' | b'a'..=b'f');
-    digits.is_some_and(|digits| digits.len() == 16 && digits.iter().all(hexadecimal))
+    digits.is_some_and(|digits| digits.len() == RANDOM_DIGITS && digits.iter().all(hexadecimal))
+}
+
+/// The path of the checkpoint of a picture: beside it, its name and [`PARTIAL`]. A name that leaves no
+/// room for that is cut, and a checksum of all of it tells it from others that begin alike.
+///
+/// ```
+/// use qrt_runtime::replace_file::checkpoint_of;
+/// use std::path::Path;
+/// assert_eq!(checkpoint_of(Path::new("a/box.png")), Path::new("a/box.png.qrt-partial"));
+/// let long = checkpoint_of(Path::new(&format!("{}.png", "x".repeat(250))));
+/// assert_eq!(long.as_os_str().len(), 255);
+/// ```
+pub fn checkpoint_of(picture: &Path) -> PathBuf {
+    let name = picture.file_name().unwrap_or_default();
+    let mut partial = shortened(name, PARTIAL.len());
+    partial.push(PARTIAL);
+    picture.with_file_name(partial)
+}
+
+/// `name`, if `more` bytes fit behind it; or else as much of its beginning as does, `~` and a checksum of
+/// all of it.
+fn shortened(name: &OsStr, more: usize) -> OsString {
+    let room = LONGEST_NAME - more;
+    if name.len() <= room {
+        return name.to_owned();
+    }
+    let sum = format!("~{:08x}", crc32fast::hash(name.as_encoded_bytes()));
+    let text = name.to_string_lossy();
+    let start = &text[..text.floor_char_boundary(room - sum.len())];
+    OsString::from(format!("{start}{sum}"))
 }
 
 /// Removes the partial files of `target` that processes left which were killed: those that nobody

@@ -7,6 +7,7 @@ use super::terminal;
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use qrt_core::front::{self, Loaded};
+use qrt_core::scene::Film;
 use qrt_core::scene::meshes::MOST_FACES;
 use qrt_runtime::memory::Memory;
 use std::num::NonZeroUsize;
@@ -95,6 +96,27 @@ pub(crate) fn choice<T: Copy + Send + Sync + 'static, const N: usize>(
             .map(|(value, _)| *value)
             .ok_or("there is no such value")
     })
+}
+
+/// A pixel on the command line, such as `10,20`.
+pub(crate) fn pixel(text: &str) -> Result<[u32; 2], String> {
+    numbers(text, "two whole numbers, such as 10,20")
+}
+
+/// Returns the pixel if the film has it.
+///
+/// # Errors
+/// A pixel beyond the film's last column or row.
+pub(crate) fn on_film([x, y]: [u32; 2], film: Film) -> Result<[u32; 2], Failure> {
+    let Film { width, height, .. } = film;
+    if x < width && y < height {
+        return Ok([x, y]);
+    }
+    Err(Failure::Usage(format!(
+        "there is no pixel {x},{y} on a film of {width} x {height}: x is in 0..={}, y in 0..={}",
+        width - 1,
+        height - 1
+    )))
 }
 
 /// So many whole numbers, with commas between them; `such_as` these.

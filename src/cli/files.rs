@@ -7,6 +7,9 @@ use qrt_runtime::replace_file::{PARTIAL, try_writing};
 use std::fs;
 use std::path::{Path, PathBuf};
 
+/// What standard output is called in place of a file.
+pub(crate) const STDOUT: &str = "-";
+
 /// A file that a command writes: as it was asked for, and where that leads.
 #[derive(Clone, Debug)]
 pub(crate) struct Output {
@@ -18,8 +21,12 @@ impl Output {
     /// Finds out where `asked` leads.
     ///
     /// # Errors
-    /// A folder is in its place, or there is none to write to.
+    /// A folder is in its place, there is none to write to, or it is `-`.
     pub(crate) fn new(asked: &Path) -> Result<Self, Failure> {
+        if asked == Path::new(STDOUT) {
+            let message = "standard output, `-`, takes none of this: name a file (`./-` is one)";
+            return Err(Failure::Usage(message.to_owned()));
+        }
         let place = Place::of(asked).map_err(|error| Failure::file(asked, &error))?;
         if place.is_folder() {
             let message = format!("`{}` is a folder", asked.display());
@@ -27,6 +34,25 @@ impl Output {
         }
         let asked = asked.to_path_buf();
         Ok(Self { asked, place })
+    }
+
+    /// The same, but that `-` is standard output.
+    ///
+    /// # Errors
+    /// As [`Output::new`].
+    pub(crate) fn or_stdout(asked: &Path) -> Result<Self, Failure> {
+        if asked != Path::new(STDOUT) {
+            return Self::new(asked);
+        }
+        Ok(Self {
+            asked: asked.to_path_buf(),
+            place: Place::standard_output(),
+        })
+    }
+
+    /// True if it is standard output, asked for as `-`.
+    pub(crate) fn is_stdout(&self) -> bool {
+        self.place.path() == Path::new(STDOUT)
     }
 
     /// That it can be written, as far as that can be known beforehand.

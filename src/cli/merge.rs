@@ -5,7 +5,6 @@ use super::failure::Failure;
 use super::files::Output;
 use super::memory::{self, refused};
 use super::picture::{self, BesideArgs, Outputs};
-use super::terminal;
 use clap::Args;
 use qrt_runtime::disk::read_regular;
 use qrt_runtime::image::Encoding;
@@ -85,5 +84,5 @@ pub(crate) fn run(args: &MergeArgs) -> Result<(), Failure> {
     if args.quiet {
         return Ok(());
     }
-    terminal::print(&picture::summary(&args.output, &rendered, clipped))
+    outputs.tell(&picture::summary(&args.output, &rendered, clipped))
 }

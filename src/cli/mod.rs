@@ -81,10 +81,14 @@ enum Command {
 
 pub(crate) fn main() -> ExitCode {
     interrupt::outlive_file_limits();
-    let command = Cli::parse().command;
-    let done = InstructionSet::asked()
-        .map_err(|error| Failure::Usage(error.to_string()))
-        .and_then(|_| run(command));
+    let done = match Cli::try_parse() {
+        Ok(Cli { command }) => InstructionSet::asked()
+            .map_err(|error| Failure::Usage(error.to_string()))
+            .and_then(|_| run(command)),
+        Err(usage) if usage.use_stderr() => usage.exit(),
+        // Help, or the version: what was asked for.
+        Err(help) => terminal::stream(|_| help.print()),
+    };
     match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {

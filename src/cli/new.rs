@@ -5,7 +5,9 @@ use super::files::Output;
 use super::terminal;
 use clap::Args;
 use qrt_core::scene::text::Data;
+use qrt_runtime::disk::naming_folder;
 use qrt_runtime::replace_file::replace_file;
+use qrt_runtime::shell;
 use std::fs::{self, OpenOptions};
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
@@ -42,8 +44,9 @@ pub(crate) fn run(args: &NewArgs) -> Result<(), Failure> {
     };
     match written {
         Ok(()) => terminal::print(&format!(
-            "{path}: render it with `qrt render {path}`\n",
-            path = path.display()
+            "{}: render it with `{}`\n",
+            path.display(),
+            shell::command("qrt render", &path)
         )),
         Err(error) if error.kind() == ErrorKind::AlreadyExists => Err(Failure::Usage(format!(
             "`{}` is already there; `--force` replaces it",
@@ -69,7 +72,8 @@ fn file(name: &Path) -> Result<PathBuf, Failure> {
 }
 
 fn create(path: &Path, text: &str) -> io::Result<()> {
-    let mut file = OpenOptions::new().write(true).create_new(true).open(path)?;
+    let opened = OpenOptions::new().write(true).create_new(true).open(path);
+    let mut file = opened.map_err(|error| naming_folder(path, error))?;
     let written = file.write_all(text.as_bytes());
     if written.is_err() {
         let _ = fs::remove_file(path);

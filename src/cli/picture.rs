@@ -1,13 +1,13 @@
 //! A picture's files, whether it was rendered at once or in parts.
 
 use super::failure::Failure;
-use super::files::{Output, keep_apart};
-use super::stats;
+use super::files::{Output, STDOUT, keep_apart};
+use super::{stats, terminal};
 use clap::Args;
 use qrt_core::inspect::grouped;
 use qrt_runtime::image::{self, Encoding, Layer};
 use qrt_runtime::render::Rendered;
-use qrt_runtime::replace_file::PARTIAL;
+use qrt_runtime::replace_file::checkpoint_of;
 use std::path::{Path, PathBuf};
 
 /// What is written beside a picture.
@@ -16,10 +16,11 @@ pub(crate) struct BesideArgs {
     /// Stops of exposure: the picture times 2^STOPS; for .png only
     #[arg(long, value_name = "STOPS", allow_negative_numbers = true)]
     pub(crate) exposure: Option<f64>,
-    /// Write time, queries, mean colour and more as JSON
+    /// Write time, queries, mean colour and more as JSON; `-` is standard output
     #[arg(long, value_name = "FILE.json")]
     stats: Option<PathBuf>,
-    /// Write every channel of every pixel as CSV: x,y,channel,value,good,total,scale
+    /// Write every channel of every pixel as CSV: x,y,channel,value,good,total,scale; `-` is standard
+    /// output
     #[arg(long, value_name = "FILE.csv")]
     counts: Option<PathBuf>,
 }
@@ -41,14 +42,19 @@ impl Outputs {
     /// # Errors
     /// A folder is in the place of one, or there is none to write to.
     pub(crate) fn new(picture: &Path, beside: &BesideArgs) -> Result<Self, Failure> {
-        let output = |path: &PathBuf| Output::new(path);
+        let output = |path: &PathBuf| Output::or_stdout(path);
         let asked = Output::new(picture)?;
-        let mut partial = picture.as_os_str().to_owned();
-        partial.push(PARTIAL);
+        let partial = checkpoint_of(picture);
+        let are_stdout = |path: &Option<PathBuf>| path.as_deref() == Some(Path::new(STDOUT));
+        if are_stdout(&beside.stats) && are_stdout(&beside.counts) {
+            let message =
+                "`-` is used for two different things: name a file for --stats or --counts";
+            return Err(Failure::Usage(message.to_owned()));
+        }
         Ok(Self {
             stats: beside.stats.as_ref().map(output).transpose()?,
             counts: beside.counts.as_ref().map(output).transpose()?,
-            checkpoint: (!asked.is_device()).then_some(partial.into()),
+            checkpoint: (!asked.is_device()).then_some(partial),
             picture: asked,
         })
     }
@@ -57,6 +63,18 @@ impl Outputs {
     pub(crate) fn asked(&self) -> impl Iterator<Item = &Output> {
         let others = self.stats.iter().chain(&self.counts);
         std::iter::once(&self.picture).chain(others)
+    }
+
+    /// Prints what is said of the picture: on standard error, where standard output is one of the files.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    pub(crate) fn tell(&self, summary: &str) -> Result<(), Failure> {
+        if self.asked().any(Output::is_stdout) {
+            terminal::note(summary.trim_end());
+            return Ok(());
+        }
+        terminal::print(summary)
     }
 
     /// That none is one of `inputs`, another of these, or another picture's checkpoint.
@@ -104,11 +122,17 @@ pub(crate) fn write(
     }
     let picture = outputs.picture.path()?;
     let clipped = image::save_layers(picture, &rendered.image, layers, &metadata, encoding)?;
-    if let Some(output) = &outputs.counts {
-        image::write_counts(output.path()?, rendered.counts())?;
+    match &outputs.counts {
+        Some(output) if output.is_stdout() => {
+            terminal::stream(|out| image::write_counts_to(out, rendered.counts()))?;
+        }
+        Some(output) => image::write_counts(output.path()?, rendered.counts())?,
+        None => {}
     }
-    if let Some(output) = &outputs.stats {
-        stats::write(output.path()?, rendered, clipped)?;
+    match &outputs.stats {
+        Some(output) if output.is_stdout() => terminal::print(&stats::text(rendered, clipped))?,
+        Some(output) => stats::write(output.path()?, rendered, clipped)?,
+        None => {}
     }
     Ok(clipped)
 }

@@ -42,7 +42,9 @@ const COLOURS: [(Colour, &str); 2] = [
     (Colour::ThreeRuns, "Each channel is counted"),
     (
         Colour::OneRun,
-        "The luminance is counted, and the paths that are measured give the colour",
+        "The luminance is counted, and the paths that are measured give the colour; a pixel of which none \
+         is measured is grey, as half of them are with one measurement: paper, sine, posterior-mean and qss \
+         measure as often as counting.repetitions says",
     ),
 ];
 
@@ -293,6 +295,7 @@ fn render(args: &RenderArgs, cancel: &AtomicBool, files: &mut Vec<PathBuf>) -> R
             path.display()
         ));
     }
+    tell_of_grey(options.expected_grey(traced)?, &options, traced);
     if !args.quiet {
         tell_of_time(traced, args, target.portions());
     }
@@ -333,7 +336,7 @@ fn render(args: &RenderArgs, cancel: &AtomicBool, files: &mut Vec<PathBuf>) -> R
     if args.quiet {
         return Ok(());
     }
-    terminal::print(&told)
+    outputs.tell(&told)
 }
 
 fn write_part(output: &Output, part: &PicturePart) -> Result<(), Failure> {
@@ -364,6 +367,31 @@ fn kept(error: Failure, checkpoint: Option<Checkpoint>, outputs: &Outputs) -> Fa
         )),
         _ => error,
     }
+}
+
+/// Warns if so many pixels, as a fraction, are expected to be grey that a picture would show it.
+fn tell_of_grey(fraction: f64, options: &Options<'_>, traced: &ValidScene) {
+    const SHOWN: f64 = 1e-3;
+    const ENOUGH: u32 = 10;
+    if fraction <= SHOWN {
+        return;
+    }
+    let counting = traced.scene().counting;
+    // Of a plan, it is a part.
+    let enough = if options.plan.is_some() {
+        String::new()
+    } else {
+        format!("`--set counting.repetitions={ENOUGH}` or more, or ")
+    };
+    terminal::note(&format!(
+        "about {:.2} % of the pixels will be grey: `{}` measures as often as `counting.repetitions` says, \
+         here {}, and where no measured path is good, `--colour one-run` knows no colour; take {enough}an \
+         estimator that measures until it knows enough, such as `--estimator {}`",
+        100.0 * fraction,
+        options.estimator.unwrap_or(counting.estimator),
+        counting.repetitions,
+        Estimator::AdaptiveBayes,
+    ));
 }
 
 /// Tells of what nobody would wait for: it may be meant, but hardly is.

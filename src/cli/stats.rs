@@ -13,9 +13,14 @@ use std::path::Path;
 /// # Errors
 /// A file that cannot be written.
 pub(crate) fn write(path: &Path, rendered: &Rendered, clipped: u64) -> Result<(), Failure> {
-    let text = format!("{:#}\n", stats(rendered, clipped));
+    let text = text(rendered, clipped);
     replace_file(path, |out| out.write_all(text.as_bytes()))
         .map_err(|error| Failure::file(path, &error))
+}
+
+/// The statistics of a picture as JSON.
+pub(crate) fn text(rendered: &Rendered, clipped: u64) -> String {
+    format!("{:#}\n", stats(rendered, clipped))
 }
 
 fn stats(rendered: &Rendered, clipped: u64) -> Value {

@@ -2,20 +2,53 @@
 //! output it ends the output quietly, and what can't be said on standard error isn't said.
 
 use super::failure::Failure;
+use qrt_runtime::image::ImageError;
 use std::env;
-use std::io::{self, ErrorKind, IsTerminal, Write};
+use std::io::{self, BufWriter, ErrorKind, IsTerminal, StdoutLock, Write};
 
 /// Writes `text` to standard output.
 ///
 /// # Errors
 /// If it can't be written, other than to a reader that has seen enough.
 pub(crate) fn print(text: &str) -> Result<(), Failure> {
-    let mut out = io::stdout().lock();
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
-        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
-            Err(Failure::Job(format!("standard output: {error}")))
+    stream(|out| out.write_all(text.as_bytes()))
+}
+
+/// Writes to standard output whatever `write` does.
+///
+/// # Errors
+/// As [`print`], and what else `write` fails by.
+pub(crate) fn stream<E: Into<WriteError>>(
+    write: impl FnOnce(&mut BufWriter<StdoutLock<'static>>) -> Result<(), E>,
+) -> Result<(), Failure> {
+    let mut out = BufWriter::new(io::stdout().lock());
+    let written = write(&mut out).map_err(Into::into);
+    match written.and_then(|()| out.flush().map_err(WriteError::Io)) {
+        Ok(()) => Ok(()),
+        Err(WriteError::Io(error)) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
+        Err(WriteError::Io(error)) => Err(Failure::Job(format!("standard output: {error}"))),
+        Err(WriteError::Other(failure)) => Err(failure),
+    }
+}
+
+/// Why nothing was written: by the output, or by what was to be written.
+pub(crate) enum WriteError {
+    Io(io::Error),
+    Other(Failure),
+}
+
+impl From<io::Error> for WriteError {
+    fn from(error: io::Error) -> Self {
+        Self::Io(error)
+    }
+}
+
+impl From<ImageError> for WriteError {
+    fn from(error: ImageError) -> Self {
+        match error {
+            ImageError::Write(error) => Self::Io(error),
+            other => Self::Other(other.into()),
         }
-        _ => Ok(()),
     }
 }
 

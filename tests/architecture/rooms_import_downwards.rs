@@ -38,6 +38,7 @@ const MODULES: &[(&str, &[&str])] = &[
         "qrt-runtime/src",
         &[
             "named",
+            "shell",
             "memory",
             "scratch",
             "disk",

@@ -9,6 +9,7 @@ use qrt::circuit::{Gate, lower};
 use qrt::core::compile::Strategy;
 use qrt::core::front::parse;
 use qrt::core::oracle::{CallCost, Layout, Layouts, Options, Oracle};
+use qrt::core::tracer::PixelClass;
 use qrt::core::valid::ValidScene;
 use qrt::runtime::layouts;
 use qrt::runtime::machines::OracleMachine;
@@ -58,7 +59,7 @@ fn front(scene: &ValidScene, channel: usize) -> Vec<Layout> {
         threads: NonZeroUsize::new(1),
         ..Workers::default()
     };
-    let front = layouts::front(scene, channel, &workers).unwrap();
+    let front = layouts::front(scene, channel, PixelClass::default(), &workers).unwrap();
     let all = Layouts::new(scene, channel);
     for layout in front.iter().step_by(7) {
         let auto = all.cheapest(layout.cost.qubits).unwrap();

@@ -65,7 +65,8 @@ fn so_do_those_of_auto_in_an_example_scene() {
 #[test]
 fn auto_is_the_cheapest_that_fits() {
     let scene = written(CORNER, &[]);
-    let (channel, keep) = Layout::of_most_expensive(&scene, Strategy::KEEP).unwrap();
+    let (name, keep) = Layout::of_most_expensive(&scene, Strategy::KEEP).unwrap();
+    let channel = name.channel;
     let all = Layouts::new(&scene, channel);
     let layouts = Strategy::all()
         .into_iter()

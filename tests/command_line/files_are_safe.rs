@@ -181,8 +181,8 @@ fn a_render_that_is_refused_costs_no_finished_work() {
 #[test]
 fn what_cannot_be_written_is_told_before_the_work() {
     let folder = Folder::with("box.yaml", BOX);
-    // Beside which there is no room for a name.
-    let long = "x".repeat(250);
+    // A byte longer than any name.
+    let long = "x".repeat(256);
     for option in ["--stats", "--counts"] {
         let slow = ["--set", "sampling.path_bits=30"];
         let errors = folder.fails(

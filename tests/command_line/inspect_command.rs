@@ -233,7 +233,10 @@ fn tables_fit_and_name_the_boxes_of_the_paper() {
         }
     }
     let text = folder().works(&["inspect", "floor.yaml"]);
-    assert!(text.starts_with("lit-floor, channel "), "{text}");
+    assert!(
+        text.starts_with("lit-floor: one call of the oracle, O_f = "),
+        "{text}"
+    );
     assert!(text.contains("6 path bits, 2 depths, 5 comparator bits, 10 fraction bits"));
 }
 
@@ -490,6 +493,92 @@ fn files_that_cannot_be_written_are_known_before_the_work() {
     assert!(inspect(2, &["--circuit", "-", "--json"]).contains("`--circuit -`"));
     assert!(inspect(2, &["--channel", "x"]).contains("possible values: r, g, b"));
     assert_eq!(folder.names(), ["floor.yaml", "map.svg"]);
+}
+
+/// Each by itself: what is listed is what a scene gets by that name.
+#[test]
+fn every_listed_strategy_is_one_that_a_scene_may_name() {
+    let folder = folder();
+    let pareto: Value = json(&folder, &["floor.yaml", "--pareto", "--channel", "r"]);
+    let front = list(&pareto, "front");
+    assert!(front.len() > 6, "{}", front.len());
+    for (place, layout) in front.iter().enumerate() {
+        let name = layout["strategy"].as_str().unwrap();
+        let plain = |c: char| c.is_ascii_lowercase() || c == '-';
+        assert!(name.chars().all(plain), "{name}");
+        // Each takes its time to compile: some of the front, and both its ends.
+        if place % 4 == 0 || place + 1 == front.len() {
+            let set = format!("circuit.uncompute={name}");
+            let found = json(&folder, &["floor.yaml", "--channel", "r", "--set", &set]);
+            assert_eq!(found["strategy"].as_str(), Some(name), "{found}");
+            assert_eq!(found["qubits"]["peak"], layout["qubits"], "{name}");
+            assert_eq!(found["gates"]["toffoli"], layout["toffoli"], "{name}");
+        }
+    }
+    let text = folder.works(&["inspect", "floor.yaml", "--pareto", "--channel", "r"]);
+    for layout in front {
+        let name = layout["strategy"].as_str().unwrap();
+        assert!(
+            text.lines()
+                .any(|line| line.ends_with(&format!("  {name}"))),
+            "{text}"
+        );
+    }
+    for jargon in ["xyz", "ghost", "nobody", "garbage"] {
+        assert!(!text.contains(jargon), "{text}");
+    }
+    for (wrong, says) in [
+        ("plane-floor", "no part of a strategy is called `floor`"),
+        ("planes", "did you mean `plane`?"),
+        ("keep-plane", "no part of a strategy is called `keep`"),
+        ("scopd", "did you mean `scoped`?"),
+    ] {
+        let set = format!("circuit.uncompute={wrong}");
+        let errors = folder.fails(2, &["inspect", "floor.yaml", "--set", &set]);
+        assert!(errors.contains(says), "{errors}");
+    }
+}
+
+#[test]
+fn the_front_goes_together_with_drawings() {
+    let folder = folder();
+    let all = [
+        "inspect",
+        "floor.yaml",
+        "--pareto",
+        "--pareto-plot",
+        "front.svg",
+        "--circuit",
+        "c.svg",
+        "--registers",
+        "r.svg",
+    ];
+    let said = folder.works(&all);
+    assert!(said.contains("those that no other beats"), "{said}");
+    assert_eq!(
+        folder.names(),
+        ["c.svg", "floor.yaml", "front.svg", "r.svg"]
+    );
+    for drawing in ["c.svg", "r.svg"] {
+        let by_itself = format!("own-{drawing}");
+        let flag = if drawing == "c.svg" {
+            "--circuit"
+        } else {
+            "--registers"
+        };
+        folder.works(&["inspect", "floor.yaml", flag, &by_itself]);
+        assert_eq!(folder.read(drawing), folder.read(&by_itself));
+    }
+    let drawn = folder.works(&["inspect", "floor.yaml", "--pareto", "--circuit", "-"]);
+    assert!(
+        drawn.starts_with(said.trim_end()) && drawn.len() > said.len() + 100,
+        "{drawn}"
+    );
+    // The longest name beside the panel ends within the drawing: 26 letters of at least 7 units.
+    let plot = String::from_utf8(folder.read("front.svg")).unwrap();
+    let view = plot.split("viewBox=\"0 0 ").nth(1).unwrap();
+    let width: f64 = view.split(' ').next().unwrap().parse().unwrap();
+    assert!(width >= 452.0 + 26.0 * 7.0, "{width}");
 }
 
 #[test]

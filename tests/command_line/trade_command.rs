@@ -77,6 +77,32 @@ fn a_table_plots_and_a_page_that_do_not_depend_on_threads() {
     assert_eq!(picture(&folder), shown);
 }
 
+/// What a reader sees of the page: no marks of the text that it was made from.
+#[test]
+fn the_page_and_the_summary_are_written_in_words() {
+    // So long that a face takes more than a line.
+    let folder = Folder::with("lit.yaml", &LIT.replace("1.5", "1.5000000001"));
+    let said = folder.works(&trade("2", &[]));
+    let page = String::from_utf8(folder.read("out/index.html")).unwrap();
+    assert!(!page.contains('`'), "{}", page.split('`').nth(1).unwrap());
+    assert!(page.contains("<code>cargo bench --bench equal_error</code>"));
+    for text in [&said, &page] {
+        assert!(
+            text.contains("10 fraction bits, uncompute: keep, nearest: running"),
+            "{text}"
+        );
+    }
+    let scene = page
+        .split("tabindex=\"0\">")
+        .nth(1)
+        .unwrap()
+        .split("</pre>")
+        .next()
+        .unwrap();
+    assert!(scene.contains("  - quad:\n      vertices:"), "{scene}");
+    assert!(scene.lines().all(|line| line.trim() != "-"), "{scene}");
+}
+
 /// The address of the page's picture of the scene: all of it.
 fn picture(folder: &Folder) -> String {
     let page = String::from_utf8(folder.read("out/index.html")).unwrap();

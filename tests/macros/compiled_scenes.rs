@@ -1,6 +1,11 @@
 //! What `qrt!` compiles is the circuit of the scene: the same program, computed and undone, the
 //! same numbers on every machine, and the same picture.
 
+#![allow(
+    deprecated,
+    reason = "the macro warns of a scene that is dark on purpose"
+)]
+
 use qrt::circuit::{Declaration, Type};
 use qrt::core::inspect::Inspection;
 use qrt::core::oracle::{Options as Compile, Oracle};

@@ -485,8 +485,53 @@ fn sampling_what_is_not_there_is_told_and_changes_nothing() {
         )
     };
     let warned = dark(", light: [4, 4]");
-    let codes: Vec<&str> = warned.warnings().iter().map(Problem::code).collect();
-    assert_eq!(codes, ["QRT0511"]);
+    // Besides, nothing is made of some materials of the room.
+    let codes = |scene: &ValidScene| -> Vec<&str> {
+        let codes = scene.warnings().iter().map(Problem::code);
+        codes.filter(|code| *code != "QRT0220").collect()
+    };
+    assert_eq!(codes(&warned), ["QRT0221", "QRT0511"]);
     assert_eq!(warned.scene().sampling, dark("").scene().sampling);
-    assert!(dark("").warnings().is_empty());
+    assert_eq!(codes(&dark("")), ["QRT0221"]);
+}
+
+/// The classes that are listed are those that some pixel has.
+#[test]
+fn a_lamp_beside_the_film_makes_no_class_of_pixels() {
+    let classes = |target: &str, vfov: u32| {
+        let text = format!(
+            "\
+name: lamp
+camera: {{ perspective: {{ eye: [0, 0, 4], target: {target}, vfov: {vfov} }} }}
+film: {{ width: 5, height: 4 }}
+materials:
+  grey: {{ lambertian: {{ albedo: [0.5, 0.5, 0.5] }} }}
+  lamp: {{ emitter: {{ radiance: [4, 4, 4] }} }}
+geometry:
+  - quad: {{ vertices: [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], material: lamp }}
+  - quad: {{ vertices: [[-9, -9, -1], [9, -9, -1], [9, 9, -1], [-9, 9, -1]], material: grey }}
+sampling: {{ path_bits: 4, depths: [{{ bits: [4, 4] }}, {{ bits: [4, 4], light: [4, 4] }}] }}
+"
+        );
+        let scene = written(&text, &[]);
+        let classes = PixelClasses::new(&scene);
+        let had = |class| {
+            let pixels = (0..20).map(|k| [k % 5, k / 5]);
+            pixels.map(|pixel| classes.of(pixel)).any(|of| of == class)
+        };
+        let had: Vec<PixelClass> = PixelClass::ALL.into_iter().filter(|&c| had(c)).collect();
+        assert_eq!(classes.present(), had, "{target} {vfov}");
+        had.len()
+    };
+    // In the middle of the film; filling it; beside it; above it.
+    let seen = [
+        ("[0, 0, 0]", 60),
+        ("[0, 0, 0]", 5),
+        ("[3, 0, 0]", 20),
+        ("[0, -3, 0]", 20),
+    ];
+    assert_eq!(
+        seen.map(|(target, vfov)| classes(target, vfov)),
+        [2, 1, 1, 1]
+    );
 }

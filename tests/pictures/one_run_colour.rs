@@ -196,3 +196,39 @@ geometry: []
     assert_eq!(rendered.image.pixels, [[0.0; 3]; 6]);
     assert_eq!(rendered.total_queries(), 0);
 }
+
+/// What the command warns of: a run that measures nothing has no path to take a colour from.
+#[test]
+fn as_many_pixels_are_grey_as_the_estimator_says() {
+    let film = "film={ width: 24, height: 24 }";
+    let mut warned = 0;
+    for estimator in [
+        Estimator::Sine,
+        Estimator::PosteriorMean,
+        Estimator::AdaptiveBayes,
+    ] {
+        let scene = written(LAMPS, &[film, "counting.phase_bits=9"]);
+        let options = Options {
+            estimator: Some(estimator),
+            colour: Colour::OneRun,
+            ..Options::default()
+        };
+        let expected = options.expected_grey(&scene).unwrap();
+        let rendered = render(&scene, &options).unwrap();
+        let exact = picture(&scene, Model::Real, Estimator::Exact, Colour::ThreeRuns, 0);
+        let pairs = rendered.image.pixels.iter().zip(&exact.image.pixels);
+        // Of darker pixels the window of few bits may say nothing.
+        let lit = pairs.filter(|(_, exact)| exact.iter().sum::<f64>() > 0.4);
+        let lit: Vec<&[f64; 3]> = lit.map(|(pixel, _)| pixel).collect();
+        let grey = lit.iter().filter(|[r, g, b]| r == g && g == b).count() as f64;
+        let found = grey / lit.len() as f64;
+        assert!(
+            (found - expected).abs() < 0.15,
+            "{estimator:?}: {found} {expected}"
+        );
+        warned += usize::from(expected > 0.1);
+    }
+    assert!(warned >= 1);
+    let each = Options::default();
+    assert_eq!(each.expected_grey(&written(LAMPS, &[])).unwrap(), 0.0);
+}

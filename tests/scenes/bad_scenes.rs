@@ -102,11 +102,11 @@ fn a_file_that_cannot_be_read_is_an_error_like_others() {
 
 /// Codes that no scene file gets from its checks: the first two only scenes that are built in Rust,
 /// the third only a file of 256 MiB, the fourth only millions of faces, the fifth only where the OBJ library disagrees with the
-/// checks before it, the next ones only when the scene's circuit is compiled, then two as warnings, and the last when
+/// checks before it, the next ones only when the scene's circuit is compiled, then five as warnings, and the last when
 /// the scene is exported.
 /// The unit tests of `valid`, of the OBJ reader and of `oracle`, `inspect_command` and the test
 /// below show them.
-const ELSEWHERE: [&str; 13] = [
+const ELSEWHERE: [&str; 16] = [
     codes::DUPLICATE_NAME,
     codes::BSDF_CHANNELS,
     codes::OBJ_TOO_LARGE,
@@ -119,6 +119,9 @@ const ELSEWHERE: [&str; 13] = [
     codes::TOO_MANY_FACES,
     codes::NOT_RECIPROCAL,
     codes::LIGHT_UNUSED,
+    codes::UNUSED_MATERIAL,
+    codes::BLACK,
+    codes::OPPOSITE_LAMP,
     codes::NO_COUNTERPART,
 ];
 

@@ -1,7 +1,7 @@
 //! The scenes that a reader opens first are right, and do what their comments say.
 
 use qrt_core::front::load;
-use qrt_core::syntax::Report;
+use qrt_core::syntax::{Problem, Report};
 use qrt_core::valid::ValidScene;
 use qrt_runtime::machines::Real;
 use std::path::PathBuf;
@@ -59,6 +59,7 @@ fn every_scene_shows_something() {
     ];
     assert_eq!(names, expected);
     for name in expected {
+        assert_eq!(scene(name, &[]).unwrap().warnings(), [], "{name}");
         let picture = small(name, &[]);
         let lit = picture
             .iter()
@@ -130,6 +131,10 @@ fn a_lamp_turned_over_leaves_the_floor_black() {
                      [-0.5, 2, -0.5]]";
     let picture = small("floor-and-light", &[other_way]);
     assert_eq!(picture, vec![[0.0; 3]; 256]);
+    // And its author is told.
+    let scene = scene("floor-and-light", &[other_way]).unwrap();
+    let codes: Vec<&str> = scene.warnings().iter().map(Problem::code).collect();
+    assert_eq!(codes, ["QRT0221"]);
 }
 
 #[test]

@@ -10,6 +10,9 @@ qrt! {
             jacobian: auto,
             value: 0.5 / pi * (1 + 0.3 * cos_i),
         },
+        material lamp: emitter { radiance: rgb(1, 1, 1) },
+        quad floor: cloth { (-1, 0, -1), (-1, 0, 1), (1, 0, 1), (1, 0, -1) },
+        quad light: lamp { (-1, 3, -1), (1, 3, -1), (1, 3, 1), (-1, 3, 1) },
     }
 }
 

@@ -1,4 +1,5 @@
-//! A plot as a drawing: 580 units wide, which a telephone shows at some 0.75 and a page at 1.
+//! A plot as a drawing: 580 units wide, which a telephone shows at some 0.75 and a page at 1; wider where a
+//! name or the title takes more.
 
 use super::labels::apart;
 use super::{Axis, Drawn, Fit, Plot, Series};
@@ -18,6 +19,11 @@ const BAND_STEPS: i32 = 24;
 const GAP: f64 = 16.0;
 /// Between names, and between lines of the legend.
 const LINE: f64 = 17.0;
+/// Width of a letter of a name and of the title, at most on average: those of DejaVu Sans.
+const LETTER: f64 = 8.4;
+const TITLE_LETTER: f64 = 8.6;
+/// Where the title begins.
+const TITLE_LEFT: f64 = 14.0;
 /// Of the legend.
 const COLUMNS: usize = 2;
 
@@ -69,7 +75,11 @@ pub(super) fn plot(plot: &Plot) -> Canvas {
         y: plot.y.range(places().map(|p| p[1])),
     };
     let rows = curves.len().div_ceil(COLUMNS);
-    let mut canvas = Canvas::new(&plot.title, WIDTH, BOTTOM + 56.0 + LINE * rows as f64);
+    let mut canvas = Canvas::new(
+        &plot.title,
+        width(plot, &curves),
+        BOTTOM + 56.0 + LINE * rows as f64,
+    );
     let (x, y) = (plot.x.ticks(panel.x, 9), plot.y.ticks(panel.y, 9));
     panel.axes(&mut canvas, [&x, &y], [&plot.x.label, &plot.y.label]);
     if curves.is_empty() {
@@ -86,6 +96,15 @@ pub(super) fn plot(plot: &Plot) -> Canvas {
     drawing.names(&mut canvas, &curves);
     legend(&mut canvas, &curves);
     canvas
+}
+
+/// The width in which all names beside the panel and the title are whole.
+fn width(plot: &Plot, curves: &[Curve<'_>]) -> f64 {
+    let letters = |text: &str| text.chars().count() as f64;
+    let names = curves.iter().map(|curve| letters(&curve.series.name));
+    let names = names.map(|name| RIGHT + GAP + LETTER * name + 2.0);
+    let title = TITLE_LEFT + TITLE_LETTER * letters(&plot.title);
+    names.fold(WIDTH.max(title), f64::max)
 }
 
 struct Drawing<'a> {

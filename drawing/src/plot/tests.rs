@@ -125,3 +125,35 @@ fn a_series_keeps_its_style_wherever_it_stands() {
         assert!(!svg.contains("class=\"line s0\"") && !svg.contains("class=\"line s1\""));
     }
 }
+
+/// Some letters of 14 pixels are wider and some narrower than half of that; DejaVu Sans has 8.4 on average.
+#[test]
+fn long_names_and_titles_are_whole() {
+    for (title, name, width) in [
+        ("errors", "abrams-williams", 580.0),
+        (
+            "errors",
+            "AND, undone by measurement",
+            436.0 + 16.0 + 26.0 * 8.4,
+        ),
+        (
+            &*"a scene of a very long name ".repeat(4),
+            "one",
+            14.0 + 112.0 * 8.6,
+        ),
+    ] {
+        let mut plot = plot(vec![Series::of(
+            name,
+            [(1.0, 1.0), (9.0, 2.0)],
+            Drawn::Steps,
+        )]);
+        plot.title = title.to_owned();
+        let svg = plot.draw().svg();
+        let view = svg.split("viewBox=\"0 0 ").nth(1).unwrap();
+        let found: f64 = view.split(' ').next().unwrap().parse().unwrap();
+        assert!(
+            found >= width && found <= width + 3.0,
+            "{title}, {name}: {found}"
+        );
+    }
+}

@@ -2,7 +2,7 @@
 
 use super::names::Nameable;
 use super::value::{Affine, Bool, Index, Real, Value, bits_of};
-use super::{Builder, MAX_ADDRESS, StageName, negative_range};
+use super::{BuildError, Builder, MAX_ADDRESS, StageName, negative_range};
 use crate::expr::Function;
 use crate::tracer::{Arith, Coordinate, Named, Part, Sampled, Segment};
 use qrt_circuit::{Op, Operand, Word};
@@ -82,8 +82,18 @@ impl Arith for Builder<'_> {
     fn scale(&mut self, a: Real, factor: f64) -> Real {
         self.times_constant(a, factor)
     }
+    fn quotient(&mut self, a: Real, b: Real, most: f64) -> Real {
+        if b.as_constant() == Some(0.0) && !most.is_finite() {
+            self.fail(BuildError::UnboundedQuotient);
+            return Real::constant(0.0);
+        }
+        self.over(a, b, most)
+    }
     fn function(&mut self, function: Function, a: Real) -> Real {
-        self.smooth(a, |x| function.value(x))
+        // Rounding takes cosines beyond 1, where there is no angle.
+        let is_angle = matches!(function, Function::Asin | Function::Acos);
+        let known = |x: f64| if is_angle { x.clamp(-1.0, 1.0) } else { x };
+        self.smooth(a, |x| function.value(known(x)))
     }
     fn pow(&mut self, a: Real, b: Real) -> Real {
         self.power(a, b)

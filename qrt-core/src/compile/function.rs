@@ -6,8 +6,9 @@
 //! `2^MOST_PIECES` of them.
 
 use super::value::{Real, Tabulated};
-use super::{Builder, MAX_BITS};
+use super::{BuildError, Builder, MAX_BITS};
 use qrt_circuit::{Operand, Word};
+use std::cell::Cell;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Most bits that choose a piece.
@@ -44,7 +45,11 @@ impl Builder<'_> {
     /// `f(a)`, for a function that is smooth but for single points.
     pub(super) fn smooth(&mut self, a: Real, f: impl Fn(f64) -> f64) -> Real {
         if let Some(constant) = a.as_constant() {
-            return Real::constant(f(constant));
+            let value = f(constant);
+            if value.is_infinite() {
+                self.fail(BuildError::UnboundedFunction);
+            }
+            return Real::constant(value);
         }
         if let Some(table) = self.tabulate_one(a, &f) {
             return table;
@@ -78,7 +83,13 @@ impl Builder<'_> {
             };
             value.clamp(range[0], range[1])
         };
-        let finite = |value: f64| if value.is_finite() { value } else { 0.0 };
+        let is_bounded = Cell::new(true);
+        let finite = |value: f64| {
+            if value.is_infinite() {
+                is_bounded.set(false);
+            }
+            if value.is_finite() { value } else { 0.0 }
+        };
         let address = |count: u32| {
             let top = Word {
                 offset: word.offset + bits - count,
@@ -93,6 +104,9 @@ impl Builder<'_> {
                 address: address(bits),
                 entries: entries.collect(),
             };
+            if !is_bounded.get() {
+                self.fail(BuildError::UnboundedFunction);
+            }
             return self.tabulated(table);
         }
         let ulp = self.ulp();
@@ -113,6 +127,9 @@ impl Builder<'_> {
                 break;
             }
             count += 1;
+        }
+        if !is_bounded.get() {
+            self.fail(BuildError::UnboundedFunction);
         }
         let rest = bits - count;
         let flat = pieces

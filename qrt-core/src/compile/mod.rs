@@ -81,6 +81,8 @@ const GARBAGE: Shape = (Type::Scratch, 0);
 pub enum BuildError {
     /// A quotient without a bound: its divisor may be zero.
     UnboundedQuotient,
+    /// A function of a number for which it may be infinite, such as the logarithm of zero.
+    UnboundedFunction,
     /// A number that needs more than 62 bits.
     TooWide {
         /// What kind of number it is.
@@ -99,6 +101,7 @@ impl BuildError {
     pub(crate) fn problem(&self) -> Circuit {
         match self {
             Self::UnboundedQuotient => Circuit::UnboundedQuotient,
+            Self::UnboundedFunction => Circuit::UnboundedFunction,
             Self::TooWide {
                 what,
                 bits,

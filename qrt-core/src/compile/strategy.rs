@@ -5,6 +5,7 @@
 //! when the copies are undone. Scopes within scopes double again (Bennett 1989).
 
 use super::StageName;
+use crate::scene::{Again, PARTS, Uncompute};
 use qrt_circuit::Style;
 
 /// Parts of the tracer whose work can be undone at their ends.
@@ -40,20 +41,6 @@ impl Scope {
         Self::Side,
         Self::Shade,
     ];
-
-    /// Its name in tables.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Plane => "plane",
-            Self::Body => "body",
-            Self::Search => "search",
-            Self::Ray => "ray",
-            Self::Sample => "sample",
-            Self::Component => "xyz",
-            Self::Side => "side",
-            Self::Shade => "shade",
-        }
-    }
 
     /// The scope that a stage is.
     fn of(stage: StageName) -> Option<Self> {
@@ -119,7 +106,8 @@ impl Strategy {
     /// What is decided one by one, what changes most first: parts of a ray's way that are undone at their
     /// ends, the small ones together, and garbage that is undone at once. Whichever are taken already, one
     /// more costs no fewer Toffolis, and no more qubits but for a few that it copies.
-    pub(crate) const CHOICES: [Self; 9] = {
+    /// [`PARTS`] has their names.
+    pub(crate) const CHOICES: [Self; PARTS.len()] = {
         use Garbage::{Products, Quotients, Tables};
         use Scope::{Body, Component, Plane, Ray, Sample, Search, Shade, Side};
         [
@@ -147,6 +135,43 @@ impl Strategy {
             lean: [0, 1, 2].map(|kind| all.lean[kind] | one.lean[kind]),
             ..all
         })
+    }
+
+    /// The strategy of a scene's `circuit.uncompute`; none of `auto`, which chooses one.
+    pub fn of(uncompute: Uncompute) -> Option<Self> {
+        let (parts, again) = uncompute.parts()?;
+        let kept = Self::of_choices(parts.into());
+        Some(match again {
+            Again::Nothing => kept,
+            Again::Cheap => kept.recomputing(),
+            Again::Sources => kept.running_again(),
+        })
+    }
+
+    /// What a scene's `circuit.uncompute` calls it: the parts of [`Strategy::CHOICES`] that it takes.
+    ///
+    /// ```
+    /// use qrt_core::compile::Strategy;
+    /// for strategy in Strategy::all() {
+    ///     assert_eq!(Strategy::of(strategy.uncompute()), Some(strategy));
+    /// }
+    /// ```
+    pub fn uncompute(self) -> Uncompute {
+        let is_taken = |one: &Self| {
+            let mut lean = self.lean.iter().zip(one.lean);
+            self.scopes & one.scopes == one.scopes && lean.all(|(own, lean)| *own || !lean)
+        };
+        let choices = Self::CHOICES.iter().enumerate();
+        let parts = choices.filter(|(_, one)| is_taken(one));
+        let parts = parts.fold(0, |parts, (bit, _)| parts | 1 << bit);
+        Uncompute::of_parts(
+            parts,
+            match (self.recomputes, self.runs_again) {
+                (_, true) => Again::Sources,
+                (true, false) => Again::Cheap,
+                (false, false) => Again::Nothing,
+            },
+        )
     }
 
     /// These scopes, and operations that undo this garbage at once.
@@ -240,24 +265,9 @@ impl Strategy {
     }
 }
 
+/// As a scene's `circuit.uncompute` takes it.
 impl std::fmt::Display for Strategy {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let names = Scope::ALL.iter().filter(|scope| self.undoes(**scope));
-        let names: Vec<&str> = names.map(|scope| scope.name()).collect();
-        let lean = self.lean.iter().zip(["tables", "products", "quotients"]);
-        let lean: Vec<&str> = lean
-            .filter_map(|(lean, name)| lean.then_some(name))
-            .collect();
-        match (names.as_slice(), lean.as_slice()) {
-            ([], []) => f.write_str("nothing")?,
-            (names, []) => f.write_str(&names.join(" "))?,
-            ([], lean) => write!(f, "garbage of {}", lean.join(" "))?,
-            (names, lean) => write!(f, "{}; garbage of {}", names.join(" "), lean.join(" "))?,
-        }
-        f.write_str(match (self.recomputes, self.runs_again) {
-            (_, true) => "; all that nobody reads",
-            (true, false) => "; what nobody reads",
-            (false, false) => "",
-        })
+        f.write_str(self.uncompute().name())
     }
 }

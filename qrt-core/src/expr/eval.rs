@@ -20,6 +20,47 @@ impl Expr {
         values[self.root.index()]
     }
 
+    /// The first node without a finite value of those that the expression's value depends on; `values` are
+    /// those of its nodes, as [`Expr::eval_in`] leaves them. The branch that an `if_less` does not take is
+    /// none of them.
+    ///
+    /// ```
+    /// use qrt_core::expr::{Expr, Variable, Variables};
+    /// let parts = |text: &str| {
+    ///     let expr = Expr::parse(text, &Variable::SQUARE).unwrap();
+    ///     let mut values = Vec::new();
+    ///     expr.eval_in(&Variables::default(), &mut values);
+    ///     expr.undefined_part(&values).map(|id| expr.nodes()[id.index()])
+    /// };
+    /// assert!(parts("atan(1/u)").is_some());
+    /// assert!(parts("if_less(0, u, 1/u, 2)").is_none());
+    /// ```
+    pub fn undefined_part(&self, values: &[f64]) -> Option<Id> {
+        if values.iter().all(|value| value.is_finite()) {
+            return None;
+        }
+        let mut is_needed = vec![false; self.nodes.len()];
+        is_needed[self.root.index()] = true;
+        for (index, node) in self.nodes.iter().enumerate().rev() {
+            if !is_needed[index] {
+                continue;
+            }
+            let untaken = match *node {
+                Node::IfLess(a, b, ..) if values[a.index()] < values[b.index()] => Some(3),
+                Node::IfLess(..) => Some(2),
+                _ => None,
+            };
+            for (place, id) in node.operands().enumerate() {
+                if untaken != Some(place) {
+                    is_needed[id.index()] = true;
+                }
+            }
+        }
+        let undefined = |index: &usize| is_needed[*index] && !values[*index].is_finite();
+        let first = (0..self.nodes.len()).find(undefined);
+        first.map(|index| Id(index as u32))
+    }
+
     /// The variables that the value of node `id` depends on.
     pub fn variables(&self, id: Id) -> VariableSet {
         self.node_variables()[id.index()]

@@ -1,5 +1,7 @@
 //! Overrides of the command line: `--set sampling.depths[1].bits=[4, 4]`.
 //!
+//! A key that holds `.`, `=` or `[` is written in quotation marks: `materials."a.b".mirror={}`.
+//!
 //! They change the tree before it is decoded, so that a value from the command line is read and
 //! checked like one of the file; its place is the override's own text.
 
@@ -30,8 +32,10 @@ pub fn read(source: &Source, number: u32, problems: &mut Problems) -> Option<Ove
         problems.add(span(start, end), what);
         None
     };
-    let Some(equals) = text.find('=') else {
-        return syntax(0, text.len(), Fault::NotAPair);
+    let equals = match end_of_keys(text) {
+        Ok(Some(equals)) => equals,
+        Ok(None) => return syntax(0, text.len(), Fault::NotAPair),
+        Err(quote) => return syntax(quote, text.len(), Fault::OpenQuote),
     };
     let mut steps = Vec::new();
     let mut at = 0;
@@ -46,12 +50,18 @@ pub fn read(source: &Source, number: u32, problems: &mut Problems) -> Option<Ove
         } else {
             let dot = usize::from(!steps.is_empty() && rest.starts_with('.'));
             let word = &rest[dot..];
-            let length = word.find(['.', '[']).unwrap_or(word.len());
+            let (key, length) = match quoted(word) {
+                Some((key, length)) => (key, length),
+                None => {
+                    let length = word.find(['.', '[']).unwrap_or(word.len());
+                    (word[..length].trim().to_owned(), length)
+                }
+            };
             if length == 0 || (dot == 0 && !steps.is_empty()) {
                 return syntax(at, equals, Fault::NoKey);
             }
             at += dot;
-            (Step::Key(word[..length].trim().to_owned()), length)
+            (Step::Key(key), length)
         };
         steps.push((step, span(at, at + length)));
         at += length;
@@ -65,6 +75,50 @@ pub fn read(source: &Source, number: u32, problems: &mut Problems) -> Option<Ove
     let known = problems.count();
     let value = yaml::read(source, equals + 1..text.len(), number, problems)?;
     (problems.count() == known).then_some(Override { steps, value })
+}
+
+/// The place of the `=` behind the keys, which is in no quotes; none if there is none.
+///
+/// # Errors
+/// The place of a quotation mark that is never closed.
+fn end_of_keys(text: &str) -> Result<Option<usize>, usize> {
+    let mut at = 0;
+    loop {
+        let rest = &text[at..];
+        if let Some((_, length)) = quoted(rest) {
+            at += length;
+        } else if rest.trim_start().starts_with('"') {
+            return Err(text.len() - rest.trim_start().len());
+        }
+        match text[at..].find(['.', '=']) {
+            None => return Ok(None),
+            Some(found) if text[at + found..].starts_with('=') => return Ok(Some(at + found)),
+            // A key follows, in quotes or not.
+            Some(found) => at += found + 1,
+        }
+    }
+}
+
+/// A key in quotation marks at the beginning of `text`, and the bytes that it takes with the spaces
+/// around it. As in [`Path`](crate::syntax::Path), a backslash stands before a quotation mark or a
+/// backslash of the key's own.
+fn quoted(text: &str) -> Option<(String, usize)> {
+    let inner = text.trim_start().strip_prefix('"')?;
+    let start = text.len() - inner.len();
+    let mut key = String::new();
+    let mut letters = inner.char_indices();
+    while let Some((place, letter)) = letters.next() {
+        match letter {
+            '"' => {
+                let behind = &inner[place + 1..];
+                let spaces = behind.len() - behind.trim_start().len();
+                return Some((key, start + place + 1 + spaces));
+            }
+            '\\' => key.push(letters.next()?.1),
+            other => key.push(other),
+        }
+    }
+    None
 }
 
 /// Puts the override's value into the tree. A key that is not there is added (blocks that may be

@@ -12,7 +12,7 @@ mod locator;
 mod tabs;
 
 use crate::syntax::tree::{Entry, Node, Scalar, Span, Value, is_null};
-use crate::syntax::{Problem, Problems, Source, Yaml};
+use crate::syntax::{Override, Problem, Problems, Source, Yaml};
 use locator::Locator;
 use saphyr_parser::{Event, Parser, ScalarStyle};
 use std::collections::HashMap;
@@ -55,12 +55,18 @@ pub fn read(
     let Builder { root, merged, .. } = builder;
     let root = root.filter(|node| node.value != Value::Null);
     if root.is_none() && problems.count() == known {
-        let start = Span {
+        // A value of an override is a part of its text.
+        let is_scene = range == (0..source.text.len());
+        let at = Span {
             source: number,
             start: range.start,
-            end: range.start,
+            end: if is_scene { range.start } else { range.end },
         };
-        problems.add(start, Yaml::Empty);
+        if is_scene {
+            problems.add(at, Yaml::Empty);
+        } else {
+            problems.add(at, Override::Nothing);
+        }
     }
     // What a merge would have brought in would be reported as missing.
     root.filter(|_| !merged)

@@ -9,6 +9,7 @@ mod blocks;
 mod frame;
 mod layout;
 mod passes;
+mod pixel;
 mod stages;
 #[cfg(test)]
 mod tests;
@@ -18,13 +19,18 @@ pub use blocks::BlockFigures;
 pub use frame::{Frame, FrameBox, Wire};
 pub use layout::{Layout, Lifetime};
 pub use passes::{PassFigures, pass_figures};
+pub use pixel::OraclePixel;
 pub use stages::{Part, Stage};
 
 use crate::compile::{Role, Strategy};
-use crate::oracle::{Options, Oracle, OracleError};
+use crate::oracle::{
+    CallCost, Options, Oracle, OracleCost, OracleError, OracleName, PARTS_OF_A_CALL, oracle_costs,
+};
+use crate::tracer::{PixelClass, PixelClasses};
 use crate::valid::ValidScene;
 use qrt_circuit::Program;
 use qrt_circuit::lower::{self, Cost};
+use std::fmt::Write as _;
 use std::ops::Range;
 
 /// The names of the channels, in their order.
@@ -33,8 +39,11 @@ pub const CHANNELS: [&str; 3] = ["r", "g", "b"];
 /// One call of a channel's oracle, with what it costs.
 #[derive(Clone, Debug)]
 pub struct Inspection {
-    /// The channel: 0 red, 1 green, 2 blue.
-    pub channel: usize,
+    /// Which oracle it is: its channel, and the class of its pixels.
+    pub name: OracleName,
+    /// The pixel whose parameters are built in. Without one, every X gate counts that a pixel of the
+    /// class may need.
+    pub pixel: Option<OraclePixel>,
     /// What is undone when.
     pub strategy: Strategy,
     /// The oracle of that channel.
@@ -56,8 +65,8 @@ pub struct Inspection {
 }
 
 impl Inspection {
-    /// Inspects the oracle of `channel`; without one, of the channel whose oracle has the most
-    /// Toffolis, the first such.
+    /// Inspects the oracle of `channel`, for pixels of the class that `options` names; without a
+    /// channel, the one whose oracle has the most Toffolis, the first of equals.
     ///
     /// # Errors
     /// As [`Oracle::new`].
@@ -73,12 +82,12 @@ impl Inspection {
             strategy: Some(strategy),
             ..options
         };
-        let mut dearest = Candidate::new(scene, first, options)?;
+        let mut most = Candidate::new(scene, first, options)?;
         if channel.is_none() {
             for channel in first + 1..CHANNELS.len() {
                 let other = Candidate::new(scene, channel, options)?;
-                if other.toffoli > dearest.toffoli {
-                    dearest = other;
+                if other.toffoli > most.toffoli {
+                    most = other;
                 }
             }
         }
@@ -88,19 +97,112 @@ impl Inspection {
             whole,
             costs,
             ..
-        } = dearest;
+        } = most;
         let size = lower::size(&whole);
+        let present = PixelClasses::new(scene).present();
         Ok(Self {
             toffoli_depth: size.depth,
             qubits: size.qubits,
             in_use: size.in_use,
             layout: Layout::of(&whole),
-            channel,
+            name: OracleName {
+                channel,
+                class: options.class,
+                of_all_pixels: present == [options.class],
+            },
+            pixel: None,
             strategy,
             oracle,
             whole,
             costs,
         })
+    }
+
+    /// Inspects the most expensive of the scene's oracles: of those of `channel`, or of all
+    /// channels; over all classes that the film's pixels have.
+    ///
+    /// # Errors
+    /// As [`Oracle::new`].
+    pub fn most_expensive(scene: &ValidScene, channel: Option<usize>) -> Result<Self, OracleError> {
+        Self::most_expensive_of(scene, &oracle_costs(scene)?, channel)
+    }
+
+    /// The same by the scene's [`oracle_costs`].
+    ///
+    /// # Errors
+    /// As [`Oracle::new`].
+    pub fn most_expensive_of(
+        scene: &ValidScene,
+        costs: &[OracleCost],
+        channel: Option<usize>,
+    ) -> Result<Self, OracleError> {
+        let costs = costs.iter().copied();
+        let asked = costs.filter(|cost| channel.is_none_or(|one| one == cost.name.channel));
+        let most = OracleCost::most_expensive(asked);
+        let class = most.map_or_else(PixelClass::default, |most| most.name.class);
+        let channel = most.map(|most| most.name.channel).or(channel);
+        Self::new(scene, channel, Options::of_class(class))
+    }
+
+    /// Inspects the oracle of a pixel as it is exported: that of the pixel's class, with the pixel's
+    /// parameters built in. Without a channel, the one with the most Toffolis.
+    ///
+    /// # Errors
+    /// As [`Oracle::new`].
+    pub fn of_pixel(
+        scene: &ValidScene,
+        channel: Option<usize>,
+        pixel: OraclePixel,
+    ) -> Result<Self, OracleError> {
+        let class = PixelClasses::new(scene).of(pixel.place);
+        let mut inspection = Self::new(scene, channel, Options::of_class(class))?;
+        pixel.build_in(&inspection.oracle, &inspection.whole, &mut inspection.costs);
+        inspection.pixel = Some(pixel);
+        Ok(inspection)
+    }
+
+    /// The entry of [`oracle_costs`] for this oracle.
+    pub fn oracle_cost(&self) -> OracleCost {
+        OracleCost {
+            name: self.name,
+            call: CallCost {
+                qubits: u64::from(self.qubits),
+                toffoli: self.total().toffoli,
+            },
+        }
+    }
+
+    /// Which oracle it is, in words: its channel, its pixel or pixels.
+    pub fn which(&self) -> String {
+        let channel = self.name.channel_name();
+        match self.pixel {
+            None => self.name.to_string(),
+            Some(OraclePixel { place: [x, y], .. }) => {
+                let mut text = format!("channel {channel}, pixel {x},{y}");
+                if !self.name.of_all_pixels {
+                    let _ = write!(text, " of the {}", self.name.pixels());
+                }
+                text
+            }
+        }
+    }
+
+    /// The same without the pixels where the scene has one oracle for all of them.
+    pub fn which_briefly(&self) -> String {
+        match self.pixel {
+            None if self.name.of_all_pixels => format!("channel {}", self.name.channel_name()),
+            _ => self.which(),
+        }
+    }
+
+    /// Qubits and Toffolis of a call and the parts that are counted, in words.
+    pub fn call_in_words(&self) -> String {
+        let CallCost { qubits, toffoli } = self.oracle_cost().call;
+        format!(
+            "{} qubits, {} Toffolis: {PARTS_OF_A_CALL}",
+            grouped(qubits),
+            grouped(toffoli)
+        )
     }
 
     /// What the whole call costs in gates.

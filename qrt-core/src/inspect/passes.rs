@@ -56,9 +56,9 @@ pub fn pass_figures(
         let options = Options {
             passes,
             strategy: Some(inspection.strategy),
-            ..Options::default()
+            class: inspection.name.class,
         };
-        let oracle = Oracle::new(scene, inspection.channel, options)?;
+        let oracle = Oracle::new(scene, inspection.name.channel, options)?;
         let whole = oracle.whole(0);
         figures.push(PassFigures {
             name,

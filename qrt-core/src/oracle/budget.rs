@@ -7,7 +7,7 @@ use crate::syntax::{Circuit, Path, Problem, Problems};
 use crate::valid::ValidScene;
 use qrt_circuit::lower::{self, Figures};
 
-/// What one call of an oracle costs.
+/// What one call of an oracle costs: compute, compare and flip, uncompute.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CallCost {
     /// How many qubits a call needs: the most in use at any time.
@@ -81,7 +81,7 @@ pub fn check_budget(scene: &ValidScene, spent: CallCost) -> Result<(), Vec<Probl
         return Ok(());
     };
     let uncompute = written.circuit.uncompute;
-    let scoped = uncompute == Uncompute::Scoped;
+    let scoped = !matches!(uncompute, Uncompute::Keep | Uncompute::Auto);
     let path = Path::root().key("budget");
     let mut problems = Problems::default();
     let used = spent.qubits;
@@ -113,7 +113,9 @@ impl OracleError {
         match self {
             Self::Build(error) => {
                 let path = match error {
-                    BuildError::UnboundedQuotient => root.key("materials"),
+                    BuildError::UnboundedQuotient | BuildError::UnboundedFunction => {
+                        root.key("materials")
+                    }
                     BuildError::TooWide {
                         value: Some(value), ..
                     } => {

@@ -1,9 +1,9 @@
 //! What a scene's circuit costs under each strategy: qubits against gates.
 
 use super::recording::{PrimaryHit, Recording};
-use super::{CallCost, Options, Oracle, OracleError, budget};
+use super::{CallCost, Options, Oracle, OracleError, OracleName, budget, costs};
 use crate::compile::Strategy;
-use crate::scene::Uncompute;
+use crate::tracer::PixelClass;
 use crate::valid::ValidScene;
 use qrt_circuit::Cores;
 use qrt_circuit::lower::{self, Figures};
@@ -25,7 +25,8 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// The layout of a channel's oracle (0 red, 1 green, 2 blue) under `strategy`.
+    /// The layout of a channel's oracle (0 red, 1 green, 2 blue) under `strategy`, for pixels of any
+    /// class.
     ///
     /// # Errors
     /// As [`Oracle::new`].
@@ -37,22 +38,17 @@ impl Layout {
         Layouts::new(scene, channel).under(strategy)
     }
 
-    /// The layout of the most expensive channel, and which that is.
+    /// The layout of the most expensive of the scene's oracles, and which oracle that is.
     ///
     /// # Errors
     /// As [`Oracle::new`].
     pub fn of_most_expensive(
         scene: &ValidScene,
         strategy: Strategy,
-    ) -> Result<(usize, Self), OracleError> {
-        let (mut number, mut most) = (0, Self::new(scene, 0, strategy)?);
-        for channel in 1..3 {
-            let other = Self::new(scene, channel, strategy)?;
-            if other.cost.toffoli > most.cost.toffoli {
-                (number, most) = (channel, other);
-            }
-        }
-        Ok((number, most))
+    ) -> Result<(OracleName, Self), OracleError> {
+        let name = costs::most_expensive_of(&costs::oracle_costs_under(scene, strategy)?).name;
+        let layout = Layouts::of_class(scene, name.channel, name.class).under(strategy)?;
+        Ok((name, layout))
     }
 
     /// Those that no other beats in qubits without more Toffolis, or in Toffolis without more
@@ -74,15 +70,22 @@ impl Layout {
 pub struct Layouts<'a> {
     scene: &'a ValidScene,
     channel: usize,
+    class: PixelClass,
     recordings: [Mutex<Option<Arc<Recording>>>; Strategy::RECORDINGS],
 }
 
 impl<'a> Layouts<'a> {
-    /// Those of channel 0 red, 1 green or 2 blue.
+    /// Those of channel 0 red, 1 green or 2 blue, for pixels of any class.
     pub fn new(scene: &'a ValidScene, channel: usize) -> Self {
+        Self::of_class(scene, channel, PixelClass::default())
+    }
+
+    /// Those of channel 0 red, 1 green or 2 blue, for pixels of `class`.
+    pub fn of_class(scene: &'a ValidScene, channel: usize, class: PixelClass) -> Self {
         Self {
             scene,
             channel,
+            class,
             recordings: std::array::from_fn(|_| Mutex::new(None)),
         }
     }
@@ -127,7 +130,7 @@ impl<'a> Layouts<'a> {
         }
         let options = Options {
             strategy: Some(strategy),
-            ..Options::default()
+            ..Options::of_class(self.class)
         };
         let made = Recording::new(self.scene, [self.channel], options, PrimaryHit::Traced)?;
         Ok(recording.insert(Arc::new(made)).clone())
@@ -230,13 +233,11 @@ impl<'a> Layouts<'a> {
     }
 }
 
-/// The strategy of a scene's circuits. `auto` is the cheapest with which the dearest channel's oracle fits
+/// The strategy of a scene's circuits. `auto` is the cheapest with which the most expensive oracle fits
 /// into `budget.qubits`; it is looked for once a scene.
 pub(super) fn strategy_of(scene: &ValidScene) -> Result<Strategy, OracleError> {
-    match scene.scene().circuit.uncompute {
-        Uncompute::Keep => return Ok(Strategy::KEEP),
-        Uncompute::Scoped => return Ok(Strategy::SCOPED),
-        Uncompute::Auto => {}
+    if let Some(strategy) = Strategy::of(scene.scene().circuit.uncompute) {
+        return Ok(strategy);
     }
     let all = Strategy::all();
     if let Some(&number) = scene.auto.get() {
@@ -253,9 +254,9 @@ fn auto(scene: &ValidScene) -> Result<Strategy, OracleError> {
     let Some(most) = scene.scene().budget.and_then(|budget| budget.qubits) else {
         return Ok(Strategy::KEEP);
     };
-    let (channel, keep) = Layout::of_most_expensive(scene, Strategy::KEEP)?;
-    if keep.cost.qubits <= most {
+    let keep = costs::most_expensive_of(&costs::oracle_costs_under(scene, Strategy::KEEP)?);
+    if keep.call.qubits <= most {
         return Ok(Strategy::KEEP);
     }
-    Layouts::new(scene, channel).cheapest(most)
+    Layouts::of_class(scene, keep.name.channel, keep.name.class).cheapest(most)
 }

@@ -17,7 +17,7 @@ use std::collections::HashSet;
 use std::sync::{Mutex, MutexGuard};
 
 /// Channels by number.
-const CHANNELS: [&str; 5] = ["r", "g", "b", "luminance", "predicate"];
+pub(super) const CHANNELS: [&str; 5] = ["r", "g", "b", "luminance", "predicate"];
 
 /// How the first ray's hit comes about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -5,7 +5,7 @@ use glam::DVec3;
 /// Distances below this are rounding.
 const MARGIN: f64 = 1e-12;
 
-/// True if a plane is found with `a` on one side and `b` on the other, both of which touch it in the
+/// True if a plane is found with `a` on one side and `b` on the other, one of which touches it in the
 /// corners and the edge that they share at most. False says nothing.
 ///
 /// Between convex polygons such a plane is normal to one of them, to an edge within the plane of one of
@@ -30,7 +30,8 @@ pub(super) fn share_corners_alone(a: &[DVec3], b: &[DVec3]) -> bool {
         .any(|axis| separates(axis, a, b) || separates(-axis, a, b))
 }
 
-/// True if a plane across `axis` has `a` below it and `b` above it, but for corners that both have.
+/// True if a plane across `axis` has `a` below it and `b` above it, one of them strictly but for corners
+/// that both have.
 fn separates(axis: DVec3, a: &[DVec3], b: &[DVec3]) -> bool {
     let heights = |p: &[DVec3], other: &[DVec3], shared: bool| -> Vec<f64> {
         let corners = p.iter().filter(|corner| other.contains(corner) == shared);
@@ -43,9 +44,12 @@ fn separates(axis: DVec3, a: &[DVec3], b: &[DVec3]) -> bool {
     if shared.is_empty() {
         return most(&below) + MARGIN < least(&above);
     }
-    most(&below) + MARGIN < least(&shared)
-        && most(&shared) + MARGIN < least(&above)
-        && most(&shared) - least(&shared) <= 0.25 * MARGIN
+    // Where one of them touches the plane in shared corners alone, the other may lie in it.
+    let tiny = 0.25 * MARGIN;
+    let (low, high) = (least(&shared), most(&shared));
+    let below_touches = most(&below) + MARGIN < low && high <= least(&above) + tiny;
+    let above_touches = high + MARGIN < least(&above) && most(&below) <= low + tiny;
+    high - low <= tiny && (below_touches || above_touches)
 }
 
 #[cfg(test)]

@@ -14,6 +14,7 @@ mod record;
 mod serde;
 pub(crate) mod shape;
 pub mod text;
+mod uncompute;
 
 use crate::syntax::tree::{Node, Span, Value};
 use crate::syntax::{Datum, Place, Problems};
@@ -27,6 +28,9 @@ use shape::{
 };
 use std::sync::Arc;
 use text::{Data, Fingerprint};
+use uncompute::UncomputeShape;
+pub(crate) use uncompute::{Again, PARTS};
+pub use uncompute::{Uncompute, UncomputedParts};
 
 /// Most bits of a path index. Path counts up to `2^52` and their sums stay exact in f64.
 pub const MAX_PATH_BITS: u32 = 52;
@@ -517,21 +521,13 @@ record! {
     /// How the circuit is laid out.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub struct Circuit = "the circuit";
-    /// When work registers are uncomputed.
-    pub uncompute: Uncompute = word::<Uncompute>(), or Uncompute::Keep;
+    /// When work registers are uncomputed. Parts that are uncomputed early may be listed, with hyphens between
+    /// them: `plane`, `body`, `search`, `ray`, `shading` and `component` of the tracer; the garbage of
+    /// `tables`, `products` and `quotients`; and `recompute`, which computes cheap values at each use instead
+    /// of keeping them, or `rerun`, which also runs again what these are computed from.
+    pub uncompute: Uncompute = UncomputeShape, or Uncompute::Keep;
     /// How the nearest intersection is kept.
     pub nearest: Nearest = word::<Nearest>(), or Nearest::Running;
-}
-
-keyword! {
-    /// When work registers are uncomputed.
-    pub enum Uncompute = "a strategy";
-    /// All at the end: fewest gates, most qubits.
-    Keep = "keep";
-    /// After each part of the tracer: fewer qubits, more gates.
-    Scoped = "scoped";
-    /// As much as `budget.qubits` asks for, at the fewest gates.
-    Auto = "auto";
 }
 
 keyword! {

@@ -184,7 +184,7 @@ impl Data {
                 for item in items {
                     margin(out);
                     out.push('-');
-                    item.after(out, indent);
+                    item.behind_dash(out, indent);
                 }
             }
             _ => {
@@ -195,19 +195,37 @@ impl Data {
         }
     }
 
-    /// After a key or a dash: on the same line if it fits, else below.
+    /// After a key: on the same line if it fits, else below.
     fn after(&self, out: &mut String, indent: usize) {
-        let mut line = String::new();
-        self.flow(&mut line, false);
-        let used = out.len() - out.rfind('\n').map_or(0, |at| at + 1);
-        if self.is_scalar() || self.is_empty() || used + 1 + line.len() <= 100 {
-            out.push(' ');
-            out.push_str(&line);
-            out.push('\n');
-        } else {
+        if !self.fits(out) {
             out.push('\n');
             self.block(out, indent + 2);
         }
+    }
+
+    /// After a dash, which never stands alone on a line: below it begins on the same line.
+    fn behind_dash(&self, out: &mut String, indent: usize) {
+        if !self.fits(out) {
+            let mut below = String::new();
+            self.block(&mut below, indent + 2);
+            out.push(' ');
+            // The dash stands in the first line's margin.
+            out.push_str(below.trim_start_matches(' '));
+        }
+    }
+
+    /// Adds it on the same line, if it fits there.
+    fn fits(&self, out: &mut String) -> bool {
+        let mut line = String::new();
+        self.flow(&mut line, false);
+        let used = out.len() - out.rfind('\n').map_or(0, |at| at + 1);
+        let fits = self.is_scalar() || self.is_empty() || used + 1 + line.len() <= 100;
+        if fits {
+            out.push(' ');
+            out.push_str(&line);
+            out.push('\n');
+        }
+        fits
     }
 }
 

@@ -90,6 +90,12 @@ codes! {
         "Move `eye` or `target`";
     CAMERA_UP = "QRT0210", "a camera whose `up` does not say which way is up",
         "Choose an `up` that is neither zero nor along the view";
+    UNUSED_MATERIAL = "QRT0220", "a material that nothing is made of",
+        "Remove it, or give it to a primitive; it is only a warning";
+    BLACK = "QRT0221", "a scene whose pictures are black",
+        "Let a lamp's front look at what the camera sees; it is only a warning";
+    OPPOSITE_LAMP = "QRT0222", "a lamp hidden by another in the same place that faces the other way",
+        "Move the two apart, each towards the side that it lights; it is only a warning";
     COINCIDENT = "QRT0301", "two vertices at one point",
         "Move one of them, or use a triangle";
     ZERO_AREA = "QRT0302", "a primitive without area",
@@ -226,8 +232,8 @@ codes! {
         "Uncompute earlier, or use fewer path bits, depths or fraction bits; or raise the limit";
     BUDGET_TOFFOLI = "QRT0602", "a circuit with more Toffoli gates than the budget allows",
         "Use fewer depths, primitives or fraction bits; or raise the limit";
-    QUOTIENT_UNBOUNDED = "QRT0610", "a quotient that no register can hold",
-        "Keep the divisor away from 0";
+    QUOTIENT_UNBOUNDED = "QRT0610", "a quotient or a function that no register can hold",
+        "Keep the divisor away from 0, and operands from where the function is infinite";
     NUMBER_TOO_WIDE = "QRT0611", "a number that no register can hold",
         "Use fewer fraction bits, or a smaller scene";
     TOO_MANY_FACES = "QRT0612", "more faces than a table holds",

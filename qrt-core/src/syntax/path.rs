@@ -41,17 +41,27 @@ impl Path {
     }
 }
 
+/// As `--set` takes it: a key that would be read as something else is in quotation marks.
 impl fmt::Display for Path {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (i, step) in self.0.iter().enumerate() {
+            let dot = if i == 0 { "" } else { "." };
             match step {
-                Step::Key(key) | Step::Name(key) if i == 0 => write!(f, "{key}")?,
-                Step::Key(key) | Step::Name(key) => write!(f, ".{key}")?,
+                Step::Key(key) | Step::Name(key) if is_plain(key) => write!(f, "{dot}{key}")?,
+                Step::Key(key) | Step::Name(key) => {
+                    let escaped = key.replace('\\', "\\\\").replace('"', "\\\"");
+                    write!(f, "{dot}\"{escaped}\"")?;
+                }
                 Step::Item(index) => write!(f, "[{index}]")?,
             }
         }
         Ok(())
     }
+}
+
+/// True if a key needs no quotation marks in a path.
+fn is_plain(key: &str) -> bool {
+    !key.is_empty() && key.trim() == key && !key.starts_with('"') && !key.contains(['.', '=', '['])
 }
 
 /// A path under construction, without allocation on the way.

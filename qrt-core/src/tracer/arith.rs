@@ -111,6 +111,12 @@ pub trait Arith: Sized {
     /// `a / b`, which lies within `-most ..= most` wherever it matters; anything where it does not,
     /// or where `b` is zero.
     fn div(&mut self, a: Self::Real, b: Self::Real, most: f64) -> Self::Real;
+    /// `a / b` of an author's formula, which lies within `-most ..= most`. Without a bound, the divisor may
+    /// be zero, and a machine that holds no infinity refuses the formula.
+    #[inline(always)]
+    fn quotient(&mut self, a: Self::Real, b: Self::Real, most: f64) -> Self::Real {
+        self.div(a, b, most)
+    }
     /// Whether `a / b` is above 0, and the quotient itself. One above `most` may be told as not
     /// above 0: nothing is that far away.
     #[inline(always)]

@@ -122,7 +122,7 @@ impl Compiled {
                 Node::Add(..) => cx.add(values[a], values[b]),
                 Node::Sub(..) => cx.sub(values[a], values[b]),
                 Node::Mul(..) => cx.mul(values[a], values[b]),
-                Node::Div(..) => cx.div(values[a], values[b], most),
+                Node::Div(..) => cx.quotient(values[a], values[b], most),
                 Node::Min(..) => cx.min(values[a], values[b]),
                 Node::Max(..) => cx.max(values[a], values[b]),
                 Node::Pow(..) => cx.pow(values[a], values[b]),
@@ -136,7 +136,8 @@ impl Compiled {
                 Node::Powi(_, exponent) => {
                     let power = integer_power(cx, values[a], exponent.unsigned_abs());
                     if *exponent < 0 {
-                        math!(cx, div(1.0, power, most))
+                        let one = cx.real(1.0);
+                        cx.quotient(one, power, most)
                     } else {
                         power
                     }

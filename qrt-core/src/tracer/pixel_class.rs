@@ -28,7 +28,8 @@ impl PixelClass {
 /// The class of each pixel of a scene's film.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PixelClasses {
-    /// The lamps' outlines on the film, in pixels; none where one has no outline.
+    /// The outlines of those lamps that some pixel may see, in pixels; none where all pixels may see
+    /// one.
     outlines: Option<Vec<Vec<DVec2>>>,
 }
 
@@ -45,12 +46,21 @@ impl PixelClasses {
         let view = camera::View::new(&written.camera, written.film);
         let emits = |surface: u32| scene.surfaces()[surface as usize].emits();
         let lamps = scene.polygons().iter().filter(|p| emits(p.surface));
+        let film = [written.film.width, written.film.height];
         let mut outlines = Vec::new();
         for lamp in lamps {
             match view.outline(lamp.outline()) {
                 camera::Seen::Not => {}
-                camera::Seen::Within(outline) => outlines.push(outline),
-                camera::Seen::Anywhere => return Self { outlines: None },
+                camera::Seen::Within(outline) => {
+                    if covers(&outline, film) {
+                        return Self::one();
+                    }
+                    // A lamp beside the film makes no class that a pixel could have.
+                    if meets_pixels(&outline, [0, 0], film) {
+                        outlines.push(outline);
+                    }
+                }
+                camera::Seen::Anywhere => return Self::one(),
             }
         }
         Self {
@@ -84,9 +94,8 @@ impl PixelClasses {
         let Some(outlines) = &self.outlines else {
             return PixelClass::MayMeetLamp;
         };
-        let low = DVec2::new(f64::from(x), f64::from(y)) - MARGIN;
-        let high = low + 1.0 + 2.0 * MARGIN;
-        if outlines.iter().any(|outline| meets(outline, low, high)) {
+        let may_meet = |outline: &Vec<DVec2>| meets_pixels(outline, [x, y], [x + 1, y + 1]);
+        if outlines.iter().any(may_meet) {
             PixelClass::MayMeetLamp
         } else {
             PixelClass::MeetsNoLamp
@@ -118,7 +127,7 @@ impl PixelClasses {
         Ok(all.into_iter().flatten().collect())
     }
 
-    /// Those classes that a pixel may be of.
+    /// The classes that pixels of the film have.
     pub fn present(&self) -> &'static [PixelClass] {
         match &self.outlines {
             None => &PixelClass::ALL[..1],
@@ -126,6 +135,20 @@ impl PixelClasses {
             Some(_) => &PixelClass::ALL,
         }
     }
+}
+
+/// True if a ray of some pixel from `first` up to but not including `end` may meet the outline.
+fn meets_pixels(outline: &[DVec2], first: [u32; 2], end: [u32; 2]) -> bool {
+    let corner = |[x, y]: [u32; 2]| DVec2::new(f64::from(x), f64::from(y));
+    meets(outline, corner(first) - MARGIN, corner(end) + MARGIN)
+}
+
+/// True if rays of every pixel may meet the outline, which is convex: it then has a point in each
+/// corner pixel, and with them points in all rows and columns between.
+fn covers(outline: &[DVec2], [width, height]: [u32; 2]) -> bool {
+    let corners = [0, width - 1].into_iter();
+    let mut corners = corners.flat_map(|x| [[x, 0], [x, height - 1]]);
+    corners.all(|[x, y]| meets_pixels(outline, [x, y], [x + 1, y + 1]))
 }
 
 /// Whether a convex outline and a box of the film have a point in common.

@@ -10,6 +10,7 @@ mod counting;
 mod geometry;
 mod glass;
 pub mod lights;
+mod notes;
 mod parameters;
 mod sampling;
 
@@ -261,6 +262,10 @@ pub(crate) fn check(
         auto: OnceLock::new(),
     };
     glass::check(&valid, &mut problems);
+    if problems.count() == 0 {
+        let found = notes::of(&valid);
+        valid.warnings.extend(found);
+    }
     lights::check(&mut valid, &mut problems);
     problems.result(valid)
 }

@@ -69,7 +69,8 @@ pub(crate) enum Lock {
 pub(crate) fn create_new(path: &Path) -> io::Result<DiskFile> {
     begin(Operation::Create, path)?;
     let mut options = OpenOptions::new();
-    let file = options.read(true).write(true).create_new(true).open(path)?;
+    let options = options.read(true).write(true).create_new(true);
+    let file = (options.open(path)).map_err(|error| naming_folder(path, error))?;
     #[cfg(test)]
     faults::created(path, &file);
     Ok(DiskFile::new(file, path))
@@ -181,6 +182,21 @@ pub fn read_regular(path: &Path) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     open_regular(path)?.read_to_end(&mut bytes)?;
     Ok(bytes)
+}
+
+/// The same error of making a file at `path`, with the name of its folder where the folder takes no new
+/// files.
+pub fn naming_folder(path: &Path, error: io::Error) -> io::Error {
+    use ErrorKind::{NotFound, PermissionDenied, ReadOnlyFilesystem};
+    if !matches!(
+        error.kind(),
+        NotFound | PermissionDenied | ReadOnlyFilesystem
+    ) {
+        return error;
+    }
+    let folder = folder(path).display();
+    let message = format!("no file can be made in the folder `{folder}`: {error}");
+    io::Error::new(error.kind(), message)
 }
 
 /// Removes a file.

@@ -88,6 +88,12 @@ impl Place {
         Err(io::Error::other("too many links, one after another"))
     }
 
+    /// What the process has as its standard output, to be written to by [`std::io::stdout`].
+    pub fn standard_output() -> Self {
+        let (path, kind) = (PathBuf::from("-"), Kind::Device);
+        Self { path, kind }
+    }
+
     fn found(path: PathBuf, found: &Metadata) -> io::Result<Self> {
         if !found.is_file() && !found.is_dir() {
             // Not every device has a path without links: `/dev/stdout` may be a pipe.

@@ -1,7 +1,7 @@
 //! The frame as a drawing: wires to the right, boxes on them.
 
 use qrt_core::compile::StageName;
-use qrt_core::inspect::{CHANNELS, Frame, FrameBox, Inspection, Part, grouped};
+use qrt_core::inspect::{Frame, FrameBox, Inspection, Part, grouped};
 use qrt_drawing::{Canvas, SMALL, text_width};
 
 /// The distance between wires, in units of the drawing.
@@ -25,10 +25,7 @@ pub fn frame(inspection: &Inspection, scene: &str) -> Canvas {
     let total = inspection.total();
     let right = LEFT + COLUMN * frame.boxes.len() as f64 + 30.0;
     let bottom = TOP + ROW * frame.wires.len() as f64;
-    let title = format!(
-        "{scene}: one oracle call, channel {}",
-        CHANNELS[inspection.channel]
-    );
+    let title = format!("{scene}: one oracle call, {}", inspection.which_briefly());
     let figures = format!(
         "{} qubits, {} Toffoli, {} AND measured, Toffoli depth {}",
         grouped(u64::from(inspection.qubits)),

@@ -1,7 +1,7 @@
 //! The register map: time to the right, qubits up.
 
 use qrt_core::compile::{Role, StageName};
-use qrt_core::inspect::{CHANNELS, Inspection, Lifetime, Part, Stage, grouped};
+use qrt_core::inspect::{Inspection, Lifetime, Part, Stage, grouped};
 use qrt_drawing::{Canvas, SMALL, number, text_width};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -24,8 +24,8 @@ pub fn registers(inspection: &Inspection, scene: &str) -> Canvas {
     let map = Map::new(inspection);
     let total = inspection.total();
     let title = format!(
-        "{scene}: registers of one oracle call, channel {}",
-        CHANNELS[inspection.channel]
+        "{scene}: registers of one oracle call, {}",
+        inspection.which_briefly()
     );
     let figures = format!(
         "{} qubits at the most, {} Toffoli, Toffoli depth {}; {} registers in a layout of {} qubits",

@@ -97,6 +97,13 @@ pub trait AmplitudeEstimator {
     ///
     /// A setting out of range.
     fn estimate(&self, device: &mut Device<'_>) -> Result<Estimate, EstimatorError>;
+
+    /// Probability, in [0, 1], that a run measures no good index though there are some, where the
+    /// settings alone fix it; 0, the default, where the run depends on what it measures. A pixel whose
+    /// colour comes from its measured paths has none then.
+    fn misses(&self) -> f64 {
+        0.0
+    }
 }
 
 /// The estimator of that name.

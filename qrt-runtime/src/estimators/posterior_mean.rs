@@ -9,6 +9,9 @@ use qrt_core::scene::Estimator;
 /// scene, and the mean of S/N under a prior uniform over S in `0 ..= N`: of all estimates, the one
 /// of least mean square error over that prior.
 ///
+/// It is biased where the amplitude is near 0 or 1: too bright by about the error of a pixel at
+/// amplitudes below `1/Q^2`. Averaging pixels does not lessen that.
+///
 /// Interval: the amplitudes of highest posterior density that have the asked posterior mass,
 /// cautiously, and what lies between them; extended to the interval of `paper`, whose coverage is
 /// the asked confidence at every amplitude, where a posterior's is so on average only.
@@ -44,5 +47,9 @@ impl AmplitudeEstimator for PosteriorMean {
         let (low, high) = found.interval;
         let interval = (low.min(medians.0), high.max(medians.1));
         Ok(device.estimate(start, found.mean, interval, confidence))
+    }
+
+    fn misses(&self) -> f64 {
+        self.counting.misses()
     }
 }

@@ -77,4 +77,8 @@ impl AmplitudeEstimator for Supersampling {
             ..device.estimate(start, amplitude, column.interval, self.counting.confidence)
         })
     }
+
+    fn misses(&self) -> f64 {
+        self.counting.misses()
+    }
 }

@@ -97,4 +97,10 @@ impl AmplitudeEstimator for WindowedCounting {
         let outcomes = self.outcomes(device)?;
         self.infer(&outcomes, device.total())
     }
+
+    /// A phase register that tells the two eigenstates apart leaves the index in one of them, where half
+    /// of the probability is that of good indices.
+    fn misses(&self) -> f64 {
+        libm::exp2(-f64::from(self.repetitions))
+    }
 }

@@ -98,9 +98,11 @@ pub enum CircuitWork {
     Export,
 }
 
-/// Bytes in words.
+/// Bytes in words, in the largest unit that they fill.
 fn words(bytes: f64) -> String {
     let (value, unit) = match bytes {
+        bytes if bytes < 1e3 => return format!("{bytes:.0} bytes"),
+        bytes if bytes < 1e6 => (bytes / 1e3, "kB"),
         bytes if bytes < 1e9 => (bytes / 1e6, "MB"),
         bytes if bytes < 1e12 => (bytes / 1e9, "GB"),
         bytes => (bytes / 1e12, "TB"),
@@ -411,5 +413,9 @@ geometry:
         assert_eq!(words(7.2e9), "7.2 GB");
         assert_eq!(words(687e9), "687 GB");
         assert_eq!(words(3e6), "3.0 MB");
+        assert_eq!(words(10_240.0), "10.2 kB");
+        assert_eq!(words(999_999.0), "1000 kB");
+        assert_eq!(words(512.0), "512 bytes");
+        assert_eq!(words(0.0), "0 bytes");
     }
 }

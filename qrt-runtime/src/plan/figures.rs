@@ -56,7 +56,7 @@ pub struct Figures {
     pub queries: f64,
     /// The same by channel: red, green and blue.
     pub channel_queries: [f64; 3],
-    /// The cost of one call of the most expensive channel's oracle; none where the scene has no
+    /// The cost of one call of the most expensive of the scene's oracles; none where the scene has no
     /// circuit.
     pub cost: Option<CallCost>,
 }

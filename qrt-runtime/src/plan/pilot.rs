@@ -6,7 +6,7 @@ use crate::estimators::Noise;
 use crate::machines::{OracleMachine, Real};
 use crate::sample::{Means, Tally, counted_tallies, prefix_means, radiance, spread, tallies};
 use crate::workers::Workers;
-use qrt_core::oracle::{self, CallCost, Oracle, call_cost};
+use qrt_core::oracle::{self, CallCost, Oracle, most_expensive_oracle};
 use qrt_core::sampling::MAX_PATH_BITS;
 use qrt_core::scene::{Accuracy, Comparator, Estimator, Sequence};
 use qrt_core::tracer::{PixelClass, PixelClasses};
@@ -285,10 +285,9 @@ impl<'a> Pilot<'a> {
         parameters.precision.fraction = Some(fraction);
         parameters.comparator.bits = self.comparator_bits;
         let scene = valid(self.scene, parameters)?;
-        let Ok((channels, _)) = Oracle::all(&scene) else {
+        let Ok(most) = most_expensive_oracle(&scene) else {
             return Ok(None);
         };
-        let spent = call_cost(&channels);
         let found = self.classes.apart(&self.pixels, |class, pixels| {
             let oracle = Oracle::rgb(&scene, oracle::Options::of_class(class))
                 .map_err(|error| unreachable(error.to_string()))?;
@@ -308,7 +307,7 @@ impl<'a> Pilot<'a> {
             Ok::<_, PlanError>(values.collect::<Vec<_>>())
         })?;
         let (a, b): (Means, Means) = found.into_iter().unzip();
-        Ok(Some((self.relative(&a, &b, 1.0), spent)))
+        Ok(Some((self.relative(&a, &b, 1.0), most.call)))
     }
 }
 

@@ -2,14 +2,13 @@
 
 use super::{Answer, Refused};
 use crate::draw;
-use qrt_core::inspect::{CHANNELS, Inspection, Part};
-use qrt_core::oracle::Options;
+use qrt_core::inspect::{Inspection, Part};
 use qrt_core::valid::ValidScene;
 
-/// The costs of the dearest channel's oracle, as `qrt inspect` tells them, its stages in the order
+/// The costs of the most expensive of the scene's oracles, as `qrt inspect` reports them, its stages in the order
 /// in which they are computed, and its drawing.
 pub(super) fn cost(scene: &ValidScene) -> Result<Answer, Refused> {
-    let inspection = Inspection::new(scene, None, Options::default())?;
+    let inspection = Inspection::most_expensive(scene, None)?;
     let total = inspection.total();
     let stages = inspection.stages();
     let computed: Vec<_> = stages
@@ -23,7 +22,8 @@ pub(super) fn cost(scene: &ValidScene) -> Result<Answer, Refused> {
     });
     let name = scene.scene().name.as_str();
     Ok(Answer::default()
-        .text("channel", CHANNELS[inspection.channel])
+        .text("channel", inspection.name.channel_name())
+        .text("pixels", inspection.name.pixels())
         .number("toffoli", total.toffoli as f64)
         .number("and_measured", total.and_measured as f64)
         .number("cnot", total.cnot as f64)

@@ -166,7 +166,7 @@ fn problems_are_at_their_places_as_scripts_count() {
 fn costs_are_those_that_are_inspected() {
     use qrt_core::inspect::Inspection;
     let scene = parse(FLOOR, "floor.yaml", &[], "".as_ref()).unwrap().valid;
-    let inspection = Inspection::new(&scene, None, qrt_core::oracle::Options::default()).unwrap();
+    let inspection = Inspection::most_expensive(&scene, None).unwrap();
     let answer = Playground::new(&[], Files::held(&[])).call("cost", &[], FLOOR);
     let toffoli = inspection.total().toffoli as f64;
     assert_eq!(answer.number_of("toffoli"), Some(toffoli));

@@ -2,8 +2,7 @@
 
 use super::{Model, Options, RenderError};
 use crate::memory::CircuitWork;
-use qrt_core::inspect::Inspection;
-use qrt_core::oracle::{self, CallCost, check_budget};
+use qrt_core::oracle::{check_budget, most_expensive_oracle};
 use qrt_core::valid::ValidScene;
 use std::num::NonZeroUsize;
 use std::thread::available_parallelism;
@@ -36,10 +35,5 @@ pub fn check_circuit(scene: &ValidScene, options: &Options<'_>) -> Result<(), Re
     if scene.scene().budget.is_none() {
         return Ok(());
     }
-    let inspection = Inspection::new(scene, None, oracle::Options::default())?;
-    let spent = CallCost {
-        qubits: inspection.qubits.into(),
-        toffoli: inspection.total().toffoli,
-    };
-    check_budget(scene, spent).map_err(RenderError::Budget)
+    check_budget(scene, most_expensive_oracle(scene)?.call).map_err(RenderError::Budget)
 }

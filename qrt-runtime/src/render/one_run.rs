@@ -13,17 +13,20 @@
 //! the luminance that lies within its thresholds; the pixel is the sum of all.
 //!
 //! Its luminance is as good as counting makes it. Its colour has the error of so many samples as
-//! good indices were measured, which is none where all paths have one colour.
+//! good indices were measured, which is none where all paths have one colour. Where no good index was
+//! measured, the pixel is grey: [`Options::expected_grey`].
 
 use super::pixel::{Pixels, Source, Stop, ended, go_on};
+use super::{Colour, Options, RenderError};
 use crate::counting::{Comparators, CountingError, Octaves, Stratum};
 use crate::estimators::{
-    AmplitudeEstimator, CountedStratum, Device, Estimate, EstimatorError, Noise, Problem,
+    AmplitudeEstimator, CountedStratum, Device, Estimate, EstimatorError, Noise, Problem, Settings,
 };
 use crate::random::Stream;
 use crate::workers::Workers;
 use qrt_core::oracle::{LUMINANCE_CHANNEL, luminance};
 use qrt_core::scene::Scene;
+use qrt_core::valid::ValidScene;
 use std::ops::Range;
 
 /// Paths whose counts are kept as one sum, at least.
@@ -33,6 +36,24 @@ const SEGMENTS: u64 = 1 << 12;
 /// Measured indices that are looked at, at most; a colour is then known to a part in a hundred of
 /// its paths' spread.
 const MEASURED: u64 = 1 << 13;
+
+impl Options<'_> {
+    /// The fraction of the lit pixels of `traced`, whose parameters are chosen, that are expected to have no
+    /// measured path, and so to be grey; 0 where each channel is counted, and where the estimator measures
+    /// until it knows enough.
+    ///
+    /// # Errors
+    /// Settings out of range.
+    pub fn expected_grey(&self, traced: &ValidScene) -> Result<f64, RenderError> {
+        if self.colour == Colour::ThreeRuns {
+            return Ok(0.0);
+        }
+        let counting = &traced.scene().counting;
+        let known = self.counted_by(traced.scene())?;
+        let estimator = self.estimator_of(known, &Settings::of(counting)?)?;
+        Ok(estimator.misses())
+    }
+}
 
 /// How the luminance is counted.
 #[derive(Clone, Copy, Debug)]

@@ -5,6 +5,7 @@ use super::fronts::candidates;
 use super::setting::Setting;
 use super::table::Row;
 use super::{Sweep, Trade};
+use crate::shell;
 
 /// What errors are of, as [`super::ERRORS`], but for the total.
 const PARTS: [&str; 5] = ["paths", "comparators", "width", "counting", "depth"];
@@ -173,7 +174,7 @@ fn sets(own: &Setting, other: &Setting) -> Option<String> {
     ];
     let changed = keys.into_iter().filter(|(_, own, other)| own != other);
     let changed: Vec<String> = changed
-        .map(|(key, _, other)| format!("--set {key}={other}"))
+        .map(|(key, _, other)| format!("--set {}", shell::word(&format!("{key}={other}"))))
         .collect();
     (!changed.is_empty()).then(|| changed.join(" "))
 }

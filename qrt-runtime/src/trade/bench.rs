@@ -12,7 +12,7 @@ use crate::sample::{
     self, Countable, Drawn, Draws, Means, SampleError, Tally, counted_tallies, tallies,
 };
 use crate::workers::Workers;
-use qrt_core::oracle::{self, CallCost, Oracle, call_cost};
+use qrt_core::oracle::{self, CallCost, Oracle, most_expensive_oracle};
 use qrt_core::scene::{Circuit, Comparator, Estimator, Sampling};
 use qrt_core::tracer::{PixelClass, PixelClasses};
 use qrt_core::valid::{Parameters, ValidScene};
@@ -206,8 +206,8 @@ impl<'a> Bench<'a> {
             return Ok(Ok(found.clone()));
         }
         let own = Setting::of(&self.parameters).parameters(&self.parameters);
-        let (channels, _) = match Oracle::all(scene) {
-            Ok(all) => all,
+        let most = match most_expensive_oracle(scene) {
+            Ok(most) => most,
             // A row without a circuit is left out; a scene without one has no table.
             Err(why) if circuit_key(&own) != key => return Ok(Err(why.to_string())),
             Err(error) => return Err(error.into()),
@@ -221,7 +221,7 @@ impl<'a> Bench<'a> {
         let built = Built {
             oracles,
             classes,
-            cost: call_cost(&channels),
+            cost: most.call,
         };
         // One is large, and rows of a circuit stand together, but for the scene's own.
         self.circuits.retain(|(of, _)| *of == circuit_key(&own));

@@ -67,7 +67,7 @@ pub(super) fn html(trade: &Trade, preview: Option<&Preview>, figures: &[Figure])
     if !sentences.is_empty() {
         let lines = sentences
             .iter()
-            .map(|line| format!("<li>{}</li>", escaped(line)));
+            .map(|line| format!("<li>{}</li>", marked(line)));
         let lines: String = lines.collect();
         let _ = writeln!(out, "<h2>What to change next</h2>\n<ul>{lines}</ul>");
     }
@@ -77,10 +77,10 @@ pub(super) fn html(trade: &Trade, preview: Option<&Preview>, figures: &[Figure])
     let _ = writeln!(
         out,
         "<h2>Against classical rivals</h2>\n<p>{}</p>\n<ul>",
-        escaped(rivals::ABOUT)
+        marked(rivals::ABOUT)
     );
     for line in rivals::sentences(trade) {
-        let _ = writeln!(out, "<li>{}</li>", escaped(&line));
+        let _ = writeln!(out, "<li>{}</li>", marked(&line));
     }
     out.push_str("</ul>\n<h2>Plots</h2>\n<div class=\"figures\">\n");
     for figure in figures {
@@ -90,7 +90,7 @@ pub(super) fn html(trade: &Trade, preview: Option<&Preview>, figures: &[Figure])
             figure.name,
             wide("plot"),
             figure.plot.draw().inline_svg(),
-            escaped(figure.says)
+            marked(figure.says)
         );
     }
     out.push_str("</div>\n<h2>Best settings</h2>\n");
@@ -116,10 +116,30 @@ pub(super) fn html(trade: &Trade, preview: Option<&Preview>, figures: &[Figure])
         out.push_str("</details>\n");
     }
     for (setting, why) in &trade.left_out {
-        let what = escaped(&format!("{}: {why}", differs(setting)));
+        let what = marked(&format!("{}: {why}", differs(setting)));
         let _ = writeln!(out, "<p>Left out: {what}.</p>");
     }
     out.push_str("</main>\n</body>\n</html>\n");
+    out
+}
+
+/// A sentence as HTML: what stands between backticks is code.
+fn marked(sentence: &str) -> String {
+    let mut out = String::new();
+    let mut parts = sentence.split('`').peekable();
+    while let Some(words) = parts.next() {
+        out.push_str(&escaped(words));
+        match parts.next_if(|_| true) {
+            // One without its other is itself.
+            Some(code) if parts.peek().is_none() => {
+                let _ = write!(out, "`{}", escaped(code));
+            }
+            Some(code) => {
+                let _ = write!(out, "<code>{}</code>", escaped(code));
+            }
+            None => {}
+        }
+    }
     out
 }
 
@@ -212,7 +232,12 @@ fn value(sweep: Sweep, row: &Row) -> String {
         Sweep::Comparator => format!("{} bits", setting.comparator_bits),
         Sweep::Fraction => format!("{} bits", setting.fraction),
         Sweep::Paths => format!("{} 2^{}", setting.sequence, setting.path_bits),
-        Sweep::Circuit => format!("{}, {}", setting.uncompute, setting.nearest),
+        Sweep::Circuit => {
+            format!(
+                "uncompute: {}, nearest: {}",
+                setting.uncompute, setting.nearest
+            )
+        }
         Sweep::Model => setting.model.name().to_owned(),
         Sweep::Depth => format!("{} rays", setting.depths),
         Sweep::RandomPaths | Sweep::ClassicalNet => format!("2^{} paths", setting.path_bits),
@@ -256,4 +281,23 @@ fn percent(value: f64) -> String {
     let percent = 100.0 * value;
     let digits = (2.0 - libm::floor(libm::log10(percent))).clamp(0.0, 6.0) as usize;
     format!("{percent:.digits$}&nbsp;%")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::marked;
+
+    #[test]
+    fn backticks_become_code() {
+        for (sentence, html) in [
+            ("", ""),
+            ("a < b", "a &lt; b"),
+            ("run `qrt a>b` twice", "run <code>qrt a&gt;b</code> twice"),
+            ("`a`", "<code>a</code>"),
+            ("`a` and `b`", "<code>a</code> and <code>b</code>"),
+            ("no other: `a", "no other: `a"),
+        ] {
+            assert_eq!(marked(sentence), html);
+        }
+    }
 }

@@ -90,7 +90,7 @@ fn slopes(trade: &Trade) -> Vec<String> {
 /// A setting by what matters of it.
 pub(super) fn differs(setting: &Setting) -> String {
     format!(
-        "{} t={} B={}{}, {} 2^{} paths, {} comparator bits, {} fraction bits, {} {}",
+        "{} t={} B={}{}, {} 2^{} paths, {} comparator bits, {} fraction bits, uncompute: {}, nearest: {}",
         setting.estimator,
         setting.phase_bits,
         setting.repetitions,

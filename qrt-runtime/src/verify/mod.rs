@@ -18,7 +18,7 @@ use crate::render::Portion;
 use crate::sample::spread;
 use crate::workers::{Progress, Workers};
 use paths::{Found, Trio, show};
-use qrt_core::oracle::{self, Oracle};
+use qrt_core::oracle::{self, Oracle, OracleCost, oracle_costs};
 use qrt_core::tracer::PixelClasses;
 use qrt_core::valid::ValidScene;
 use rayon::prelude::*;
@@ -81,9 +81,14 @@ pub struct Report {
     pub pixels: Vec<[u32; 2]>,
     /// Paths compared; with a defect, paths that would have been.
     pub paths: u64,
-    /// Qubits of one run of the circuit, all channels' flips included.
+    /// The oracles of the pixels' classes, one a channel, and what a call of each costs alone. The
+    /// circuit that is run has those of three channels, which share compute and uncompute. Empty if
+    /// the circuit was given.
+    pub oracles: Vec<OracleCost>,
+    /// Qubits of the circuit that is run: it computes all three channels at once, compares and flips
+    /// each, and uncomputes.
     pub qubits: u32,
-    /// Gates of one run of the circuit, all channels' flips included.
+    /// Gates of that circuit.
     pub gates: usize,
     /// Fraction bits of every number.
     pub fraction: u32,
@@ -142,6 +147,7 @@ pub fn verify(scene: &ValidScene, options: &Options<'_>) -> Result<Report, Verif
     let film = [scene.scene().film.width, scene.scene().film.height];
     let chosen = chosen(film, options)?;
     let classes = PixelClasses::new(scene);
+    let costs = oracle_costs(scene)?;
     // Each pixel by the circuit of its class.
     let mut whole: Option<Report> = None;
     for &class in classes.present() {
@@ -153,7 +159,9 @@ pub fn verify(scene: &ValidScene, options: &Options<'_>) -> Result<Report, Verif
         let oracle = Arc::new(Oracle::rgb(scene, oracle::Options::of_class(class))?);
         let parts = OracleCircuits::new(&oracle);
         let real = Real::of_class(scene, options.seed, class)?;
-        let report = verify_pixels(scene, &real, &oracle, parts, pixels, options)?;
+        let mut report = verify_pixels(scene, &real, &oracle, parts, pixels, options)?;
+        let mine = costs.iter().filter(|cost| cost.name.class == class);
+        report.oracles = mine.copied().collect();
         whole = Some(match whole {
             None => report,
             Some(before) => before.and(report),
@@ -263,6 +271,13 @@ impl Report {
         }
         self.parted = mean(self.parted, other.parted);
         self.pixels.extend(other.pixels);
+        for oracle in other.oracles {
+            if !self.oracles.contains(&oracle) {
+                self.oracles.push(oracle);
+            }
+        }
+        let place = |oracle: &OracleCost| (oracle.name.class as usize, oracle.name.channel);
+        self.oracles.sort_by_key(place);
         self.paths += other.paths;
         self.qubits = self.qubits.max(other.qubits);
         self.gates = self.gates.max(other.gates);

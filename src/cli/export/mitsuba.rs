@@ -6,6 +6,7 @@ use crate::cli::files::{Output, keep_apart, named_after};
 use crate::cli::terminal;
 use qrt_runtime::mitsuba::{Exported, export};
 use qrt_runtime::replace_file::replace_file;
+use qrt_runtime::shell;
 use serde_json::json;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -74,12 +75,13 @@ pub(super) fn run(args: &ExportArgs) -> Result<(), Failure> {
     }
     terminal::print(&format!(
         "{0}: for Mitsuba 3, with {faces} faces, those of {1} in .ply files beside it\n\
-         mitsuba -m scalar_rgb {0} -D spp=1024     renders it\n",
+         mitsuba -m scalar_rgb {2} -D spp=1024     renders it\n",
         file.display(),
         match meshes.len() {
             1 => "1 material".to_owned(),
             n => format!("{n} materials"),
         },
+        shell::file(&file),
     ))
 }
 

@@ -2,20 +2,20 @@
 
 mod mitsuba;
 
-use super::args::{SceneArgs, choice, numbers};
+use super::args::{SceneArgs, choice, on_film, pixel};
 use super::failure::Failure;
 use super::files::{Output, keep_apart, named_after};
-use super::inspect::{CHANNEL_CHOICES, channel_name, keep_budget};
+use super::inspect::{CHANNEL_CHOICES, channel_name, cost, keep_budget};
 use super::memory;
 use super::progress::Bar;
 use super::{interrupt, plan, terminal};
 use clap::Args;
 use qrt_circuit::export::{Export, ExportError, Format, Tally};
+use qrt_circuit::lower::Cost;
 use qrt_circuit::quantum::{Conjunction, Counting, Part, PhaseOracle, QuantumError};
-use qrt_core::inspect::{CHANNELS, Inspection, grouped};
-use qrt_core::oracle::Options;
+use qrt_core::inspect::{Inspection, OraclePixel, grouped};
+use qrt_core::oracle::{OracleName, PARTS_OF_A_CALL};
 use qrt_core::scene::Window;
-use qrt_core::tracer::PixelClasses;
 use qrt_core::valid::{ValidScene, most_strata};
 use qrt_runtime::counting::Stratum;
 use qrt_runtime::memory::CircuitWork;
@@ -169,8 +169,16 @@ fn about(part: Part) -> &'static [&'static str] {
     }
 }
 
-fn pixel(text: &str) -> Result<[u32; 2], String> {
-    numbers(text, "two whole numbers, such as 10,20")
+/// Qubits and gates of a part that the oracle does not have, in words.
+fn beside_oracle(part: Part) -> Option<&'static str> {
+    match part {
+        Part::Oracle => None,
+        Part::Grover => Some("Beside the oracle, the iterate has the reflection O_0."),
+        Part::Counting => Some(
+            "Beside its calls of the oracle, counting has the phase register, its window and inverse \
+             Fourier transform, and a reflection O_0 after each call.",
+        ),
+    }
 }
 
 fn stratum(text: &str) -> Result<(u32, u32), String> {
@@ -219,13 +227,47 @@ fn fixed(
     oracle.with_fixed(zeros, ones)
 }
 
+/// The oracle of which a circuit is written: the figures of `qrt inspect --pixel`.
+struct OracleFigures {
+    name: OracleName,
+    pixel: OraclePixel,
+    which: String,
+    call: String,
+    qubits: u32,
+    cost: Cost,
+    toffoli_depth: u64,
+}
+
+impl OracleFigures {
+    fn of(inspection: &Inspection) -> Self {
+        Self {
+            name: inspection.name,
+            pixel: inspection.pixel.unwrap_or_default(),
+            which: inspection.which(),
+            call: inspection.call_in_words(),
+            qubits: inspection.qubits,
+            cost: inspection.total(),
+            toffoli_depth: inspection.toffoli_depth,
+        }
+    }
+
+    fn json(&self) -> Value {
+        let mut gates = cost(self.cost);
+        gates["toffoli_depth"] = json!(self.toffoli_depth);
+        json!({
+            "includes": PARTS_OF_A_CALL,
+            "qubits": self.qubits,
+            "gates": gates,
+        })
+    }
+}
+
 /// A circuit that is written, and what is said of it.
 struct Exported<'a> {
     args: &'a ExportArgs,
     format: Format,
     scene: &'a ValidScene,
-    channel: usize,
-    pixel: [u32; 2],
+    oracle: &'a OracleFigures,
     export: &'a Export<'a>,
     counting: &'a Counting<'a>,
     plan: Option<&'a Figures>,
@@ -272,14 +314,18 @@ fn circuit(args: &ExportArgs, format: Format) -> Result<(), Failure> {
     let planned = plan::of(&loaded.valid, &planning, args.json)?;
     let scene = planned.as_ref().map_or(&loaded.valid, |plan| &plan.scene);
     let written = scene.scene();
-    let pixel = on_film(args.pixel, [written.film.width, written.film.height])?;
-    let options = Options::of_class(PixelClasses::new(scene).of(pixel));
+    let film = written.film;
+    let middle = [film.width / 2, film.height / 2];
+    let pixel = OraclePixel {
+        place: on_film(args.pixel.unwrap_or(middle), film)?,
+        seed: args.seed(),
+    };
     memory::keep_circuit(args.scene.memory(), scene, CircuitWork::Export)?;
-    let inspection = Inspection::new(scene, args.channel, options)
+    let inspection = Inspection::of_pixel(scene, args.channel, pixel)
         .map_err(|error| loaded.report(vec![error.problem()]))?;
-    keep_budget(&loaded, &inspection)?;
+    keep_budget(&loaded, inspection.oracle_cost().call)?;
     let failed = |error: &dyn std::error::Error| Failure::Job(error.to_string());
-    let oracle = inspection.oracle.phase(0, args.seed(), pixel);
+    let oracle = inspection.oracle.phase(0, pixel.seed, pixel.place);
     let mut oracle = oracle.map_err(|error| failed(&error))?;
     let path_bits = inspection.oracle.points.path_bits();
     let bits = inspection.oracle.comparator_bits();
@@ -294,9 +340,9 @@ fn circuit(args: &ExportArgs, format: Format) -> Result<(), Failure> {
     );
     let counting = Counting::with(&oracle, phase_bits, window, Conjunction::Toffolis);
     let counting = counting.map_err(|error| failed(&error))?;
-    // The gates come from its program, of which the oracle has its own.
-    let channel = inspection.channel;
     let parts = inspection.oracle.index_parts();
+    let figures = OracleFigures::of(&inspection);
+    // The gates come from its program, of which the phase oracle has its own.
     drop(inspection);
     let export = Export::new(&counting, args.part(), &parts);
     let export = export.map_err(|error| failed(&error))?;
@@ -312,8 +358,7 @@ fn circuit(args: &ExportArgs, format: Format) -> Result<(), Failure> {
         args,
         format,
         scene,
-        channel,
-        pixel,
+        oracle: &figures,
         export: &export,
         counting: &counting,
         plan: planned.as_ref().map(|plan| &plan.figures),
@@ -337,19 +382,6 @@ fn circuit(args: &ExportArgs, format: Format) -> Result<(), Failure> {
     } else {
         terminal::print(&exported.summary(&tally))
     }
-}
-
-/// The pixel that is asked for, or the one in the middle.
-fn on_film(asked: Option<[u32; 2]>, [width, height]: [u32; 2]) -> Result<[u32; 2], Failure> {
-    let [x, y] = asked.unwrap_or([width / 2, height / 2]);
-    if x < width && y < height {
-        return Ok([x, y]);
-    }
-    Err(Failure::Usage(format!(
-        "there is no pixel {x},{y} on a film of {width} x {height}: x is in 0..={}, y in 0..={}",
-        width - 1,
-        height - 1
-    )))
 }
 
 /// Refuses what nobody would wait for, unless it is asked for.
@@ -432,17 +464,19 @@ impl Exported<'_> {
     }
 
     fn comments(&self) -> Vec<String> {
-        let [x, y] = self.pixel;
         let part = self.args.part();
         let mut lines = vec![format!(
-            "qrt {}: {}, {} of channel {}, pixel {x},{y}, seed {}",
+            "qrt {}: {}, {} of {}, seed {}",
             env!("CARGO_PKG_VERSION"),
             self.scene.scene().name,
             part_name(part),
-            CHANNELS[self.channel],
+            self.oracle.which,
             self.args.seed()
         )];
         lines.extend(about(part).iter().map(|line| (*line).to_owned()));
+        lines.push(format!("One call of the oracle has {}.", self.oracle.call));
+        lines.extend(beside_oracle(part).map(str::to_owned));
+        lines.push("The pixel's parameters are built in as X gates.".to_owned());
         if let (Some((number, strata)), Some(stratum)) = (self.args.stratum, self.stratum) {
             let Range { start, end } = stratum.thresholds();
             lines.push(format!(
@@ -454,18 +488,24 @@ impl Exported<'_> {
     }
 
     fn summary(&self, tally: &Tally) -> String {
-        let [x, y] = self.pixel;
         let file = match self.file.to_str() {
             Some("-") => "standard output".into(),
             _ => self.file.to_string_lossy(),
         };
-        format!(
-            "{file}: {} of channel {}, pixel {x},{y}; {}; {}\n",
-            part_name(self.args.part()),
-            CHANNELS[self.channel],
+        let part = self.args.part();
+        let mut text = format!(
+            "{file}: {} of {}; {}; {}\none call of the oracle: {}\n",
+            part_name(part),
+            self.oracle.which,
             tally.text(),
-            size(tally.bytes)
-        )
+            size(tally.bytes),
+            self.oracle.call
+        );
+        if let Some(more) = beside_oracle(part) {
+            text.push_str(more);
+            text.push('\n');
+        }
+        text
     }
 
     fn json(&self, tally: &Tally) -> Value {
@@ -486,9 +526,12 @@ impl Exported<'_> {
             "file": self.file.display().to_string(),
             "format": self.format.name(),
             "part": part_name(self.args.part()),
-            "channel": CHANNELS[self.channel],
-            "pixel": self.pixel,
-            "seed": self.args.seed(),
+            "channel": self.oracle.name.channel_name(),
+            "class": self.oracle.name.class_name(),
+            "pixel": self.oracle.pixel.place,
+            "seed": self.oracle.pixel.seed,
+            "oracle": self.oracle.json(),
+            "beside_oracle": beside_oracle(self.args.part()),
             "queries": if counting { self.counting.queries() } else { 1 },
             "window": counting.then(|| self.window.name()),
             "stratum": self.stratum.map(|stratum| {

@@ -3,7 +3,8 @@
 use super::Shown;
 use qrt_circuit::lower::Cost;
 use qrt_core::compile::{Label, Role};
-use qrt_core::inspect::{CHANNELS, Part};
+use qrt_core::inspect::Part;
+use qrt_core::oracle::{OracleCost, PARTS_OF_A_CALL};
 use serde_json::{Map, Value, json};
 
 /// All figures. Costs are those of one whole call of the oracle unless said otherwise.
@@ -11,8 +12,10 @@ pub(super) fn json(shown: &Shown<'_>) -> Value {
     let Shown {
         scene,
         inspection,
+        costs,
         passes,
         plan,
+        ..
     } = *shown;
     let written = scene.scene();
     let oracle = &inspection.oracle;
@@ -75,7 +78,12 @@ pub(super) fn json(shown: &Shown<'_>) -> Value {
         "qrt": env!("CARGO_PKG_VERSION"),
         "scene": written.name,
         "scene_hash": scene.fingerprint().to_string(),
-        "channel": CHANNELS[inspection.channel],
+        "channel": inspection.name.channel_name(),
+        "class": inspection.name.class_name(),
+        "pixel": inspection.pixel.map(|pixel| pixel.place),
+        "seed": inspection.pixel.map(|pixel| pixel.seed),
+        "includes": PARTS_OF_A_CALL,
+        "oracles": costs.iter().map(oracle_cost).collect::<Vec<_>>(),
         "fraction_bits": oracle.fraction,
         "comparator_bits": oracle.comparator_bits(),
         "path_bits": oracle.points.path_bits(),
@@ -121,7 +129,17 @@ fn registers(shown: &Shown<'_>) -> Vec<Value> {
         .collect()
 }
 
-fn cost(cost: Cost) -> Value {
+/// One of a scene's oracles.
+pub(in crate::cli) fn oracle_cost(cost: &OracleCost) -> Value {
+    json!({
+        "channel": cost.name.channel_name(),
+        "class": cost.name.class_name(),
+        "qubits": cost.call.qubits,
+        "toffoli": cost.call.toffoli,
+    })
+}
+
+pub(in crate::cli) fn cost(cost: Cost) -> Value {
     json!({
         "toffoli": cost.toffoli,
         "and_measured": cost.and_measured,

@@ -3,30 +3,33 @@
 use crate::cli::failure::Failure;
 use qrt_circuit::quantum::LogicalCounts;
 use qrt_core::front::Loaded;
-use qrt_core::inspect::CHANNELS;
+use qrt_core::inspect::Inspection;
 use qrt_core::valid::ValidScene;
 use qrt_runtime::physical::{Counts, PhysicalError, PictureCounts};
 use qrt_runtime::plan::Figures;
 use serde_json::{Map, Value, json};
 
 /// Under two keys, `unitary` and `measured`, the counts of a call of the oracle and of a pixel's run
-/// of `channel`, of a pixel and of the film; beside them, what they are counts of.
+/// of the inspected channel, of a pixel and of the film; beside them, what they are counts of.
 ///
 /// # Errors
 /// As [`PictureCounts::of`].
 pub(super) fn json(
     loaded: &Loaded,
     scene: &ValidScene,
-    channel: usize,
+    inspection: &Inspection,
     plan: Option<&Figures>,
 ) -> Result<Value, Failure> {
     let planned = plan.map(|figures| figures.channel_queries);
-    let picture = PictureCounts::of(scene, planned).map_err(|error| match error {
-        PhysicalError::Oracle(error) => loaded.report(vec![error.problem()]).into(),
-        PhysicalError::Estimator(_) | PhysicalError::TooMany => Failure::Usage(error.to_string()),
-        other => Failure::Job(other.to_string()),
-    })?;
-    let one = picture.channels[channel];
+    let picture =
+        PictureCounts::of(scene, inspection.name.class, planned).map_err(|error| match error {
+            PhysicalError::Oracle(error) => loaded.report(vec![error.problem()]).into(),
+            PhysicalError::Estimator(_) | PhysicalError::TooMany => {
+                Failure::Usage(error.to_string())
+            }
+            other => Failure::Job(other.to_string()),
+        })?;
+    let one = picture.channels[inspection.name.channel];
     let of = |kind: fn(&Counts) -> LogicalCounts| {
         let parts = [
             ("oracle", one.oracle),
@@ -45,7 +48,8 @@ pub(super) fn json(
         "qrt": env!("CARGO_PKG_VERSION"),
         "scene": written.name,
         "scene_hash": scene.fingerprint().to_string(),
-        "channel": CHANNELS[channel],
+        "channel": inspection.name.channel_name(),
+        "class": inspection.name.class_name(),
         "strategy": written.circuit.uncompute.name(),
         "estimator": counting.estimator.name(),
         "phase_bits": counting.phase_bits,
@@ -64,7 +68,10 @@ pub(super) fn json(
             } else {
                 "iterates without a control; after each the index is measured"
             },
-            "oracle": "the one that serves every pixel; strata of the comparator save nothing",
+            "oracle": format!(
+                "that of {}, in every pixel; strata of the comparator save nothing",
+                inspection.name.pixels()
+            ),
             "order": "channels and pixels one after another, on the same qubits",
             "unitary": "everything is undone by gates",
             "measured": "ANDs into clean qubits are undone by measurement",

@@ -5,7 +5,7 @@ mod logical;
 mod pareto;
 mod text;
 
-use super::args::{SceneArgs, ThreadsArgs, choice};
+use super::args::{SceneArgs, ThreadsArgs, choice, on_film, pixel};
 use super::failure::Failure;
 use super::files::{Output, keep_apart};
 use super::memory;
@@ -13,8 +13,10 @@ use super::progress::Bar;
 use super::terminal;
 use clap::Args;
 use qrt_core::front::Loaded;
-use qrt_core::inspect::{CHANNELS, Frame, Inspection, PassFigures};
-use qrt_core::oracle::{CallCost, Options, check_budget};
+use qrt_core::inspect::{CHANNELS, Frame, Inspection, OraclePixel, PassFigures};
+use qrt_core::oracle::{
+    CallCost, OracleCost, OracleError, check_budget, most_expensive_oracle, oracle_costs,
+};
 use qrt_core::valid::ValidScene;
 use qrt_runtime::draw;
 use qrt_runtime::memory::CircuitWork;
@@ -25,9 +27,13 @@ use std::path::{Path, PathBuf};
 
 /// Show what a scene's quantum circuit costs, and where
 ///
-/// Compiles the scene's oracle for one channel and counts one whole call of it: compute the
-/// colours of all paths in superposition, compare and flip the phase, uncompute. Nothing is
-/// rendered.
+/// Compiles one of the scene's oracles and counts one whole call of it: compute the colours of all
+/// paths in superposition, compare and flip the phase, uncompute. Nothing is rendered.
+///
+/// A scene has an oracle for each channel. Where lamps are sampled it has one for pixels that may see
+/// a lamp and another for pixels that see none: their colours have other scales. Without --channel and
+/// --pixel the oracle with the most Toffolis is shown, and the others are listed. With --pixel it is
+/// the oracle of that pixel, as `qrt export` writes it.
 ///
 /// A scene that asks for an `accuracy` is shown with the parameters that are chosen for it, and the
 /// plan with what is expected of it.
@@ -37,6 +43,7 @@ use std::path::{Path, PathBuf};
 #[command(after_help = "\
 Examples:
   qrt inspect box.yaml                                  the figures
+  qrt inspect box.yaml --pixel 10,20 --channel g        the oracle that `qrt export` writes
   qrt inspect box.yaml --planes                         with each plane of each search
   qrt inspect box.yaml --json --set precision.fraction=12
   qrt inspect box.yaml --registers map.svg --circuit frame.svg
@@ -47,6 +54,13 @@ pub(crate) struct InspectArgs {
     /// The channel [default: the one whose oracle has the most Toffolis]
     #[arg(long, value_parser = choice(CHANNEL_CHOICES, channel_name), value_name = "CHANNEL")]
     channel: Option<usize>,
+    /// The pixel: column and row, from 0 at the top left [default: those whose oracle has the most
+    /// Toffolis]
+    #[arg(long, value_name = "X,Y", value_parser = pixel, allow_hyphen_values = true)]
+    pixel: Option<[u32; 2]>,
+    /// Another seed gives the pixel other paths [default: 0]
+    #[arg(long, value_name = "S", requires = "pixel")]
+    seed: Option<u64>,
     /// List each plane or primitive of a search, not only their sum
     #[arg(short = 'v', long, conflicts_with = "json")]
     planes: bool,
@@ -63,8 +77,9 @@ pub(crate) struct InspectArgs {
     /// of the oracle, of a channel of a pixel, of a pixel and of the film, with all that counting needs
     #[arg(long, value_name = "FILE.json")]
     logical_counts: Option<PathBuf>,
-    /// Compile under each strategy, and list those that no other beats in qubits and in Toffolis
-    #[arg(long, conflicts_with_all = ["planes", "registers", "circuit", "logical_counts"])]
+    /// Compile under each strategy, and list those that no other beats in qubits and in Toffolis; drawings
+    /// are of the scene's own
+    #[arg(long, conflicts_with_all = ["planes", "logical_counts"])]
     pareto: bool,
     /// Draw qubits against gates
     #[arg(long, value_name = "FILE.svg", requires = "pareto")]
@@ -74,6 +89,8 @@ pub(crate) struct InspectArgs {
     #[command(flatten)]
     scene: SceneArgs,
 }
+
+pub(super) use json::{cost, oracle_cost};
 
 pub(super) const CHANNEL_CHOICES: [(usize, &str); 3] = [(0, "Red"), (1, "Green"), (2, "Blue")];
 
@@ -86,6 +103,9 @@ pub(super) fn channel_name(channel: usize) -> &'static str {
 struct Shown<'a> {
     scene: &'a ValidScene,
     inspection: &'a Inspection,
+    /// All oracles of the scene.
+    costs: &'a [OracleCost],
+    channel_is_asked: bool,
     passes: &'a [PassFigures],
     plan: Option<&'a Figures>,
 }
@@ -111,16 +131,27 @@ pub(crate) fn run(args: &InspectArgs) -> Result<(), Failure> {
     memory::keep_plan(args.scene.memory(), &loaded.valid)?;
     let planned = plan(&loaded.valid, &PlanOptions::default())?;
     let scene = planned.as_ref().map_or(&loaded.valid, |plan| &plan.scene);
-    let refused = |error: qrt_core::oracle::OracleError| loaded.report(vec![error.problem()]);
+    let refused = |error: OracleError| loaded.report(vec![error.problem()]);
+    let pixel = args.pixel.map(|pixel| on_film(pixel, scene.scene().film));
+    let pixel = pixel.transpose()?.map(|place| OraclePixel {
+        place,
+        seed: args.seed.unwrap_or(0),
+    });
     memory::keep_circuit(args.scene.memory(), scene, CircuitWork::Program)?;
-    if args.pareto {
-        return pareto::run(args, &loaded, scene, front.as_ref());
+    let front = match args.pareto {
+        true => Some(pareto::run(args, pixel, &loaded, scene, front.as_ref())?),
+        false => None,
+    };
+    if let Some(front) = front
+        .as_ref()
+        .filter(|_| args.circuit.is_none() && args.registers.is_none())
+    {
+        return terminal::print(front);
     }
     let bar = Bar::setting_up();
-    let inspection = Inspection::new(scene, args.channel, Options::default());
-    let passes = inspection.and_then(|inspection| Ok((inspection.passes(scene)?, inspection)));
+    let inspected = inspect(scene, args.channel, pixel);
     bar.clear();
-    let (passes, inspection) = passes.map_err(refused)?;
+    let (costs, inspection, passes) = inspected.map_err(refused)?;
 
     let name = &scene.scene().name;
     if let Some(file) = &registers {
@@ -131,16 +162,21 @@ pub(crate) fn run(args: &InspectArgs) -> Result<(), Failure> {
     }
     let plan = planned.as_ref().map(|plan| &plan.figures);
     if let Some(file) = &counts {
-        let counts = logical::json(&loaded, scene, inspection.channel, plan)?;
+        let counts = logical::json(&loaded, scene, &inspection, plan)?;
         write(file, &format!("{counts:#}\n"))?;
     }
     let shown = Shown {
         scene,
         inspection: &inspection,
+        costs: &costs,
+        channel_is_asked: args.channel.is_some(),
         passes: &passes,
         plan,
     };
-    let mut out = if args.json {
+    let is_front = front.is_some();
+    let mut out = if let Some(front) = front {
+        front
+    } else if args.json {
         format!("{:#}\n", json::json(&shown))
     } else {
         text::text(&shown, args.planes)
@@ -150,7 +186,27 @@ pub(crate) fn run(args: &InspectArgs) -> Result<(), Failure> {
         out.push_str(&draw::frame_text(&Frame::of(&inspection)));
     }
     terminal::print(&out)?;
-    keep_budget(&loaded, &inspection)
+    if is_front {
+        // The budget is that of one strategy, the scene's.
+        return Ok(());
+    }
+    keep_budget(&loaded, inspection.oracle_cost().call)
+}
+
+/// Compiles what is shown: the costs of all oracles, the oracle that is asked for, and what each
+/// pass is worth in it.
+fn inspect(
+    scene: &ValidScene,
+    channel: Option<usize>,
+    pixel: Option<OraclePixel>,
+) -> Result<(Vec<OracleCost>, Inspection, Vec<PassFigures>), OracleError> {
+    let costs = oracle_costs(scene)?;
+    let inspection = match pixel {
+        Some(pixel) => Inspection::of_pixel(scene, channel, pixel),
+        None => Inspection::most_expensive_of(scene, &costs, channel),
+    }?;
+    let passes = inspection.passes(scene)?;
+    Ok((costs, inspection, passes))
 }
 
 /// That `scene`, under whatever parameters, has a circuit, and one within its budget.
@@ -161,20 +217,16 @@ pub(super) fn check_circuit(loaded: &Loaded, scene: &ValidScene) -> Result<(), F
     if scene.scene().budget.is_none() {
         return Ok(());
     }
-    let inspection = Inspection::new(scene, None, Options::default())
-        .map_err(|error| loaded.report(vec![error.problem()]))?;
-    keep_budget(loaded, &inspection)
+    let most = most_expensive_oracle(scene);
+    let most = most.map_err(|error| loaded.report(vec![error.problem()]))?;
+    keep_budget(loaded, most.call)
 }
 
 /// That one call of the oracle is within the scene's budget.
 ///
 /// # Errors
 /// The figures that are beyond the budget.
-pub(super) fn keep_budget(loaded: &Loaded, inspection: &Inspection) -> Result<(), Failure> {
-    let cost = CallCost {
-        qubits: u64::from(inspection.qubits),
-        toffoli: inspection.total().toffoli,
-    };
+pub(super) fn keep_budget(loaded: &Loaded, cost: CallCost) -> Result<(), Failure> {
     check_budget(&loaded.valid, cost).map_err(|problems| loaded.report(problems).into())
 }
 

@@ -3,32 +3,37 @@
 use super::{InspectArgs, write};
 use crate::cli::failure::Failure;
 use crate::cli::files::Output;
+use crate::cli::interrupt;
 use crate::cli::progress::Bar;
-use crate::cli::{interrupt, terminal};
 use qrt_core::compile::Strategy;
 use qrt_core::front::Loaded;
-use qrt_core::inspect::{CHANNELS, grouped};
-use qrt_core::oracle::Layout;
+use qrt_core::inspect::{OraclePixel, grouped};
+use qrt_core::oracle::{Layout, OracleCost, OracleName, oracle_costs_under};
+use qrt_core::tracer::PixelClasses;
 use qrt_core::valid::ValidScene;
 use qrt_runtime::layouts::{LayoutsError, drawing, front};
 use qrt_runtime::workers::Workers;
 use serde_json::{Value, json};
 use std::fmt::Write;
 
+/// The front as text or JSON; its drawing is written to `plot`.
 pub(super) fn run(
     args: &InspectArgs,
+    pixel: Option<OraclePixel>,
     loaded: &Loaded,
     scene: &ValidScene,
     plot: Option<&Output>,
-) -> Result<(), Failure> {
+) -> Result<String, Failure> {
     let refused = |error: qrt_core::oracle::OracleError| loaded.report(vec![error.problem()]);
-    let channel = match args.channel {
-        Some(channel) => channel,
-        None => {
-            Layout::of_most_expensive(scene, Strategy::KEEP)
-                .map_err(refused)?
-                .0
-        }
+    let costs = oracle_costs_under(scene, Strategy::KEEP).map_err(refused)?;
+    let class = pixel.map(|pixel| PixelClasses::new(scene).of(pixel.place));
+    let is_asked = |cost: &OracleCost| {
+        args.channel.is_none_or(|one| one == cost.name.channel)
+            && class.is_none_or(|class| class == cost.name.class)
+    };
+    let asked = costs.into_iter().filter(is_asked);
+    let Some(OracleCost { name: oracle, .. }) = OracleCost::most_expensive(asked) else {
+        return Err(Failure::Job("no pixel has an oracle".to_owned()));
     };
     let cancel = interrupt::cancel_on_interrupt()?;
     let bar = Bar::settings(!args.json);
@@ -38,7 +43,7 @@ pub(super) fn run(
         cancel: Some(&cancel),
         progress: Some(&show),
     };
-    let found = front(scene, channel, &workers);
+    let found = front(scene, oracle.channel, oracle.class, &workers);
     bar.clear();
     let front = found.map_err(|error| match error {
         LayoutsError::Oracle(error) => refused(error).into(),
@@ -49,23 +54,22 @@ pub(super) fn run(
         write(file, &drawing(&front, name).svg())?;
     }
     let out = if args.json {
-        format!("{:#}\n", to_json(name, channel, &front))
+        format!("{:#}\n", to_json(name, oracle, &front))
     } else {
-        text(name, channel, &front)
+        text(name, oracle, &front)
     };
-    terminal::print(&out)
+    Ok(out)
 }
 
-fn text(name: &str, channel: usize, front: &[Layout]) -> String {
+fn text(name: &str, oracle: OracleName, front: &[Layout]) -> String {
     let mut out = format!(
-        "{name}, channel {}: one oracle call under {} strategies; those that no other beats\n\n",
-        CHANNELS[channel],
+        "{name}, {oracle}: one oracle call under {} strategies; those that no other beats\n\n",
         Strategy::all().len()
     );
     let _ = writeln!(
         out,
-        "{:>9}  {:>13}  {:>13}  {:>13}  what is undone at the end of its part",
-        "qubits", "Toffoli", "measured AND", "with ghosts*"
+        "{:>9}  {:>13}  {:>13}  {:>13}  circuit.uncompute",
+        "qubits", "Toffoli", "measured AND", "estimate*"
     );
     for layout in front {
         let _ = writeln!(
@@ -79,13 +83,14 @@ fn text(name: &str, channel: usize, front: &[Layout]) -> String {
         );
     }
     out.push_str(
-        "\n* an estimate: the ANDs that are left if what is undone early is measured as a whole, and its\n  \
-         signs are repaired when it is computed again; qrt has no such circuit\n",
+        "\n* an estimate: the ANDs that remain if the registers that are uncomputed early are measured, and\n  \
+         the signs that this leaves are corrected when they are computed again; qrt has no such circuit\n\n\
+         `--set circuit.uncompute=NAME` takes any of these names.\n",
     );
     out
 }
 
-fn to_json(name: &str, channel: usize, front: &[Layout]) -> Value {
+fn to_json(name: &str, oracle: OracleName, front: &[Layout]) -> Value {
     let layouts = front.iter().map(|layout| {
         json!({
             "qubits": layout.cost.qubits,
@@ -97,7 +102,8 @@ fn to_json(name: &str, channel: usize, front: &[Layout]) -> Value {
     });
     json!({
         "scene": name,
-        "channel": CHANNELS[channel],
+        "channel": oracle.channel_name(),
+        "class": oracle.class_name(),
         "front": layouts.collect::<Vec<_>>(),
     })
 }

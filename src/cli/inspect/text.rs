@@ -3,13 +3,16 @@
 use super::Shown;
 use qrt_circuit::lower::Cost;
 use qrt_core::compile::Role;
-use qrt_core::inspect::{BlockFigures, CHANNELS, Inspection, Part, Stage, grouped};
+use qrt_core::inspect::{BlockFigures, Inspection, Part, Stage, grouped};
+use qrt_core::oracle::PARTS_OF_A_CALL;
 use qrt_core::scene::Uncompute;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 /// The width in columns of a row's name, with its branches.
 const NAME: usize = 28;
+/// The width in columns of an oracle's name.
+const NAMES: usize = 40;
 
 /// The figures; with `planes`, each plane of each search.
 pub(super) fn text(shown: &Shown<'_>, planes: bool) -> String {
@@ -18,6 +21,8 @@ pub(super) fn text(shown: &Shown<'_>, planes: bool) -> String {
         let _ = writeln!(out, "{plan}");
     }
     headline(&mut out, shown);
+    out.push('\n');
+    oracles(&mut out, shown);
     out.push('\n');
     costs(&mut out, shown.inspection, planes);
     out.push('\n');
@@ -42,10 +47,10 @@ fn headline(out: &mut String, shown: &Shown<'_>) {
     };
     let _ = writeln!(
         out,
-        "{}, channel {}: one oracle call, O_f = compute, compare and flip, uncompute",
+        "{}: one call of the oracle, O_f = {PARTS_OF_A_CALL}",
         name(&written.name),
-        CHANNELS[inspection.channel],
     );
+    let _ = writeln!(out, "{}{}", inspection.which(), why_shown(shown));
     let _ = writeln!(
         out,
         "{} path bits, {}, {} comparator bits, {} fraction bits, uncompute {undone}, nearest {}\n",
@@ -70,6 +75,54 @@ fn headline(out: &mut String, shown: &Shown<'_>) {
     let width = width.unwrap_or(0) + 2;
     for (number, what) in figures {
         let _ = writeln!(out, "{number:>width$} {what}");
+    }
+}
+
+/// Why this oracle is shown.
+fn why_shown(shown: &Shown<'_>) -> String {
+    let Shown {
+        inspection, costs, ..
+    } = shown;
+    if let Some(pixel) = inspection.pixel {
+        return format!(", seed {}: as `qrt export` writes it", pixel.seed);
+    }
+    if shown.channel_is_asked {
+        let name = inspection.name;
+        let rivals = costs
+            .iter()
+            .filter(|cost| cost.name.channel == name.channel);
+        return match rivals.count() {
+            0 | 1 => String::new(),
+            n => format!(": of the channel's {n} oracles the one with the most Toffolis"),
+        };
+    }
+    let n = costs.len();
+    format!(": of the scene's {n} oracles the one with the most Toffolis")
+}
+
+/// The table of all oracles of the scene.
+fn oracles(out: &mut String, shown: &Shown<'_>) {
+    let Shown {
+        inspection, costs, ..
+    } = shown;
+    let _ = writeln!(
+        out,
+        "{:<NAMES$}{:>14}{:>15}",
+        "oracles of the scene", "Toffoli", "qubits"
+    );
+    for cost in *costs {
+        let mark = if cost.name == inspection.name {
+            '*'
+        } else {
+            ' '
+        };
+        let _ = writeln!(
+            out,
+            "{:<NAMES$}{:>14}{:>15}",
+            format!("{mark} {}", cost.name),
+            grouped(cost.call.toffoli),
+            grouped(cost.call.qubits),
+        );
     }
 }
 

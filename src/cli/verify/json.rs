@@ -1,6 +1,8 @@
 //! What a check found, as JSON.
 
-use super::{Found, VerifyArgs};
+use super::{CIRCUIT, Found, VerifyArgs};
+use crate::cli::inspect::oracle_cost;
+use qrt_core::oracle::PARTS_OF_A_CALL;
 use qrt_core::valid::ValidScene;
 use qrt_runtime::machines::Defect;
 use serde_json::{Value, json};
@@ -32,6 +34,9 @@ pub(super) fn answer(args: &VerifyArgs, scene: &ValidScene, found: &Found) -> Va
         "holds": found.holds(),
         "pixels": report.pixels,
         "paths": report.paths,
+        "oracles": report.oracles.iter().map(oracle_cost).collect::<Vec<_>>(),
+        "includes": PARTS_OF_A_CALL,
+        "circuit": CIRCUIT,
         "qubits": report.qubits,
         "gates": report.gates,
         "fraction_bits": report.fraction,

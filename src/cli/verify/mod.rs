@@ -11,6 +11,8 @@ use super::path;
 use super::progress::Bar;
 use super::{interrupt, plan, terminal, time};
 use clap::Args;
+use qrt_core::inspect::grouped;
+use qrt_core::oracle::OracleCost;
 use qrt_core::valid::ValidScene;
 use qrt_runtime::machines::Defect;
 use qrt_runtime::memory::CircuitWork;
@@ -22,6 +24,9 @@ use serde_json::Value;
 use std::fmt::Write;
 use std::path::PathBuf;
 use std::time::Instant;
+
+/// The circuit that is run, in words.
+const CIRCUIT: &str = "all three channels in one: compute, compare and flip for each, uncompute";
 
 const CHANNELS: [&str; 3] = ["red", "green", "blue"];
 
@@ -216,7 +221,8 @@ fn text(args: &VerifyArgs, scene: &ValidScene, found: &Found) -> String {
     let film = &scene.scene().film;
     let pixels = report.pixels.len();
     let mut out = format!(
-        "{}: {pixels} of {} pixels, {} paths, on {} qubits and {} gates, in {seconds:.2} s\n\n",
+        "{}: {pixels} of {} pixels, {} paths, on {} qubits and {} gates, in {seconds:.2} s\n\
+         the circuit has {CIRCUIT}\n\n",
         args.scene.scene.display(),
         u64::from(film.width) * u64::from(film.height),
         report.paths,
@@ -261,6 +267,16 @@ fn text(args: &VerifyArgs, scene: &ValidScene, found: &Found) -> String {
         line(
             "paths that met something else",
             &format!("{:.4} %", 100.0 * report.parted),
+        );
+    }
+    out.push_str("\noracles that are parts of it: qubits and Toffolis of one call of each\n");
+    for OracleCost { name, call } in &report.oracles {
+        let _ = writeln!(
+            out,
+            "  {:<42}{:>10} qubits {:>11} Toffoli",
+            name.to_string(),
+            grouped(call.qubits),
+            grouped(call.toffoli)
         );
     }
     let verdict = if found.holds() {

@@ -2,6 +2,7 @@
 
 use super::super::failure::Failure;
 use super::Found;
+use qrt_core::oracle::{CallCost, OracleCost, oracle_names};
 use qrt_core::valid::ValidScene;
 use qrt_runtime::disk::read_regular;
 use qrt_runtime::render::Portion;
@@ -85,7 +86,7 @@ fn part(
     }
     let tile = words(&answer["tile"]).ok_or_else(none)?;
     let portion = Portion::new(tile[0], tile[1]).map_err(|_| none())?;
-    let found = found(&answer).ok_or_else(none)?;
+    let found = found(&answer, scene).ok_or_else(none)?;
     let differs = |what: &str| {
         let file = file.display();
         Failure::Usage(format!("`{file}` is of another {what} than is asked for"))
@@ -114,7 +115,7 @@ fn part(
 }
 
 /// What an answer tells; none if it lacks something.
-fn found(answer: &Value) -> Option<Found> {
+fn found(answer: &Value, scene: &ValidScene) -> Option<Found> {
     let pixels = answer["pixels"].as_array()?.iter().map(words);
     let mismatches = answer["mismatches"].as_array()?.iter().map(mismatch);
     let measured = answer["defect"].is_null();
@@ -129,6 +130,9 @@ fn found(answer: &Value) -> Option<Found> {
     let report = Report {
         pixels: pixels.collect::<Option<_>>()?,
         paths: answer["paths"].as_u64()?,
+        oracles: (answer["oracles"].as_array()?.iter())
+            .map(|oracle| oracle_cost(oracle, scene))
+            .collect::<Option<_>>()?,
         qubits: answer["qubits"].as_u64()?.try_into().ok()?,
         gates: answer["gates"].as_u64()?.try_into().ok()?,
         fraction: answer["fraction_bits"].as_u64()?.try_into().ok()?,
@@ -149,6 +153,19 @@ fn found(answer: &Value) -> Option<Found> {
         defect: (!measured).then(|| answer["defect"].clone()),
         seconds: answer["seconds"].as_f64()?,
     })
+}
+
+/// One of the scene's oracles and its cost, as the answer has them.
+fn oracle_cost(value: &Value, scene: &ValidScene) -> Option<OracleCost> {
+    let mut names = oracle_names(scene).into_iter();
+    let name = names.find(|name| {
+        value["channel"] == name.channel_name() && value["class"] == name.class_name()
+    })?;
+    let call = CallCost {
+        qubits: value["qubits"].as_u64()?,
+        toffoli: value["toffoli"].as_u64()?,
+    };
+    Some(OracleCost { name, call })
 }
 
 fn mismatch(value: &Value) -> Option<Mismatch> {

@@ -90,6 +90,9 @@ pub(crate) fn kind(schema: &Value) -> String {
                 let word = word["const"].as_str().expect("a word");
                 format!("`{word}`, or a {}", kind(other))
             }
+            [words, other] if words.get("enum").is_some() && other.get("pattern").is_some() => {
+                "one of the words below, or parts with hyphens between them".to_owned()
+            }
             [one, _, _] if is_expression(one) && lists == 2 => {
                 "expression, or a list of one or three".to_owned()
             }
@@ -159,6 +162,14 @@ pub(crate) fn words(schema: &Value) -> Vec<(String, String)> {
         let texts = list.into_iter().flatten().filter_map(Value::as_str);
         texts.map(str::to_owned).collect()
     };
+    let choices = schema.get("anyOf").and_then(Value::as_sequence);
+    let choice = choices
+        .into_iter()
+        .flatten()
+        .find(|choice| choice.get("enum").is_some());
+    if let Some(choice) = choice {
+        return words(choice);
+    }
     let (words, meanings) = (texts("enum"), texts("enumDescriptions"));
     assert_eq!(words.len(), meanings.len(), "every word has a meaning");
     words.into_iter().zip(meanings).collect()

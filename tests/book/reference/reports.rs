@@ -119,6 +119,7 @@ fn elsewhere() -> Vec<String> {
             value: None,
         }),
         OracleError::Build(BuildError::UnboundedQuotient),
+        OracleError::Build(BuildError::UnboundedFunction),
         OracleError::TooManyFaces {
             faces: MOST_FACES + 1,
         },
@@ -144,6 +145,17 @@ sampling: { depths: [{ bits: [8, 8] }, { bits: [8, 8], light: [8, 8] }] }
 ";
     let dark = parse(nothing, "cellar.yaml", &[], "".as_ref()).unwrap();
     texts.extend(dark.warnings().map(|report| report.render(false)));
+
+    let back_to_back = wall("").source.text.replace(
+        "material: lit }]",
+        "material: lit },\n  quad: { vertices: [[0, 0, 0], [0, 1, 0], [1, 1, 0], [1, 0, 0]], material: lit }]",
+    );
+    let back_to_back = back_to_back.replace(
+        "lit: {",
+        "spare: { mirror: { reflectance: [1, 1, 1] } }, lit: {",
+    );
+    let warned = parse(&back_to_back, "wall.yaml", &[], "".as_ref()).unwrap();
+    texts.extend(warned.warnings().map(|report| report.render(false)));
 
     let whole =
         |problem: Problem| Report::of_file("a scene made in Rust", problem.what).render(false);

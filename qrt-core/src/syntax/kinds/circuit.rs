@@ -80,6 +80,10 @@ problems! {
         UnboundedQuotient = QUOTIENT_UNBOUNDED
             "an expression of the scene divides by what may be zero, so that no register is wide enough \
              for the quotient" help "keep the divisor away from 0, as in `a / (b + 0.01)`";
+        UnboundedFunction = QUOTIENT_UNBOUNDED
+            "an expression of the scene takes a logarithm, a power or a tangent where it may be infinite, so \
+             that no register is wide enough for it"
+            help "keep its operand away from there, as in `log(a + 0.01)`";
         TooWide { what: &'static str, bits: u32, most: u32, whole: u32,
                   value: Option<(&'static str, String)> } = NUMBER_TOO_WIDE
             { match value {

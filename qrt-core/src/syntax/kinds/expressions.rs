@@ -1,6 +1,6 @@
 //! What can be wrong with expressions, and with the BSDFs that they define.
 
-use super::{meant, rounded};
+use super::{meant, rounded, shorten};
 use std::fmt;
 
 problems! {
@@ -102,6 +102,12 @@ problems! {
             { let what = if *is_infinite { "is infinite" } else { "has no value" };
               format!("the BSDF {what} at {}", situation(at)) }
             help "it must be finite for every pair of directions above the surface";
+        UndefinedPart { part: Option<String>, is_infinite: bool, at: Variables } = BSDF_UNDEFINED
+            { let part = part.as_ref().map_or_else(String::new, |part| format!(", `{}`,", shorten(part)));
+              let what = if *is_infinite { "is infinite" } else { "has no value" };
+              format!("a part of this{part} {what} at {}", situation(at)) }
+            help "every part must be finite, also where the rest makes a finite number of it: no register \
+                  holds an infinity";
         GainsEnergy { albedo: f64, seen: Option<f64> } = BSDF_ENERGY
             { let seen = seen.map_or_else(String::new, |cos_o| {
                 format!(", seen at cos_o = {}", rounded(cos_o))

@@ -129,13 +129,13 @@ mod values;
 pub use circuit::{Circuit, Sampling};
 pub use expressions::{Bsdf, Expression, Mistake};
 pub use mesh_file::MeshFile;
-pub use objects::{Camera, Glass, Material, Mesh, Renderer, Shape, Triangles};
+pub use objects::{Camera, Glass, Material, Mesh, Renderer, Shape, Triangles, Unlit};
 pub use text::{File, Override, Yaml};
 pub use values::{Datum, Expected, Range, Structure};
 
 what! {
-    File Yaml Override Structure Datum Material Renderer Camera Shape Glass Mesh MeshFile Expression Bsdf
-    Sampling Circuit
+    File Yaml Override Structure Datum Material Renderer Unlit Camera Shape Glass Mesh MeshFile
+    Expression Bsdf Sampling Circuit
 }
 
 /// What is wrong, and what to do, in one line.

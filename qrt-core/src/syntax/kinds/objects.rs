@@ -19,6 +19,30 @@ problems! {
         GainsEnergy { sum: f64, channel: &'static str } = PHONG_ENERGY
             "diffuse + specular is {sum} in {channel}: more than arrives"
             help "keep the sum at 1 or below in every channel" also "the diffuse part";
+        Unused { name: String, more: usize } = UNUSED_MATERIAL
+            { match more {
+                0 => format!("nothing is made of the material `{}`", shorten(name)),
+                more => format!(
+                    "nothing is made of the material `{}`, nor of {more} others", shorten(name)
+                ),
+            } }
+            help "remove it, or give it to a primitive";
+    }
+
+    /// Of lamps that light nothing.
+    Unlit {
+        NoLamp = BLACK "nothing emits: every picture of this scene is black"
+            help "give a primitive an `emitter` material";
+        LampsAway = BLACK
+            "every lamp shines away from all that the camera sees: the picture is black"
+            label "this lamp emits on its other side"
+            help "a lamp emits on its front, where its vertices run counterclockwise: list them in \
+                  the other order";
+        OppositeLamp = OPPOSITE_LAMP
+            "this lamp lies on one that faces the other way: its light is lost where they overlap"
+            label "of faces in one place, the first is seen"
+            help "move the two apart, each towards the side that it lights"
+            also "this lamp is seen from both sides";
     }
 
     /// Of a scene as another renderer reads it.

@@ -65,8 +65,12 @@ problems! {
         NoKey = SET_SYNTAX "a key is missing here" help "write it as `--set sampling.path_bits=14`";
         NoFirstKey = SET_SYNTAX "an override begins with a key"
             help "write it as `--set sampling.path_bits=14`";
+        OpenQuote = SET_SYNTAX "this quotation mark is not closed"
+            help "write it as `--set 'materials.\"a.b\".mirror.reflectance=[1, 1, 1]'`";
         NoValue = SET_SYNTAX "the value is missing here"
             help "write it as `--set sampling.path_bits=14`";
+        Nothing = SET_SYNTAX "an override cannot take a key away"
+            help "write a value, or remove the key from the scene's file";
         NoElement { index: usize, count: usize } = SET_PLACE
             "there is no element {index}: the list has {count}";
         NotAList { index: usize, found: Found } = SET_PLACE

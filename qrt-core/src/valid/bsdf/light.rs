@@ -71,20 +71,37 @@ pub(super) fn value(directions: &[[f64; 3]], f: &Expr, path: &Path) -> Option<Pr
             let at = seen(at, *direction, *viewer);
             let value = f.eval_in(&at, &mut room);
             let least = if is_constant { 0.0 } else { NEGATIVE };
-            if value >= least && value.is_finite() {
-                continue;
-            }
-            let at = situation(f, &at);
-            let what = if value.is_finite() {
+            let what = if !value.is_finite() {
+                let is_infinite = value.is_infinite();
+                let at = situation(f, &at);
+                Bsdf::Undefined { is_infinite, at }
+            } else if let Some(part) = undefined_part(f, &at, &room) {
+                part
+            } else if value < least {
+                let at = situation(f, &at);
                 Bsdf::Negative { value, at }
             } else {
-                let is_infinite = value.is_infinite();
-                Bsdf::Undefined { is_infinite, at }
+                continue;
             };
             return Some(Problem::new(path.clone(), what));
         }
     }
     None
+}
+
+/// A part of `f` without a finite value that its own value hides, such as the quotient in
+/// `atan2(1/0, 1)`; `values` are those of its nodes at `at`.
+///
+/// An infinity is a number to floating point, and none to a register: what is made of it differs.
+pub(super) fn undefined_part(f: &Expr, at: &Variables, values: &[f64]) -> Option<Bsdf> {
+    let id = f.undefined_part(values)?;
+    let part = f.part(id);
+    let is_short = part.written_nodes() <= 60;
+    Some(Bsdf::UndefinedPart {
+        part: is_short.then(|| part.to_string()),
+        is_infinite: values[id.index()].is_infinite(),
+        at: situation(f, at),
+    })
 }
 
 /// The variables of `f` with their values.

@@ -1,5 +1,6 @@
 //! A stated density of directions, held against the map that samples them.
 
+use super::light::undefined_part;
 use super::shape::{points, solid_angle};
 use crate::expr::{Expr, Variable, Variables};
 use crate::syntax::{Bsdf, Mistake, Path, Problem};
@@ -45,7 +46,10 @@ pub(super) fn check(map: &[Expr; 3], values: &[Expr], pdf: &Expr) -> Option<Prob
                 cos_a: z * cos_o - x * sin_o,
                 ..at
             };
-            let stated = pdf.eval(&angles);
+            let stated = pdf.eval_in(&angles, &mut room);
+            if let (true, Some(what)) = (stated.is_finite(), undefined_part(pdf, &angles, &room)) {
+                return Some(Problem::new(path, what));
+            }
             let off = |right: f64| {
                 let error = (stated - right).abs();
                 error.is_nan() || error > OFF_DENSITY * right.abs().max(f64::MIN_POSITIVE)

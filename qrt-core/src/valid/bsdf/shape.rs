@@ -1,5 +1,6 @@
 //! What a map and its Jacobian must be, tried at points of the square.
 
+use super::light::undefined_part;
 use crate::expr::{Expr, Variable, Variables};
 use crate::sampling::maps;
 use crate::syntax::{Bsdf, Mistake, Path, Problem};
@@ -60,10 +61,18 @@ pub(super) fn map(map: &[Expr; 3]) -> Option<Problem> {
     let mut room = Vec::new();
     let mut flat = Vec::new();
     for at in points() {
-        let direction = map.each_ref().map(|c| c.eval_in(&at, &mut room));
-        if let Some(i) = direction.iter().position(|c| !c.is_finite()) {
-            let at = [at.u, at.v];
-            return Some(Problem::new(root.item(i), Bsdf::NoDirection { at }));
+        let mut direction = [0.0; 3];
+        for (i, component) in map.iter().enumerate() {
+            direction[i] = component.eval_in(&at, &mut room);
+            let what = if direction[i].is_finite() {
+                undefined_part(component, &at, &room)
+            } else {
+                let at = [at.u, at.v];
+                Some(Bsdf::NoDirection { at })
+            };
+            if let Some(what) = what {
+                return Some(Problem::new(root.item(i), what));
+            }
         }
         let off = DVec3::from(direction).length() - 1.0;
         if off.abs() > OFF_SPHERE {
@@ -111,7 +120,19 @@ pub(super) fn jacobian(map: &[Expr; 3], stated: &Expr) -> Option<Problem> {
         let error = (given - right).abs();
         error.is_nan() || error > OFF_JACOBIAN * right.abs().max(f64::MIN_POSITIVE)
     };
-    let at = points().find(|at| off(stated.eval(at), right(at)))?;
+    let mut room = Vec::new();
+    let mut at = None;
+    for point in points() {
+        let given = stated.eval_in(&point, &mut room);
+        if off(given, right(&point)) {
+            at = Some(point);
+            break;
+        }
+        if let Some(what) = undefined_part(stated, &point, &room) {
+            return Some(Problem::new(Path::root().key("jacobian"), what));
+        }
+    }
+    let at = at?;
     // Only a mistake that explains every point is named.
     let explains = |wrong: &dyn Fn(f64, f64) -> f64| {
         points().all(|at| {

@@ -1,6 +1,8 @@
 //! What the checks promise: right BSDFs pass with the weights of closed forms, wrong ones are
 //! refused at their place with their reason.
 
+mod parts;
+
 use super::*;
 use crate::expr::Variables;
 

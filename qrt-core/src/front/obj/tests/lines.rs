@@ -121,7 +121,8 @@ proptest! {
         let ends = ["\n", "\r\n", "\r"];
         let (mut plain, mut mixed) = (CUBE.to_owned(), CUBE.to_owned());
         for ((statement, comment), end) in lines {
-            plain.push_str(&format!("{statement}\n"));
+            plain += statement;
+            plain += "\n";
             // Not at the line's start: a CR there would be one with the LF of an empty line.
             mixed.push_str(&format!(" {statement}{comment}\n").replace('\n', ends[end]));
         }

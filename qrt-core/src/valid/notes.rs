@@ -1,0 +1,239 @@
+//! Warnings of what a scene holds in vain: pictures that must be black, lamps that hide each other,
+//! materials that nothing uses.
+//!
+//! A warning is a proof: where none is found within the effort that is spent, there is no warning.
+
+mod view;
+
+use super::lights::MOST_PAIRS;
+use super::{Polygon, Scatter, ValidScene};
+use crate::scene::Geometry;
+use crate::syntax::{Material, Path, Problem, Unlit};
+use glam::{DVec2, DVec3};
+use std::collections::HashSet;
+use view::View;
+
+/// A distance, as a fraction of the largest coordinate, that is rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// Unused materials that have a warning each; the last of them counts the others.
+const MOST_UNUSED: usize = 8;
+
+/// Polygons that are compared with lamps, in all.
+const MOST_COMPARED: usize = 1 << 24;
+
+/// Warnings of a scene without errors.
+pub(super) fn of(valid: &ValidScene) -> Vec<Problem> {
+    let mut found: Vec<Problem> = unused_materials(valid).collect();
+    found.extend(unlit(valid));
+    found.extend(opposite_lamps(valid));
+    found
+}
+
+/// Materials of the scene that no primitive names.
+fn unused_materials(valid: &ValidScene) -> impl Iterator<Item = Problem> {
+    let used: HashSet<&str> = valid
+        .scene
+        .geometry
+        .iter()
+        .filter_map(|primitive| match primitive {
+            Geometry::Quad(quad) => Some(quad.material.as_str()),
+            Geometry::Triangle(triangle) => Some(triangle.material.as_str()),
+            Geometry::Mesh(mesh) => mesh.material.as_deref(),
+        })
+        .collect();
+    let names = valid.scene.materials.iter().map(|(name, _)| name);
+    let unused = names.filter(|name| !used.contains(name.as_str()));
+    let unused: Vec<&String> = unused.collect();
+    let told = unused.len().min(MOST_UNUSED);
+    let warning = |(number, name): (usize, &&String)| {
+        let last = number + 1 == told;
+        let what = Material::Unused {
+            name: (*name).clone(),
+            more: if last { unused.len() - told } else { 0 },
+        };
+        Problem::new(Path::root().key("materials").name(name.as_str()), what)
+    };
+    let warnings: Vec<Problem> = unused[..told].iter().enumerate().map(warning).collect();
+    warnings.into_iter()
+}
+
+/// A warning if every picture of the scene is black.
+fn unlit(valid: &ValidScene) -> Option<Problem> {
+    let lamps = || {
+        valid
+            .polygons
+            .iter()
+            .enumerate()
+            .filter(|(_, p)| emits(valid, p))
+    };
+    let Some((first, _)) = lamps().next() else {
+        return Some(Problem::new(Path::root().name("geometry"), Unlit::NoLamp));
+    };
+    let view = View::new(&valid.scene.camera, valid.scene.film);
+    let receivers = receivers(valid, &view);
+    let around = corners_around(&receivers);
+    let mut left = MOST_COMPARED;
+    for (_, lamp) in lamps() {
+        let plane = Plane::of(lamp);
+        if view.may_see_front(lamp.outline(), plane.normal) {
+            return None;
+        }
+        if !plane.is_before(&around) {
+            continue;
+        }
+        left = left.checked_sub(receivers.len())?;
+        if receivers.iter().any(|p| plane.is_before(p.outline())) {
+            return None;
+        }
+    }
+    Some(Problem::new(place(valid, first), Unlit::LampsAway))
+}
+
+/// Polygons at which a path may end its last but one ray: those that scatter, as far as depth and
+/// camera tell.
+fn receivers<'a>(valid: &'a ValidScene, view: &View) -> Vec<&'a Polygon> {
+    let rays = valid.scene.sampling.depths.len();
+    let scatters = |p: &&Polygon| {
+        let surface = &valid.materials[p.surface as usize];
+        !matches!(surface.scatter, Scatter::Black)
+    };
+    let reached = |p: &&Polygon| rays > 2 || rays == 2 && view.may_see(p.outline());
+    valid
+        .polygons
+        .iter()
+        .filter(scatters)
+        .filter(reached)
+        .collect()
+}
+
+/// The corners of the box around all polygons; none if there is no polygon.
+fn corners_around(polygons: &[&Polygon]) -> Vec<DVec3> {
+    let mut vertices = polygons.iter().flat_map(|p| p.outline());
+    let Some(&first) = vertices.next() else {
+        return Vec::new();
+    };
+    let ends = vertices.fold([first; 2], |[low, high], v| [low.min(*v), high.max(*v)]);
+    let corner =
+        |bits: usize| DVec3::from_array([0, 1, 2].map(|axis| ends[bits >> axis & 1][axis]));
+    (0..8).map(corner).collect()
+}
+
+/// Lamps behind the first of two in one place that face opposite ways, each with the first.
+fn opposite_lamps(valid: &ValidScene) -> Vec<Problem> {
+    let lamps = valid.polygons.iter().enumerate();
+    let lamps = lamps.filter(|(_, p)| emits(valid, p));
+    let lamps: Vec<(usize, &Polygon, Plane)> =
+        lamps.map(|(number, p)| (number, p, Plane::of(p))).collect();
+    let mut found: Vec<Problem> = Vec::new();
+    let mut pairs_left = MOST_PAIRS;
+    for (number, lamp, plane) in &lamps {
+        let before = lamps.iter().take_while(|(other, ..)| other < number);
+        let mut before = before.take(pairs_left);
+        let hidden_by = before.find(|(_, other, facing)| {
+            pairs_left -= 1;
+            plane.is_opposite(facing) && overlap(plane, lamp.outline(), other.outline())
+        });
+        if let Some((first, ..)) = hidden_by {
+            let (place, first) = (place(valid, *number), place(valid, *first));
+            let mut problem = Problem::new(place.clone(), Unlit::OppositeLamp);
+            if place != first {
+                problem = problem.also(first);
+            }
+            // Lamps of one primitive follow each other.
+            if found.last().is_none_or(|known| known.at != problem.at) {
+                found.push(problem);
+            }
+        }
+    }
+    found
+}
+
+fn emits(valid: &ValidScene, polygon: &Polygon) -> bool {
+    valid.materials[polygon.surface as usize].emits()
+}
+
+/// The place in the scene of the primitive that polygon `number` belongs to.
+fn place(valid: &ValidScene, number: usize) -> Path {
+    let index = valid
+        .firsts
+        .partition_point(|&first| first <= number)
+        .max(1)
+        - 1;
+    let geometry = Path::root().key("geometry").item(index);
+    match valid.scene.geometry.get(index) {
+        Some(primitive) => geometry.key(primitive.kind()),
+        None => geometry,
+    }
+}
+
+/// The plane of a polygon, with the side that its front looks to.
+struct Plane {
+    corner: DVec3,
+    /// Of length 1.
+    normal: DVec3,
+    rounding: f64,
+}
+
+impl Plane {
+    fn of(polygon: &Polygon) -> Self {
+        let [a, b, c, _] = polygon.vertices;
+        Self {
+            corner: a,
+            normal: (b - a).normalize().cross((c - a).normalize()).normalize(),
+            rounding: rounding(&polygon.vertices),
+        }
+    }
+
+    /// True if some of these points may lie before the front.
+    fn is_before(&self, points: &[DVec3]) -> bool {
+        let allowed = self.rounding.max(rounding(points));
+        let behind = |v: &DVec3| self.normal.dot(*v - self.corner) <= allowed;
+        !points.iter().all(behind)
+    }
+
+    /// True if the other plane is the same, facing the other way.
+    fn is_opposite(&self, other: &Self) -> bool {
+        let allowed = self.rounding.max(other.rounding);
+        self.normal.dot(other.normal) < ROUNDING - 1.0
+            && self.normal.dot(other.corner - self.corner).abs() <= allowed
+    }
+}
+
+/// A distance that is rounding where coordinates are those of these points.
+fn rounding(points: &[DVec3]) -> f64 {
+    let largest = points.iter().map(|v| v.abs().max_element());
+    ROUNDING * largest.fold(0.0, f64::max)
+}
+
+/// True if two convex outlines of one plane have an area in common: no line along an edge of either
+/// separates them.
+fn overlap(plane: &Plane, a: &[DVec3], b: &[DVec3]) -> bool {
+    let along = plane.normal.any_orthonormal_pair();
+    let flat = |outline: &[DVec3]| -> Vec<DVec2> {
+        let flat = |v: &DVec3| {
+            let v = *v - plane.corner;
+            DVec2::new(v.dot(along.0), v.dot(along.1))
+        };
+        outline.iter().map(flat).collect()
+    };
+    let (a, b) = (flat(a), flat(b));
+    let separates = |of: &[DVec2], other: &[DVec2]| {
+        (0..of.len()).any(|i| {
+            let edge = (of[(i + 1) % of.len()] - of[i]).normalize();
+            let side = |v: &DVec2| edge.perp_dot(*v - of[i]);
+            // The outline's own side, whichever way it is wound.
+            let own = of
+                .iter()
+                .map(side)
+                .fold(0.0, |m: f64, s| if s.abs() > m.abs() { s } else { m });
+            other
+                .iter()
+                .all(|v| side(v) * own.signum() <= plane.rounding)
+        })
+    };
+    !(separates(&a, &b) || separates(&b, &a))
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,128 @@
+//! Warnings of black pictures, of lamps in one place, and of materials that nothing uses.
+
+use crate::front::parse;
+use crate::syntax::Report;
+
+/// The warnings of a scene with these geometry entries and sampling, as codes and lines.
+#[track_caller]
+fn warned(camera: &str, geometry: &[&str], rays: usize) -> Vec<(&'static str, usize)> {
+    let entries: Vec<String> = geometry
+        .iter()
+        .map(|entry| format!("  - {entry}"))
+        .collect();
+    let entries = entries.join("\n");
+    let rays = vec!["{ bits: [4, 4] }"; rays].join(", ");
+    let text = format!(
+        "name: notes
+camera: {camera}
+film: {{ width: 4, height: 4 }}
+materials: {{ grey: {{ lambertian: {{ albedo: [0.5, 0.5, 0.5] }} }}, black: {{ emitter: {{ radiance: [0, 0, 0] }} }}, \
+         lamp: {{ emitter: {{ radiance: [1, 1, 1] }} }} }}
+geometry:
+{entries}
+sampling: {{ path_bits: 4, depths: [{rays}] }}
+"
+    );
+    let loaded = parse(&text, "notes.yaml", &[], "".as_ref()).unwrap();
+    let report = loaded.warnings();
+    let problems = report.iter().flat_map(Report::problems);
+    let told = problems.map(|told| (told.code, told.place.unwrap().line));
+    told.filter(|(code, _)| *code != "QRT0220").collect()
+}
+
+/// From above, towards the floor.
+const ABOVE: &str = "{ perspective: { eye: [0, 0, 5], target: [0, 0, 0], vfov: 40 } }";
+const PARALLEL: &str = "{ orthographic: { eye: [0, 0, 5], target: [0, 0, 0], height: 2 } }";
+const FLOOR: &str =
+    "quad: { vertices: [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], material: grey }";
+
+/// A square of `material` at height `z`, whose front looks up or down.
+fn square(z: f64, is_up: bool, material: &str) -> String {
+    let [a, b] = if is_up {
+        ["[2, -2", "[-2, 2"]
+    } else {
+        ["[-2, 2", "[2, -2"]
+    };
+    format!(
+        "quad: {{ vertices: [[-2, -2, {z}], {a}, {z}], [2, 2, {z}], {b}, {z}]], material: {material} }}"
+    )
+}
+
+#[test]
+fn a_scene_without_a_lamp_is_told_to_be_black() {
+    assert_eq!(warned(ABOVE, &[FLOOR], 3), [("QRT0221", 5)]);
+    assert_eq!(
+        warned(ABOVE, &[FLOOR, &square(9.0, false, "black")], 3),
+        [("QRT0221", 5)]
+    );
+}
+
+#[test]
+fn lamps_that_shine_away_from_all_that_is_seen_are_told_of() {
+    for camera in [ABOVE, PARALLEL] {
+        let away = square(9.0, true, "lamp");
+        assert_eq!(warned(camera, &[FLOOR, &away], 3), [("QRT0221", 7)]);
+        assert_eq!(warned(camera, &[FLOOR, &square(9.0, false, "lamp")], 3), []);
+        // The camera sees it.
+        assert_eq!(warned(camera, &[FLOOR, &square(1.0, true, "lamp")], 1), []);
+        // Something that it lights may light the floor.
+        let sky = square(20.0, false, "grey");
+        assert_eq!(warned(camera, &[FLOOR, &away, &sky], 3), []);
+        // Two rays do not go that far, nor does one meet what lights the floor.
+        assert_eq!(warned(camera, &[FLOOR, &away, &sky], 2), [("QRT0221", 7)]);
+        assert_eq!(
+            warned(camera, &[FLOOR, &square(9.0, false, "lamp")], 1),
+            [("QRT0221", 7)]
+        );
+        // A ceiling in the lamp's own plane is not before it.
+        let ceiling = square(9.0, true, "grey");
+        assert_eq!(
+            warned(camera, &[FLOOR, &away, &ceiling], 3),
+            [("QRT0221", 7)]
+        );
+        // One that lights something is enough.
+        let other = square(8.0, false, "lamp");
+        assert_eq!(warned(camera, &[FLOOR, &away, &other], 3), []);
+    }
+}
+
+#[test]
+fn lamps_in_one_place_that_face_opposite_ways_are_told_of() {
+    let (up, down) = (square(3.0, true, "lamp"), square(3.0, false, "lamp"));
+    assert_eq!(warned(ABOVE, &[&up, &down, FLOOR], 3), [("QRT0222", 7)]);
+    assert_eq!(warned(ABOVE, &[FLOOR, &down, &up], 3), [("QRT0222", 8)]);
+    let corner = "triangle: { vertices: [[1, 1, 3], [1, 3, 3], [3, 1, 3]], material: lamp }";
+    assert_eq!(warned(ABOVE, &[&up, FLOOR, corner], 3), [("QRT0222", 8)]);
+    let beside = "triangle: { vertices: [[2, -2, 3], [2, 2, 3], [4, 0, 3]], material: lamp }";
+    let diagonal = "triangle: { vertices: [[3, 1.5, 3], [1.5, 3, 3], [3, 3, 3]], material: lamp }";
+    for apart in [
+        &square(3.01, false, "lamp"),
+        &square(3.0, false, "grey"),
+        beside,
+        diagonal,
+        &up,
+    ] {
+        assert_eq!(warned(ABOVE, &[&up, apart, FLOOR], 3), [], "{apart}");
+    }
+}
+
+#[test]
+fn a_material_that_nothing_is_made_of_is_told_of() {
+    let text = "name: notes
+camera: { perspective: { eye: [0, 0, 5], target: [0, 0, 0], vfov: 40 } }
+film: { width: 4, height: 4 }
+materials:
+  lamp: { emitter: { radiance: [1, 1, 1] } }
+  spare: { lambertian: { albedo: [0.5, 0.5, 0.5] } }
+geometry:
+  - triangle: { vertices: [[1, 1, 3], [3, 1, 3], [1, 3, 3]], material: lamp }
+";
+    let loaded = parse(text, "notes.yaml", &[], "".as_ref()).unwrap();
+    let shown = loaded.warnings().unwrap().render(false);
+    let expected = "warning[QRT0220]: nothing is made of the material `spare`\n --> notes.yaml:6:3";
+    assert!(shown.starts_with(expected), "{shown}");
+    let used = text.replace("material: lamp", "material: spare");
+    let loaded = parse(&used, "notes.yaml", &[], "".as_ref()).unwrap();
+    let codes = loaded.warnings().unwrap().codes();
+    assert_eq!(codes, ["QRT0220", "QRT0221"]);
+}

@@ -1,0 +1,58 @@
+//! A formula that may be infinite where a path goes has no circuit: floating point computes with
+//! infinities, registers cannot. One that is finite there has, however it looks elsewhere.
+
+use crate::common::scene::written;
+use qrt::core::oracle::{Options, Oracle};
+use qrt::core::syntax::Problem;
+
+/// The code of the error with which a circuit of this value is refused.
+fn refused(value: &str) -> Option<&'static str> {
+    let text = format!(
+        r#"
+name: formula
+camera: {{ perspective: {{ eye: [3, 0, 1], target: [0, 0, 0], vfov: 40 }} }}
+film: {{ width: 4, height: 4 }}
+materials:
+  cloth:
+    bsdf:
+      map: ["sqrt(u)*cos(2*pi*v)", "sqrt(u)*sin(2*pi*v)", "sqrt(1-u)"]
+      value: "{value}"
+  lamp: {{ emitter: {{ radiance: [1, 1, 1] }} }}
+geometry:
+  - quad: {{ vertices: [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], material: cloth }}
+  - quad: {{ vertices: [[-1, -1, 2], [-1, 1, 2], [1, 1, 2], [1, -1, 2]], material: lamp }}
+sampling: {{ path_bits: 4, depths: [{{ bits: [4, 4] }}, {{ bits: [4, 4] }}] }}
+precision: {{ fraction: 10 }}
+comparator: {{ bits: 4 }}
+"#
+    );
+    let refused = Oracle::rgb(&written(&text, &[]), Options::default()).err();
+    refused.map(|error| Problem::code(&error.problem()))
+}
+
+#[test]
+fn a_function_that_may_be_infinite_has_no_circuit() {
+    for value in [
+        "max(0, 0.1 + 0.01*log(cos_o))",
+        "min(0.1, 0.01*cos_o^-0.5)",
+        "0.1*atan(1/cos_o)",
+        "0.1*atan(cos_o^-3)",
+        "0.1*exp(-0.01/cos_o)",
+    ] {
+        assert_eq!(refused(value), Some("QRT0610"), "{value}");
+    }
+}
+
+#[test]
+fn a_function_that_is_finite_has_a_circuit() {
+    for value in [
+        "max(0, 0.1 + 0.01*log(cos_o + 0.01))",
+        "min(0.1, 0.01*(cos_o + 0.01)^-0.5)",
+        "0.1*atan(1/(cos_o + 0.1))",
+        "0.05*acos(cos_a)/pi",
+        "0.1*exp(-20*(1 - cos_o))",
+        "min(0.1, 0.05/cos_i)",
+    ] {
+        assert_eq!(refused(value), None, "{value}");
+    }
+}
