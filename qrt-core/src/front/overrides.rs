@@ -50,13 +50,10 @@ pub fn read(source: &Source, number: u32, problems: &mut Problems) -> Option<Ove
         } else {
             let dot = usize::from(!steps.is_empty() && rest.starts_with('.'));
             let word = &rest[dot..];
-            let (key, length) = match quoted(word) {
-                Some((key, length)) => (key, length),
-                None => {
-                    let length = word.find(['.', '[']).unwrap_or(word.len());
-                    (word[..length].trim().to_owned(), length)
-                }
-            };
+            let (key, length) = quoted(word).unwrap_or_else(|| {
+                let length = word.find(['.', '[']).unwrap_or(word.len());
+                (word[..length].trim().to_owned(), length)
+            });
             if length == 0 || (dot == 0 && !steps.is_empty()) {
                 return syntax(at, equals, Fault::NoKey);
             }

@@ -62,14 +62,14 @@ impl Refraction {
             return Self { known, most: 1.0 };
         }
         let mut pieces = Vec::new();
-        for number in 0..surfaces.len() {
+        for (number, known) in known.iter_mut().enumerate() {
             let Some(ior) = ior(number) else {
                 continue;
             };
             let Some(solids) = solids(&outlines(&|surface| surface == number)) else {
                 continue;
             };
-            known[number] = true;
+            *known = true;
             let square = ior * ior;
             pieces.extend(solids.into_iter().map(|solid| {
                 let inwards = if solid.outwards { 1.0 / square } else { square };
