@@ -156,6 +156,10 @@ fn square(numbers: &mut Numbers, material: usize) -> Face {
     Face { corners, material }
 }
 
+#[allow(
+    clippy::single_match_else,
+    reason = "one camera of three is orthographic"
+)]
 fn draft(numbers: &mut Numbers) -> Draft {
     let mut head = String::from("name: coarse\n");
     let half = |numbers: &mut Numbers| (numbers.below(11) as f64 - 5.0) / 2.0;
@@ -212,7 +216,7 @@ fn draft(numbers: &mut Numbers) -> Draft {
     if numbers.below(2) == 0 {
         // A stack on the first one's plane.
         let plane = faces[0].plane();
-        for _ in 0..1 + numbers.below(3) {
+        for _ in 0..=numbers.below(3) {
             let other = loop {
                 let material = numbers.below(3);
                 let other = square(numbers, material);

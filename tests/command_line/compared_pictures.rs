@@ -1,5 +1,10 @@
 //! `qrt diff` reads of a picture all that decides its colours, or says what it does not read.
 
+#![allow(
+    clippy::trivially_copy_pass_by_ref,
+    clippy::field_reassign_with_default
+)]
+
 use crate::common::command::Folder;
 use exr::meta::attribute::Chromaticities;
 use png::{BitDepth, ColorType};

@@ -1,5 +1,7 @@
 //! Commands report the same figures for the same oracle, and say which oracle it is.
 
+#![allow(clippy::from_iter_instead_of_collect)]
+
 use crate::common::command::Folder;
 use serde_json::Value;
 

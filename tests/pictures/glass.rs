@@ -120,7 +120,7 @@ fn from_within_glass_light_is_denser() {
 fn furnace(numbers: &mut Numbers) -> String {
     let mut geometry = cuboid([-16.0; 3], [16.0; 3], true, "light");
     let grid = |numbers: &mut Numbers| (numbers.below(13) as f64 - 6.0) / 2.0;
-    for _ in 0..1 + numbers.below(4) {
+    for _ in 0..=numbers.below(4) {
         let low = [(); 3].map(|()| grid(numbers));
         let high = low.map(|low| low + 0.5 + numbers.below(6) as f64 / 2.0);
         let inwards = numbers.below(3) == 0;

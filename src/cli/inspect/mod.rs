@@ -138,9 +138,10 @@ pub(crate) fn run(args: &InspectArgs) -> Result<(), Failure> {
         seed: args.seed.unwrap_or(0),
     });
     memory::keep_circuit(args.scene.memory(), scene, CircuitWork::Program)?;
-    let front = match args.pareto {
-        true => Some(pareto::run(args, pixel, &loaded, scene, front.as_ref())?),
-        false => None,
+    let front = if args.pareto {
+        Some(pareto::run(args, pixel, &loaded, scene, front.as_ref())?)
+    } else {
+        None
     };
     if let Some(front) = front
         .as_ref()

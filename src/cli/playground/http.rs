@@ -1,6 +1,8 @@
 //! As much of HTTP/1.1 as a page of this machine needs: one request a connection, small, and of no
 //! other origin.
 
+#![allow(clippy::single_match_else, clippy::match_same_arms)]
+
 use std::io::{self, Read as _, Write as _};
 use std::net::{Ipv4Addr, Ipv6Addr, TcpListener, TcpStream};
 use std::sync::atomic::{AtomicUsize, Ordering};

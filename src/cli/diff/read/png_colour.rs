@@ -3,6 +3,8 @@
 //!
 //! The chunks are read here, not by the decoder, which leaves out those that it cannot parse.
 
+#![allow(clippy::trivially_copy_pass_by_ref)]
+
 use super::{in_words, is_rec_709};
 use qrt_runtime::image::linear_of_srgb;
 use std::io::{self, Read, Seek};

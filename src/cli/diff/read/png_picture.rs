@@ -47,9 +47,12 @@ pub(in crate::cli::diff) fn png(path: &Path, memory: Memory) -> Result<Picture, 
     let mut pixels = Vec::with_capacity(width as usize * height as usize);
     let bytes = &bytes[..frame.buffer_size()];
     for pixel in bytes.chunks_exact(if wide { 2 * samples } else { samples }) {
-        let level = |place: usize| match wide {
-            true => u16::from_be_bytes([pixel[2 * place], pixel[2 * place + 1]]),
-            false => u16::from(pixel[place]),
+        let level = |place: usize| {
+            if wide {
+                u16::from_be_bytes([pixel[2 * place], pixel[2 * place + 1]])
+            } else {
+                u16::from(pixel[place])
+            }
         };
         let (rgb, alpha) = match frame.color_type {
             ColorType::Grayscale => ([level(0); 3], largest),
