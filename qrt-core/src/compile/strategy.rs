@@ -148,7 +148,7 @@ impl Strategy {
         })
     }
 
-    /// What a scene's `circuit.uncompute` calls it: the parts of [`Strategy::CHOICES`] that it takes.
+    /// The value of a scene's `circuit.uncompute` that names this strategy.
     ///
     /// ```
     /// use qrt_core::compile::Strategy;
