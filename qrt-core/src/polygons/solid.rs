@@ -18,10 +18,10 @@ const MOST_POLYGONS: usize = 1 << 22;
 /// Below this volume a surface encloses nothing, against the cube of its size.
 const FLAT: f64 = 1e-12;
 
-/// How far a corner may be from a plane and yet lie on it.
+/// Distance from a plane below which a corner lies on it.
 const ON_PLANE: f64 = 1e-12;
 
-/// What a closed surface that does not meet itself encloses.
+/// The region that a closed surface encloses which does not meet itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Solid {
     /// The corners of the box around it.

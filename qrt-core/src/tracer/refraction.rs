@@ -1,4 +1,4 @@
-//! How much denser radiance becomes on its way through the glass of a scene.
+//! The factor by which refractions through the glass of a scene make radiance denser.
 //!
 //! A refraction scales radiance by the squared ratio of the indices: by `1 / ior^2` against the normal of
 //! a face, by `ior^2` along it. Around a closed surface these are the steps of its winding number
