@@ -20,7 +20,7 @@ use std::sync::Arc;
 pub(crate) type Read = (Parsed, Option<ValidScene>);
 
 /// What `qrt!` expands to, unless functions have to be asked for first; files are relative to
-/// `root`.
+/// `root`. Its warnings are left out where something is an error.
 pub(crate) fn expand(asked: Asked, root: &Path) -> TokenStream {
     if let Some(question) = asked.next() {
         return question;
@@ -28,6 +28,8 @@ pub(crate) fn expand(asked: Asked, root: &Path) -> TokenStream {
     let mut table = Table::default();
     let mut faults = Faults::default();
     let (terms, mut out) = asked.terms();
+    let mut is_faulty = terms.values().any(Option::is_none);
+    let mut warned = TokenStream::new();
     for (parsed, valid) in read(asked.input, &terms, root, &mut table, &mut faults) {
         if let Some(valid) = &valid {
             let mut warnings = Faults::default();
@@ -35,7 +37,7 @@ pub(crate) fn expand(asked: Asked, root: &Path) -> TokenStream {
             let conditions = parsed.header.conditions();
             for warning in warnings.finalize() {
                 let shown = compile_warning(&warning.text(&table), warning.ends(&table));
-                out.extend(quote!(#conditions #shown));
+                warned.extend(quote!(#conditions #shown));
             }
         }
         let generated = valid.and_then(|valid| match generated(&parsed, &valid) {
@@ -48,7 +50,11 @@ pub(crate) fn expand(asked: Asked, root: &Path) -> TokenStream {
         out.extend(generated.unwrap_or_else(|| emit::stub(&parsed.header)));
     }
     for fault in faults.finalize() {
+        is_faulty = true;
         out.extend(compile_error(&fault.text(&table), fault.ends(&table)));
+    }
+    if !is_faulty {
+        out.extend(warned);
     }
     out
 }
