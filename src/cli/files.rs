@@ -7,7 +7,7 @@ use qrt_runtime::replace_file::{PARTIAL, try_writing};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// What standard output is called in place of a file.
+/// Name of standard output in place of a file.
 pub(crate) const STDOUT: &str = "-";
 
 /// A file that a command writes: as it was asked for, and where that leads.

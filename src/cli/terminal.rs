@@ -17,7 +17,7 @@ pub(crate) fn print(text: &str) -> Result<(), Failure> {
 /// Writes to standard output whatever `write` does.
 ///
 /// # Errors
-/// As [`print`], and what else `write` fails by.
+/// Like [`print`], and returns other errors of `write` too.
 pub(crate) fn stream<E: Into<WriteError>>(
     write: impl FnOnce(&mut BufWriter<StdoutLock<'static>>) -> Result<(), E>,
 ) -> Result<(), Failure> {

@@ -9,7 +9,7 @@
 use super::page::{Page, pages, report};
 use std::fs;
 
-/// Where the figures are, and the table of the machines.
+/// Page of the figures, and of the table of machines.
 const FIGURES: &str = "docs/figures.md";
 /// Other pages outside of the book whose figures are checked.
 const BESIDE: [&str; 2] = ["README.md", "ARCHITECTURE.md"];
@@ -78,7 +78,7 @@ fn names_threads(text: &str) -> bool {
     })
 }
 
-/// What `text` fails to say of where its figures were measured.
+/// Lists the parts of a measurement's provenance that `text` lacks.
 fn missing(text: &str, machines: &[String]) -> Vec<&'static str> {
     let any = text.contains(ANY);
     let mut missing = Vec::new();
@@ -124,7 +124,7 @@ fn paragraphs(text: &str) -> Vec<(usize, String)> {
     all
 }
 
-/// What is wrong with a table of figures: rows that do not say where they come from.
+/// Lists the rows of a table of figures without provenance.
 ///
 /// A table without the columns `measured` and `command` may have a paragraph `below` it that begins
 /// with "Measured: " and says so of all rows.
@@ -152,7 +152,7 @@ fn wrong_rows(table: &str, below: &str, first: usize, machines: &[String]) -> Ve
     .collect()
 }
 
-/// What is wrong with a page's sentences: speeds that do not say where they come from.
+/// Lists the sentences of a page that give a speed without provenance.
 fn wrong_sentences(path: &str, text: &str, machines: &[String]) -> Vec<String> {
     let of_prose = |(_, text): &(usize, String)| !text.starts_with('|');
     let paragraphs = paragraphs(text).into_iter().filter(of_prose);

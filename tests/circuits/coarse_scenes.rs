@@ -278,7 +278,7 @@ fn picture(scene: &ValidScene, options: &Options<'_>, text: &str) -> Vec<[f64; 3
         .pixels
 }
 
-/// What checks of many scenes found.
+/// Counts over many scenes that were checked.
 #[derive(Debug, Default)]
 struct Found {
     scenes: u64,

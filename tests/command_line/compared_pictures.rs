@@ -272,7 +272,7 @@ fn transparency_of_any_kind_is_refused_where_it_shows() {
     folder.works(&["diff", "plain.png", "a.png"]);
 }
 
-/// What is told of an OpenEXR file besides its pixels.
+/// Attributes of an OpenEXR file besides its pixels.
 #[derive(Clone, Copy, Default)]
 struct Told {
     chromaticities: Option<[f32; 8]>,

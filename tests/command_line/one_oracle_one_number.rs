@@ -81,7 +81,7 @@ fn pair(pixel: &str) -> Value {
     Value::from_iter(numbers)
 }
 
-/// That the exported circuit has the gates and qubits that `inspected` says, gate by gate.
+/// Checks that the exported circuit has the gates and qubits of `inspected`, gate by gate.
 fn exported(folder: &Folder, scene: &str, asked: &[&str], inspected: &Value) {
     let write = [
         "export",

@@ -229,7 +229,7 @@ fn nobody_else_is_answered_and_nothing_breaks_it() {
     assert!(index.contains("no picture is open"), "{index}");
 }
 
-/// Where this process may listen on port 80, and nobody does.
+/// Skipped where port 80 is taken or not allowed.
 #[test]
 fn at_port_80_the_printed_address_is_answered() {
     if std::net::TcpListener::bind(("127.0.0.1", 80)).is_err() {

@@ -1,5 +1,4 @@
-//! What a shell has to do with it: names that it would read otherwise, standard output, and files whose
-//! names are long.
+//! Names that a shell reads otherwise, standard output, and files with long names.
 
 use crate::common::command::Folder;
 use serde_json::Value;
@@ -22,7 +21,7 @@ geometry:
 sampling: { path_bits: 2 }
 "#;
 
-/// What a shell makes of a line, in this folder, where `qrt` is the command.
+/// Runs a line in a shell, in this folder, where `qrt` is the command.
 fn in_shell(folder: &Folder, line: &str) -> (bool, String) {
     let script = format!("qrt() {{ {} \"$@\"; }}; {line}", env!("CARGO_BIN_EXE_qrt"));
     let mut command = Command::new("sh");
@@ -32,7 +31,7 @@ fn in_shell(folder: &Folder, line: &str) -> (bool, String) {
     (output.status.success(), errors)
 }
 
-/// What stands between the backticks.
+/// The text between the last two backticks.
 fn quoted(text: &str) -> &str {
     text.rsplit('`').nth(1).unwrap()
 }

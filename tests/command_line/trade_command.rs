@@ -77,7 +77,7 @@ fn a_table_plots_and_a_page_that_do_not_depend_on_threads() {
     assert_eq!(picture(&folder), shown);
 }
 
-/// What a reader sees of the page: no marks of the text that it was made from.
+/// Pages show no Markdown marks.
 #[test]
 fn the_page_and_the_summary_are_written_in_words() {
     // So long that a face takes more than a line.

@@ -197,7 +197,7 @@ geometry: []
     assert_eq!(rendered.total_queries(), 0);
 }
 
-/// What the command warns of: a run that measures nothing has no path to take a colour from.
+/// A run that measures no good index has no path to take a colour from, and the command warns of it.
 #[test]
 fn as_many_pixels_are_grey_as_the_estimator_says() {
     let film = "film={ width: 24, height: 24 }";

@@ -265,7 +265,7 @@ impl Strategy {
     }
 }
 
-/// As a scene's `circuit.uncompute` takes it.
+/// Writes the value of `circuit.uncompute` that names this strategy.
 impl std::fmt::Display for Strategy {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(self.uncompute().name())

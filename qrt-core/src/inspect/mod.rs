@@ -39,7 +39,7 @@ pub const CHANNELS: [&str; 3] = ["r", "g", "b"];
 /// One call of a channel's oracle, with what it costs.
 #[derive(Clone, Debug)]
 pub struct Inspection {
-    /// Which oracle it is: its channel, and the class of its pixels.
+    /// Channel and class of pixels of the oracle.
     pub name: OracleName,
     /// The pixel whose parameters are built in. Without one, every X gate counts that a pixel of the
     /// class may need.
@@ -172,7 +172,7 @@ impl Inspection {
         }
     }
 
-    /// Which oracle it is, in words: its channel, its pixel or pixels.
+    /// Names the oracle in words: its channel, and its pixel or class of pixels.
     pub fn which(&self) -> String {
         let channel = self.name.channel_name();
         match self.pixel {

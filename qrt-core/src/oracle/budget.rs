@@ -7,7 +7,7 @@ use crate::syntax::{Circuit, Path, Problem, Problems};
 use crate::valid::ValidScene;
 use qrt_circuit::lower::{self, Figures};
 
-/// What one call of an oracle costs: compute, compare and flip, uncompute.
+/// Costs of one call of an oracle: compute, compare and flip, uncompute.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CallCost {
     /// How many qubits a call needs: the most in use at any time.

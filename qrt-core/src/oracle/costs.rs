@@ -73,7 +73,7 @@ impl fmt::Display for OracleName {
 /// One of a scene's oracles, and what a call of it costs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct OracleCost {
-    /// Which oracle it is.
+    /// Channel and class of pixels.
     pub name: OracleName,
     /// Qubits and Toffolis of a call.
     pub call: CallCost,

@@ -8,7 +8,7 @@ mod overlap;
 mod plane;
 mod solid;
 
-pub(crate) use overlap::{Outlines, fill_once};
+pub(crate) use overlap::{Outlines, fill_once, overlap};
 pub(crate) use plane::first_overlap;
 pub(crate) use solid::{Solid, solids};
 

@@ -17,7 +17,7 @@ pub enum Uncompute {
     Keep,
     /// After each part of the tracer: fewer qubits, more gates.
     Scoped,
-    /// As much as `budget.qubits` asks for, at the fewest gates.
+    /// Chooses the strategy with the fewest gates within `budget.qubits`.
     Auto,
     /// Some of the parts early, and the others at the end.
     Parts(UncomputedParts),
@@ -31,7 +31,7 @@ pub struct UncomputedParts {
     again: Again,
 }
 
-/// What is computed more than once, so that it need not be kept.
+/// Values that are computed again rather than kept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(crate) enum Again {
     /// Nothing.

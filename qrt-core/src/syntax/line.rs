@@ -1,4 +1,4 @@
-//! Where the lines of a text start.
+//! Line starts of a text.
 
 /// Start of each line of `text` but the first, as a byte offset. A line ends in LF, CR LF or CR.
 ///

@@ -41,7 +41,7 @@ impl Path {
     }
 }
 
-/// As `--set` takes it: a key that would be read as something else is in quotation marks.
+/// Writes the path in the syntax of `--set`: a key with `.`, `=`, `[` or the like is quoted.
 impl fmt::Display for Path {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (i, step) in self.0.iter().enumerate() {

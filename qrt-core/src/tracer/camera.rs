@@ -29,18 +29,19 @@ pub struct CameraStage {
     pub from: u32,
 }
 
-struct Basis {
-    eye: DVec3,
-    forward: DVec3,
+/// The camera's coordinate system, in scene units.
+pub(crate) struct Basis {
+    pub(crate) eye: DVec3,
+    pub(crate) forward: DVec3,
     right: DVec3,
     up: DVec3,
     /// Half the film's height: at distance 1, or in scene units.
     half: f64,
-    perspective: bool,
+    pub(crate) perspective: bool,
 }
 
 impl Basis {
-    fn new(camera: &Camera) -> Self {
+    pub(crate) fn new(camera: &Camera) -> Self {
         let (eye, target, up, half, perspective) = match camera {
             Camera::Perspective(c) => {
                 let half = libm::tan(0.5 * c.vfov.to_radians());
@@ -61,9 +62,21 @@ impl Basis {
     }
 
     fn corners(&self, film: Film) -> [DVec3; 4] {
-        let aspect = f64::from(film.width) / f64::from(film.height);
-        let (x, y) = (self.right * (self.half * aspect), self.up * self.half);
+        let half = self.half_film(film);
+        let (x, y) = (self.right * half.x, self.up * half.y);
         [y - x, y + x, -x - y, x - y]
+    }
+
+    /// Half the film's width and height: at distance 1, or in scene units.
+    pub(crate) fn half_film(&self, film: Film) -> DVec2 {
+        let aspect = f64::from(film.width) / f64::from(film.height);
+        DVec2::new(self.half * aspect, self.half)
+    }
+
+    /// Returns a point to the right of the eye, above it, and before it.
+    pub(crate) fn coordinates(&self, point: DVec3) -> DVec3 {
+        let v = point - self.eye;
+        DVec3::new(v.dot(self.right), v.dot(self.up), v.dot(self.forward))
     }
 }
 

@@ -21,7 +21,7 @@ const MARGIN: f64 = 1e-9;
 /// More solids than this are taken to have points in common.
 const MOST_SOLIDS: usize = 4096;
 
-/// What is known of the refractions of all paths.
+/// Bounds on the refractions of all paths.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Refraction {
     /// By surface: true if it is glass of which all faces are those of solids.
@@ -32,9 +32,9 @@ pub(super) struct Refraction {
 /// A solid of glass, by what a path's colour gains at most.
 struct Piece {
     solid: Solid,
-    /// Where the path ends within it, having started outside.
+    /// Factor of a path that starts outside and ends within.
     entered: f64,
-    /// Where the path starts within it, and ends outside.
+    /// Factor of a path that starts within and ends outside.
     left: f64,
 }
 

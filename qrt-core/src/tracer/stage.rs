@@ -16,7 +16,7 @@ use std::collections::HashSet;
 /// By how much rounding may take a path's colour over its bound, in relation.
 const ROUNDING: f64 = 1e-12;
 
-/// What rounding may leave of the greatest radiance where a lamp faces away.
+/// Fraction of the greatest radiance below which a bound is rounding: the lamp faces away.
 const FACING_AWAY: f64 = 1e-9;
 
 /// A scene made ready for the tracer, for `C` colour channels that share their paths.

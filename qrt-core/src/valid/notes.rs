@@ -7,9 +7,10 @@ mod view;
 
 use super::lights::MOST_PAIRS;
 use super::{Polygon, Scatter, ValidScene};
+use crate::polygons::overlap;
 use crate::scene::Geometry;
 use crate::syntax::{Material, Path, Problem, Unlit};
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 use std::collections::HashSet;
 use view::View;
 
@@ -132,7 +133,7 @@ fn opposite_lamps(valid: &ValidScene) -> Vec<Problem> {
         let mut before = before.take(pairs_left);
         let hidden_by = before.find(|(_, other, facing)| {
             pairs_left -= 1;
-            plane.is_opposite(facing) && overlap(plane, lamp.outline(), other.outline())
+            plane.is_opposite(facing) && overlap(lamp.outline(), other.outline(), plane.rounding)
         });
         if let Some((first, ..)) = hidden_by {
             let (place, first) = (place(valid, *number), place(valid, *first));
@@ -204,35 +205,6 @@ impl Plane {
 fn rounding(points: &[DVec3]) -> f64 {
     let largest = points.iter().map(|v| v.abs().max_element());
     ROUNDING * largest.fold(0.0, f64::max)
-}
-
-/// True if two convex outlines of one plane have an area in common: no line along an edge of either
-/// separates them.
-fn overlap(plane: &Plane, a: &[DVec3], b: &[DVec3]) -> bool {
-    let along = plane.normal.any_orthonormal_pair();
-    let flat = |outline: &[DVec3]| -> Vec<DVec2> {
-        let flat = |v: &DVec3| {
-            let v = *v - plane.corner;
-            DVec2::new(v.dot(along.0), v.dot(along.1))
-        };
-        outline.iter().map(flat).collect()
-    };
-    let (a, b) = (flat(a), flat(b));
-    let separates = |of: &[DVec2], other: &[DVec2]| {
-        (0..of.len()).any(|i| {
-            let edge = (of[(i + 1) % of.len()] - of[i]).normalize();
-            let side = |v: &DVec2| edge.perp_dot(*v - of[i]);
-            // The outline's own side, whichever way it is wound.
-            let own = of
-                .iter()
-                .map(side)
-                .fold(0.0, |m: f64, s| if s.abs() > m.abs() { s } else { m });
-            other
-                .iter()
-                .all(|v| side(v) * own.signum() <= plane.rounding)
-        })
-    };
-    !(separates(&a, &b) || separates(&b, &a))
 }
 
 #[cfg(test)]

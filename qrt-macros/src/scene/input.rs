@@ -28,35 +28,40 @@ pub(crate) fn expand(asked: Asked, root: &Path) -> TokenStream {
     let mut table = Table::default();
     let mut faults = Faults::default();
     let (terms, mut out) = asked.terms();
-    let mut is_faulty = terms.values().any(Option::is_none);
-    let mut warned = TokenStream::new();
-    for (parsed, valid) in read(asked.input, &terms, root, &mut table, &mut faults) {
-        if let Some(valid) = &valid {
-            let mut warnings = Faults::default();
-            parsed.warnings(valid, &mut warnings);
-            let conditions = parsed.header.conditions();
-            for warning in warnings.finalize() {
-                let shown = compile_warning(&warning.text(&table), warning.ends(&table));
-                warned.extend(quote!(#conditions #shown));
-            }
-        }
-        let generated = valid.and_then(|valid| match generated(&parsed, &valid) {
-            Ok(code) => Some(emit::expansion(&parsed, &valid, root, &code)),
-            Err(problems) => {
-                parsed.report(problems, &mut faults);
-                None
-            }
-        });
+    let scenes = read(asked.input, &terms, root, &mut table, &mut faults);
+    for (parsed, valid) in &scenes {
+        let generated = valid
+            .as_ref()
+            .and_then(|valid| match generated(parsed, valid) {
+                Ok(code) => Some(emit::expansion(parsed, valid, root, &code)),
+                Err(problems) => {
+                    parsed.report(problems, &mut faults);
+                    None
+                }
+            });
         out.extend(generated.unwrap_or_else(|| emit::stub(&parsed.header)));
     }
+    if faults.count() == 0 && terms.values().all(Option::is_some) {
+        out.extend(scenes.iter().map(|scene| warnings(scene, &table)));
+    }
     for fault in faults.finalize() {
-        is_faulty = true;
         out.extend(compile_error(&fault.text(&table), fault.ends(&table)));
     }
-    if !is_faulty {
-        out.extend(warned);
-    }
     out
+}
+
+/// The compiler's warnings of a scene.
+fn warnings((parsed, valid): &Read, table: &Table) -> TokenStream {
+    let mut warnings = Faults::default();
+    if let Some(valid) = valid {
+        parsed.warnings(valid, &mut warnings);
+    }
+    let conditions = parsed.header.conditions();
+    let shown = warnings.finalize().into_iter().map(|warning| {
+        let shown = compile_warning(&warning.text(table), warning.ends(table));
+        quote!(#conditions #shown)
+    });
+    shown.collect()
 }
 
 /// A scene's circuit as Rust.

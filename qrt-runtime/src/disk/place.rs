@@ -88,7 +88,7 @@ impl Place {
         Err(io::Error::other("too many links, one after another"))
     }
 
-    /// What the process has as its standard output, to be written to by [`std::io::stdout`].
+    /// The standard output of the process. Write to it by [`std::io::stdout`].
     pub fn standard_output() -> Self {
         let (path, kind) = (PathBuf::from("-"), Kind::Device);
         Self { path, kind }

@@ -54,7 +54,7 @@ impl fmt::Display for TracedHit<'_> {
     }
 }
 
-/// What each ray meets, in one line.
+/// Lists the face and distance that each ray meets, in one line.
 impl fmt::Display for TracedPath<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (number, ray) in self.rays.iter().enumerate() {

@@ -61,7 +61,7 @@ impl Trio<'_> {
         Ok(self.compare(pixel, ids.start, &real, &fixed, &gates))
     }
 
-    /// That no colour of the real machine is beyond its bound.
+    /// Checks that no colour of the real machine exceeds its bound.
     fn within_bounds(
         &self,
         pixel: [u32; 2],

@@ -1,4 +1,4 @@
-//! How far rounding may take a colour beyond its bound.
+//! Rounding errors of colours near their bound.
 
 /// Thresholds beyond the bound that are no fault, out of `2^bits`, for colours of `fraction` bits: a
 /// sixty-fourth of the bound, or sixteen units in the last place where these are more.

@@ -1,4 +1,4 @@
-//! What a PNG file says of its colours, by the precedence of the PNG specification (third edition,
+//! Colour space of a PNG file, by the precedence of the PNG specification (third edition,
 //! section 4.3): `cICP`, then `iCCP`, then `sRGB`, then `gAMA` and `cHRM`.
 //!
 //! The chunks are read here, not by the decoder, which leaves out those that it cannot parse.
@@ -14,13 +14,13 @@ const SIGNATURE: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
 const KINDS: [&[u8; 4]; 6] = [b"cICP", b"iCCP", b"sRGB", b"gAMA", b"cHRM", b"acTL"];
 /// Bytes of a chunk that are looked at: those of all kinds, and the name of a profile.
 const LOOKED_AT: u64 = 80;
-/// What `gAMA` and `cHRM` count in.
+/// Units per 1 in `gAMA` and `cHRM`.
 const UNIT: f64 = 100_000.0;
 
 /// The function from a sample to linear light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Transfer {
-    /// That of sRGB (IEC 61966-2-1).
+    /// The transfer function of sRGB (IEC 61966-2-1).
     Srgb,
     /// `sample^exponent`.
     Power(f64),
@@ -85,7 +85,7 @@ impl ColourChunks {
         all.find(|(own, _)| *own == kind).map(|(_, bytes)| &**bytes)
     }
 
-    /// How samples become linear light of Rec. 709.
+    /// Returns the function from samples to linear light with the primaries of Rec. 709.
     ///
     /// # Errors
     /// In words, which colours the file has that this is not known of, and what to do.

@@ -1,5 +1,4 @@
-//! Where statements end: comments, continued lines, and the three ways to end a line; and faces that
-//! name a corner twice.
+//! Ends of statements (comments, continued lines, LF, CR LF and CR), and faces that name a corner twice.
 
 use super::*;
 
