@@ -8,6 +8,8 @@
 //!   on logarithmic axes, and queries times error;
 //! * 10,000 times on each of a few kinds of amplitudes, among many indices and few: how often its
 //!   interval holds the amplitude;
+//! * at amplitudes from 0 to 1/2 and on the pixels of two scenes: the bias, which no average over
+//!   pixels takes away;
 //! * by 1 to 6 strata of the comparator and by `auto`, on pixels whose colours are spread as light
 //!   sampling spreads them, and on such whose paths are all or nothing: what strata save;
 //!
@@ -15,11 +17,12 @@
 //! `expected.rs` gives with its source, or an interval holds more than a point less often than it
 //! says. `--csv FILE` writes all that was measured; `--quick` makes few runs and judges slopes and
 //! coverage generously, in some two minutes; a name alone runs the estimators whose names hold it,
-//! and `strata` what is about strata.
+//! `strata` what is about strata, and `bias` the biases of all.
 
 // A bench that cannot run has nothing to report.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
+mod bias;
 mod coverage;
 mod expected;
 mod problems;
@@ -62,7 +65,8 @@ fn main() -> ExitCode {
     let asked = Arguments::of_command_line();
     let names = Estimator::ALL.iter().copied().filter(|&estimator| {
         let asked = asked.name.as_ref();
-        estimator != Estimator::Exact && asked.is_none_or(|name| estimator.name().contains(name))
+        estimator != Estimator::Exact
+            && asked.is_none_or(|name| name == "bias" || estimator.name().contains(name))
     });
     let names: Vec<Estimator> = names.collect();
     let registers = if asked.quick { 6..=10 } else { 6..=13 };
@@ -72,6 +76,10 @@ fn main() -> ExitCode {
     let begin = Instant::now();
     if asked.name.as_deref() == Some("strata") {
         let csv = strata::tables(asked.quick, &mut verdicts);
+        return finish(&asked, begin, &csv, &verdicts);
+    }
+    if asked.name.as_deref() == Some("bias") {
+        let csv = bias::tables(&names, asked.quick, &mut verdicts);
         return finish(&asked, begin, &csv, &verdicts);
     }
     let kinds = [Problems::even(), Problems::pixels(asked.quick)];
@@ -103,6 +111,7 @@ fn main() -> ExitCode {
 
     println!("\n### Coverage of the intervals\n");
     coverage::table(&names, asked.quick, &mut verdicts);
+    bias::tables(&names, asked.quick, &mut verdicts);
     if asked.name.is_none() {
         strata::tables(asked.quick, &mut verdicts);
     }

@@ -16,7 +16,7 @@ pub(crate) enum Problems {
 }
 
 /// Indices where amplitudes are spread evenly.
-const IDS: u64 = 1 << 40;
+pub(crate) const TOTAL: u64 = 1 << 40;
 
 impl Problems {
     pub(crate) fn even() -> Self {
@@ -62,8 +62,8 @@ impl Problems {
             Self::Even => {
                 let fraction = (f64::from(run) + 0.5) / f64::from(runs);
                 Problem {
-                    good: (fraction * IDS as f64) as u64,
-                    total: IDS,
+                    good: (fraction * TOTAL as f64) as u64,
+                    total: TOTAL,
                 }
             }
             Self::Pixels { list, .. } => list[run as usize % list.len()],

@@ -19,7 +19,9 @@ pub(crate) struct Run {
 /// What one run found.
 #[derive(Clone, Copy)]
 pub(crate) struct Outcome {
+    /// The estimate less the truth.
     pub(crate) error: f64,
+    pub(crate) truth: f64,
     pub(crate) queries: u64,
     pub(crate) held: bool,
     pub(crate) confidence: f64,
@@ -66,7 +68,8 @@ impl Run {
             // Roundings of the interval's ends are not failures.
             let rounding = 4.0 * f64::EPSILON;
             Outcome {
-                error: (found.amplitude - truth).abs(),
+                error: found.amplitude - truth,
+                truth,
                 queries: found.queries,
                 held: low - rounding <= truth && truth <= high + rounding,
                 confidence: found.confidence,
@@ -94,7 +97,7 @@ impl Run {
         let threads = std::thread::available_parallelism().map_or(1.0, |n| n.get() as f64);
         let seconds = begin.elapsed().as_secs_f64() * threads / f64::from(runs);
         let n = f64::from(runs);
-        let mut errors: Vec<f64> = outcomes.iter().map(|outcome| outcome.error).collect();
+        let mut errors: Vec<f64> = outcomes.iter().map(|outcome| outcome.error.abs()).collect();
         Point {
             asked: self.settings().queries,
             queries: outcomes.iter().map(|o| o.queries as f64 / n).sum(),

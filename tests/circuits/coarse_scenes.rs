@@ -1,8 +1,9 @@
 //! Random scenes on a coarse grid, where everything coincides: faces on one plane, faces that touch, cross
 //! and enclose each other, glass closed, open and turned over, eyes and films on faces, edges and corners.
 //!
-//! Of each scene: all models agree, no path leaves its bound, and the order of the list changes nothing but
-//! what faces of one plane hide.
+//! Of each scene: all models agree, no path leaves its bound, the order of the list changes nothing but
+//! what faces of one plane hide, and a search finds the faces that the tracer finds. Over all scenes,
+//! aiming at lamps leaves the brightness as it is.
 
 use crate::common::numbers::Numbers;
 use qrt::core::front::parse;
@@ -48,10 +49,30 @@ struct Draft {
     head: String,
     faces: Vec<Face>,
     rest: String,
+    /// Rays of a path after the first.
+    bounces: usize,
 }
 
 impl Draft {
     fn text(&self, faces: &[Face]) -> String {
+        self.with(faces, &self.rest)
+    }
+
+    /// The scene with many paths, whose lamps are aimed at as `lights` says.
+    fn dense(&self, lights: &str) -> String {
+        let light = if lights == "none" {
+            ""
+        } else {
+            ", light: [8, 8]"
+        };
+        let second = format!(", {{ bits: [8, 8]{light} }}").repeat(self.bounces);
+        let rest = format!(
+            "sampling: {{ path_bits: 9, lights: {lights}, depths: [{{ bits: [8, 8] }}{second}] }}\n"
+        );
+        self.with(&self.faces, &rest)
+    }
+
+    fn with(&self, faces: &[Face], rest: &str) -> String {
         let mut text = self.head.clone();
         for face in faces {
             let kind = if face.corners.len() == 3 {
@@ -67,7 +88,7 @@ impl Draft {
                 face.material
             );
         }
-        text + &self.rest
+        text + rest
     }
 
     /// The list in another order, in which faces of each plane keep theirs.
@@ -156,10 +177,6 @@ fn square(numbers: &mut Numbers, material: usize) -> Face {
     Face { corners, material }
 }
 
-#[allow(
-    clippy::single_match_else,
-    reason = "one camera of three is orthographic"
-)]
 fn draft(numbers: &mut Numbers) -> Draft {
     let mut head = String::from("name: coarse\n");
     let half = |numbers: &mut Numbers| (numbers.below(11) as f64 - 5.0) / 2.0;
@@ -177,22 +194,14 @@ fn draft(numbers: &mut Numbers) -> Draft {
         [13, 17, 19]
     };
     let view = format!("eye: {eye:?}, target: {target:?}, up: {up:?}");
-    let _ = match numbers.below(3) {
-        0 => {
-            let height = 1 + numbers.below(6);
-            writeln!(
-                head,
-                "camera: {{ orthographic: {{ {view}, height: {height} }} }}"
-            )
-        }
-        _ => {
-            let vfov = [20, 53, 90, 120][numbers.below(4)];
-            writeln!(
-                head,
-                "camera: {{ perspective: {{ {view}, vfov: {vfov} }} }}"
-            )
-        }
+    let camera = if numbers.below(3) == 0 {
+        let height = 1 + numbers.below(6);
+        format!("orthographic: {{ {view}, height: {height} }}")
+    } else {
+        let vfov = [20, 53, 90, 120][numbers.below(4)];
+        format!("perspective: {{ {view}, vfov: {vfov} }}")
     };
+    let _ = writeln!(head, "camera: {{ {camera} }}");
     head += "film: { width: 3, height: 2 }\nmaterials:\n";
     let materials = [
         "emitter: { radiance: [4, 2, 1] }",
@@ -242,7 +251,8 @@ fn draft(numbers: &mut Numbers) -> Draft {
     } else {
         ", light: [4, 3]"
     };
-    let second = format!(", {{ bits: [3, 3]{light} }}").repeat(numbers.below(4));
+    let bounces = numbers.below(4);
+    let second = format!(", {{ bits: [3, 3]{light} }}").repeat(bounces);
     let nearest = ["running", "running", "paper"][numbers.below(3)];
     let uncompute = ["keep", "keep", "scoped"][numbers.below(3)];
     let fraction = 14 + numbers.below(5);
@@ -251,7 +261,12 @@ fn draft(numbers: &mut Numbers) -> Draft {
          uncompute: {uncompute} }}\nsampling: {{ path_bits: 5, lights: {lights}, depths: [{{ bits: [3, 3] \
          }}{second}] }}\n"
     );
-    Draft { head, faces, rest }
+    Draft {
+        head,
+        faces,
+        rest,
+        bounces,
+    }
 }
 
 fn valid(text: &str, sets: &[&str]) -> Option<ValidScene> {
@@ -290,6 +305,52 @@ struct Found {
     lit: u64,
     /// Scenes of which fixed numbers see another picture in another order of the list.
     shuffled: u64,
+    /// Scenes that were searched for the nearest faces, too.
+    searched: u64,
+    /// Scenes whose lamps were aimed at, too.
+    aimed: u64,
+    /// Over those, sums of the mean colour without aiming, of its difference to that with, and of the
+    /// squares of the differences.
+    light: [f64; 3],
+}
+
+impl Found {
+    fn add(&mut self, other: &Self) {
+        self.scenes += other.scenes;
+        self.refused += other.refused;
+        self.parted += other.parted;
+        self.lit += other.lit;
+        self.shuffled += other.shuffled;
+        self.searched += other.searched;
+        self.aimed += other.aimed;
+        for (sum, term) in self.light.iter_mut().zip(other.light) {
+            *sum += term;
+        }
+    }
+
+    /// Asserts that pictures with and without aiming are as bright as each other, within four standard
+    /// deviations of their noise.
+    fn assert_equally_bright(&self) {
+        let [_, difference, squares] = self.light;
+        assert!(difference.abs() < 4.0 * squares.sqrt(), "{self:?}");
+    }
+}
+
+/// Compares the mean colour under `none` and `mis`.
+fn compare_lights(draft: &Draft, found: &mut Found) {
+    let [Some(none), Some(mis)] = ["none", "mis"].map(|lights| {
+        let text = draft.dense(lights);
+        let scene = valid(&text, &[])?;
+        let pixels = picture(&scene, &exact(Model::Real), &text);
+        Some(pixels.iter().flatten().sum::<f64>())
+    }) else {
+        return;
+    };
+    found.aimed += 1;
+    let off = none - mis;
+    for (sum, term) in found.light.iter_mut().zip([none, off, off * off]) {
+        *sum += term;
+    }
 }
 
 fn check(number: u64, found: &mut Found) {
@@ -323,6 +384,18 @@ fn check(number: u64, found: &mut Found) {
     let other = valid(&order, &[]).unwrap_or_else(|| panic!("scene {number}\n{text}\n{order}"));
     let shuffled = picture(&other, &exact(Model::Real), &order);
     assert_eq!(real, shuffled, "scene {number}\n{text}\n{order}");
+    let searched = Options {
+        visibility: Visibility::Exhaustive,
+        ..exact(Model::Fixed)
+    };
+    match render(&scene, &searched) {
+        Ok(all) => {
+            assert_eq!(all.image.pixels, fixed, "scene {number}\n{text}");
+            found.searched += 1;
+        }
+        Err(error) => assert!(error.is_refusal(), "scene {number}: {error}\n{text}"),
+    }
+    compare_lights(&draft, found);
     found.shuffled += u64::from(fixed != picture(&other, &exact(Model::Fixed), &order));
     found.lit += u64::from(real.iter().flatten().any(|&colour| colour > 0.0));
     found.scenes += 1;
@@ -344,17 +417,13 @@ fn check_all(first: u64, count: u64) -> Found {
                     }
                     check(first + number, &mut found);
                 }
-                let mut all = all.lock().unwrap();
-                all.scenes += found.scenes;
-                all.refused += found.refused;
-                all.parted += found.parted;
-                all.lit += found.lit;
-                all.shuffled += found.shuffled;
+                all.lock().unwrap().add(&found);
             });
         }
     });
     let found = all.into_inner().unwrap();
     println!("{found:?}");
+    found.assert_equally_bright();
     found
 }
 
@@ -362,6 +431,7 @@ fn check_all(first: u64, count: u64) -> Found {
 fn of_sixty_scenes_everything_agrees() {
     let found = check_all(0, 60);
     assert!(found.scenes >= 30 && found.lit >= 15, "{found:?}");
+    assert!(found.searched >= 20 && found.aimed >= 20, "{found:?}");
 }
 
 #[test]

@@ -1,10 +1,5 @@
 //! `qrt diff` reads of a picture all that decides its colours, or says what it does not read.
 
-#![allow(
-    clippy::trivially_copy_pass_by_ref,
-    clippy::field_reassign_with_default
-)]
-
 use crate::common::command::Folder;
 use exr::meta::attribute::Chromaticities;
 use png::{BitDepth, ColorType};
@@ -12,7 +7,7 @@ use serde_json::Value;
 use std::fs;
 
 /// A chunk of a PNG file.
-fn chunk(kind: &[u8; 4], data: &[u8]) -> Vec<u8> {
+fn chunk(kind: [u8; 4], data: &[u8]) -> Vec<u8> {
     let body = [&kind[..], data].concat();
     let length = (data.len() as u32).to_be_bytes();
     let check = crc32fast::hash(&body).to_be_bytes();
@@ -52,24 +47,24 @@ fn srgb(level: f64) -> f64 {
 }
 
 fn gamma(value: u32) -> Vec<u8> {
-    chunk(b"gAMA", &value.to_be_bytes())
+    chunk(*b"gAMA", &value.to_be_bytes())
 }
 
 fn primaries(red_x: u32) -> Vec<u8> {
     let numbers = [31270, 32900, red_x, 33000, 30000, 60000, 15000, 6000];
-    chunk(b"cHRM", &numbers.map(u32::to_be_bytes).concat())
+    chunk(*b"cHRM", &numbers.map(u32::to_be_bytes).concat())
 }
 
 fn intent() -> Vec<u8> {
-    chunk(b"sRGB", &[0])
+    chunk(*b"sRGB", &[0])
 }
 
 fn profile() -> Vec<u8> {
-    chunk(b"iCCP", b"Display P3\0\0none of zlib's")
+    chunk(*b"iCCP", b"Display P3\0\0none of zlib's")
 }
 
 fn points(transfer: u8) -> Vec<u8> {
-    chunk(b"cICP", &[1, transfer, 0, 1])
+    chunk(*b"cICP", &[1, transfer, 0, 1])
 }
 
 /// The mean of a picture's channels in linear light, as `qrt diff` has it.
@@ -120,28 +115,28 @@ fn colours_that_are_not_read_are_refused_by_name() {
         (vec![profile()], &["ICC profile, `Display P3`", "to sRGB"]),
         (vec![profile(), intent(), gamma(45455)], &["ICC profile"]),
         (
-            vec![chunk(b"cICP", &[9, 16, 0, 1])],
+            vec![chunk(*b"cICP", &[9, 16, 0, 1])],
             &["`cICP`", "primaries 9, transfer 16"],
         ),
         (
-            vec![chunk(b"cICP", &[1, 13, 0, 0])],
+            vec![chunk(*b"cICP", &[1, 13, 0, 0])],
             &["`cICP`", "full range 0"],
         ),
         (
-            vec![chunk(b"cICP", &[1, 1, 0, 1]), intent()],
+            vec![chunk(*b"cICP", &[1, 1, 0, 1]), intent()],
             &["`cICP`", "transfer 1"],
         ),
-        (vec![chunk(b"cICP", &[1, 13])], &["`cICP` is damaged"]),
+        (vec![chunk(*b"cICP", &[1, 13])], &["`cICP` is damaged"]),
         (vec![gamma(0)], &["`gAMA` is damaged"]),
-        (vec![chunk(b"gAMA", &[1])], &["`gAMA` is damaged"]),
-        (vec![chunk(b"cHRM", &[1])], &["`cHRM` is damaged"]),
-        (vec![chunk(b"sRGB", &[9])], &["`sRGB` is damaged"]),
+        (vec![chunk(*b"gAMA", &[1])], &["`gAMA` is damaged"]),
+        (vec![chunk(*b"cHRM", &[1])], &["`cHRM` is damaged"]),
+        (vec![chunk(*b"sRGB", &[9])], &["`sRGB` is damaged"]),
         (
             vec![gamma(45455), gamma(100_000)],
             &["`gAMA` is there twice"],
         ),
         (
-            vec![chunk(b"acTL", &[0, 0, 0, 1, 0, 0, 0, 0])],
+            vec![chunk(*b"acTL", &[0, 0, 0, 1, 0, 0, 0, 0])],
             &["animated"],
         ),
     ] {
@@ -247,14 +242,14 @@ fn transparency_of_any_kind_is_refused_where_it_shows() {
             BitDepth::Eight,
             &[9],
             1,
-            &[chunk(b"tRNS", &[0, 9])],
+            &[chunk(*b"tRNS", &[0, 9])],
         ),
         png(
             ColorType::Grayscale,
             BitDepth::Sixteen,
             &[1, 9],
             1,
-            &[chunk(b"tRNS", &[1, 9])],
+            &[chunk(*b"tRNS", &[1, 9])],
         ),
     ] {
         fs::write(folder.path("a.png"), bytes).unwrap();
@@ -266,7 +261,7 @@ fn transparency_of_any_kind_is_refused_where_it_shows() {
         BitDepth::Eight,
         &[9],
         1,
-        &[chunk(b"tRNS", &[0, 8])],
+        &[chunk(*b"tRNS", &[0, 8])],
     );
     fs::write(folder.path("a.png"), opaque).unwrap();
     folder.works(&["diff", "plain.png", "a.png"]);
@@ -287,8 +282,10 @@ fn exr_of(folder: &Folder, name: &str, channels: &[(&str, f32)], told: Told) {
     let list = channels
         .iter()
         .map(|(name, value)| AnyChannel::new(*name, FlatSamples::F32(vec![*value; 2])));
-    let mut attributes = LayerAttributes::default();
-    attributes.layer_position = Vec2(told.origin[0], told.origin[1]);
+    let attributes = LayerAttributes {
+        layer_position: Vec2(told.origin[0], told.origin[1]),
+        ..LayerAttributes::default()
+    };
     let channels = AnyChannels::sort(list.collect());
     let layer = Layer::new(size, attributes, Encoding::UNCOMPRESSED, channels);
     let ([x, y], [width, height]) = told.display.unwrap_or((told.origin, [2, 1]));

@@ -1,7 +1,5 @@
 //! Commands report the same figures for the same oracle, and say which oracle it is.
 
-#![allow(clippy::from_iter_instead_of_collect)]
-
 use crate::common::command::Folder;
 use serde_json::Value;
 
@@ -78,7 +76,7 @@ fn pair(pixel: &str) -> Value {
     let numbers = pixel
         .split(',')
         .map(|number| number.parse::<u32>().unwrap());
-    Value::from_iter(numbers)
+    numbers.collect()
 }
 
 /// Checks that the exported circuit has the gates and qubits of `inspected`, gate by gate.

@@ -10,7 +10,8 @@ use qrt_core::scene::Estimator;
 /// of least mean square error over that prior.
 ///
 /// It is biased where the amplitude is near 0 or 1: too bright by about the error of a pixel at
-/// amplitudes below `1/Q^2`. Averaging pixels does not lessen that.
+/// amplitudes below `1/Q^2`. Averaging pixels does not lessen that. `adaptive-bayes` is nearly
+/// without bias.
 ///
 /// Interval: the amplitudes of highest posterior density that have the asked posterior mass,
 /// cautiously, and what lies between them; extended to the interval of `paper`, whose coverage is

@@ -1,8 +1,6 @@
 //! As much of HTTP/1.1 as a page of this machine needs: one request a connection, small, and of no
 //! other origin.
 
-#![allow(clippy::single_match_else, clippy::match_same_arms)]
-
 use std::io::{self, Read as _, Write as _};
 use std::net::{Ipv4Addr, Ipv6Addr, TcpListener, TcpStream};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -217,29 +215,24 @@ fn is_own<'a>(
 /// True if `authority`, as `host` or `host:port`, is this machine at `port`: `localhost` or a loopback
 /// address, in the spellings that RFC 3986 (3.2.2, 6.2.3) has for one host.
 fn is_here(authority: &str, port: u16) -> bool {
-    let (host, after) = match authority
-        .strip_prefix('[')
-        .and_then(|rest| rest.split_once(']'))
-    {
-        Some((address, after)) => {
+    let bracketed = authority.strip_prefix('[');
+    let (host, after) =
+        if let Some((address, after)) = bracketed.and_then(|rest| rest.split_once(']')) {
             let address = address.parse::<Ipv6Addr>();
             (address.is_ok_and(|address| address.is_loopback()), after)
-        }
-        None => {
+        } else {
             let name = &authority[..authority.find(':').unwrap_or(authority.len())];
             let after = &authority[name.len()..];
             let name = name.strip_suffix('.').unwrap_or(name);
             let address = name.parse::<Ipv4Addr>();
             let is_loopback = address.is_ok_and(|address| address.is_loopback());
             (is_loopback || name.eq_ignore_ascii_case("localhost"), after)
-        }
-    };
-    let asked = match after.strip_prefix(':') {
-        None if after.is_empty() => Some(DEFAULT_PORT),
-        None => None,
+        };
+    let digits = after.strip_prefix(':').or(after.is_empty().then_some(""));
+    let asked = match digits {
         Some("") => Some(DEFAULT_PORT),
         Some(digits) if digits.bytes().all(|digit| digit.is_ascii_digit()) => digits.parse().ok(),
-        Some(_) => None,
+        _ => None,
     };
     host && asked == Some(port)
 }

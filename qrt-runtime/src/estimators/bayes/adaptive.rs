@@ -5,10 +5,15 @@ use super::{Goal, strata};
 use crate::estimators::{AmplitudeEstimator, Device, Estimate, EstimatorError, Settings};
 
 /// `adaptive-bayes`: single shots, each at the query depth that is expected to sharpen the
-/// posterior most per query; the posterior mean. The default, and the most accurate here.
+/// posterior most per query. The default, and the most accurate here.
 ///
-/// The prior is uniform in the amplitude. The likelihood is that of the device, with the noise that
-/// is known. Query depth is chosen greedily from the whole posterior, multimodal as it is, as in
+/// The estimate is the posterior mean under a prior of about `1/(a (1 - a))`, a the amplitude. It is 0 if
+/// no index was good, and 1 if all were. Over the pixels of the Cornell box its bias is below the standard
+/// error of a 64 x 64 picture's mean (a pixel's RMSE over 64) from 63 queries on
+/// (`cargo bench --bench estimators -- bias`).
+///
+/// Query depths and interval follow from a prior that is uniform in the amplitude. The likelihood is that
+/// of the device, with the noise that is known. Query depth is chosen greedily from the whole posterior, multimodal as it is, as in
 /// adaptive phase estimation (Wiebe & Granade, *Efficient Bayesian phase estimation*, 2016) and
 /// Bayesian amplitude estimation (Ramôa & Santos, *Bayesian quantum amplitude estimation*, 2024),
 /// with the expected variance computed, not sampled; the posterior is a quadrature, not a cloud of

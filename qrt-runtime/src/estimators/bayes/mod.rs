@@ -1,8 +1,9 @@
 //! Bayesian estimators.
 //!
-//! The prior is uniform over S in `0 ..= N`, that is, in the amplitude. What is known is a
-//! posterior of theta = asin(sqrt(S/N))/pi, held coarse to fine around every mode, and where few S
-//! are left, over these.
+//! Query depths and intervals follow from a prior that is uniform over S in `0 ..= N`, that is, in the
+//! amplitude. The posterior of theta = asin(sqrt(S/N))/pi is held coarse to fine around every mode, and
+//! where few S are left, over these. The estimate is the mean under another prior, whose bias is small:
+//! see [`unbiased`].
 //!
 //! * [`AdaptiveBayes`] chooses every query depth from it;
 //! * [`RandomDepth`] draws its query depths at random.
@@ -19,6 +20,9 @@ mod strata_tests;
 mod support;
 #[cfg(test)]
 mod tests;
+mod unbiased;
+#[cfg(test)]
+mod unbiased_tests;
 
 pub use adaptive::AdaptiveBayes;
 pub use random_depth::RandomDepth;

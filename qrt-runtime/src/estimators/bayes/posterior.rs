@@ -1,6 +1,7 @@
 //! What is known of theta after shots at several query depths.
 
 use super::support::{self, Prior, Support};
+use super::unbiased::{self, Evidence};
 use crate::estimators::device::id_bits;
 use crate::estimators::interval::credible_content;
 use crate::estimators::{Device, Estimate, Noise, Usage};
@@ -341,16 +342,27 @@ impl Posterior {
         mean.clamp(0.0, 1.0)
     }
 
-    /// The posterior mean, with the interval of likeliest points for `confidence`: see
-    /// [`Self::interval`].
+    /// The fraction of good indices, nearly without bias: see [`unbiased`]. For [`Prior::Even`].
+    pub(super) fn unbiased_amplitude(&self) -> f64 {
+        let mut evidence = Evidence::default();
+        for shots in &self.shots {
+            evidence.note(shots.multiple, [shots.good, shots.bad], shots.intact);
+        }
+        let point = |(index, &mass)| (mass, self.support.amplitude(index, self.total));
+        let points = self.mass.iter().enumerate().map(point);
+        unbiased::amplitude(points, evidence).unwrap_or_else(|| self.mean_amplitude())
+    }
+
+    /// The estimate of a run under [`Prior::Even`], with the interval of likeliest points for
+    /// `confidence`: see [`Self::unbiased_amplitude`] and [`Self::interval`].
     pub(super) fn estimate(&self, device: &Device<'_>, start: Usage, confidence: f64) -> Estimate {
-        let mean = self.mean_amplitude();
+        let amplitude = self.unbiased_amplitude();
         let (low, high) = self.interval(confidence);
-        let interval = (low.min(mean), high.max(mean));
+        let interval = (low.min(amplitude), high.max(amplitude));
         Estimate {
             good: self.likeliest().map(|(good, _)| good),
             candidates: Some(self.candidates()),
-            ..device.estimate(start, mean, interval, confidence)
+            ..device.estimate(start, amplitude, interval, confidence)
         }
     }
 

@@ -3,15 +3,13 @@
 //!
 //! The chunks are read here, not by the decoder, which leaves out those that it cannot parse.
 
-#![allow(clippy::trivially_copy_pass_by_ref)]
-
 use super::{in_words, is_rec_709};
 use qrt_runtime::image::linear_of_srgb;
 use std::io::{self, Read, Seek};
 
 const SIGNATURE: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
 /// Chunks that decide what colours the samples are.
-const KINDS: [&[u8; 4]; 6] = [b"cICP", b"iCCP", b"sRGB", b"gAMA", b"cHRM", b"acTL"];
+const KINDS: [[u8; 4]; 6] = [*b"cICP", *b"iCCP", *b"sRGB", *b"gAMA", *b"cHRM", *b"acTL"];
 /// Bytes of a chunk that are looked at: those of all kinds, and the name of a profile.
 const LOOKED_AT: u64 = 80;
 /// Units per 1 in `gAMA` and `cHRM`.
@@ -38,7 +36,7 @@ impl Transfer {
 
 /// The first bytes of each chunk that tells of colours.
 #[derive(Debug, Default)]
-pub(super) struct ColourChunks(Vec<(&'static [u8; 4], Vec<u8>)>);
+pub(super) struct ColourChunks(Vec<([u8; 4], Vec<u8>)>);
 
 impl ColourChunks {
     /// Reads the chunks of a file from its beginning; none of a file that is no PNG.
@@ -59,8 +57,8 @@ impl ColourChunks {
             let length = u64::from(u32::from_be_bytes([a, b, c, d]));
             in_image |= kind == *b"IDAT";
             let mut rest = length;
-            if let Some(known) = KINDS.into_iter().find(|known| **known == kind) {
-                let name = String::from_utf8_lossy(known);
+            if let Some(known) = KINDS.into_iter().find(|known| *known == kind) {
+                let name = String::from_utf8_lossy(&known);
                 if in_image {
                     return Ok(Err(format!("its chunk `{name}` stands behind the pixels")));
                 }
@@ -80,7 +78,7 @@ impl ColourChunks {
         Ok(Ok(chunks))
     }
 
-    fn get(&self, kind: &[u8; 4]) -> Option<&[u8]> {
+    fn get(&self, kind: [u8; 4]) -> Option<&[u8]> {
         let mut all = self.0.iter();
         all.find(|(own, _)| *own == kind).map(|(_, bytes)| &**bytes)
     }
@@ -90,13 +88,13 @@ impl ColourChunks {
     /// # Errors
     /// In words, which colours the file has that this is not known of, and what to do.
     pub(super) fn transfer(&self) -> Result<Transfer, String> {
-        if self.get(b"acTL").is_some() {
+        if self.get(*b"acTL").is_some() {
             return Err("it is animated: save one picture of it".to_owned());
         }
-        if let Some(code_points) = self.get(b"cICP") {
+        if let Some(code_points) = self.get(*b"cICP") {
             return of_code_points(code_points);
         }
-        if let Some(profile) = self.get(b"iCCP") {
+        if let Some(profile) = self.get(*b"iCCP") {
             let name = profile.split(|byte| *byte == 0).next().unwrap_or_default();
             let name: String = name.iter().map(|byte| char::from(*byte)).collect();
             return Err(format!(
@@ -105,13 +103,13 @@ impl ColourChunks {
                 name.escape_debug()
             ));
         }
-        if let Some(intent) = self.get(b"sRGB") {
+        if let Some(intent) = self.get(*b"sRGB") {
             return match intent {
                 [0..=3] => Ok(Transfer::Srgb),
                 _ => Err(damaged("sRGB")),
             };
         }
-        if let Some(bytes) = self.get(b"cHRM") {
+        if let Some(bytes) = self.get(*b"cHRM") {
             let bytes = <&[u8; 32]>::try_from(bytes).map_err(|_| damaged("cHRM"))?;
             let mut numbers = bytes.as_chunks::<4>().0.iter();
             let mut number = || {
@@ -129,7 +127,7 @@ impl ColourChunks {
                 ));
             }
         }
-        match self.get(b"gAMA").map(<[u8; 4]>::try_from) {
+        match self.get(*b"gAMA").map(<[u8; 4]>::try_from) {
             None => Ok(Transfer::Srgb),
             Some(Ok(bytes)) => match u32::from_be_bytes(bytes) {
                 0 => Err(damaged("gAMA")),

@@ -79,6 +79,10 @@ fn what_is_finite_wherever_it_is_asked_for_is_accepted() {
         (COSINE, "0.1*cos_i/cos_i"),
         (COSINE, "min(0.1, 0.01/cos_o)"),
         (COSINE, "0.1*exp(-20*(1-cos_o))"),
+        // It is the constant 0.1, and e^500 is a finite number.
+        (COSINE, "min(0.1, exp(500*cos_o))"),
+        // It is simplified to 0.1 cos_o.
+        (COSINE, "0.1*exp(log(cos_o))"),
         (COSINE, "0.1*abs(atan2(cos_o, cos_i))/pi"),
         // The branch that is not taken may be anything.
         (COSINE, "if_less(cos_i, 2, 0.1, 1/0)"),

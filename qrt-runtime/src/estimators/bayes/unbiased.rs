@@ -1,0 +1,79 @@
+//! The estimate of the amplitude that a posterior gives: nearly without bias.
+//!
+//! With `x = asin(sqrt(a))` the shots measure x to a deviation s that hardly depends on x. Under a
+//! prior with density p in x the posterior mean of a is then off, on average over outcomes, by
+//!
+//! ```text
+//! s^2 (a'' + a' p'/p),    a = sin^2 x,
+//! ```
+//!
+//! to second order in s. That is zero for `p ~ 1/a' = 1/sin 2x`: in a, for the prior
+//! `1/(a (1 - a))` (Haldane, *A note on inverse probability*, 1932). Plain shots, h of n of them
+//! good, then give h/n. A prior that is even in a gives `2 s^2` too much at small a; that is little
+//! beside one pixel's error, but the mean over a picture keeps it.
+//!
+//! Haldane's prior has infinitely much mass at 0 and at 1. So a run without a good index gives 0,
+//! and one without a bad index 1.
+//!
+//! Below the resolution `1/I`, I the sum of `(2k + 1)^2` over all shots, the formula does not hold.
+//! There a single good index gives about 1/I, which has no bias while I is the same for all
+//! outcomes. But an adaptive run that meets a good index early goes less deep afterwards: I is
+//! smaller, and the mean estimate too large. [`EXTRA`] more mass near the ends makes up for that.
+
+/// Where the density begins to exceed Haldane's, in units of 1/I, and by which power.
+///
+/// Measured on the Cornell box at 63 queries, to 0.25 % of the mean: powers of 0.5, 0.6 and 0.7
+/// leave a bias of 0.6 %, 0.1 % and -0.4 %; Haldane's prior leaves 2.7 %. The error of a pixel is
+/// the same to 1 %.
+const EXTRA: (f64, f64) = (3.0, 0.6);
+
+/// What all shots of a run have in common.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Evidence {
+    /// Good indices that were measured.
+    pub(super) good: u64,
+    /// Other indices that were measured.
+    pub(super) bad: u64,
+    /// I, the expected number of good indices over a, for an a near 0: with a fraction r of shots
+    /// that noise spares, the sum of `r (2k + 1)^2 + 1 - r` over all shots.
+    pub(super) resolution: f64,
+}
+
+impl Evidence {
+    /// Adds shots after k iterations, `multiple` being `2k + 1`, of which noise spares a fraction
+    /// `intact`: so many good and bad.
+    pub(super) fn note(&mut self, multiple: u64, [good, bad]: [u64; 2], intact: f64) {
+        self.good = self.good.saturating_add(good);
+        self.bad = self.bad.saturating_add(bad);
+        let multiple = multiple as f64;
+        let each = intact * multiple * multiple + 1.0 - intact;
+        self.resolution += each * (good as f64 + bad as f64);
+    }
+}
+
+/// Returns the estimate of a posterior under the even prior, given as `(mass, amplitude)` of its
+/// points; `None` if all mass is at 0 and 1 though the evidence excludes both.
+pub(super) fn amplitude(
+    points: impl Iterator<Item = (f64, f64)>,
+    evidence: Evidence,
+) -> Option<f64> {
+    if evidence.good == 0 {
+        return Some(0.0);
+    }
+    if evidence.bad == 0 {
+        return Some(1.0);
+    }
+    let (unit, power) = EXTRA;
+    let (mut sum, mut first) = (0.0, 0.0);
+    for (mass, a) in points {
+        let product = a * (1.0 - a);
+        if product > 0.0 {
+            let near = 1.0 + unit / (evidence.resolution * product);
+            let weight = mass / product * libm::pow(near, power);
+            sum += weight;
+            first += weight * a;
+        }
+    }
+    let mean = first / sum;
+    mean.is_finite().then(|| mean.clamp(0.0, 1.0))
+}
