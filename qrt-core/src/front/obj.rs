@@ -222,9 +222,13 @@ fn statements(text: &str) -> impl Iterator<Item = (usize, Cow<'_, str>)> {
     let next = move || {
         let (line, first) = lines.next()?;
         let mut text = Cow::Borrowed(first);
-        while is_continued(&text)
+        // None of the lines before the last has a comment: it would have ended the statement.
+        let mut commented = has_comment(first);
+        while !commented
+            && text.ends_with('\\')
             && let Some((_, next)) = lines.next()
         {
+            commented = has_comment(next);
             let joined = text.to_mut();
             joined.pop();
             joined.truncate(joined.trim_end().len());
@@ -251,7 +255,12 @@ fn lines(text: &str) -> impl Iterator<Item = &str> {
 
 /// True if a statement goes on in the next line.
 fn is_continued(text: &str) -> bool {
-    text.ends_with('\\') && !text.split_whitespace().any(|word| word.starts_with('#'))
+    text.ends_with('\\') && !has_comment(text)
+}
+
+/// True if there is a comment in a text.
+fn has_comment(text: &str) -> bool {
+    text.split_whitespace().any(|word| word.starts_with('#'))
 }
 
 /// The keyword of a statement, and what follows it.

@@ -43,6 +43,32 @@ fn a_comment_ends_with_its_line_although_it_ends_in_a_backslash() {
 }
 
 #[test]
+fn what_continues_a_statement_is_looked_for_in_its_last_line() {
+    for (text, expected) in [
+        ("a \\\nb # \\\nc", vec![(1, "a b # \\"), (3, "c")]),
+        ("a \\\\\n\nb", vec![(1, "a b")]),
+        ("a \\\n\nb", vec![(1, "a"), (3, "b")]),
+        ("\\\n# \\\nb", vec![(3, "b")]),
+        ("a \\", vec![(1, "a \\")]),
+    ] {
+        let found: Vec<_> = statements(text).collect();
+        let found: Vec<_> = found.iter().map(|(line, text)| (*line, &**text)).collect();
+        assert_eq!(found, expected, "{text:?}");
+    }
+}
+
+/// A statement of half a million lines, which no one would wait for if each were looked at again.
+#[test]
+fn a_statement_of_very_many_lines_is_read_in_time() {
+    let lines = 1 << 19;
+    let text = format!("g {}\n{SQUARE}f 1 2 3 4\n", "1 \\\n".repeat(lines));
+    let start = std::time::Instant::now();
+    let mesh = read(&text).unwrap();
+    assert_eq!(mesh.faces.len(), 2);
+    assert!(start.elapsed().as_secs() < 30, "{:?}", start.elapsed());
+}
+
+#[test]
 fn lines_are_numbered_as_editors_number_them() {
     for end in ["\n", "\r\n", "\r"] {
         let at = |text: &str, line, words| {
