@@ -11,6 +11,7 @@ mod pictures {
     mod asked_accuracy;
     mod boxes_change_nothing;
     mod counted_pictures;
+    mod estimated_brightness;
     mod extremes;
     mod knot_mesh_is_a_closed_tube;
     mod lamps;

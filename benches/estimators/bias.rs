@@ -22,23 +22,28 @@ const SIDE: f64 = 64.0;
 /// Bits of the register at which random query depths are compared with sampling.
 const COMPARED: u32 = 8;
 const SCENES: [&str; 2] = ["cornell-box", "lit-box"];
+/// Bits from which on a sixteenth of the runs is made: phase registers take long to simulate, and biases are
+/// small there.
+const FEWER_FROM: u32 = 12;
 
 /// An example scene's channels.
 struct Picture {
     scene: &'static str,
     film: u32,
-    /// The values that exact counting gives.
-    exact: Vec<f64>,
+    /// By seed, which decides the paths: the values that exact counting gives.
+    exact: Vec<Vec<f64>>,
 }
 
 impl Picture {
-    fn new(scene: &'static str, film: u32) -> Self {
+    fn new(scene: &'static str, film: u32, seeds: u64) -> Self {
         let mut picture = Self {
             scene,
             film,
             exact: Vec::new(),
         };
-        picture.exact = picture.values(&["counting.estimator=exact".to_owned()], 0);
+        let exact = ["counting.estimator=exact".to_owned()];
+        let by_seed = (0..seeds).map(|seed| picture.values(&exact, seed));
+        picture.exact = by_seed.collect();
         picture
     }
 
@@ -65,7 +70,7 @@ impl Picture {
 }
 
 /// Errors of many runs.
-struct Bias {
+struct Errors {
     /// Mean error.
     bias: f64,
     rmse: f64,
@@ -74,7 +79,7 @@ struct Bias {
     runs: f64,
 }
 
-impl Bias {
+impl Errors {
     /// Of pairs of an error and the truth.
     fn of(runs: impl Iterator<Item = (f64, f64)>) -> Self {
         let [mut n, mut error, mut square, mut truth] = [0.0; 4];
@@ -93,7 +98,7 @@ impl Bias {
     }
 
     /// The bias in standard errors of a picture's mean.
-    fn errors(&self) -> f64 {
+    fn in_standard_errors(&self) -> f64 {
         if self.rmse > 0.0 {
             self.bias * SIDE / self.rmse
         } else {
@@ -101,7 +106,7 @@ impl Bias {
         }
     }
 
-    /// The standard deviation of [`Self::errors`].
+    /// The standard deviation of [`Self::in_standard_errors`].
     fn measured_to(&self) -> f64 {
         SIDE / self.runs.sqrt()
     }
@@ -123,16 +128,20 @@ struct Row {
 /// Measurements of all estimators.
 struct Table {
     pictures: [Picture; 2],
-    /// Renderings of each picture.
+    /// The same with fewer pixels, from [`FEWER_FROM`] on.
+    small: [Picture; 2],
+    /// Renderings of each picture; one of each from [`FEWER_FROM`] on.
     seeds: u64,
     csv: String,
 }
 
 /// Prints the bias of each estimator and judges that of `adaptive-bayes`. Returns all of it as CSV.
 pub(crate) fn tables(names: &[Estimator], quick: bool, verdicts: &mut Verdicts) -> String {
+    let (small, seeds) = if quick { (16, 1) } else { (32, 3) };
     let mut table = Table {
-        pictures: SCENES.map(|scene| Picture::new(scene, if quick { 32 } else { 64 })),
-        seeds: if quick { 1 } else { 3 },
+        pictures: SCENES.map(|scene| Picture::new(scene, 2 * small, seeds)),
+        small: SCENES.map(|scene| Picture::new(scene, small, 1)),
+        seeds,
         csv: String::from("estimator,strata,amplitudes,asked,bias,rmse,mean,runs\n"),
     };
     println!("\n### Bias\n");
@@ -142,7 +151,9 @@ pub(crate) fn tables(names: &[Estimator], quick: bool, verdicts: &mut Verdicts) 
     println!("in brackets, in standard errors of the mean of 64 x 64 pixels, +- their standard");
     println!("deviation; and the RMSE over the mean.\n");
     print!("| estimator | queries |");
-    AMPLITUDES.iter().for_each(|a| print!(" {a:e} |"));
+    for a in AMPLITUDES {
+        print!(" {a:e} |");
+    }
     println!(" Cornell box | RMSE | lit box | RMSE |");
     println!("|{}", " --- |".repeat(2 + AMPLITUDES.len() + 4));
     let mut rmse_of = Vec::new();
@@ -183,6 +194,11 @@ impl Table {
             repetitions: Expected::of(name).repetitions,
         };
         let asked = run.settings().queries;
+        let (seeds, runs) = if bits < FEWER_FROM {
+            (self.seeds, 4096 * self.seeds as u32)
+        } else {
+            (1, 256 * self.seeds as u32)
+        };
         let by_strata = strata != "auto";
         let label = if by_strata {
             format!("{name}, {strata} strata")
@@ -198,27 +214,31 @@ impl Table {
             }
             let good = (a * TOTAL as f64).round() as u64;
             let problem = Problem { good, total: TOTAL };
-            let outcomes = run.outcomes(4096 * self.seeds as u32, |_| problem);
-            let found = Bias::of(outcomes.iter().map(|o| (o.error, o.truth)));
+            let outcomes = run.outcomes(runs, |_| problem);
+            let found = Errors::of(outcomes.iter().map(|o| (o.error, o.truth)));
             print!(" {:+.1e} |", found.bias);
             self.note(row, &a.to_string(), asked, &found);
         }
         let mut rmses = [0.0; 2];
         for (place, rmse) in rmses.iter_mut().enumerate() {
-            let picture = &self.pictures[place];
+            let picture = if bits < FEWER_FROM {
+                &self.pictures[place]
+            } else {
+                &self.small[place]
+            };
             let sets = [
                 format!("counting.estimator={name}"),
                 format!("counting.phase_bits={bits}"),
                 format!("counting.repetitions={}", run.repetitions),
                 format!("counting.strata={strata}"),
             ];
-            let pairs = (0..self.seeds).flat_map(|seed| {
+            let pairs = (0..seeds).flat_map(|seed| {
                 let values = picture.values(&sets, seed).into_iter();
-                let pairs = values.zip(&picture.exact);
+                let pairs = values.zip(&picture.exact[seed as usize]);
                 pairs.map(|(value, &exact)| (value - exact, exact))
             });
-            let (found, scene) = (Bias::of(pairs), picture.scene);
-            let (errors, to) = (found.errors(), found.measured_to());
+            let (found, scene) = (Errors::of(pairs), picture.scene);
+            let (errors, to) = (found.in_standard_errors(), found.measured_to());
             *rmse = found.percent(found.rmse);
             let bias = found.percent(found.bias);
             print!(" {bias:+.2} % ({errors:+.1} +- {to:.1}) | {rmse:.1} % |");
@@ -236,10 +256,10 @@ impl Table {
     }
 
     /// A line of the CSV file.
-    fn note(&mut self, row: Row, on: &str, asked: u64, found: &Bias) {
+    fn note(&mut self, row: Row, on: &str, asked: u64, found: &Errors) {
         let (
             Row { name, strata, .. },
-            Bias {
+            Errors {
                 bias,
                 rmse,
                 mean,

@@ -10,7 +10,8 @@ use crate::estimators::{AmplitudeEstimator, Device, Estimate, EstimatorError, Se
 /// The estimate is the posterior mean under a prior of about `1/(a (1 - a))`, a the amplitude. It is 0 if
 /// no index was good, and 1 if all were. Over the pixels of the Cornell box its bias is below the standard
 /// error of a 64 x 64 picture's mean (a pixel's RMSE over 64) from 63 queries on
-/// (`cargo bench --bench estimators -- bias`).
+/// (`cargo bench --bench estimators -- bias`). Where an error is asked for, the estimate is the mean under
+/// the uniform prior, which lies nearer the interval's middle.
 ///
 /// Query depths and interval follow from a prior that is uniform in the amplitude. The likelihood is that
 /// of the device, with the noise that is known. Query depth is chosen greedily from the whole posterior, multimodal as it is, as in

@@ -1,5 +1,6 @@
 //! What is known of theta after shots at several query depths.
 
+use super::Goal;
 use super::support::{self, Prior, Support};
 use super::unbiased::{self, Evidence};
 use crate::estimators::device::id_bits;
@@ -353,11 +354,17 @@ impl Posterior {
         unbiased::amplitude(points, evidence).unwrap_or_else(|| self.mean_amplitude())
     }
 
-    /// The estimate of a run under [`Prior::Even`], with the interval of likeliest points for
-    /// `confidence`: see [`Self::unbiased_amplitude`] and [`Self::interval`].
-    pub(super) fn estimate(&self, device: &Device<'_>, start: Usage, confidence: f64) -> Estimate {
-        let amplitude = self.unbiased_amplitude();
+    /// The estimate of a run under [`Prior::Even`], with the interval of likeliest points: see
+    /// [`Self::unbiased_amplitude`] and [`Self::interval`]. Where `goal` asks for an error, the estimate is the
+    /// posterior mean, which lies nearer the interval's middle: what is asked for is a bound on each pixel's
+    /// error, not on the picture's.
+    pub(super) fn estimate(&self, device: &Device<'_>, start: Usage, goal: &Goal) -> Estimate {
+        let confidence = goal.confidence;
         let (low, high) = self.interval(confidence);
+        let amplitude = match goal.error {
+            Some(_) => self.mean_amplitude(),
+            None => self.unbiased_amplitude(),
+        };
         let interval = (low.min(amplitude), high.max(amplitude));
         Estimate {
             good: self.likeliest().map(|(good, _)| good),

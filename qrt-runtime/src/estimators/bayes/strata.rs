@@ -85,10 +85,7 @@ pub(super) fn estimate(
             }
         }
     }
-    Ok(whole
-        .posterior
-        .sharpened()
-        .estimate(device, start, goal.confidence))
+    Ok(whole.posterior.sharpened().estimate(device, start, goal))
 }
 
 /// Counts `strata` strata one by one, with the queries that are left since `start`.
