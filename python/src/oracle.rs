@@ -71,7 +71,7 @@ impl Oracle {
             Inspection::of_pixel(&traced, number, place)
         })?;
         let inspection = inspection.map_err(|error| report(vec![error.problem()]))?;
-        check_budget(&traced, inspection.oracle_cost().call).map_err(report)?;
+        check_budget(&traced, &[inspection.oracle_cost()]).map_err(report)?;
         Ok(Self {
             scene: this,
             name: inspection.name,

@@ -33,7 +33,7 @@ pub use bound::BoundProgram;
 pub use budget::{CallCost, call_cost, check_budget};
 pub use costs::{
     OracleCost, OracleName, PARTS_OF_A_CALL, most_expensive_oracle, oracle_costs,
-    oracle_costs_under, oracle_names,
+    oracle_costs_knowing, oracle_costs_of_class, oracle_costs_under, oracle_names,
 };
 pub use layouts::{Layout, Layouts};
 pub use nearest::{MOST_FACES, NearestOracle};
@@ -45,7 +45,7 @@ use crate::compile::{
 };
 use crate::sampling::{PathPoints, SamplingError};
 use crate::scene::ComparatorAt;
-use crate::tracer::{Arith, PixelClass, Stage};
+use crate::tracer::{Arith, PixelClass, PixelClasses, Stage};
 use crate::valid::ValidScene;
 use qrt_circuit::{
     Bit, BlockId, Cores, Instruction, Op, Operand, Program, RegisterId, Word, lower,
@@ -234,15 +234,26 @@ impl Oracle {
         Ok((channels, rgb))
     }
 
-    /// The oracle of all three channels together, and what a call of that of the most expensive
-    /// channel costs: [`call_cost`] of [`Oracle::all`], sooner, and on all cores.
+    /// The oracle of all three channels together, and what a call of each channel's oracle costs, all
+    /// for pixels of the class that any pixel may be of: those of [`Oracle::all`], sooner, and on all
+    /// cores. Of a scene with such pixels, the costs are those of that class in [`oracle_costs`].
     ///
     /// # Errors
     /// As [`Oracle::new`].
-    pub fn rgb_and_cost(scene: &ValidScene) -> Result<(Self, CallCost), OracleError> {
+    pub fn rgb_and_costs(scene: &ValidScene) -> Result<(Self, [OracleCost; 3]), OracleError> {
         let (channels, rgb, recording) = Self::all_recorded(scene, Cores::All)?;
-        let cost = budget::call_cost_by(&channels, &mut recording.known());
-        Ok((rgb, cost))
+        let class = PixelClass::default();
+        let of_all_pixels = PixelClasses::new(scene).present() == [class];
+        let known = &mut recording.known();
+        let costs = [0, 1, 2].map(|channel| {
+            let name = OracleName {
+                channel,
+                class,
+                of_all_pixels,
+            };
+            OracleCost::of(name, &channels[channel], known)
+        });
+        Ok((rgb, costs))
     }
 
     fn all_recorded(

@@ -498,7 +498,13 @@ fn sampling_what_is_not_there_is_told_and_changes_nothing() {
 /// The classes that are listed are those that some pixel has.
 #[test]
 fn a_lamp_beside_the_film_makes_no_class_of_pixels() {
-    let classes = |target: &str, vfov: u32| {
+    const QUAD: &str =
+        "quad: { vertices: [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], material: lamp }";
+    // They fill the film together only.
+    const TRIANGLES: &str = "\
+triangle: { vertices: [[-1, -1, 0], [1, -1, 0], [1, 1, 0]], material: lamp }
+  - triangle: { vertices: [[-1, -1, 0], [1, 1, 0], [-1, 1, 0]], material: lamp }";
+    let scene = |lamp: &str, target: &str, vfov: u32, sets: &[&str]| {
         let text = format!(
             "\
 name: lamp
@@ -508,19 +514,21 @@ materials:
   grey: {{ lambertian: {{ albedo: [0.5, 0.5, 0.5] }} }}
   lamp: {{ emitter: {{ radiance: [4, 4, 4] }} }}
 geometry:
-  - quad: {{ vertices: [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], material: lamp }}
+  - {lamp}
   - quad: {{ vertices: [[-9, -9, -1], [9, -9, -1], [9, 9, -1], [-9, 9, -1]], material: grey }}
 sampling: {{ path_bits: 4, depths: [{{ bits: [4, 4] }}, {{ bits: [4, 4], light: [4, 4] }}] }}
 "
         );
-        let scene = written(&text, &[]);
-        let classes = PixelClasses::new(&scene);
+        written(&text, sets)
+    };
+    let classes = |lamp: &str, target: &str, vfov: u32| {
+        let classes = PixelClasses::new(&scene(lamp, target, vfov, &[]));
         let had = |class| {
             let pixels = (0..20).map(|k| [k % 5, k / 5]);
             pixels.map(|pixel| classes.of(pixel)).any(|of| of == class)
         };
         let had: Vec<PixelClass> = PixelClass::ALL.into_iter().filter(|&c| had(c)).collect();
-        assert_eq!(classes.present(), had, "{target} {vfov}");
+        assert_eq!(classes.present(), had, "{lamp} {target} {vfov}");
         had.len()
     };
     // In the middle of the film; filling it; beside it; above it.
@@ -530,8 +538,19 @@ sampling: {{ path_bits: 4, depths: [{{ bits: [4, 4] }}, {{ bits: [4, 4], light: 
         ("[3, 0, 0]", 20),
         ("[0, -3, 0]", 20),
     ];
-    assert_eq!(
-        seen.map(|(target, vfov)| classes(target, vfov)),
-        [2, 1, 1, 1]
+    for lamp in [QUAD, TRIANGLES] {
+        assert_eq!(
+            seen.map(|(target, vfov)| classes(lamp, target, vfov)),
+            [2, 1, 1, 1]
+        );
+    }
+    // All of a large film's pixels are decided, too.
+    let large = scene(
+        TRIANGLES,
+        "[0, 0, 0]",
+        5,
+        &["film={ width: 16384, height: 16384 }"],
     );
+    let classes = PixelClasses::new(&large);
+    assert_eq!(classes.present(), [PixelClass::MayMeetLamp]);
 }

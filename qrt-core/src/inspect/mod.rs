@@ -26,7 +26,7 @@ use crate::compile::{Role, Strategy};
 use crate::oracle::{
     CallCost, Options, Oracle, OracleCost, OracleError, OracleName, PARTS_OF_A_CALL, oracle_costs,
 };
-use crate::tracer::{PixelClass, PixelClasses};
+use crate::tracer::PixelClasses;
 use crate::valid::ValidScene;
 use qrt_circuit::Program;
 use qrt_circuit::lower::{self, Cost};
@@ -127,10 +127,13 @@ impl Inspection {
         Self::most_expensive_of(scene, &oracle_costs(scene)?, channel)
     }
 
-    /// The same by the scene's [`oracle_costs`].
+    /// The same by the scene's [`oracle_costs`], or by some of them.
     ///
     /// # Errors
     /// As [`Oracle::new`].
+    ///
+    /// # Panics
+    /// If `costs` has no oracle of `channel`, or none at all.
     pub fn most_expensive_of(
         scene: &ValidScene,
         costs: &[OracleCost],
@@ -138,10 +141,10 @@ impl Inspection {
     ) -> Result<Self, OracleError> {
         let costs = costs.iter().copied();
         let asked = costs.filter(|cost| channel.is_none_or(|one| one == cost.name.channel));
-        let most = OracleCost::most_expensive(asked);
-        let class = most.map_or_else(PixelClass::default, |most| most.name.class);
-        let channel = most.map(|most| most.name.channel).or(channel);
-        Self::new(scene, channel, Options::of_class(class))
+        let Some(OracleCost { name, .. }) = OracleCost::most_expensive(asked) else {
+            panic!("there are no costs of an oracle that is asked for");
+        };
+        Self::new(scene, Some(name.channel), Options::of_class(name.class))
     }
 
     /// Inspects the oracle of a pixel as it is exported: that of the pixel's class, with the pixel's
@@ -149,11 +152,21 @@ impl Inspection {
     ///
     /// # Errors
     /// As [`Oracle::new`].
+    ///
+    /// # Panics
+    /// If the film has no such pixel.
     pub fn of_pixel(
         scene: &ValidScene,
         channel: Option<usize>,
         pixel: OraclePixel,
     ) -> Result<Self, OracleError> {
+        let ([x, y], film) = (pixel.place, scene.scene().film);
+        assert!(
+            x < film.width && y < film.height,
+            "there is no pixel {x},{y} on a film of {} x {}",
+            film.width,
+            film.height
+        );
         let class = PixelClasses::new(scene).of(pixel.place);
         let mut inspection = Self::new(scene, channel, Options::of_class(class))?;
         pixel.build_in(&inspection.oracle, &inspection.whole, &mut inspection.costs);

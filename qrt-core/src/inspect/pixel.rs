@@ -7,7 +7,7 @@ use qrt_circuit::{Op, Program, RegisterId};
 /// A pixel, and the seed that shifts its paths: together they fix the parameters of its oracle.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct OraclePixel {
-    /// Column and row of the pixel, from 0 at the top left.
+    /// Column and row of the pixel, from 0 at the top left; less than the film's width and height.
     pub place: [u32; 2],
     /// Key of the shifts of its paths.
     pub seed: u64,

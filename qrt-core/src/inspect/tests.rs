@@ -125,3 +125,21 @@ fn wires_are_computed_once_and_returned() {
         assert_eq!(read("Z"), ["flag"]);
     }
 }
+
+#[test]
+#[should_panic(expected = "there is no pixel 1,4 on a film of 4 x 4")]
+fn a_pixel_beside_the_film_has_no_oracle() {
+    let scene = parse(SCENE, "lit-floor.yaml", &[], "".as_ref()).unwrap();
+    let pixel = OraclePixel {
+        place: [1, 4],
+        seed: 0,
+    };
+    let _ = Inspection::of_pixel(&scene.valid, None, pixel);
+}
+
+#[test]
+#[should_panic(expected = "no costs of an oracle that is asked for")]
+fn of_no_oracles_none_is_the_most_expensive() {
+    let scene = parse(SCENE, "lit-floor.yaml", &[], "".as_ref()).unwrap();
+    let _ = Inspection::most_expensive_of(&scene.valid, &[], Some(1));
+}

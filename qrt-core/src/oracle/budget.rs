@@ -1,6 +1,6 @@
 //! What a scene allows its circuit, and what is wrong when there is no circuit.
 
-use super::{MOST_FACES, Oracle, OracleError};
+use super::{MOST_FACES, Oracle, OracleCost, OracleError};
 use crate::compile::{self, BuildError};
 use crate::scene::{Nearest, Uncompute};
 use crate::syntax::{Circuit, Path, Problem, Problems};
@@ -16,13 +16,21 @@ pub struct CallCost {
     pub toffoli: u64,
 }
 
-/// The cost of a call of the most expensive of these oracles, each of which is of one channel.
-pub fn call_cost(channels: &[Oracle]) -> CallCost {
-    call_cost_by(channels, &mut compile::Known::default())
+impl CallCost {
+    /// The most qubits and the most Toffolis of a call of any of these oracles, which may be two
+    /// oracles; 0 of no oracles.
+    pub fn greatest(costs: &[OracleCost]) -> Self {
+        let calls = || costs.iter().map(|cost| cost.call);
+        Self {
+            qubits: calls().map(|call| call.qubits).max().unwrap_or(0),
+            toffoli: calls().map(|call| call.toffoli).max().unwrap_or(0),
+        }
+    }
 }
 
-/// As [`call_cost`], by what is known of operations.
-pub(super) fn call_cost_by(channels: &[Oracle], known: &mut compile::Known) -> CallCost {
+/// The cost of a call of the most expensive of these oracles, each of which is of one channel.
+pub fn call_cost(channels: &[Oracle]) -> CallCost {
+    let known = &mut compile::Known::default();
     let priced = channels.iter().map(|oracle| {
         let figures = figures(oracle, known);
         (toffoli(oracle, &figures), oracle, figures)
@@ -70,16 +78,18 @@ fn toffoli(oracle: &Oracle, figures: &[Figures]) -> u64 {
     2 * once + steps.sum::<u64>()
 }
 
-/// Reports the limits of the scene's `budget` that a call exceeds, each with what could be done
-/// about it. [`crate::front::Loaded::report`] shows them in the scene.
+/// Reports the limits of the scene's `budget` that calls of these oracles exceed, each with what could
+/// be done about it: those of [`oracle_costs`](super::oracle_costs), or those of them that are run.
+/// Each limit holds for every oracle. [`crate::front::Loaded::report`] shows the problems in the scene.
 ///
 /// # Errors
 /// At least one limit is exceeded.
-pub fn check_budget(scene: &ValidScene, spent: CallCost) -> Result<(), Vec<Problem>> {
+pub fn check_budget(scene: &ValidScene, costs: &[OracleCost]) -> Result<(), Vec<Problem>> {
     let written = scene.scene();
     let Some(budget) = written.budget else {
         return Ok(());
     };
+    let spent = CallCost::greatest(costs);
     let uncompute = written.circuit.uncompute;
     let scoped = !matches!(uncompute, Uncompute::Keep | Uncompute::Auto);
     let path = Path::root().key("budget");
@@ -140,8 +150,11 @@ impl OracleError {
 mod tests {
     use super::*;
     use crate::front::{Loaded, parse};
-    use crate::oracle::{Options, Oracle};
+    use crate::oracle::{
+        Options, Oracle, OracleName, oracle_costs, oracle_costs_knowing, oracle_costs_of_class,
+    };
     use crate::syntax::codes;
+    use crate::tracer::PixelClass;
 
     fn loaded(more: &str) -> Loaded {
         let text = format!(
@@ -156,15 +169,24 @@ geometry: [quad: {{ vertices: [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], mate
         parse(&text, "furnace.yaml", &[], "".as_ref()).unwrap()
     }
 
-    const SPENT: CallCost = CallCost {
-        qubits: 1000,
-        toffoli: 12_345,
-    };
+    const fn cost(channel: usize, qubits: u64, toffoli: u64) -> OracleCost {
+        OracleCost {
+            name: OracleName {
+                channel,
+                class: PixelClass::MayMeetLamp,
+                of_all_pixels: true,
+            },
+            call: CallCost { qubits, toffoli },
+        }
+    }
+
+    /// The one with the most Toffolis has not the most qubits.
+    const SPENT: [OracleCost; 2] = [cost(0, 900, 12_345), cost(1, 1000, 12_000)];
 
     #[test]
     fn a_scene_without_a_budget_may_spend_anything() {
         for more in ["", "budget: {}", "budget: { qubits: 1000, toffoli: 12345 }"] {
-            assert_eq!(check_budget(&loaded(more).valid, SPENT), Ok(()), "{more}");
+            assert_eq!(check_budget(&loaded(more).valid, &SPENT), Ok(()), "{more}");
         }
     }
 
@@ -188,7 +210,7 @@ geometry: [quad: {{ vertices: [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], mate
             let loaded = loaded(&format!(
                 "{more}\nbudget: {{ qubits: 999, toffoli: 10000 }}"
             ));
-            let problems = check_budget(&loaded.valid, SPENT).unwrap_err();
+            let problems = check_budget(&loaded.valid, &SPENT).unwrap_err();
             let codes: Vec<_> = problems.iter().map(Problem::code).collect();
             assert_eq!(codes, [codes::BUDGET_QUBITS, codes::BUDGET_TOFFOLI]);
             for (problem, advice) in problems.iter().zip(advice) {
@@ -203,6 +225,18 @@ geometry: [quad: {{ vertices: [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], mate
                 "{text}"
             );
             assert!(text.contains("--> furnace.yaml:7:19"), "{text}");
+        }
+    }
+
+    #[test]
+    fn each_limit_holds_for_every_oracle() {
+        for (more, found) in [
+            ("budget: { qubits: 999 }", codes::BUDGET_QUBITS),
+            ("budget: { toffoli: 12344 }", codes::BUDGET_TOFFOLI),
+        ] {
+            let problems = check_budget(&loaded(more).valid, &SPENT).unwrap_err();
+            let codes: Vec<_> = problems.iter().map(Problem::code).collect();
+            assert_eq!(codes, [found]);
         }
     }
 
@@ -236,8 +270,11 @@ sampling:
             scene.circuit.uncompute = uncompute;
             let scene = scene.validate("".as_ref()).unwrap();
             let (channels, rgb) = Oracle::all(&scene).unwrap();
-            let (sooner, cost) = Oracle::rgb_and_cost(&scene).unwrap();
+            let (sooner, costs) = Oracle::rgb_and_costs(&scene).unwrap();
             assert_eq!(rgb.program, sooner.program);
+            // No lamp is sampled: there is one class.
+            assert_eq!(oracle_costs(&scene).unwrap(), costs);
+            let cost = OracleCost::most_expensive(costs).unwrap().call;
             assert_eq!(call_cost(&channels), cost);
             let toffoli = |oracle: &Oracle| lower::toffoli(&oracle.whole(0));
             assert_eq!(channels.iter().map(toffoli).max(), Some(cost.toffoli));
@@ -247,6 +284,26 @@ sampling:
             let qubits = of_most.next().map(|oracle| u64::from(oracle.qubits()));
             assert_eq!(qubits, Some(cost.qubits));
         }
+    }
+
+    #[test]
+    fn classes_that_are_compiled_alone_cost_what_they_cost_among_all() {
+        let path = "{ bits: [4, 4], map: uniform-hemisphere }";
+        let text = tilted("lambertian: { albedo: [0.2, 0.3, 0.4] }")
+            .source
+            .text;
+        let text = text.replace(
+            &format!("{path}, {path}"),
+            "{ bits: [4, 4], light: [4, 4] }",
+        );
+        let scene = parse(&text, "tilted.yaml", &[], "".as_ref()).unwrap().valid;
+        let costs = oracle_costs(&scene).unwrap();
+        assert_eq!(costs.len(), 6);
+        let alone = PixelClass::ALL.map(|class| oracle_costs_of_class(&scene, class).unwrap());
+        assert_eq!(alone.concat(), costs);
+        let (_, known) = Oracle::rgb_and_costs(&scene).unwrap();
+        assert_eq!(costs[..3], known);
+        assert_eq!(oracle_costs_knowing(&scene, &known).unwrap(), costs);
     }
 
     /// A cosine is at most 1, and so are its powers.

@@ -9,8 +9,8 @@
 //! around it (the reflection, the phase register) is no part of it.
 
 use super::recording::{CHANNELS, PrimaryHit, Recording};
-use super::{CallCost, Options, OracleError, budget};
-use crate::compile::Strategy;
+use super::{CallCost, Options, Oracle, OracleError, budget};
+use crate::compile::{self, Strategy};
 use crate::tracer::{PixelClass, PixelClasses};
 use crate::valid::ValidScene;
 use qrt_circuit::Cores;
@@ -80,16 +80,26 @@ pub struct OracleCost {
 }
 
 impl OracleCost {
+    /// The cost of a call of `oracle`, which has that name, by what is known of operations.
+    pub(super) fn of(name: OracleName, oracle: &Oracle, known: &mut compile::Known) -> Self {
+        let figures = budget::figures(oracle, known);
+        let call = budget::cost_by(oracle, &figures);
+        Self { name, call }
+    }
+
+    /// The one of two with more Toffolis; the first of equals.
+    #[must_use]
+    pub fn dearer(self, other: Self) -> Self {
+        if self.call.toffoli < other.call.toffoli {
+            other
+        } else {
+            self
+        }
+    }
+
     /// The oracle with the most Toffolis; the first of equals. None of no oracles.
     pub fn most_expensive(costs: impl IntoIterator<Item = Self>) -> Option<Self> {
-        let more = |most: Self, next: Self| {
-            if most.call.toffoli < next.call.toffoli {
-                next
-            } else {
-                most
-            }
-        };
-        costs.into_iter().reduce(more)
+        costs.into_iter().reduce(Self::dearer)
     }
 }
 
@@ -144,6 +154,44 @@ pub fn oracle_costs(scene: &ValidScene) -> Result<Vec<OracleCost>, OracleError> 
     oracle_costs_under(scene, strategy)
 }
 
+/// Those of [`oracle_costs`] for pixels of `class`, which is the only one that is compiled; none if no
+/// pixel is of it.
+///
+/// # Errors
+/// As [`oracle_costs`].
+pub fn oracle_costs_of_class(
+    scene: &ValidScene,
+    class: PixelClass,
+) -> Result<Vec<OracleCost>, OracleError> {
+    let mut names = oracle_names(scene);
+    names.retain(|name| name.class == class);
+    costs_of(scene, &names, Options::default().strategy(scene)?)
+}
+
+/// The costs of [`oracle_costs`], where those of some classes are `known`: only the others are
+/// compiled.
+///
+/// # Errors
+/// As [`oracle_costs`].
+pub fn oracle_costs_knowing(
+    scene: &ValidScene,
+    known: &[OracleCost],
+) -> Result<Vec<OracleCost>, OracleError> {
+    let names = oracle_names(scene);
+    let strategy = Options::default().strategy(scene)?;
+    let mut costs = Vec::with_capacity(names.len());
+    for names in names.chunk_by(|a, b| a.class == b.class) {
+        let of_class = known.iter().filter(|cost| names.contains(&cost.name));
+        let of_class: Vec<OracleCost> = of_class.copied().collect();
+        costs.extend(if of_class.len() == names.len() {
+            of_class
+        } else {
+            costs_of(scene, names, strategy)?
+        });
+    }
+    Ok(costs)
+}
+
 /// The costs of [`oracle_costs`] under another strategy than the scene's.
 ///
 /// # Errors
@@ -152,7 +200,15 @@ pub fn oracle_costs_under(
     scene: &ValidScene,
     strategy: Strategy,
 ) -> Result<Vec<OracleCost>, OracleError> {
-    let names = oracle_names(scene);
+    costs_of(scene, &oracle_names(scene), strategy)
+}
+
+/// The costs of a call of each of these oracles, which are sorted by class.
+fn costs_of(
+    scene: &ValidScene,
+    names: &[OracleName],
+    strategy: Strategy,
+) -> Result<Vec<OracleCost>, OracleError> {
     let mut costs = Vec::with_capacity(names.len());
     for names in names.chunk_by(|a, b| a.class == b.class) {
         let options = Options {
@@ -163,11 +219,8 @@ pub fn oracle_costs_under(
         recording.known().cores = Cores::All;
         let oracles = Cores::All.map(names, 1, |name| recording.oracle(&[name.channel]));
         let known = &mut recording.known();
-        costs.extend(names.iter().zip(&oracles).map(|(&name, oracle)| {
-            let figures = budget::figures(oracle, known);
-            let call = budget::cost_by(oracle, &figures);
-            OracleCost { name, call }
-        }));
+        let named = names.iter().zip(&oracles);
+        costs.extend(named.map(|(&name, oracle)| OracleCost::of(name, oracle, known)));
     }
     Ok(costs)
 }

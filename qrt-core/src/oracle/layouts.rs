@@ -233,8 +233,8 @@ impl<'a> Layouts<'a> {
     }
 }
 
-/// The strategy of a scene's circuits. `auto` is the cheapest with which the most expensive oracle fits
-/// into `budget.qubits`; it is looked for once a scene.
+/// The strategy of a scene's circuits. `auto` is the cheapest for the most expensive oracle with which
+/// all oracles fit into `budget.qubits`; it is looked for once a scene.
 pub(super) fn strategy_of(scene: &ValidScene) -> Result<Strategy, OracleError> {
     if let Some(strategy) = Strategy::of(scene.scene().circuit.uncompute) {
         return Ok(strategy);
@@ -254,9 +254,63 @@ fn auto(scene: &ValidScene) -> Result<Strategy, OracleError> {
     let Some(most) = scene.scene().budget.and_then(|budget| budget.qubits) else {
         return Ok(Strategy::KEEP);
     };
-    let keep = costs::most_expensive_of(&costs::oracle_costs_under(scene, Strategy::KEEP)?);
-    if keep.call.qubits <= most {
+    let keep = costs::oracle_costs_under(scene, Strategy::KEEP)?;
+    if CallCost::greatest(&keep).qubits <= most {
         return Ok(Strategy::KEEP);
     }
-    Layouts::of_class(scene, keep.name.channel, keep.name.class).cheapest(most)
+    let name = costs::most_expensive_of(&keep).name;
+    let layouts = Layouts::of_class(scene, name.channel, name.class);
+    let figures = |strategy| -> Result<(u64, u64), OracleError> {
+        let costs = costs::oracle_costs_under(scene, strategy)?;
+        let own = costs.iter().find(|cost| cost.name == name);
+        let own = own.map_or(0, |cost| cost.call.qubits);
+        Ok((own, CallCost::greatest(&costs).qubits))
+    };
+    fitting(most, |qubits| layouts.cheapest(qubits), figures)
+}
+
+/// The strategy that `cheapest` has for at most `most` qubits, or for fewer until all oracles have at
+/// most `most`. `figures` are the qubits of the oracle that is looked at, and the most of any. If not
+/// all can fit, the last that was tried.
+fn fitting(
+    most: u64,
+    cheapest: impl Fn(u64) -> Result<Strategy, OracleError>,
+    figures: impl Fn(Strategy) -> Result<(u64, u64), OracleError>,
+) -> Result<Strategy, OracleError> {
+    let mut allowed = most;
+    loop {
+        let strategy = cheapest(allowed)?;
+        let (own, greatest) = figures(strategy)?;
+        let over = greatest.saturating_sub(most);
+        if over == 0 || own > allowed {
+            return Ok(strategy);
+        }
+        // Others need about as many more under another strategy.
+        allowed = own.saturating_sub(over);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Another oracle may need more qubits than the one with the most Toffolis.
+    #[test]
+    fn a_strategy_fits_with_all_oracles() {
+        // By Toffolis: own qubits, and the most of any oracle.
+        let front = [(100, 103), (90, 94), (80, 81), (70, 70)];
+        let place = |strategy: Strategy| {
+            let front = Strategy::all().into_iter().take(front.len());
+            front.into_iter().position(|one| one == strategy).unwrap()
+        };
+        let cheapest = |qubits| {
+            let fits = front.iter().position(|(own, _)| *own <= qubits);
+            Ok(Strategy::all()[fits.unwrap_or(front.len() - 1)])
+        };
+        let figures = |strategy| Ok(front[place(strategy)]);
+        for (most, expected) in [(103, 0), (102, 1), (100, 1), (93, 2), (80, 3), (60, 3)] {
+            let found = fitting(most, cheapest, figures).unwrap();
+            assert_eq!(place(found), expected, "{most}");
+        }
+    }
 }

@@ -10,6 +10,9 @@ use glam::DVec2;
 /// How far outside its square a pixel's rays are taken to go, in pixels: far above rounding.
 const MARGIN: f64 = 1e-6;
 
+/// The most outlines that are compared with parts of the film, in search of a pixel that meets none.
+const MOST_COMPARED: usize = 1 << 20;
+
 /// What primary rays of a pixel may meet.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum PixelClass {
@@ -36,6 +39,9 @@ pub struct PixelClasses {
 impl PixelClasses {
     /// The classes of `scene`'s pixels. Where no lamp is sampled, all may meet one: the scale is
     /// then that of what their paths meet by chance.
+    ///
+    /// Lamps that cover the film together are told from others that leave a pixel free by a search of
+    /// bounded effort. Where it ends without an answer, a pixel is taken to be free.
     pub fn new(scene: &ValidScene) -> Self {
         let written = scene.scene();
         let sampling = &written.sampling;
@@ -52,9 +58,6 @@ impl PixelClasses {
             match view.outline(lamp.outline()) {
                 camera::Seen::Not => {}
                 camera::Seen::Within(outline) => {
-                    if covers(&outline, film) {
-                        return Self::one();
-                    }
                     // A lamp beside the film makes no class that a pixel could have.
                     if meets_pixels(&outline, [0, 0], film) {
                         outlines.push(outline);
@@ -62,6 +65,11 @@ impl PixelClasses {
                 }
                 camera::Seen::Anywhere => return Self::one(),
             }
+        }
+        let all: Vec<&[DVec2]> = outlines.iter().map(Vec::as_slice).collect();
+        let mut effort = MOST_COMPARED;
+        if !may_be_free(&all, [0, 0], film, &mut effort) {
+            return Self::one();
         }
         Self {
             outlines: Some(outlines),
@@ -127,7 +135,8 @@ impl PixelClasses {
         Ok(all.into_iter().flatten().collect())
     }
 
-    /// The classes that pixels of the film have.
+    /// The classes that pixels of the film have; both where that is not known: see
+    /// [`PixelClasses::new`].
     pub fn present(&self) -> &'static [PixelClass] {
         match &self.outlines {
             None => &PixelClass::ALL[..1],
@@ -143,12 +152,41 @@ fn meets_pixels(outline: &[DVec2], first: [u32; 2], end: [u32; 2]) -> bool {
     meets(outline, corner(first) - MARGIN, corner(end) + MARGIN)
 }
 
-/// True if rays of every pixel may meet the outline, which is convex: it then has a point in each
-/// corner pixel, and with them points in all rows and columns between.
-fn covers(outline: &[DVec2], [width, height]: [u32; 2]) -> bool {
-    let corners = [0, width - 1].into_iter();
-    let mut corners = corners.flat_map(|x| [[x, 0], [x, height - 1]]);
+/// True if rays of every pixel from `first` up to but not including `end` may meet the outline, which
+/// is convex: it then has a point in each corner pixel, and with them points in all rows and columns
+/// between.
+fn covers(outline: &[DVec2], first: [u32; 2], end: [u32; 2]) -> bool {
+    let corners = [first[0], end[0] - 1].into_iter();
+    let mut corners = corners.flat_map(|x| [[x, first[1]], [x, end[1] - 1]]);
     corners.all(|[x, y]| meets_pixels(outline, [x, y], [x + 1, y + 1]))
+}
+
+/// False if every pixel from `first` up to but not including `end` meets one of the outlines; true if
+/// one meets none, or `effort` ends before that is known.
+fn may_be_free(outlines: &[&[DVec2]], first: [u32; 2], end: [u32; 2], effort: &mut usize) -> bool {
+    let near = outlines.iter().copied();
+    let near: Vec<&[DVec2]> = near.filter(|o| meets_pixels(o, first, end)).collect();
+    if near.is_empty() {
+        return true;
+    }
+    // A single pixel is covered by what it meets.
+    if near.iter().any(|outline| covers(outline, first, end)) {
+        return false;
+    }
+    *effort = effort.saturating_sub(4 * near.len());
+    *effort == 0 || quarters(first, end).any(|[first, end]| may_be_free(&near, first, end, effort))
+}
+
+/// The parts, each with its first pixel and its end, into which a box of several pixels falls.
+fn quarters(first: [u32; 2], end: [u32; 2]) -> impl Iterator<Item = [[u32; 2]; 2]> {
+    let halves = [0, 1].map(|axis| {
+        let middle = first[axis].midpoint(end[axis]);
+        [[first[axis], middle], [middle, end[axis]]]
+    });
+    let parts = halves[0].into_iter().flat_map(move |[left, right]| {
+        halves[1].map(|[top, bottom]| [[left, top], [right, bottom]])
+    });
+    parts.filter(|[first, end]| first[0] < end[0] && first[1] < end[1])
 }
 
 /// Whether a convex outline and a box of the film have a point in common.

@@ -20,7 +20,7 @@ pub(crate) use stub::stub;
 
 use names::Names;
 use proc_macro2::TokenStream;
-use qrt_core::oracle::{CallCost, Oracle, check_budget};
+use qrt_core::oracle::{CallCost, Oracle, OracleCost, check_budget, oracle_costs_knowing};
 use qrt_core::syntax::Problem;
 use qrt_core::valid::ValidScene;
 use std::fmt::Write as _;
@@ -63,11 +63,13 @@ fn text(
     conditions: &str,
     (labels, valid): (&[Option<String>], &ValidScene),
 ) -> Result<String, Vec<Problem>> {
-    let recorded = Oracle::rgb_and_cost(valid);
-    let (oracle, cost) = recorded.map_err(|error| vec![error.problem()])?;
-    check_budget(valid, cost)?;
+    let recorded = Oracle::rgb_and_costs(valid);
+    let (oracle, costs) = recorded.map_err(|error| vec![error.problem()])?;
+    keep_budget(valid, &costs)?;
+    let [red, green, blue] = costs;
+    let most = red.dearer(green).dearer(blue);
     let mut out = format!("{conditions}\n");
-    out.push_str(&figures(scene, public, valid, &oracle, cost));
+    out.push_str(&figures(scene, public, valid, &oracle, most.call));
     paths::write(&mut out, scene, public, conditions, valid);
     paths::numbers(&mut out, scene, public, conditions, (labels, valid));
     if oracle.program.ops.len() <= MOST {
@@ -110,6 +112,16 @@ fn text(
         out.push_str("};\n};\n");
     }
     Ok(out)
+}
+
+/// Reports what of the scene's oracles is beyond its budget. Those whose costs are not `known`, of
+/// pixels of another class, are compiled for it.
+fn keep_budget(valid: &ValidScene, known: &[OracleCost]) -> Result<(), Vec<Problem>> {
+    if valid.scene().budget.is_none() {
+        return Ok(());
+    }
+    let costs = oracle_costs_knowing(valid, known);
+    check_budget(valid, &costs.map_err(|error| vec![error.problem()])?)
 }
 
 /// What the circuit is and costs.

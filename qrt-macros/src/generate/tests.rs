@@ -123,3 +123,16 @@ fn a_budget_is_held_when_the_scene_is_compiled() {
         .collect();
     assert_eq!(codes, ["QRT0601", "QRT0602"]);
 }
+
+/// Of the box whose lamp is sampled, the oracles of pixels that see no lamp have more Toffolis than
+/// those that the code is of.
+#[test]
+fn a_budget_is_held_by_the_oracles_of_all_pixels() {
+    let lit = include_str!("../../../scenes-yaml/lit-box.yaml");
+    let (_, own) = Oracle::rgb_and_costs(&parsed(lit)).unwrap();
+    let most = OracleCost::most_expensive(own).unwrap().call.toffoli;
+    let tight = parsed(&format!("{lit}\nbudget: {{ toffoli: {most} }}\n"));
+    let problems = text("Box", "pub", "", (&[], &tight)).unwrap_err();
+    let codes: Vec<_> = problems.iter().map(Problem::code).collect();
+    assert_eq!(codes, ["QRT0602"]);
+}

@@ -2,7 +2,7 @@
 
 use super::{Model, Options, RenderError};
 use crate::memory::CircuitWork;
-use qrt_core::oracle::{check_budget, most_expensive_oracle};
+use qrt_core::oracle::{check_budget, oracle_costs};
 use qrt_core::valid::ValidScene;
 use std::num::NonZeroUsize;
 use std::thread::available_parallelism;
@@ -35,5 +35,5 @@ pub fn check_circuit(scene: &ValidScene, options: &Options<'_>) -> Result<(), Re
     if scene.scene().budget.is_none() {
         return Ok(());
     }
-    check_budget(scene, most_expensive_oracle(scene)?.call).map_err(RenderError::Budget)
+    check_budget(scene, &oracle_costs(scene)?).map_err(RenderError::Budget)
 }

@@ -323,7 +323,7 @@ fn circuit(args: &ExportArgs, format: Format) -> Result<(), Failure> {
     memory::keep_circuit(args.scene.memory(), scene, CircuitWork::Export)?;
     let inspection = Inspection::of_pixel(scene, args.channel, pixel)
         .map_err(|error| loaded.report(vec![error.problem()]))?;
-    keep_budget(&loaded, inspection.oracle_cost().call)?;
+    keep_budget(&loaded, &[inspection.oracle_cost()])?;
     let failed = |error: &dyn std::error::Error| Failure::Job(error.to_string());
     let oracle = inspection.oracle.phase(0, pixel.seed, pixel.place);
     let mut oracle = oracle.map_err(|error| failed(&error))?;

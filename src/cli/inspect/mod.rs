@@ -14,9 +14,8 @@ use super::terminal;
 use clap::Args;
 use qrt_core::front::Loaded;
 use qrt_core::inspect::{CHANNELS, Frame, Inspection, OraclePixel, PassFigures};
-use qrt_core::oracle::{
-    CallCost, OracleCost, OracleError, check_budget, most_expensive_oracle, oracle_costs,
-};
+use qrt_core::oracle::{OracleCost, OracleError, check_budget, oracle_costs};
+use qrt_core::tracer::PixelClass;
 use qrt_core::valid::ValidScene;
 use qrt_runtime::draw;
 use qrt_runtime::memory::CircuitWork;
@@ -152,7 +151,7 @@ pub(crate) fn run(args: &InspectArgs) -> Result<(), Failure> {
     let bar = Bar::setting_up();
     let inspected = inspect(scene, args.channel, pixel);
     bar.clear();
-    let (costs, inspection, passes) = inspected.map_err(refused)?;
+    let (mut costs, inspection, passes) = inspected.map_err(refused)?;
 
     let name = &scene.scene().name;
     if let Some(file) = &registers {
@@ -191,7 +190,16 @@ pub(crate) fn run(args: &InspectArgs) -> Result<(), Failure> {
         // The budget is that of one strategy, the scene's.
         return Ok(());
     }
-    keep_budget(&loaded, inspection.oracle_cost().call)
+    let class = pixel.map(|_| inspection.name.class);
+    costs.retain(|cost| is_asked(cost, args.channel, class));
+    keep_budget(&loaded, &costs)
+}
+
+/// True if an oracle is of the `channel` and the `class` of pixels that are asked for; all are where
+/// none is.
+fn is_asked(cost: &OracleCost, channel: Option<usize>, class: Option<PixelClass>) -> bool {
+    channel.is_none_or(|one| one == cost.name.channel)
+        && class.is_none_or(|class| class == cost.name.class)
 }
 
 /// Compiles what is shown: the costs of all oracles, the oracle that is asked for, and what each
@@ -218,17 +226,17 @@ pub(super) fn check_circuit(loaded: &Loaded, scene: &ValidScene) -> Result<(), F
     if scene.scene().budget.is_none() {
         return Ok(());
     }
-    let most = most_expensive_oracle(scene);
-    let most = most.map_err(|error| loaded.report(vec![error.problem()]))?;
-    keep_budget(loaded, most.call)
+    let costs = oracle_costs(scene);
+    let costs = costs.map_err(|error| loaded.report(vec![error.problem()]))?;
+    keep_budget(loaded, &costs)
 }
 
-/// That one call of the oracle is within the scene's budget.
+/// That one call of each of these oracles is within the scene's budget.
 ///
 /// # Errors
 /// The figures that are beyond the budget.
-pub(super) fn keep_budget(loaded: &Loaded, cost: CallCost) -> Result<(), Failure> {
-    check_budget(&loaded.valid, cost).map_err(|problems| loaded.report(problems).into())
+pub(super) fn keep_budget(loaded: &Loaded, costs: &[OracleCost]) -> Result<(), Failure> {
+    check_budget(&loaded.valid, costs).map_err(|problems| loaded.report(problems).into())
 }
 
 fn write(output: &Output, text: &str) -> Result<(), Failure> {

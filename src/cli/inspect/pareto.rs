@@ -1,6 +1,6 @@
 //! `qrt inspect --pareto`: qubits against gates.
 
-use super::{InspectArgs, write};
+use super::{InspectArgs, is_asked, write};
 use crate::cli::failure::Failure;
 use crate::cli::files::Output;
 use crate::cli::interrupt;
@@ -27,11 +27,8 @@ pub(super) fn run(
     let refused = |error: qrt_core::oracle::OracleError| loaded.report(vec![error.problem()]);
     let costs = oracle_costs_under(scene, Strategy::KEEP).map_err(refused)?;
     let class = pixel.map(|pixel| PixelClasses::new(scene).of(pixel.place));
-    let is_asked = |cost: &OracleCost| {
-        args.channel.is_none_or(|one| one == cost.name.channel)
-            && class.is_none_or(|class| class == cost.name.class)
-    };
-    let asked = costs.into_iter().filter(is_asked);
+    let asked = costs.into_iter();
+    let asked = asked.filter(|cost| is_asked(cost, args.channel, class));
     let Some(OracleCost { name: oracle, .. }) = OracleCost::most_expensive(asked) else {
         return Err(Failure::Job("no pixel has an oracle".to_owned()));
     };

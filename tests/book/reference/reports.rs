@@ -2,7 +2,7 @@
 
 use qrt::core::compile::BuildError;
 use qrt::core::front::{Files, Loaded, obj, parse, parse_with};
-use qrt::core::oracle::{MOST_FACES, Oracle, OracleError, call_cost, check_budget};
+use qrt::core::oracle::{MOST_FACES, OracleError, check_budget, oracle_costs};
 use qrt::core::scene::meshes::Meshes;
 use qrt::core::scene::{Bsdf, Jacobian};
 use qrt::core::syntax::{Problem, Report};
@@ -106,8 +106,8 @@ fn elsewhere() -> Vec<String> {
     let mut texts = Vec::new();
 
     let tight = wall("budget: { qubits: 100, toffoli: 1000 }");
-    let (oracles, _) = Oracle::all(&tight.valid).unwrap();
-    let over = check_budget(&tight.valid, call_cost(&oracles)).unwrap_err();
+    let costs = oracle_costs(&tight.valid).unwrap();
+    let over = check_budget(&tight.valid, &costs).unwrap_err();
     texts.push(tell(&tight, over));
 
     let fine = wall("precision: { fraction: 30 }");
