@@ -23,10 +23,7 @@ impl Output {
     /// # Errors
     /// A folder is in its place, there is none to write to, or it is `-`.
     pub(crate) fn new(asked: &Path) -> Result<Self, Failure> {
-        if asked == Path::new(STDOUT) {
-            let message = "standard output, `-`, takes none of this: name a file (`./-` is one)";
-            return Err(Failure::Usage(message.to_owned()));
-        }
+        keep_off_stdout(asked)?;
         let place = Place::of(asked).map_err(|error| Failure::file(asked, &error))?;
         if place.is_folder() {
             let message = format!("`{}` is a folder", asked.display());
@@ -103,6 +100,18 @@ impl Output {
         }
         Ok(path)
     }
+}
+
+/// Refuses `-` in place of what standard output can't take.
+///
+/// # Errors
+/// `asked` is `-`.
+pub(crate) fn keep_off_stdout(asked: &Path) -> Result<(), Failure> {
+    if asked != Path::new(STDOUT) {
+        return Ok(());
+    }
+    let message = "standard output, `-`, takes none of this: name a file (`./-` is one)";
+    Err(Failure::Usage(message.to_owned()))
 }
 
 /// Refuses to write one of `outputs` over another or over one of `inputs`, whatever they are called.

@@ -407,7 +407,9 @@ fn failure(error: RenderError, loaded: &Loaded, options: &Options<'_>) -> Failur
     match error {
         RenderError::OutOfBounds { pixel, id, .. } => {
             let path = (options.model, options.seed, pixel, id);
-            Failure::Job(format!("{error}{}", path::in_words(&loaded.valid, path)))
+            // Under other parameters, it is another path.
+            let rendered = options.plan.map_or(&loaded.valid, |plan| &plan.scene);
+            Failure::Job(format!("{error}{}", path::in_words(rendered, path)))
         }
         RenderError::Oracle(error) => loaded.report(vec![error.problem()]).into(),
         RenderError::Budget(problems) => loaded.report(problems).into(),
@@ -419,5 +421,78 @@ fn failure(error: RenderError, loaded: &Loaded, options: &Options<'_>) -> Failur
             "{error}; the same command with `--resume` goes on from there"
         )),
         error => error.into(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use qrt_core::front::parse;
+    use qrt_core::scene::Accuracy;
+    use qrt_runtime::plan::{ErrorParts, Figures, Plan};
+
+    /// A wall that fills the picture.
+    const WALL: &str = "
+name: wall
+camera: { orthographic: { eye: [0, 0, 1], target: [0, 0, 0], height: 1 } }
+film: { width: 2, height: 1 }
+materials: { NAME: { emitter: { radiance: [2, 1, 0] } } }
+geometry:
+  - quad: { vertices: [[-9, -9, 0], [9, -9, 0], [9, 9, 0], [-9, 9, 0]], material: NAME }
+sampling: { path_bits: 5 }
+";
+
+    fn wall(name: &str) -> Loaded {
+        let text = WALL.replace("NAME", name);
+        parse(&text, "wall.yaml", &[], "".as_ref()).unwrap()
+    }
+
+    fn planned(scene: ValidScene) -> Plan {
+        let parameters = scene.parameters();
+        let figures = Figures {
+            accuracy: Accuracy {
+                error: 0.1,
+                confidence: 0.9,
+            },
+            mean: 1.0,
+            pixels: [2; 2],
+            sequence: parameters.sampling.sequence,
+            path_bits: parameters.sampling.path_bits,
+            extrapolated: false,
+            fraction: None,
+            comparator_bits: parameters.comparator.bits,
+            estimator: parameters.counting.estimator,
+            phase_bits: parameters.counting.phase_bits,
+            repetitions: parameters.counting.repetitions,
+            error: None,
+            within: 1.0,
+            parts: ErrorParts::default(),
+            queries: 0.0,
+            channel_queries: [0.0; 3],
+            cost: None,
+        };
+        Plan { scene, figures }
+    }
+
+    #[test]
+    fn a_path_beyond_its_bound_is_traced_in_the_scene_that_was_rendered() {
+        let asked = wall("asked");
+        let plan = planned(wall("chosen").valid);
+        for (plan, name) in [(None, "asked"), (Some(&plan), "chosen")] {
+            let options = Options {
+                plan,
+                ..Options::default()
+            };
+            let error = RenderError::OutOfBounds {
+                pixel: [1, 0],
+                id: 3,
+                channel: 0,
+                colour: 3.0,
+                bound: 2.0,
+                fraction: None,
+            };
+            let told = failure(error, &asked, &options).to_string();
+            assert!(told.contains(&format!("(`{name}`)")), "{told}");
+        }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::args::{SceneArgs, ThreadsArgs};
 use super::failure::Failure;
-use super::files::{Output, keep_apart};
+use super::files::{Output, keep_apart, keep_off_stdout};
 use super::memory;
 use super::progress::Bar;
 use super::{interrupt, plan, terminal, time};
@@ -91,6 +91,7 @@ fn keep_apart_from(folder: &Path, scene: &Path, files: &[PathBuf]) -> Result<(),
 }
 
 pub(crate) fn run(args: &TradeArgs) -> Result<(), Failure> {
+    keep_off_stdout(&args.output)?;
     if args.output.exists() && !args.output.is_dir() {
         let message = format!("`{}` is no folder", args.output.display());
         return Err(Failure::Usage(message));

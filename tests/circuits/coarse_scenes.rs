@@ -5,11 +5,13 @@
 //! what faces of one plane hide, and a search finds the faces that the tracer finds. Over all scenes,
 //! aiming at lamps leaves the brightness as it is.
 
+use crate::common::cuboid::sides;
 use crate::common::numbers::Numbers;
 use qrt::core::front::parse;
 use qrt::core::valid::ValidScene;
 use qrt::prelude::*;
 use qrt::runtime::machines::Real;
+use qrt::runtime::render::Visibility;
 use qrt::runtime::verify::{self, verify};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -112,26 +114,12 @@ impl Draft {
 fn cuboid(numbers: &mut Numbers, material: usize) -> Vec<Face> {
     let low = [(); 3].map(|()| numbers.below(7) as i64 - 4);
     let high = low.map(|low| low + 1 + numbers.below(4) as i64);
-    let corner = |n: usize| [0, 1, 2].map(|k| [low, high][n >> k & 1][k]);
-    let sides = [
-        [0, 2, 3, 1],
-        [4, 5, 7, 6],
-        [0, 1, 5, 4],
-        [2, 6, 7, 3],
-        [0, 4, 6, 2],
-        [1, 3, 7, 5],
-    ];
     let inwards = numbers.below(3) == 0;
-    let mut faces: Vec<Face> = sides
-        .iter()
-        .map(|side| {
-            let mut corners: Vec<Corner> = side.iter().map(|&n| corner(n)).collect();
-            if inwards {
-                corners.reverse();
-            }
-            Face { corners, material }
-        })
-        .collect();
+    let face = |side: [Corner; 4]| Face {
+        corners: side.to_vec(),
+        material,
+    };
+    let mut faces = sides(low, high, inwards).map(face).to_vec();
     if numbers.below(5) == 0 {
         faces.remove(numbers.below(6));
     }
@@ -211,6 +199,8 @@ fn draft(numbers: &mut Numbers) -> Draft {
         "dielectric: { ior: 1.5 }",
         "dielectric: { ior: 0.8 }",
         "ggx: { alpha: 0.3, reflectance: [0.8, 0.8, 0.8] }",
+        // Scatters to both sides.
+        "bsdf: { map: ['2*sqrt(u-u^2)*cos(2*pi*v)', '2*sqrt(u-u^2)*sin(2*pi*v)', '1-2*u'], value: '0.1' }",
     ];
     for (number, material) in materials.iter().enumerate() {
         let _ = writeln!(head, "  m{number}: {{ {material} }}");
@@ -219,7 +209,10 @@ fn draft(numbers: &mut Numbers) -> Draft {
     let lamp = numbers.below(2);
     let mut faces = vec![square(numbers, lamp)];
     for _ in 0..numbers.below(4) {
-        let material = [0, 1, 2, 2, 3, 6][numbers.below(6)];
+        let material = match numbers.below(36) {
+            choice @ 0..30 => [0, 1, 2, 2, 3, 6][choice % 6],
+            _ => 7,
+        };
         faces.push(square(numbers, material));
     }
     if numbers.below(2) == 0 {
@@ -298,15 +291,15 @@ fn picture(scene: &ValidScene, options: &Options<'_>, text: &str) -> Vec<[f64; 3
 struct Found {
     scenes: u64,
     refused: u64,
-    /// Sums over scenes: the fraction of paths that fixed and real numbers part on, and that another order
-    /// of the list parts on.
+    /// Sum over scenes of the fraction of paths that fixed and real numbers part on.
     parted: f64,
     /// Scenes whose picture is not black.
     lit: u64,
     /// Scenes of which fixed numbers see another picture in another order of the list.
     shuffled: u64,
-    /// Scenes that were searched for the nearest faces, too.
+    /// Scenes that were searched for the nearest faces, too, and those where rounding made a difference.
     searched: u64,
+    search_rounded: u64,
     /// Scenes whose lamps were aimed at, too.
     aimed: u64,
     /// Over those, sums of the mean colour without aiming, of its difference to that with, and of the
@@ -322,10 +315,16 @@ impl Found {
         self.lit += other.lit;
         self.shuffled += other.shuffled;
         self.searched += other.searched;
+        self.search_rounded += other.search_rounded;
         self.aimed += other.aimed;
         for (sum, term) in self.light.iter_mut().zip(other.light) {
             *sum += term;
         }
+    }
+
+    /// Asserts that paths of fixed and of real numbers rarely part.
+    fn assert_few_part(&self) {
+        assert!(self.parted <= 0.05 * self.scenes as f64, "{self:?}");
     }
 
     /// Asserts that pictures with and without aiming are as bright as each other, within four standard
@@ -333,6 +332,31 @@ impl Found {
     fn assert_equally_bright(&self) {
         let [_, difference, squares] = self.light;
         assert!(difference.abs() < 4.0 * squares.sqrt(), "{self:?}");
+    }
+}
+
+/// Compares a search for the nearest faces with the tracer's own. Rounding alone may part them: not with 28
+/// fraction bits.
+fn compare_search(scene: &ValidScene, fixed: &[[f64; 3]], text: &str, found: &mut Found) {
+    let searched = Options {
+        visibility: Visibility::Exhaustive,
+        ..exact(Model::Fixed)
+    };
+    let all = match render(scene, &searched) {
+        Ok(all) => all.image.pixels,
+        Err(error) => {
+            assert!(error.is_refusal(), "{error}\n{text}");
+            return;
+        }
+    };
+    found.searched += 1;
+    if all != fixed {
+        found.search_rounded += 1;
+        let mut parameters = scene.parameters();
+        parameters.precision.fraction = Some(28);
+        let fine = scene.with_parameters(parameters).unwrap();
+        let all = picture(&fine, &searched, text);
+        assert_eq!(all, picture(&fine, &exact(Model::Fixed), text), "{text}");
     }
 }
 
@@ -384,17 +408,7 @@ fn check(number: u64, found: &mut Found) {
     let other = valid(&order, &[]).unwrap_or_else(|| panic!("scene {number}\n{text}\n{order}"));
     let shuffled = picture(&other, &exact(Model::Real), &order);
     assert_eq!(real, shuffled, "scene {number}\n{text}\n{order}");
-    let searched = Options {
-        visibility: Visibility::Exhaustive,
-        ..exact(Model::Fixed)
-    };
-    match render(&scene, &searched) {
-        Ok(all) => {
-            assert_eq!(all.image.pixels, fixed, "scene {number}\n{text}");
-            found.searched += 1;
-        }
-        Err(error) => assert!(error.is_refusal(), "scene {number}: {error}\n{text}"),
-    }
+    compare_search(&scene, &fixed, &text, found);
     compare_lights(&draft, found);
     found.shuffled += u64::from(fixed != picture(&other, &exact(Model::Fixed), &order));
     found.lit += u64::from(real.iter().flatten().any(|&colour| colour > 0.0));
@@ -416,6 +430,9 @@ fn check_all(first: u64, count: u64) -> Found {
                         break;
                     }
                     check(first + number, &mut found);
+                    if number % 1000 == 999 {
+                        eprintln!("{} scenes", number + 1);
+                    }
                 }
                 all.lock().unwrap().add(&found);
             });
@@ -424,6 +441,7 @@ fn check_all(first: u64, count: u64) -> Found {
     let found = all.into_inner().unwrap();
     println!("{found:?}");
     found.assert_equally_bright();
+    found.assert_few_part();
     found
 }
 
@@ -432,11 +450,13 @@ fn of_sixty_scenes_everything_agrees() {
     let found = check_all(0, 60);
     assert!(found.scenes >= 30 && found.lit >= 15, "{found:?}");
     assert!(found.searched >= 20 && found.aimed >= 20, "{found:?}");
+    assert_eq!(found.shuffled, 0, "{found:?}");
 }
 
 #[test]
-#[ignore = "takes minutes"]
+#[ignore = "takes most of an hour on two cores"]
 fn of_ten_thousand_scenes_everything_agrees() {
     let found = check_all(1_000_000, 10_000);
     assert!(found.scenes >= 5_000 && found.lit >= 2_500, "{found:?}");
+    assert!(100 * found.shuffled <= found.scenes, "{found:?}");
 }

@@ -2,8 +2,9 @@
 
 use crate::common::numbers::Numbers;
 use crate::common::scene::written;
+use qrt::core::valid::ValidScene;
 use qrt::prelude::*;
-use qrt::runtime::machines::Real;
+use qrt::runtime::machines::{PixelSum, Real};
 use std::fmt::Write as _;
 
 /// A rectangle of cells on the plane z = `plane`.
@@ -115,6 +116,17 @@ fn exact(model: Model) -> Options<'static> {
     }
 }
 
+/// Asserts that boxes change no sum of any of 4 x 4 pixels; returns the sums.
+fn sums_with_boxes(scene: &ValidScene, text: &str) -> Vec<PixelSum> {
+    let pixels: Vec<[u32; 2]> = (0..16).map(|n| [n % 4, n / 4]).collect();
+    let [plain, boxed] = [false, true].map(|boxes| {
+        let real = Real::new(scene, 0).unwrap().with_boxes(boxes);
+        real.sums(&pixels)
+    });
+    assert_eq!(plain, boxed, "{text}");
+    boxed
+}
+
 #[test]
 fn the_first_that_is_listed_is_seen_in_all_orders_and_models() {
     // The last ray asks for emitters, the first of two for all faces; samples within a cell.
@@ -138,9 +150,7 @@ fn the_first_that_is_listed_is_seen_in_all_orders_and_models() {
                 let rendered = render(&scene, &exact(model)).unwrap();
                 assert_eq!(red(&rendered), expected, "{model:?}\n{text}");
             }
-            let boxed = Real::new(&scene, 0).unwrap().with_boxes(true);
-            let pixels: Vec<[u32; 2]> = (0..16).map(|n| [n % 4, n / 4]).collect();
-            let sums = boxed.sums(&pixels);
+            let sums = sums_with_boxes(&scene, &text);
             let boxed: Vec<f64> = sums.iter().map(|sum| sum.colour[0] / 4.0).collect();
             assert_eq!(boxed, expected, "{text}");
             checked += 1;
@@ -149,8 +159,10 @@ fn the_first_that_is_listed_is_seen_in_all_orders_and_models() {
         for order in orders(&list).into_iter().step_by(7) {
             let flat = order.iter().all(|face| face.plane == order[0].plane);
             let text = self::scene(&order, two);
-            let rendered = render(&written(&text, &[]), &exact(Model::Real)).unwrap();
+            let scene = written(&text, &[]);
+            sums_with_boxes(&scene, &text);
             if flat {
+                let rendered = render(&scene, &exact(Model::Real)).unwrap();
                 assert_eq!(red(&rendered), seen(&order), "{text}");
             }
         }
@@ -169,19 +181,39 @@ fn a_shadow_ray_sees_the_face_that_is_listed_first() {
     let half =
         "  - quad: { vertices: [[0, 2, 0], [1, 2, 0], [1, 2, 2], [0, 2, 2]], material: lamp }\n";
     let other = "  - quad: { vertices: [[-2, 2, 4], [-1, 2, 4], [-1, 2, 5], [-2, 2, 5]], material: lamp }\n";
-    let mean = |list: &[&str], model: Model| {
-        let text = format!(
+    let text = |list: &[&str], path_bits: u32| {
+        format!(
             "name: covered\ncamera: {{ perspective: {{ eye: [0, 1, 6], target: [0, 0, 0], vfov: 40 }} }}\n\
              film: {{ width: 4, height: 4 }}\nmaterials:\n  lamp: {{ emitter: {{ radiance: [2, 2, 2] }} }}\n  \
              white: {{ lambertian: {{ albedo: [0.5, 0.5, 0.5] }} }}\ngeometry:\n{}  - quad: {{ vertices: \
-             [[-4, 0, 8], [4, 0, 8], [4, 0, -4], [-4, 0, -4]], material: white }}\nsampling: {{ path_bits: 10, \
-             lights: next-event, depths: [{{ bits: [6, 6] }}, {{ bits: [6, 6], light: [8, 8] }}] }}\n",
+             [[-4, 0, 8], [4, 0, 8], [4, 0, -4], [-4, 0, -4]], material: white }}\nsampling: {{ path_bits: \
+             {path_bits}, lights: next-event, depths: [{{ bits: [6, 6] }}, {{ bits: [6, 6], light: [8, 8] }}] }}\n",
             list.concat()
-        );
-        let rendered = render(&written(&text, &[]), &exact(model)).unwrap();
-        let red = red(&rendered);
+        )
+    };
+    let picture = |text: &str, model: Model| {
+        let rendered = render(&written(text, &[]), &exact(model)).unwrap();
+        red(&rendered)
+    };
+    let mean = |list: &[&str], model: Model| {
+        let red = picture(&text(list, 10), model);
         red.iter().sum::<f64>() / red.len() as f64
     };
+    let lists: [&[&str]; 4] = [
+        &[lamp, other],
+        &[half, other],
+        &[cover, lamp, other],
+        &[lamp, cover, other],
+    ];
+    for list in lists {
+        let many = text(list, 10);
+        sums_with_boxes(&written(&many, &[]), &many);
+        // Circuits take a while to run.
+        let few = text(list, 4);
+        let [fixed, gates] = [Model::Fixed, Model::Gates].map(|model| picture(&few, model));
+        assert!(fixed.iter().any(|&red| red > 0.0), "{few}");
+        assert_eq!(fixed, gates, "{few}");
+    }
     for model in [Model::Real, Model::Fixed] {
         let [whole, cut] = [&[lamp, other], &[half, other]].map(|list| mean(list, model));
         assert!(cut < 0.7 * whole);
@@ -193,5 +225,33 @@ fn a_shadow_ray_sees_the_face_that_is_listed_first() {
             (uncovered / whole - 1.0).abs() < 0.01,
             "{uncovered} {whole}"
         );
+    }
+}
+
+/// The normals of the two lamps are (1, -1, 0) up to rounding, which alone decides the greatest component.
+#[test]
+fn the_first_that_is_listed_is_seen_at_45_degrees() {
+    let lamp = |left: f64, radiance: u32| {
+        let corners = [[left, 0.0], [-0.5, 0.0], [-0.5, 1.0], [left, 1.0]];
+        let corners = corners.map(|[x, z]| [x, x + 0.1, z]);
+        format!("  - quad: {{ vertices: {corners:?}, material: m{radiance} }}\n")
+    };
+    let (one, two) = (lamp(-0.9, 1), lamp(-0.8, 2));
+    for (list, radiance) in [(one.clone() + &two, 1.0), (two + &one, 2.0)] {
+        let text = format!(
+            "name: slanted\nfilm: {{ width: 2, height: 2 }}\ncamera: {{ orthographic: {{ eye: [0.35, -1.55, 0.5], \
+             target: [-0.65, -0.55, 0.5], up: [0, 0, 1], height: 0.2 }} }}\nmaterials:\n  m0: {{ lambertian: {{ \
+             albedo: [0.5, 0.5, 0.5] }} }}\n  m1: {{ emitter: {{ radiance: [1, 1, 1] }} }}\n  m2: {{ emitter: {{ \
+             radiance: [2, 2, 2] }} }}\ngeometry:\n{list}  - quad: {{ vertices: [[-1, -1, -1], [1, -1, -1], [1, 1, \
+             -1], [-1, 1, -1]], material: m0 }}\nsampling: {{ path_bits: 4, depths: [{{ bits: [4, 4] }}] }}\n"
+        );
+        let scene = written(&text, &[]);
+        for model in [Model::Real, Model::Fixed, Model::Gates] {
+            let found = red(&render(&scene, &exact(model)).unwrap());
+            assert!(
+                found.iter().all(|colour| (colour - radiance).abs() < 0.01),
+                "{model:?} {found:?}\n{text}"
+            );
+        }
     }
 }

@@ -13,6 +13,7 @@ use qrt::core::oracle::Oracle;
 use qrt::core::valid::ValidScene;
 use qrt::runtime::machines::{Defect, OracleCircuits, OracleMachine, contents};
 use qrt::runtime::random::Stream;
+use qrt::runtime::render::Model;
 use qrt::runtime::verify::{Options, Report, verify, verify_parts};
 use std::sync::Arc;
 
@@ -491,4 +492,5 @@ fn a_colour_beyond_its_bound_is_noticed_by_every_machine() {
     let report = verify_parts(&scene, &wrong, parts, &options).unwrap();
     assert!(!report.holds());
     assert!(matches!(report.defect, Some(Defect::OutOfBounds { .. })));
+    assert_eq!(report.defect_model, Some(Model::Fixed));
 }

@@ -165,6 +165,23 @@ fn a_portion_that_does_not_hold_decides() {
         errors.contains("qubit 7 is not zero again; this is a defect of qrt"),
         "{errors}"
     );
+    for (model, advice) in [
+        ("real", "; this is a defect of qrt"),
+        ("fixed", "; numbers of 10 fraction bits may be too coarse"),
+        ("gates", "; this is a defect of qrt"),
+    ] {
+        answer["defect"] = serde_json::json!({
+            "message": "it is too bright", "model": model, "pixel": [3, 1], "id": 5,
+            "channel": 1, "count": 70, "most": 64,
+        });
+        fs::write(&name, answer.to_string()).unwrap();
+        let errors = folder.fails(1, &words);
+        assert!(
+            errors.contains(&format!("it is too bright{advice}")),
+            "{errors}"
+        );
+        assert!(errors.contains("\nof this path, ray 0 meets"), "{errors}");
+    }
 }
 
 fn trade(folder: &Folder, out: &str, more: &[&str]) -> String {

@@ -142,6 +142,7 @@ fn wrong_requests_and_files_are_told_apart() {
         (2, &["missing.yaml", "-o", "out"][..], "QRT0101"),
         (2, &["lit.yaml"], "--output"),
         (2, &["lit.yaml", "-o", "taken"], "is no folder"),
+        (2, &["lit.yaml", "-o", "-"], "standard output, `-`,"),
         (1, &["lit.yaml", "-o", "taken/out"], "taken/out"),
         (2, &["lit.yaml", "-o", "out", "--pixels", "0"], "--pixels"),
         (
@@ -167,4 +168,5 @@ fn wrong_requests_and_files_are_told_apart() {
         assert!(errors.contains(words), "{arguments:?}: {errors}");
     }
     assert!(!folder.path("out/trade.csv").exists());
+    assert!(!folder.path("-").exists());
 }

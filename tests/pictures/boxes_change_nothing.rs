@@ -1,7 +1,7 @@
 //! The hierarchy of boxes finds exactly what a loop over all faces finds: the same bytes.
 
 use crate::common::scene::{from_file, written};
-use qrt::core::tracer::NO_PLANE;
+use qrt::core::tracer::{NO_PLANE, Start};
 use qrt::core::valid::ValidScene;
 use qrt::runtime::machines::{Real, Simd, SingleRay};
 use std::fmt::Write as _;
@@ -123,7 +123,13 @@ fn over_rays_of_extreme_lengths_and_places() {
     for length in [1e-40, 1e-18, 1e-9, 1.0, 1e9, 1e18, 1e40] {
         for far in [0.2, 1.0, 3.0, 1e4, 1e8] {
             for thin in [0.0, 1e-300, 1e-30, 1e-13, 1e-9, 1e-4, 1.0] {
-                for from in [NO_PLANE, 0] {
+                // Films may lie on a plane.
+                let starts = [
+                    (NO_PLANE, Start::Camera),
+                    (0, Start::Camera),
+                    (0, Start::Surface),
+                ];
+                for (from, start) in starts {
                     let rays: Vec<SingleRay> = (0..24)
                         .map(|ray| {
                             let place = [0; 3].map(|_| random());
@@ -136,10 +142,12 @@ fn over_rays_of_extreme_lengths_and_places() {
                                 origin,
                                 direction: direction.map(|d| length * d),
                                 from,
+                                start,
                             }
                         })
                         .collect();
-                    let what = format!("length {length}, from {far}, thin {thin}, {from}");
+                    let what =
+                        format!("length {length}, from {far}, thin {thin}, {from}, {start:?}");
                     assert_eq!(looped.nearest(&rays), boxed.nearest(&rays), "{what}");
                 }
             }
@@ -171,7 +179,8 @@ fn over_bundles_of_rays() {
                 SingleRay {
                     origin: eye.map(|e| e + spread * random()),
                     direction,
-                    from: NO_PLANE,
+                    from: [NO_PLANE, 0][bundle / 4 % 2],
+                    start: Start::Camera,
                 }
             })
             .collect();

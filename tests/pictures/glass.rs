@@ -1,5 +1,6 @@
 //! Glass in any arrangement: closed, nested, overlapping, its fronts outwards or inwards, the camera within.
 
+use crate::common::cuboid::sides;
 use crate::common::numbers::Numbers;
 use crate::common::scene::written;
 use qrt::core::front::parse;
@@ -23,21 +24,8 @@ fn red(text: &str, model: Model) -> Vec<f64> {
 
 /// The six sides of a box of a material, whose fronts look outwards or inwards.
 fn cuboid(low: [f64; 3], high: [f64; 3], inwards: bool, material: &str) -> String {
-    let corner = |n: usize| [0, 1, 2].map(|k| [low, high][n >> k & 1][k]);
-    let sides = [
-        [0, 2, 3, 1],
-        [4, 5, 7, 6],
-        [0, 1, 5, 4],
-        [2, 6, 7, 3],
-        [0, 4, 6, 2],
-        [1, 3, 7, 5],
-    ];
     let mut text = String::new();
-    for side in sides {
-        let mut corners = side.map(corner);
-        if inwards {
-            corners.reverse();
-        }
+    for corners in sides(low, high, inwards) {
         let _ = writeln!(
             text,
             "  - quad: {{ vertices: {corners:?}, material: {material} }}"
@@ -112,6 +100,31 @@ fn from_within_glass_light_is_denser() {
             for (real, fixed) in real.iter().zip(fixed) {
                 assert!((real - fixed).abs() < 0.01, "{camera} {real} {fixed}");
             }
+        }
+    }
+}
+
+/// Another material that transmits lies on a side of a block and is listed first: rays enter through it and
+/// leave through glass, refracted once, so that light gains what it does not lose again.
+#[test]
+fn beside_glass_that_is_covered_the_bound_holds() {
+    for (ior, inwards) in [(1.5, false), (0.75, false), (1.5, true)] {
+        let text = format!(
+            "name: cover\ncamera: {{ perspective: {{ eye: [0.1, 0.2, 3], target: [0, 0, 0], vfov: 40 }} }}\nfilm: {{ \
+             width: 2, height: 2 }}\nmaterials:\n  lamp: {{ emitter: {{ radiance: [1, 1, 1] }} }}\n  glass: {{ \
+             dielectric: {{ ior: {ior} }} }}\n  veil: {{ bsdf: {{ map: [\"2*sqrt(u-u^2)*cos(2*pi*v)\", \
+             \"2*sqrt(u-u^2)*sin(2*pi*v)\", \"1-2*u\"], value: \"0.1\" }} }}\ngeometry:\n  - quad: {{ vertices: \
+             [[-2, -2, 1], [2, -2, 1], [2, 2, 1], [-2, 2, 1]], material: veil }}\n{}{}sampling: {{ path_bits: 10, \
+             depths: [{{ bits: [4, 4] }}, {{ bits: [4, 4] }}, {{ bits: [4, 4] }}] }}\n",
+            cuboid([-1.0; 3], [1.0; 3], inwards, "glass"),
+            cuboid([-8.0; 3], [8.0; 3], true, "lamp"),
+        );
+        let (real, fixed) = (red(&text, Model::Real), red(&text, Model::Fixed));
+        for (real, fixed) in real.iter().zip(fixed) {
+            assert!(
+                *real > 0.0 && (real / fixed - 1.0).abs() < 0.02,
+                "{real} {fixed}\n{text}"
+            );
         }
     }
 }

@@ -3,7 +3,7 @@
 use qrt::core::expr::Function;
 use qrt::core::sampling::{PathPoints, cell_centre};
 use qrt::core::tracer::trace;
-use qrt::core::tracer::{Arith, Coordinate, Hit, NO_FACE, NO_PLANE, Nearest, Ray, Sampled};
+use qrt::core::tracer::{Arith, Coordinate, Hit, NO_FACE, Nearest, Ray, Sampled, Start};
 use qrt::core::valid::ValidScene;
 use qrt::runtime::machines::{Real, SingleRay};
 use std::cell::RefCell;
@@ -52,12 +52,12 @@ impl<'p> Nearest<Path<'p>> for Recorder<'_> {
             origin: ray.origin,
             direction: ray.direction,
             from: ray.from,
+            start: ray.start,
         };
         let mut rays = self.rays.borrow_mut();
-        if ray.from == NO_PLANE {
-            rays.primary.push(single);
-        } else {
-            rays.bounced.push(single);
+        match ray.start {
+            Start::Camera => rays.primary.push(single),
+            Start::Surface => rays.bounced.push(single),
         }
         match self.real.nearest(&[single])[0] {
             Some(met) => Hit::new(cx, met.distance, met.face, wanted),

@@ -24,6 +24,10 @@ impl Expr {
     /// those of its nodes, as [`Expr::eval_in`] leaves them. The branch that an `if_less` does not take is
     /// none of them.
     ///
+    /// # Panics
+    ///
+    /// Panics if `values` are fewer than the nodes.
+    ///
     /// ```
     /// use qrt_core::expr::{Expr, Variable, Variables};
     /// let parts = |text: &str| {
@@ -36,6 +40,7 @@ impl Expr {
     /// assert!(parts("if_less(0, u, 1/u, 2)").is_none());
     /// ```
     pub fn undefined_part(&self, values: &[f64]) -> Option<Id> {
+        let values = &values[..self.nodes.len()];
         if values.iter().all(|value| value.is_finite()) {
             return None;
         }

@@ -9,7 +9,7 @@ mod plane;
 mod solid;
 
 pub(crate) use overlap::{Outlines, fill_once, overlap};
-pub(crate) use plane::first_overlap;
+pub(crate) use plane::{Overlap, first_overlap};
 pub(crate) use solid::{Solid, solids};
 
 use glam::DVec3;
@@ -32,8 +32,16 @@ pub(crate) fn stage_units<'a>(points: impl Iterator<Item = &'a DVec3>) -> (DVec3
     (low * 0.5 + high * 0.5, libm::ldexp(1.0, -exponent))
 }
 
+/// The axis of the greatest component of a normal. Of components that rounding alone makes unequal, the
+/// first: polygons of one plane have one main axis.
+pub(crate) fn main_axis(normal: DVec3) -> usize {
+    let size = normal.abs();
+    let least = size.max_element() * (1.0 - 4.0 * SAME_PLANE);
+    (0..3).find(|&axis| size[axis] >= least).unwrap_or(2)
+}
+
 /// The least and the greatest coordinates of `points`.
-fn bounds<'a>(points: impl Iterator<Item = &'a DVec3>) -> (DVec3, DVec3) {
+pub(crate) fn bounds<'a>(points: impl Iterator<Item = &'a DVec3>) -> (DVec3, DVec3) {
     points.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| {
         (low.min(*p), high.max(*p))
     })

@@ -5,6 +5,7 @@
 //! against anything else: [`crate::valid::validate`] turns a [`Scene`] into the
 //! [`crate::valid::ValidScene`] that everything downstream demands.
 
+mod basis;
 mod builder;
 pub(crate) mod decode;
 pub(crate) mod finalize;
@@ -18,6 +19,7 @@ mod uncompute;
 
 use crate::syntax::tree::{Node, Span, Value};
 use crate::syntax::{Datum, Place, Problems};
+pub(crate) use basis::Basis;
 pub use builder::SceneBuilder;
 use glam::DVec3;
 pub use qrt_circuit::quantum::Window;

@@ -152,6 +152,13 @@ pub trait Arith: Sized {
     fn known(&mut self, a: Self::Real, _low: f64, _high: f64) -> Self::Real {
         a
     }
+    /// `a`, a cosine that an author's formula takes. Floating-point machines clamp it to -1 and 1: rounding may
+    /// take it beyond, where the formula need not be defined. Registers need not, for the last entry of a
+    /// function's table stands for all beyond.
+    #[inline(always)]
+    fn cosine(&mut self, a: Self::Real) -> Self::Real {
+        a
+    }
     /// A distance beyond everything: that of no hit.
     #[inline(always)]
     fn t_max(&mut self, _most: f64) -> Self::Real {

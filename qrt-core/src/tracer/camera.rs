@@ -3,7 +3,7 @@
 use super::geometry::{Geometry, NO_PLANE};
 use super::ray::{Ray, Start};
 use super::{Arith, Coordinate, vector};
-use crate::scene::{Camera, Film};
+use crate::scene::{Basis, Camera, Film};
 use glam::{DVec2, DVec3};
 
 /// The camera in stage units: a ray is affine in the film position `(column + u, row + v)`.
@@ -27,57 +27,6 @@ pub struct CameraStage {
     /// The number of the plane that primary rays leave, which they do not meet: where the film lies on
     /// one, that; otherwise [`NO_PLANE`]. (An eye may be on several: their offsets say so.)
     pub from: u32,
-}
-
-/// The camera's coordinate system, in scene units.
-pub(crate) struct Basis {
-    pub(crate) eye: DVec3,
-    pub(crate) forward: DVec3,
-    right: DVec3,
-    up: DVec3,
-    /// Half the film's height: at distance 1, or in scene units.
-    half: f64,
-    pub(crate) perspective: bool,
-}
-
-impl Basis {
-    pub(crate) fn new(camera: &Camera) -> Self {
-        let (eye, target, up, half, perspective) = match camera {
-            Camera::Perspective(c) => {
-                let half = libm::tan(0.5 * c.vfov.to_radians());
-                (c.eye, c.target, c.up, half, true)
-            }
-            Camera::Orthographic(c) => (c.eye, c.target, c.up, 0.5 * c.height, false),
-        };
-        let forward = (target - eye).normalize();
-        let right = forward.cross(up.normalize()).normalize();
-        Self {
-            eye,
-            forward,
-            right,
-            up: right.cross(forward),
-            half,
-            perspective,
-        }
-    }
-
-    fn corners(&self, film: Film) -> [DVec3; 4] {
-        let half = self.half_film(film);
-        let (x, y) = (self.right * half.x, self.up * half.y);
-        [y - x, y + x, -x - y, x - y]
-    }
-
-    /// Half the film's width and height: at distance 1, or in scene units.
-    pub(crate) fn half_film(&self, film: Film) -> DVec2 {
-        let aspect = f64::from(film.width) / f64::from(film.height);
-        DVec2::new(self.half * aspect, self.half)
-    }
-
-    /// Returns a point to the right of the eye, above it, and before it.
-    pub(crate) fn coordinates(&self, point: DVec3) -> DVec3 {
-        let v = point - self.eye;
-        DVec3::new(v.dot(self.right), v.dot(self.up), v.dot(self.forward))
-    }
 }
 
 /// Points from which primary rays start, or the corners of the area that they start from.

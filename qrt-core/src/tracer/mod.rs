@@ -47,7 +47,6 @@ mod stage;
 pub(crate) mod vector;
 
 pub use arith::{Arith, Axis, Coordinate, Named, Part, Quantity, Work};
-pub(crate) use camera::Basis;
 pub use camera::CameraStage;
 pub use crossing::{AxisPermuted, Crossing, between, cross, weighted};
 pub use face_table::{FaceTable, PrimaryHitGiven};

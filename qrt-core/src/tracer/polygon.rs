@@ -1,14 +1,23 @@
 //! One polygon made ready: its plane, its shading frame and its edges as half-plane tests.
 
 use super::geometry::{EdgeTest, Frame, Plane};
+use crate::polygons::main_axis;
 use glam::{DVec2, DVec3};
 
 pub(super) fn plane_of(corners: &[DVec3], frame: &Frame) -> Plane {
-    let axis = largest(frame.normal);
+    let axis = main_axis(frame.normal);
     let scaled = frame.normal / frame.normal[axis];
     let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
-    // What rounding leaves of a rotation by a multiple of 90 degrees is no coefficient.
-    let form = [scaled[next], scaled[last]].map(|c| if c.abs() < f64::EPSILON { 0.0 } else { c });
+    // What rounding leaves of a rotation by a multiple of 90 degrees is no coefficient, and what it adds to
+    // 1 where two components are equal is none either.
+    let form = [scaled[next], scaled[last]];
+    let form = form.map(|c| {
+        if c.abs() < f64::EPSILON {
+            0.0
+        } else {
+            c.clamp(-1.0, 1.0)
+        }
+    });
     let heights = corners
         .iter()
         .map(|c| c[axis] + form[0] * c[next] + form[1] * c[last]);
@@ -30,7 +39,7 @@ pub(super) fn frame(corners: &[DVec3]) -> Frame {
         None => (b - a).cross(c - a),
     };
     let unit = normal.normalize();
-    let axis = largest(unit);
+    let axis = main_axis(unit);
     let normal = unit
         .map(|c| if c.abs() < f64::EPSILON { 0.0 } else { c })
         .normalize();
@@ -47,17 +56,6 @@ pub(super) fn frame(corners: &[DVec3]) -> Frame {
         bitangent: normal.cross(tangent),
         normal,
         centre,
-    }
-}
-
-fn largest(v: DVec3) -> usize {
-    let v = v.abs();
-    if v.x >= v.y && v.x >= v.z {
-        0
-    } else if v.y >= v.z {
-        1
-    } else {
-        2
     }
 }
 

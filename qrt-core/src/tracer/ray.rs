@@ -10,7 +10,8 @@ pub struct Ray<A: Arith> {
     pub origin: Vector<A>,
     /// The direction of the ray; of unit length wherever a material reads angles.
     pub direction: Vector<A>,
-    /// The number of the plane that the ray leaves; [`super::NO_PLANE`] from the camera.
+    /// The number of the plane that the ray leaves, which it does not meet, or [`super::NO_PLANE`]: an eye
+    /// leaves none, and a film only one that it lies on.
     pub from: A::Index,
     /// A bound on the distance of whatever the ray meets, in lengths of its direction.
     pub t_max: f64,

@@ -6,12 +6,13 @@
 //! ends alone: with `w` the number at its last vertex and `v` at the camera, it is `ior^(2 (v - w))`. A
 //! bound follows for each solid from where the camera and the last vertex may be.
 //!
-//! That takes each crossing to be traced. Faces of glass that overlap on one plane are crossed as one:
-//! scenes in which they do are refused ([`crate::valid`]), but for slivers, beside which nothing is known
-//! of any refraction.
+//! That takes each crossing to be traced. Faces that overlap on one plane are crossed as one, and the first
+//! of the list decides how. Where glass overlaps glass, but for slivers, scenes are refused
+//! ([`crate::valid`]). Beside slivers, and where another material that transmits lies on glass, nothing is
+//! known of any refraction.
 
 use super::geometry::Geometry;
-use crate::polygons::{SAME_PLANE, Solid, first_overlap, solids};
+use crate::polygons::{Overlap, SAME_PLANE, Solid, first_overlap, solids};
 use crate::valid::{Scatter, Surface};
 use glam::DVec3;
 
@@ -57,8 +58,9 @@ impl Refraction {
             Scatter::Dielectric(glass) => Some(glass.ior),
             _ => None,
         };
-        let all = outlines(&|surface| ior(surface).is_some());
-        if first_overlap(&all, SAME_PLANE).is_some() {
+        let glassy = (0..surfaces.len()).any(|surface| ior(surface).is_some());
+        let crossed = outlines(&|surface| glassy && surfaces[surface].transmits());
+        if first_overlap(&crossed, SAME_PLANE) != Overlap::None {
             return Self { known, most: 1.0 };
         }
         let mut pieces = Vec::new();

@@ -57,6 +57,9 @@ impl Arith for Scalar {
     fn div(&mut self, a: f64, b: f64, _most: f64) -> f64 {
         a / b
     }
+    fn cosine(&mut self, a: f64) -> f64 {
+        a.clamp(-1.0, 1.0)
+    }
     fn function(&mut self, function: Function, a: f64) -> f64 {
         function.value(a)
     }

@@ -52,6 +52,7 @@ pub struct Stage<const C: usize> {
     /// Whether the last ray is searched for all that it may meet, and not for emitters alone.
     pub(crate) every_hit: bool,
     bound: [f64; C],
+    limit: [f64; C],
 }
 
 /// What of a material takes numbers that no register holds.
@@ -146,6 +147,7 @@ impl<const C: usize> Stage<C> {
             let (plain, by_solids) = (of(None), of(Some(&refraction)));
             std::array::from_fn(|c| by_solids[c].min(plain[c]))
         };
+        let limit = limit(bound, emitters.radiance());
         let mut camera = CameraStage::new(&written.camera, written.film, &geometry, unit);
         let starts_on = geometry.planes_through(&starts);
         if camera.perspective {
@@ -170,12 +172,14 @@ impl<const C: usize> Stage<C> {
             direct,
             every_hit: false,
             bound,
+            limit,
             t_max: 2.0 * geometry.radius(),
             geometry,
         }
     }
 
-    /// The same stage with radiances in units of the bound, so that no colour exceeds 1.
+    /// The same stage with radiances in units of the bound, so that no colour exceeds 1, but for rounding.
+    /// [`Stage::bound`] and [`Stage::limit`] stay in the scene's units.
     pub fn relative(mut self) -> Self {
         self.emitters.in_units(self.bound);
         for scatter in &mut self.scatters {
@@ -212,21 +216,19 @@ impl<const C: usize> Stage<C> {
         self.scatters.len() + 1
     }
 
-    /// The tightest proven bound on a path's colour, per channel: the colour scale, in the
-    /// paper `2^b`.
+    /// The tightest proven bound on a path's colour, per channel, in the scene's units: the colour
+    /// scale, in the paper `2^b`.
     pub fn bound(&self) -> [f64; C] {
         self.bound
     }
 
-    /// The greatest colour of a path that rounding may make of one within [`Stage::bound`], per channel.
+    /// The greatest colour of a path that rounding may make of one within [`Stage::bound`], per channel, in
+    /// the scene's units.
+    ///
     /// The bound and a colour multiply the same numbers in different orders; and where the bound says
     /// that a lamp lights nothing, since it faces away, rounding may leave a trace of its light.
     pub fn limit(&self) -> [f64; C] {
-        let radiance = self.emitters.radiance();
-        std::array::from_fn(|c| {
-            let most = radiance.iter().map(|row| row[c]).fold(0.0, f64::max);
-            self.bound[c] * (1.0 + ROUNDING) + FACING_AWAY * most
-        })
+        self.limit
     }
 
     /// How densely the rays of `depth` that leave `face` (by its label) are sampled, per steradian
@@ -282,6 +284,14 @@ impl<const C: usize> Stage<C> {
     pub fn geometry(&self) -> &Geometry {
         &self.geometry
     }
+}
+
+/// The bound with what rounding may add, given the radiance of each emitter.
+fn limit<const C: usize>(bound: [f64; C], radiance: &[[f64; C]]) -> [f64; C] {
+    std::array::from_fn(|c| {
+        let most = radiance.iter().map(|row| row[c]).fold(0.0, f64::max);
+        bound[c] * (1.0 + ROUNDING) + FACING_AWAY * most
+    })
 }
 
 fn frame_row(frame: &geometry::Frame) -> [f64; 9] {

@@ -1,9 +1,9 @@
 //! Pieces of glass that touch.
 
 use super::{Scatter, ValidScene};
-use crate::polygons::{first_overlap, stage_units};
+use crate::polygons::{Overlap, first_overlap, stage_units};
 use crate::scene::Geometry;
-use crate::syntax::{Glass, Path, Problem, Problems};
+use crate::syntax::{Glass, Problem, Problems};
 use glam::DVec3;
 
 /// Overlaps narrower than this, against the size of the scene, are those of meshes whose corners were
@@ -31,21 +31,14 @@ pub(super) fn check(valid: &ValidScene, problems: &mut Problems) {
     };
     let outlines: Vec<Vec<DVec3>> = glass.iter().map(staged).collect();
     let outlines: Vec<&[DVec3]> = outlines.iter().map(Vec::as_slice).collect();
-    if let Some([first, second]) = first_overlap(&outlines, SLIVER) {
-        let place = |number: usize| place(valid, glass[number]);
+    if let Overlap::Of([first, second]) = first_overlap(&outlines, SLIVER) {
+        let place = |number: usize| {
+            let primitive = &valid.scene.geometry[valid.primitive_of(glass[number])];
+            let is_mesh = matches!(primitive, Geometry::Mesh(_));
+            let key = if is_mesh { "obj" } else { "vertices" };
+            valid.place_of(glass[number]).key(key)
+        };
         let problem = Problem::new(place(second), Glass::Touches);
         problems.push(problem.also(place(first)));
-    }
-}
-
-/// The place of the primitive that a polygon belongs to.
-fn place(valid: &ValidScene, polygon: usize) -> Path {
-    let primitive = valid.firsts.partition_point(|&first| first <= polygon) - 1;
-    let path = Path::root().key("geometry").item(primitive);
-    match valid.scene.geometry.get(primitive) {
-        Some(Geometry::Mesh(_)) => path.key("mesh").key("obj"),
-        Some(Geometry::Quad(_)) => path.key("quad").key("vertices"),
-        Some(Geometry::Triangle(_)) => path.key("triangle").key("vertices"),
-        None => path,
     }
 }

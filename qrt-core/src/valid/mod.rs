@@ -140,6 +140,22 @@ impl ValidScene {
         let first = |primitive: usize| self.firsts.get(primitive).copied().unwrap_or(end);
         first(primitive)..first(primitive + 1)
     }
+    /// The number of the primitive that polygon number `polygon` belongs to.
+    pub(crate) fn primitive_of(&self, polygon: usize) -> usize {
+        let after = self.firsts.partition_point(|&first| first <= polygon);
+        after.saturating_sub(1)
+    }
+
+    /// The place of that primitive in the scene.
+    pub(crate) fn place_of(&self, polygon: usize) -> Path {
+        let index = self.primitive_of(polygon);
+        let place = Path::root().key("geometry").item(index);
+        match self.scene.geometry.get(index) {
+            Some(primitive) => place.key(primitive.kind()),
+            None => place,
+        }
+    }
+
     /// The mesh files and material libraries that were read, each once, as errors call them.
     pub fn files(&self) -> &[PathBuf] {
         &self.files

@@ -7,7 +7,7 @@ mod view;
 
 use super::lights::MOST_PAIRS;
 use super::{Polygon, Scatter, ValidScene};
-use crate::polygons::overlap;
+use crate::polygons::{bounds, overlap};
 use crate::scene::Geometry;
 use crate::syntax::{Material, Path, Problem, Unlit};
 use glam::DVec3;
@@ -15,7 +15,7 @@ use std::collections::HashSet;
 use view::View;
 
 /// A distance, as a fraction of the largest coordinate, that is rounding.
-const ROUNDING: f64 = 1e-9;
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// Unused materials that have a warning each; the last of them counts the others.
 const MOST_UNUSED: usize = 8;
@@ -88,7 +88,7 @@ fn unlit(valid: &ValidScene) -> Option<Problem> {
             return None;
         }
     }
-    Some(Problem::new(place(valid, first), Unlit::LampsAway))
+    Some(Problem::new(valid.place_of(first), Unlit::LampsAway))
 }
 
 /// Polygons at which a path may end its last but one ray: those that scatter, as far as depth and
@@ -110,13 +110,11 @@ fn receivers<'a>(valid: &'a ValidScene, view: &View) -> Vec<&'a Polygon> {
 
 /// The corners of the box around all polygons; none if there is no polygon.
 fn corners_around(polygons: &[&Polygon]) -> Vec<DVec3> {
-    let mut vertices = polygons.iter().flat_map(|p| p.outline());
-    let Some(&first) = vertices.next() else {
+    if polygons.is_empty() {
         return Vec::new();
-    };
-    let ends = vertices.fold([first; 2], |[low, high], v| [low.min(*v), high.max(*v)]);
-    let corner =
-        |bits: usize| DVec3::from_array([0, 1, 2].map(|axis| ends[bits >> axis & 1][axis]));
+    }
+    let (low, high) = bounds(polygons.iter().flat_map(|p| p.outline()));
+    let corner = |bits: usize| DVec3::from_array([0, 1, 2].map(|k| [low, high][bits >> k & 1][k]));
     (0..8).map(corner).collect()
 }
 
@@ -136,7 +134,7 @@ fn opposite_lamps(valid: &ValidScene) -> Vec<Problem> {
             plane.is_opposite(facing) && overlap(lamp.outline(), other.outline(), plane.rounding)
         });
         if let Some((first, ..)) = hidden_by {
-            let (place, first) = (place(valid, *number), place(valid, *first));
+            let (place, first) = (valid.place_of(*number), valid.place_of(*first));
             let mut problem = Problem::new(place.clone(), Unlit::OppositeLamp);
             if place != first {
                 problem = problem.also(first);
@@ -152,20 +150,6 @@ fn opposite_lamps(valid: &ValidScene) -> Vec<Problem> {
 
 fn emits(valid: &ValidScene, polygon: &Polygon) -> bool {
     valid.materials[polygon.surface as usize].emits()
-}
-
-/// The place in the scene of the primitive that polygon `number` belongs to.
-fn place(valid: &ValidScene, number: usize) -> Path {
-    let index = valid
-        .firsts
-        .partition_point(|&first| first <= number)
-        .max(1)
-        - 1;
-    let geometry = Path::root().key("geometry").item(index);
-    match valid.scene.geometry.get(index) {
-        Some(primitive) => geometry.key(primitive.kind()),
-        None => geometry,
-    }
 }
 
 /// The plane of a polygon, with the side that its front looks to.

@@ -274,6 +274,12 @@ impl<S: pulp::Simd, const W: usize> Arith for Lanes<'_, S, W> {
         self.select(greater, a, b)
     }
     #[inline(always)]
+    fn cosine(&mut self, a: Self::Real) -> Self::Real {
+        let (low, high) = (self.real(-1.0), self.real(1.0));
+        let a = self.max(a, low);
+        self.min(a, high)
+    }
+    #[inline(always)]
     fn function(&mut self, function: Function, a: Self::Real) -> Self::Real {
         let mut result = a;
         apply(slots(&mut result), |x| function.value(x));

@@ -14,8 +14,11 @@ pub struct SingleRay {
     pub origin: [f64; 3],
     /// The direction in which the ray goes, of any length.
     pub direction: [f64; 3],
-    /// The plane it leaves; [`qrt_core::tracer::NO_PLANE`] from the camera.
+    /// The plane it leaves, which it does not meet; [`qrt_core::tracer::NO_PLANE`] for none.
     pub from: u32,
+    /// The kind of place at which it starts: neighbours from the camera are searched for together. What
+    /// they meet is the same.
+    pub start: Start,
 }
 
 /// What a ray meets first.
@@ -69,7 +72,8 @@ impl WithSimd for NearestOf<'_> {
             inputs: self.inputs,
             first: 0,
         };
-        for rays in self.rays.chunks(Lanes::<S, WIDTH>::COUNT) {
+        let alike = self.rays.chunk_by(|a, b| a.start == b.start);
+        for rays in alike.flat_map(|rays| rays.chunks(Lanes::<S, WIDTH>::COUNT)) {
             let mut origin = [cx.real(0.0); 3];
             let mut direction = [cx.real(0.0); 3];
             let mut from = cx.index(0);
@@ -87,7 +91,7 @@ impl WithSimd for NearestOf<'_> {
                 direction,
                 from,
                 t_max: f64::INFINITY,
-                start: Start::Surface,
+                start: rays[0].start,
             };
             let wanted = cx.is(wanted, 1);
             let hit = faces.nearest(&mut cx, &ray, wanted);

@@ -178,7 +178,7 @@ pub enum RenderError {
     /// would be counted as the bound, and the picture would be too dark, so there is none.
     #[error(
         "path {id} of pixel ({}, {}) has a {} of {colour:e}, outside [0, {bound:e}]; {}",
-        .pixel[0], .pixel[1], name(*.channel), advice(*.fraction)
+        .pixel[0], .pixel[1], name(*.channel), out_of_bounds_advice(*.fraction)
     )]
     OutOfBounds {
         /// Column and row on the film.
@@ -270,7 +270,8 @@ fn name(channel: usize) -> &'static str {
         .unwrap_or("?")
 }
 
-fn advice(fraction: Option<u32>) -> String {
+/// Advice on a path whose colour is out of bounds, on a machine of `fraction` bits; the real model has none.
+pub fn out_of_bounds_advice(fraction: Option<u32>) -> String {
     let report = "this is a defect of qrt, please report it with the scene";
     match fraction {
         None => report.to_owned(),

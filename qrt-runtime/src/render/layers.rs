@@ -4,6 +4,7 @@ use super::{RenderError, Rendered, tiles};
 use crate::image::Layer;
 use crate::machines::{Real, SingleRay};
 use glam::DVec3;
+use qrt_core::tracer::Start;
 use qrt_core::valid::ValidScene;
 
 /// Pixels whose primary hits are found at a time.
@@ -91,6 +92,7 @@ fn first_hits(scene: &ValidScene, crop: [u32; 4]) -> Result<Vec<Option<FirstHit>
             origin,
             direction,
             from: camera.from,
+            start: Start::Camera,
         }
     };
     let pixels: Vec<[u32; 2]> = tiles::pixels(crop).collect();

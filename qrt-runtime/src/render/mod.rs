@@ -67,7 +67,7 @@ mod visibility;
 
 pub use allowed::check_circuit;
 pub use classes::Scales;
-pub use error::{CompiledError, PredicateRefusal, RenderError};
+pub use error::{CompiledError, PredicateRefusal, RenderError, out_of_bounds_advice};
 pub use own::{BoxedEstimator, OwnEstimator};
 pub use picture_part::{Merge, MergeError, PicturePart, render_part};
 pub use portion::{Portion, PortionError};

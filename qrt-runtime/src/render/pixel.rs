@@ -451,7 +451,7 @@ impl Pixels {
         totals: &Totals,
         workers: &Workers<'_>,
     ) -> Result<Pixel, Stop> {
-        self.check(pixel, totals)?;
+        self.check(pixel, totals, workers)?;
         let mut finished = Pixel {
             colour: [0.0; 3],
             queries: totals.queries,
@@ -496,28 +496,35 @@ impl Pixels {
     }
 
     /// That all colours of a pixel's paths were within their bounds.
-    fn check(&self, pixel: [u32; 2], totals: &Totals) -> Result<(), RenderError> {
+    fn check(&self, pixel: [u32; 2], totals: &Totals, workers: &Workers<'_>) -> Result<(), Stop> {
         let stray = totals.stray.iter().enumerate();
         let mut stray = stray.filter(|(_, (paths, _))| *paths > 0);
         let Some((channel, &(_, colour))) = stray.next() else {
             return Ok(());
         };
-        Err(RenderError::OutOfBounds {
+        Err(Stop::Failed(RenderError::OutOfBounds {
             pixel,
-            id: self.first_of_colour(pixel, channel, colour),
+            id: self.first_of_colour(pixel, channel, colour, workers)?,
             channel,
             colour,
             bound: self.bound[channel],
             fraction: None,
-        })
+        }))
     }
 
     /// The first path of a pixel that has this colour in a channel: traced again, since sums do not tell.
-    fn first_of_colour(&self, pixel: [u32; 2], channel: usize, colour: f64) -> u64 {
+    fn first_of_colour(
+        &self,
+        pixel: [u32; 2],
+        channel: usize,
+        colour: f64,
+        workers: &Workers<'_>,
+    ) -> Result<u64, Stop> {
         let Source::Real(real) = &self.source else {
-            return 0;
+            return Ok(0);
         };
         for first in (0..self.paths).step_by(RUN as usize) {
+            go_on(workers)?;
             let (mut id, mut found) = (first, None);
             let ids = first..(first + RUN).min(self.paths);
             real.trace_range(&[pixel], ids, |block| {
@@ -528,10 +535,10 @@ impl Pixels {
                 }
             });
             if let Some(found) = found {
-                return found;
+                return Ok(found);
             }
         }
-        0
+        Ok(0)
     }
 
     /// The mean of a pixel's paths: of their colours, or of the thresholds that these exceed.
@@ -572,6 +579,7 @@ mod tests {
     use qrt_circuit::Operand;
     use qrt_core::front::parse;
     use qrt_core::oracle::Oracle;
+    use std::sync::atomic::{AtomicBool, Ordering};
 
     /// A wall of radiance 2, 1, 0 that fills the picture: the colour of every path.
     const WALL: &str = "
@@ -625,6 +633,23 @@ sampling: { path_bits: 5 }
             let parts = parts.ok().unwrap();
             assert!(finish(&pixels, &parts).is_err());
         }
+    }
+
+    #[test]
+    fn the_search_for_a_path_beyond_its_bound_can_be_cancelled() {
+        let mut pixels = wall(Estimator::Exact);
+        pixels.limit = [1.0; 3];
+        let totals = few(&pixels);
+        let cancel = AtomicBool::new(true);
+        let workers = Workers {
+            cancel: Some(&cancel),
+            ..Workers::default()
+        };
+        let stopped = pixels.finish([1, 0], &totals[0], &workers);
+        assert!(matches!(stopped, Err(Stop::Cancelled)));
+        cancel.store(false, Ordering::Relaxed);
+        let found = pixels.finish([1, 0], &totals[0], &workers);
+        assert!(matches!(found, Err(Stop::Failed(_))));
     }
 
     #[test]

@@ -14,11 +14,11 @@ pub use error::VerifyError;
 
 use crate::machines::{Defect, OracleCircuits, OracleMachine, Real};
 use crate::plan;
-use crate::render::Portion;
+use crate::render::{Model, Portion};
 use crate::sample::spread;
 use crate::workers::{Progress, Workers};
 use paths::{Found, Trio, show};
-use qrt_core::oracle::{self, Oracle, OracleCost, oracle_costs};
+use qrt_core::oracle::{self, Oracle, OracleCost, oracle_costs_of_class};
 use qrt_core::tracer::PixelClasses;
 use qrt_core::valid::ValidScene;
 use rayon::prelude::*;
@@ -98,6 +98,8 @@ pub struct Report {
     pub mismatches: Vec<Mismatch>,
     /// What the circuit did wrong, if it did.
     pub defect: Option<Defect>,
+    /// The model that shows the defect; none without one.
+    pub defect_model: Option<Model>,
     /// Per channel: the mean radiance of the pixels, by the real machine. This and what follows is
     /// 0 if there is a defect.
     pub mean: [f64; 3],
@@ -147,7 +149,6 @@ pub fn verify(scene: &ValidScene, options: &Options<'_>) -> Result<Report, Verif
     let film = [scene.scene().film.width, scene.scene().film.height];
     let chosen = chosen(film, options)?;
     let classes = PixelClasses::new(scene);
-    let costs = oracle_costs(scene)?;
     // Each pixel by the circuit of its class.
     let mut whole: Option<Report> = None;
     for &class in classes.present() {
@@ -160,8 +161,7 @@ pub fn verify(scene: &ValidScene, options: &Options<'_>) -> Result<Report, Verif
         let parts = OracleCircuits::new(&oracle);
         let real = Real::of_class(scene, options.seed, class)?;
         let mut report = verify_pixels(scene, &real, &oracle, parts, pixels, options)?;
-        let mine = costs.iter().filter(|cost| cost.name.class == class);
-        report.oracles = mine.copied().collect();
+        report.oracles = oracle_costs_of_class(scene, class)?;
         whole = Some(match whole {
             None => report,
             Some(before) => before.and(report),
@@ -251,7 +251,7 @@ fn verify_pixels(
                 };
                 report.compare(&trio, &options.workers)?;
             }
-            Err(defect) => report.defect = Some(defect),
+            Err(defect) => report.set_defect((Model::Gates, defect)),
         }
         Ok(report)
     })?
@@ -283,7 +283,9 @@ impl Report {
         self.gates = self.gates.max(other.gates);
         self.mismatched += other.mismatched;
         show(&mut self.mismatches, other.mismatches);
-        self.defect = self.defect.or(other.defect);
+        if self.defect.is_none() {
+            (self.defect, self.defect_model) = (other.defect, other.defect_model);
+        }
         self
     }
 
@@ -311,7 +313,7 @@ impl Report {
                 workers.report(Progress::Finished(length));
                 found
             });
-            let found: Vec<Result<Found, Defect>> = found.collect();
+            let found: Vec<Result<Found, (Model, Defect)>> = found.collect();
             if workers.cancelled() {
                 return Err(VerifyError::Interrupted {
                     finished: first / runs,
@@ -322,7 +324,7 @@ impl Report {
                 match found {
                     Ok(found) => pixel.add(found),
                     Err(defect) => {
-                        self.defect = Some(defect);
+                        self.set_defect(defect);
                         // Of some of the pixels, they would be of none.
                         [self.mean, self.width_error, self.greatest] = [[0.0; 3]; 3];
                         self.parted = 0.0;
@@ -338,6 +340,11 @@ impl Report {
         self.width_error = self.width_error.map(|sum| (sum / pixels as f64).sqrt());
         self.parted /= 3.0 * self.paths as f64;
         Ok(())
+    }
+
+    /// Takes in a defect, with the model that shows it.
+    fn set_defect(&mut self, (model, defect): (Model, Defect)) {
+        (self.defect, self.defect_model) = (Some(defect), Some(model));
     }
 
     /// Takes in a finished pixel of so many paths.

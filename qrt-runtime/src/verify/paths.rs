@@ -2,6 +2,7 @@
 
 use super::{Mismatch, SHOWN};
 use crate::machines::{Defect, OracleMachine, Real};
+use crate::render::Model;
 use qrt_core::oracle::Oracle;
 use qrt_core::scene::ComparatorAt;
 use std::ops::Range;
@@ -48,16 +49,23 @@ pub(super) struct Trio<'a> {
 
 impl Trio<'_> {
     /// Compares paths of a pixel.
-    pub(super) fn run(&self, pixel: [u32; 2], ids: Range<u64>) -> Result<Found, Defect> {
+    ///
+    /// # Errors
+    /// A defect, with the model that shows it.
+    pub(super) fn run(&self, pixel: [u32; 2], ids: Range<u64>) -> Result<Found, (Model, Defect)> {
         let mut real: [Vec<f64>; 3] = Default::default();
         self.real.trace_range(&[pixel], ids.clone(), |block| {
             for (all, colours) in real.iter_mut().zip(block.colours) {
                 all.extend_from_slice(colours);
             }
         });
-        self.within_bounds(pixel, ids.start, &real)?;
-        let fixed = self.columns(self.fixed, pixel, ids.clone())?;
-        let gates = self.columns(self.gates, pixel, ids.clone())?;
+        let shown_by = |model: Model| move |defect: Defect| (model, defect);
+        let within = self.within_bounds(pixel, ids.start, &real);
+        within.map_err(shown_by(Model::Real))?;
+        let fixed = self.columns(self.fixed, pixel, ids.clone());
+        let fixed = fixed.map_err(shown_by(Model::Fixed))?;
+        let gates = self.columns(self.gates, pixel, ids.clone());
+        let gates = gates.map_err(shown_by(Model::Gates))?;
         Ok(self.compare(pixel, ids.start, &real, &fixed, &gates))
     }
 

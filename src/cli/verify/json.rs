@@ -5,6 +5,7 @@ use crate::cli::inspect::oracle_cost;
 use qrt_core::oracle::PARTS_OF_A_CALL;
 use qrt_core::valid::ValidScene;
 use qrt_runtime::machines::Defect;
+use qrt_runtime::render::Model;
 use serde_json::{Value, json};
 
 /// The answer.
@@ -54,8 +55,8 @@ pub(super) fn answer(args: &VerifyArgs, scene: &ValidScene, found: &Found) -> Va
     })
 }
 
-/// A defect of the circuit.
-pub(super) fn defect(defect: &Defect) -> Value {
+/// A defect of the circuit, or a path whose colour is beyond its bound in `model`.
+pub(super) fn defect(defect: &Defect, model: Option<Model>) -> Value {
     let mut value = json!({ "message": defect.to_string() });
     match defect {
         Defect::Dirty {
@@ -81,6 +82,7 @@ pub(super) fn defect(defect: &Defect) -> Value {
             count,
             most,
         } => {
+            value["model"] = json!(model.map(Model::name));
             value["pixel"] = json!(pixel);
             value["id"] = json!(id);
             value["channel"] = json!(channel);

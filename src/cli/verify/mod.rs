@@ -14,10 +14,9 @@ use clap::Args;
 use qrt_core::inspect::grouped;
 use qrt_core::oracle::OracleCost;
 use qrt_core::valid::ValidScene;
-use qrt_runtime::machines::Defect;
 use qrt_runtime::memory::CircuitWork;
 use qrt_runtime::plan::Options as PlanOptions;
-use qrt_runtime::render::{Model, Portion};
+use qrt_runtime::render::{Model, Portion, out_of_bounds_advice};
 use qrt_runtime::verify::{Mismatch, Options, Report, verify};
 use qrt_runtime::workers::Workers;
 use serde_json::Value;
@@ -138,15 +137,8 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
     match fault(&found) {
         None => Ok(()),
         Some(fault) => {
-            let path = match found.report.defect {
-                Some(Defect::OutOfBounds { pixel, id, .. }) => {
-                    path::in_words(&scene, (Model::Fixed, args.seed, pixel, id))
-                }
-                _ => String::new(),
-            };
-            Err(Failure::Job(format!(
-                "{fault}; this is a defect of qrt, please report it with the scene{path}"
-            )))
+            let advice = advice(&found, &scene, args.seed);
+            Err(Failure::Job(format!("{fault}; {advice}")))
         }
     }
 }
@@ -163,7 +155,8 @@ struct Found {
 impl Found {
     fn of(report: Report, seconds: f64) -> Self {
         Self {
-            defect: report.defect.as_ref().map(json::defect),
+            defect: (report.defect.as_ref())
+                .map(|defect| json::defect(defect, report.defect_model)),
             report,
             seconds,
         }
@@ -173,10 +166,30 @@ impl Found {
         self.report.mismatched == 0 && self.defect.is_none()
     }
 
+    /// The path whose colour is beyond its bound, if that is the defect: model, pixel and index.
+    fn beyond_bound(&self) -> Option<(Model, [u32; 2], u64)> {
+        let defect = self.defect.as_ref()?;
+        let name = defect["model"].as_str()?;
+        let model = Model::ALL.into_iter().find(|model| model.name() == name)?;
+        let pixel = parts::words(&defect["pixel"])?;
+        Some((model, pixel, defect["id"].as_u64()?))
+    }
+
     /// The defect in words.
     fn defect(&self) -> Option<&str> {
         self.defect.as_ref()?["message"].as_str()
     }
+}
+
+/// Advice on a check that failed, with what the rays of a path meet whose colour is beyond its bound.
+fn advice(found: &Found, scene: &ValidScene, seed: u64) -> String {
+    let Some((model, pixel, id)) = found.beyond_bound() else {
+        return out_of_bounds_advice(None);
+    };
+    // Gates beyond a bound which the same numbers keep are a defect, however coarse these are.
+    let fraction = (model == Model::Fixed).then_some(found.report.fraction);
+    let path = path::in_words(scene, (model, seed, pixel, id));
+    out_of_bounds_advice(fraction) + &path
 }
 
 /// The defect or the first mismatch in words, if the check failed.

@@ -139,6 +139,7 @@ fn found(answer: &Value, scene: &ValidScene) -> Option<Found> {
         mismatched: answer["mismatched"].as_u64()?,
         mismatches: mismatches.collect::<Option<_>>()?,
         defect: None,
+        defect_model: None,
         mean: of(&answer["mean_rgb"])?,
         width_error: of(&errors["rmse_rgb"])?,
         greatest: of(&errors["greatest_rgb"])?,
@@ -183,7 +184,7 @@ fn mismatch(value: &Value) -> Option<Mismatch> {
     })
 }
 
-fn words(value: &Value) -> Option<[u32; 2]> {
+pub(super) fn words(value: &Value) -> Option<[u32; 2]> {
     let words = value.as_array()?.iter();
     let words = words.map(|word| word.as_u64()?.try_into().ok());
     words.collect::<Option<Vec<u32>>>()?.try_into().ok()

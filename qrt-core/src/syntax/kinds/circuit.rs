@@ -83,7 +83,8 @@ problems! {
         UnboundedFunction = QUOTIENT_UNBOUNDED
             "an expression of the scene takes a logarithm, a power or a tangent where it may be infinite, so \
              that no register is wide enough for it"
-            help "keep its operand away from there, as in `log(a + 0.01)`";
+            help "keep its operand away from there, as in `log(a + 0.01)`; a circuit computes both branches of \
+                  `if_less`";
         TooWide { what: &'static str, bits: u32, most: u32, whole: u32,
                   value: Option<(&'static str, String)> } = NUMBER_TOO_WIDE
             { match value {

@@ -149,9 +149,11 @@ fn channels<R: Copy, const C: usize>(values: &[R; ROOTS]) -> [R; C] {
 /// The angles between the viewer's direction and a sampled one.
 #[inline(always)]
 fn angles<A: Arith>(cx: &mut A, outgoing: &Vector<A>, incoming: &Vector<A>) -> Angles<A::Real> {
+    let cos_i = cx.abs(incoming[2]);
+    let cos_a = cos_to_mirror(cx, incoming, outgoing);
     Angles {
-        cos_i: cx.abs(incoming[2]),
-        cos_o: outgoing[2],
-        cos_a: cos_to_mirror(cx, incoming, outgoing),
+        cos_i: cx.cosine(cos_i),
+        cos_o: cx.cosine(outgoing[2]),
+        cos_a: cx.cosine(cos_a),
     }
 }

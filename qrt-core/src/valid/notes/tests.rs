@@ -106,6 +106,29 @@ fn lamps_in_one_place_that_face_opposite_ways_are_told_of() {
     }
 }
 
+/// Coordinates have rounding errors of their own size, and not more.
+#[test]
+fn far_from_the_origin_nothing_is_told_that_is_not_so() {
+    let corner = |far: f64, [x, y]: [f64; 2], z: f64| format!("[{}, {y}, {z}]", far + x);
+    let quad = |far: f64, z: f64, is_up: bool, material: &str| {
+        let mut corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+        if !is_up {
+            corners.reverse();
+        }
+        let corners = corners.map(|at| corner(far, at, z)).join(", ");
+        format!("quad: {{ vertices: [{corners}], material: {material} }}")
+    };
+    for far in [1e6, 1e9] {
+        let (eye, target) = (corner(far, [0.0; 2], 5.0), corner(far, [0.0; 2], 0.0));
+        let camera = format!("{{ perspective: {{ eye: {eye}, target: {target}, vfov: 40 }} }}");
+        let floor = quad(far, 0.0, true, "grey");
+        let lamp = quad(far, 0.9, false, "lamp");
+        assert_eq!(warned(&camera, &[&floor, &lamp], 2), [], "{far}");
+        let back = quad(far, 0.9005, true, "lamp");
+        assert_eq!(warned(&camera, &[&floor, &lamp, &back], 2), [], "{far}");
+    }
+}
+
 #[test]
 fn a_material_that_nothing_is_made_of_is_told_of() {
     let text = "name: notes

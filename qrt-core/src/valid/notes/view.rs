@@ -1,7 +1,6 @@
 //! The camera's view as a convex region. Polygons in it count as seen, whatever hides them.
 
-use crate::scene::{Camera, Film};
-use crate::tracer::Basis;
+use crate::scene::{Basis, Camera, Film};
 use glam::{DVec2, DVec3};
 
 /// The part of space that primary rays may pass.

@@ -10,7 +10,7 @@ use crate::machines::instructions::at_256_bits;
 use crate::machines::lanes::{Inputs, Lanes, lanes, slots};
 use crate::machines::masks;
 use pulp::WithSimd;
-use qrt_core::tracer::{Arith, NO_PLANE, Ray, Work};
+use qrt_core::tracer::{Arith, Ray, Start, Work};
 
 /// What walks keep from one to the next: memory.
 #[derive(Debug)]
@@ -87,8 +87,7 @@ impl<'i, S: pulp::Simd, const W: usize> Work<Lanes<'i, S, W>> for FindNearest<'_
             return (distance, rank);
         }
         let lines = &mut scratch.lines;
-        let from_camera = lanes::<_, u64>(&ray.from)[near.trailing_zeros() as usize];
-        if from_camera == u64::from(NO_PLANE) && near.count_ones() as usize >= FEW_RAYS {
+        if ray.start == Start::Camera && near.count_ones() as usize >= FEW_RAYS {
             let mut start = f64::INFINITY;
             for (lane, &near_to) in lanes::<_, f64>(&approach.near).iter().enumerate() {
                 if near >> lane & 1 != 0 {

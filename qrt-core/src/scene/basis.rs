@@ -1,0 +1,56 @@
+//! The camera's place and directions.
+
+use super::{Camera, Film};
+use glam::{DVec2, DVec3};
+
+/// The camera's coordinate system, in scene units.
+pub(crate) struct Basis {
+    pub(crate) eye: DVec3,
+    pub(crate) forward: DVec3,
+    pub(crate) right: DVec3,
+    pub(crate) up: DVec3,
+    /// Half the film's height: at distance 1, or in scene units.
+    pub(crate) half: f64,
+    pub(crate) perspective: bool,
+}
+
+impl Basis {
+    pub(crate) fn new(camera: &Camera) -> Self {
+        let (eye, target, up, half, perspective) = match camera {
+            Camera::Perspective(c) => {
+                let half = libm::tan(0.5 * c.vfov.to_radians());
+                (c.eye, c.target, c.up, half, true)
+            }
+            Camera::Orthographic(c) => (c.eye, c.target, c.up, 0.5 * c.height, false),
+        };
+        let forward = (target - eye).normalize();
+        let right = forward.cross(up.normalize()).normalize();
+        Self {
+            eye,
+            forward,
+            right,
+            up: right.cross(forward),
+            half,
+            perspective,
+        }
+    }
+
+    /// Corners of the film from its centre: at distance 1, or in scene units.
+    pub(crate) fn corners(&self, film: Film) -> [DVec3; 4] {
+        let half = self.half_film(film);
+        let (x, y) = (self.right * half.x, self.up * half.y);
+        [y - x, y + x, -x - y, x - y]
+    }
+
+    /// Half the film's width and height: at distance 1, or in scene units.
+    pub(crate) fn half_film(&self, film: Film) -> DVec2 {
+        let aspect = f64::from(film.width) / f64::from(film.height);
+        DVec2::new(self.half * aspect, self.half)
+    }
+
+    /// Returns a point to the right of the eye, above it, and before it.
+    pub(crate) fn coordinates(&self, point: DVec3) -> DVec3 {
+        let v = point - self.eye;
+        DVec3::new(v.dot(self.right), v.dot(self.up), v.dot(self.forward))
+    }
+}
