@@ -16,7 +16,7 @@ use crate::estimators::{AmplitudeEstimator, Device, Estimate, EstimatorError, Se
 /// left than can be held.
 ///
 /// With a few hundred queries the posterior often has several modes, and the estimate lies between them.
-/// On the Cornell box with 255 queries the RMSE is a third of the mean, that of sampling half of it
+/// On the Cornell box with 255 queries the RMSE is a quarter of the mean, that of sampling half of it
 /// (`cargo bench --bench estimators -- bias`).
 ///
 /// Interval and stopping as with `adaptive-bayes`.
