@@ -369,7 +369,7 @@ fn kept(error: Failure, checkpoint: Option<Checkpoint>, outputs: &Outputs) -> Fa
     }
 }
 
-/// Warns if so many pixels, as a fraction, are expected to be grey that a picture would show it.
+/// Warns if the fraction of pixels that are expected to be grey is large enough to be seen.
 fn tell_of_grey(fraction: f64, options: &Options<'_>, traced: &ValidScene) {
     const SHOWN: f64 = 1e-3;
     const ENOUGH: u32 = 10;

@@ -224,7 +224,7 @@ fn pictures_with_the_longest_names_are_written_and_gone_on_with() {
     assert_eq!(folder.names(), ["box.yaml"]);
 }
 
-/// `/sys` takes new files of nobody, whoever asks.
+/// Nobody can create a file in `/sys`, root included.
 #[test]
 #[cfg(target_os = "linux")]
 fn a_folder_that_takes_no_files_is_named() {

@@ -22,7 +22,7 @@ const LINE: f64 = 17.0;
 /// Width of a letter of a name and of the title, at most on average: those of DejaVu Sans.
 const LETTER: f64 = 8.4;
 const TITLE_LETTER: f64 = 8.6;
-/// Where the title begins.
+/// Left end of the title.
 const TITLE_LEFT: f64 = 14.0;
 /// Of the legend.
 const COLUMNS: usize = 2;

@@ -81,23 +81,20 @@ const SCOPED: u16 = ALL_PARTS & !(1 << 6);
 const RECOMPUTE: &str = "recompute";
 const RERUN: &str = "rerun";
 
-/// All words that a name is made of: first those that stand alone.
-const NAMES: &[&str] = &[
-    "keep",
-    "scoped",
-    "auto",
-    "plane",
-    "products",
-    "ray",
-    "search",
-    "tables",
-    "quotients",
-    "body",
-    "shading",
-    "component",
-    RECOMPUTE,
-    RERUN,
-];
+/// All words of names: those of [`WORDS`], which stand alone, the parts, and what is computed again.
+const NAMES: &[&str] = &{
+    let mut names = [RERUN; WORDS.len() + PARTS.len() + 2];
+    let (alone, rest) = names.split_at_mut(WORDS.len());
+    let (parts, again) = rest.split_at_mut(PARTS.len());
+    let mut word = 0;
+    while word < WORDS.len() {
+        alone[word] = WORDS[word].1;
+        word += 1;
+    }
+    parts.copy_from_slice(&PARTS);
+    again[0] = RECOMPUTE;
+    names
+};
 const NOUN: &str = "a strategy";
 
 impl Uncompute {

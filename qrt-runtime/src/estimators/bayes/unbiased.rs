@@ -20,14 +20,14 @@
 //! outcomes. But an adaptive run that meets a good index early goes less deep afterwards: I is
 //! smaller, and the mean estimate too large. [`EXTRA`] more mass near the ends makes up for that.
 
-/// Where the density begins to exceed Haldane's, in units of 1/I, and by which power.
+/// Unit and power of the factor `(1 + unit/(I a (1 - a)))^power` by which the density exceeds Haldane's.
 ///
 /// Measured on the Cornell box at 63 queries, to 0.25 % of the mean: powers of 0.5, 0.6 and 0.7
 /// leave a bias of 0.6 %, 0.1 % and -0.4 %; Haldane's prior leaves 2.7 %. The error of a pixel is
 /// the same to 1 %.
 const EXTRA: (f64, f64) = (3.0, 0.6);
 
-/// What all shots of a run have in common.
+/// Summary of all shots of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Evidence {
     /// Good indices that were measured.
@@ -40,8 +40,8 @@ pub(super) struct Evidence {
 }
 
 impl Evidence {
-    /// Adds shots after k iterations, `multiple` being `2k + 1`, of which noise spares a fraction
-    /// `intact`: so many good and bad.
+    /// Adds the numbers of good and bad shots after k iterations, with `multiple = 2k + 1` and the
+    /// fraction `intact` of shots that noise spares.
     pub(super) fn note(&mut self, multiple: u64, [good, bad]: [u64; 2], intact: f64) {
         self.good = self.good.saturating_add(good);
         self.bad = self.bad.saturating_add(bad);
