@@ -45,21 +45,8 @@ pub(super) fn check(valid: &mut ValidScene, problems: &mut Problems) {
         }
         return;
     }
+    cut_lamps(valid);
     let materials = &valid.materials;
-    let cut = valid.polygons.iter().flat_map(|polygon| {
-        let emits = materials[polygon.surface as usize].emits();
-        if !emits || polygon.corners == 3 || is_parallelogram(polygon.vertices) {
-            return vec![*polygon];
-        }
-        let [a, b, c, d] = polygon.vertices;
-        let half = |vertices: [DVec3; 4]| Polygon {
-            vertices,
-            corners: 3,
-            surface: polygon.surface,
-        };
-        vec![half([a, b, c, c]), half([a, c, d, d])]
-    });
-    valid.polygons = cut.collect();
     let surface = |polygon: &&Polygon| &materials[polygon.surface as usize];
     let lamps: Vec<&Polygon> = valid
         .polygons
@@ -98,6 +85,33 @@ pub(super) fn check(valid: &mut ValidScene, problems: &mut Problems) {
             problems.push(Problem::new(place, Fault::LightUnbounded { surface }));
         }
     }
+}
+
+/// Cuts each quadrilateral that emits and is no parallelogram into two triangles, since points on a lamp
+/// are an affine map of the unit square.
+fn cut_lamps(valid: &mut ValidScene) {
+    let mut cut = Vec::with_capacity(valid.polygons.len());
+    let mut moved = Vec::with_capacity(valid.polygons.len() + 1);
+    for polygon in &valid.polygons {
+        moved.push(cut.len());
+        let emits = valid.materials[polygon.surface as usize].emits();
+        if !emits || polygon.corners == 3 || is_parallelogram(polygon.vertices) {
+            cut.push(*polygon);
+            continue;
+        }
+        let [a, b, c, d] = polygon.vertices;
+        let half = |vertices: [DVec3; 4]| Polygon {
+            vertices,
+            corners: 3,
+            surface: polygon.surface,
+        };
+        cut.extend([half([a, b, c, c]), half([a, c, d, d])]);
+    }
+    moved.push(cut.len());
+    for first in &mut valid.firsts {
+        *first = moved[*first];
+    }
+    valid.polygons = cut;
 }
 
 impl Polygon {

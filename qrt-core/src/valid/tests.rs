@@ -149,3 +149,24 @@ sampling: { depths: [{ bits: [8, 8] }, { bits: [8, 8] }] }
     let problems = with([1, 8]).unwrap_err();
     assert_eq!(problems[0].code(), codes::FEW_LIGHT_BITS);
 }
+
+/// A lamp to sample that is no parallelogram is cut in two: what follows it in the list keeps its own faces.
+#[test]
+fn faces_belong_to_their_primitives_after_a_lamp_is_cut() {
+    let text = "{ name: a, film: { width: 1, height: 1 }, \
+         materials: { lamp: { emitter: { radiance: [1, 1, 1] } }, white: { lambertian: { albedo: [0.5, 0.5, 0.5] } } }, \
+         geometry: [ \
+           { triangle: { vertices: [[4, 0, 0], [5, 0, 0], [4, 1, 0]], material: white } }, \
+           { quad: { vertices: [[-1, 3, 1], [-2, 3, -1], [2, 3, -1], [1, 3, 1]], material: lamp } }, \
+           { quad: { vertices: [[-1, 0, 1], [1, 0, 1], [1, 0, -1], [-1, 0, -1]], material: white } } ], \
+         sampling: { path_bits: 4, depths: [{ bits: [4, 4] }, { bits: [4, 4], light: [4, 4] }] }, \
+         camera: { perspective: { eye: [0, 1, 4], target: [0, 1, 0], vfov: 40 } } }";
+    let valid = crate::front::parse(text, "scene.yaml", &[], "".as_ref()).unwrap();
+    let valid = valid.valid;
+    let parts: Vec<_> = (0..4)
+        .map(|primitive| valid.polygons_of(primitive))
+        .collect();
+    assert_eq!(parts, [0..1, 1..3, 3..4, 4..4]);
+    let owners: Vec<_> = (0..4).map(|polygon| valid.primitive_of(polygon)).collect();
+    assert_eq!(owners, [0, 1, 1, 2]);
+}
