@@ -21,9 +21,9 @@ pub(crate) fn good_id(theta: f64, phase_bits: u32, window: Window) -> f64 {
     let cosines = |first: f64, step: f64| {
         let half = 0.5 * step;
         let sine = libm::sin(half);
-        let ratio = if sine.abs() < 1e-9 {
-            // At most one turn away from where all terms are equal up to sign.
-            size * libm::cos(size * half) / libm::cos(half)
+        let ratio = if sine == 0.0 {
+            // 0/0: all terms are equal.
+            size
         } else {
             libm::sin(size * half) / sine
         };
@@ -46,6 +46,39 @@ pub(crate) fn good_id(theta: f64, phase_bits: u32, window: Window) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Small angles, where the terms are nearly equal but their number times their difference is not small. The
+    /// mean over a large register is an integral.
+    #[test]
+    fn small_angles_turn_far_in_large_registers() {
+        for bits in [20, 30, 40] {
+            for theta in [1e-13, 1e-12, 1e-10, 1e-9] {
+                let turns = 2.0 * theta * (1_u64 << bits) as f64;
+                if turns > 1e3 {
+                    continue;
+                }
+                for window in [Window::Rect, Window::Sine] {
+                    const STEPS: u32 = 200_000;
+                    let sum: f64 = (0..STEPS)
+                        .map(|step| {
+                            let s = (f64::from(step) + 0.5) / f64::from(STEPS);
+                            let weight = match window {
+                                Window::Rect => 1.0,
+                                Window::Sine => 2.0 * libm::sin(PI * s).powi(2),
+                            };
+                            weight * libm::sin(PI * turns * s).powi(2)
+                        })
+                        .sum();
+                    let mean = sum / f64::from(STEPS);
+                    let closed = good_id(theta, bits, window);
+                    assert!(
+                        (closed - mean).abs() < 1e-5,
+                        "{bits} {theta} {window:?}: {closed} {mean}"
+                    );
+                }
+            }
+        }
+    }
 
     #[test]
     fn the_sum_over_the_counter_is_the_closed_form() {
