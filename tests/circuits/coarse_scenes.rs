@@ -291,6 +291,8 @@ fn picture(scene: &ValidScene, options: &Options<'_>, text: &str) -> Vec<[f64; 3
 struct Found {
     scenes: u64,
     refused: u64,
+    /// Scenes whose numbers do not fit into registers.
+    without_circuit: u64,
     /// Sum over scenes of the fraction of paths that fixed and real numbers part on.
     parted: f64,
     /// Scenes whose picture is not black.
@@ -311,6 +313,7 @@ impl Found {
     fn add(&mut self, other: &Self) {
         self.scenes += other.scenes;
         self.refused += other.refused;
+        self.without_circuit += other.without_circuit;
         self.parted += other.parted;
         self.lit += other.lit;
         self.shuffled += other.shuffled;
@@ -355,8 +358,13 @@ fn compare_search(scene: &ValidScene, fixed: &[[f64; 3]], text: &str, found: &mu
         let mut parameters = scene.parameters();
         parameters.precision.fraction = Some(28);
         let fine = scene.with_parameters(parameters).unwrap();
-        let all = picture(&fine, &searched, text);
-        assert_eq!(all, picture(&fine, &exact(Model::Fixed), text), "{text}");
+        match render(&fine, &searched) {
+            Ok(all) => {
+                let fixed = picture(&fine, &exact(Model::Fixed), text);
+                assert_eq!(all.image.pixels, fixed, "{text}");
+            }
+            Err(error) => assert!(error.is_refusal(), "{error}\n{text}"),
+        }
     }
 }
 
@@ -391,7 +399,15 @@ fn check(number: u64, found: &mut Found) {
         ..verify::Options::default()
     };
     options.workers.threads = std::num::NonZeroUsize::new(1);
-    let report = verify(&scene, &options).unwrap_or_else(|error| panic!("{error}\n{text}"));
+    let report = match verify(&scene, &options) {
+        Ok(report) => report,
+        Err(error) => {
+            // Numbers of this scene need more bits than a register has: it says so, and has no circuit.
+            assert!(error.is_refusal(), "scene {number}: {error}\n{text}");
+            found.without_circuit += 1;
+            return;
+        }
+    };
     assert!(report.holds(), "scene {number}: {report:?}\n{text}");
     found.parted += report.parted;
     let real = picture(&scene, &exact(Model::Real), &text);
@@ -430,7 +446,7 @@ fn check_all(first: u64, count: u64) -> Found {
                         break;
                     }
                     check(first + number, &mut found);
-                    if number % 1000 == 999 {
+                    if number % 250 == 249 {
                         eprintln!("{} scenes", number + 1);
                     }
                 }
@@ -459,4 +475,5 @@ fn of_ten_thousand_scenes_everything_agrees() {
     let found = check_all(1_000_000, 10_000);
     assert!(found.scenes >= 5_000 && found.lit >= 2_500, "{found:?}");
     assert!(100 * found.shuffled <= found.scenes, "{found:?}");
+    assert!(100 * found.without_circuit <= found.scenes, "{found:?}");
 }
