@@ -16,9 +16,12 @@
 //! its twelve million qubits leave memory for no more than 256 states.
 //!
 //! It fails where a promise is broken: 3e11 lane-gates a second and core with vectors of 256 bits
-//! or more, at least half the speed of the scoped box on every scene under `keep` and on gates made
-//! anew for many states at a time, a hundredth of it where memory holds 256 states, and simple
-//! operations on numbers of up to 32 bits in an eighth of a nanosecond.
+//! or more on what caches hold, at least half the speed of the scoped box with rows of the same length on
+//! every scene under `keep`, half its speed on gates made anew for many states at a time, a hundredth of it
+//! where memory holds 256 states, and simple operations on numbers of up to 32 bits in an eighth of a
+//! nanosecond. Rows are shorter where there are very many: choosing what to execute is then shared by fewer
+//! states, and how much slower that is depends on the processor.
+//! So circuits are compared at one length.
 
 // A bench that cannot run has nothing to report.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
@@ -64,7 +67,7 @@ const LEAST: f64 = 0.1;
 const BAR: f64 = 3e11;
 const AIM: f64 = 6e11;
 
-/// Speed of any scene's circuit under `keep`, by that of the box under `scoped`.
+/// Speed of any scene's circuit under `keep`, by that of the box under `scoped` on rows of the same length.
 const LARGE: f64 = 0.5;
 
 /// Speed of gates that are made anew, by the same.
@@ -122,20 +125,37 @@ fn main() -> ExitCode {
         );
     }
 
-    println!("\n  under keep           gates  qubits  lanes   one core  of box, scoped");
+    println!(
+        "\n  under keep           gates  qubits  lanes   one core  of box, scoped, at as many"
+    );
     let mut large = f64::INFINITY;
+    let (_, of_scoped) = &lists[3];
+    let scoped_at = [2048, 1024, 512].map(|lanes| {
+        let machine = machine(of_scoped).with_lanes(lanes);
+        (lanes, gate_speed(&machine, 1))
+    });
+    for (lanes, speed) in scoped_at {
+        println!(
+            "  box, scoped                          {lanes:4}     {:6.2}",
+            speed / 1e11
+        );
+    }
     for name in CIRCUITS.into_iter().chain(["lit-box"]) {
         let circuits = scene(name, "keep");
         let machine = machine(&circuits);
         let speed = gate_speed(&machine, 1);
-        large = large.min(speed / scoped);
+        let same_length = scoped_at
+            .iter()
+            .find(|(lanes, _)| *lanes == machine.lanes());
+        let share = speed / same_length.map_or(scoped, |(_, speed)| *speed);
+        large = large.min(share);
         println!(
             "  {name:16} {:9}  {:6}   {:4}     {:6.2}          {:6.2}",
             gates(&machine),
             circuits[0].qubits,
             machine.lanes(),
             speed / 1e11,
-            speed / scoped,
+            share,
         );
     }
 
@@ -178,7 +198,7 @@ fn main() -> ExitCode {
         !wide || slowest >= BAR,
     );
     promises.judge(
-        &format!("any scene under keep by the box under scoped: {large:.2}, at least {LARGE}"),
+        &format!("any scene under keep by the box under scoped, rows of one length: {large:.2}, at least {LARGE}"),
         !wide || large >= LARGE,
     );
     for (name, share, least) in anew {

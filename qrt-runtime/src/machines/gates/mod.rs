@@ -113,7 +113,17 @@ impl Gates {
         rows::at_once(self.wiring.rows(), self.words, bytes)
     }
 
-    /// With rows of so many words, one of [`rows::LENGTHS`].
+    /// With rows of `lanes` states, in place of the length that the number of qubits suggests.
+    ///
+    /// # Panics
+    /// If `lanes` is not 2048, 1024, 512 or 256.
+    pub fn with_lanes(self, lanes: usize) -> Self {
+        let words = rows::LENGTHS.into_iter().find(|words| 64 * words == lanes);
+        assert!(words.is_some(), "rows of {lanes} lanes");
+        self.with_words(words.unwrap_or_default())
+    }
+
+    /// With rows of `words` words, one of [`rows::LENGTHS`].
     fn with_words(mut self, words: usize) -> Self {
         self.words = words;
         self
