@@ -1,14 +1,14 @@
-//! A drawing in the making.
+//! SVG drawings under construction.
 
 use crate::escape::escaped;
 use crate::palette::style_sheet;
 use std::fmt::Write as _;
 
-/// A drawing in the making: elements of SVG, each with classes of [`crate::style_sheet`].
+/// A drawing under construction: SVG elements, each with classes of [`crate::style_sheet`].
 #[derive(Clone, Debug)]
 pub struct Canvas {
     title: String,
-    /// For those who cannot see it.
+    /// The description for readers who cannot see the drawing.
     says: String,
     width: f64,
     height: f64,
@@ -16,19 +16,19 @@ pub struct Canvas {
     body: String,
 }
 
-/// The size of small letters beside others, on large drawings.
+/// Ratio of the font size of class `small` to the default size, on large drawings.
 pub const SMALL: f64 = 0.875;
 
 impl Canvas {
-    /// An empty drawing under a title, as wide as its page lets it be.
+    /// Creates an empty drawing with a title. It is as wide as its page allows.
     pub fn new(title: &str, width: f64, height: f64) -> Self {
         let mut canvas = Self::empty(title, width, height);
         canvas.text("title", [14.0, 22.0], title);
         canvas
     }
 
-    /// An empty drawing for a page of its own, which shows it in its own size, however large: under
-    /// a title and a line of figures.
+    /// Creates an empty drawing for a page of its own, with a title and a line of figures. The page
+    /// shows it at its own size, however large.
     pub fn large(title: &str, width: f64, height: f64, figures: &str) -> Self {
         let mut canvas = Self::empty(title, width, height);
         canvas.large = true;
@@ -48,7 +48,7 @@ impl Canvas {
         }
     }
 
-    /// Says what there is to see, for those who cannot.
+    /// Sets the description for readers who cannot see the drawing.
     pub fn describe(&mut self, says: &str) {
         says.clone_into(&mut self.says);
     }
@@ -63,7 +63,7 @@ impl Canvas {
         self.text_and(class, at, text, "");
     }
 
-    /// A text, and what is said softly behind it.
+    /// Adds a text, followed by `aside` in the soft colour.
     pub fn text_and(&mut self, class: &str, at: [f64; 2], text: &str, aside: &str) {
         let ([x, y], class, text) = (at.map(number), classes(class), escaped(text));
         if aside.is_empty() {
@@ -78,7 +78,7 @@ impl Canvas {
         }
     }
 
-    /// A text that runs upwards, about its middle.
+    /// Adds a text that runs upwards, centred on `at`.
     pub fn upright(&mut self, class: &str, at: [f64; 2], text: &str) {
         let ([x, y], text) = (at.map(number), escaped(text));
         let class = classes(&format!("{class} mid"));
@@ -87,12 +87,12 @@ impl Canvas {
         ));
     }
 
-    /// A path of the data `d`.
+    /// Adds a path with the path data `d`.
     pub fn path(&mut self, class: &str, d: &str) {
         self.push(format_args!("<path class=\"{class}\" d=\"{d}\"/>"));
     }
 
-    /// A path of the data `d`, about a point.
+    /// Adds a path with the path data `d`, whose origin is moved to `at`.
     pub fn path_at(&mut self, class: &str, at: [f64; 2], d: &str) {
         let [x, y] = at.map(number);
         self.push(format_args!(
@@ -105,12 +105,12 @@ impl Canvas {
         self.path(class, &polyline(&[from, to]));
     }
 
-    /// A rectangle: left, top, width, height.
+    /// Adds a rectangle. `place` is its left, top, width and height.
     pub fn rectangle(&mut self, class: &str, place: [f64; 4]) {
         self.hinted(class, place, "");
     }
 
-    /// As [`Canvas::rectangle`]; pointing at it shows `hint`.
+    /// Adds a rectangle as [`Canvas::rectangle`] does. Pointing at it shows `hint`.
     pub fn hinted(&mut self, class: &str, place: [f64; 4], hint: &str) {
         let [x, y, w, h] = place.map(number);
         let end = if hint.is_empty() {
@@ -131,7 +131,7 @@ impl Canvas {
         ));
     }
 
-    /// Round dots, all in one element.
+    /// Adds round dots, all in one element.
     pub fn dots(&mut self, class: &str, places: impl IntoIterator<Item = [f64; 2]>) {
         let mut d = String::new();
         for [x, y] in places.into_iter().map(|at| at.map(number)) {
@@ -140,7 +140,7 @@ impl Canvas {
         self.path(&format!("dots {class}"), &d);
     }
 
-    /// A vector with its head.
+    /// Adds an arrow with its head at `to`.
     pub fn arrow(&mut self, class: &str, from: [f64; 2], to: [f64; 2]) {
         let along = [to[0] - from[0], to[1] - from[1]];
         let length = libm::hypot(along[0], along[1]);
@@ -156,12 +156,12 @@ impl Canvas {
         self.path(&format!("solid {class}"), &head);
     }
 
-    /// The drawing as a file of its own.
+    /// Returns the drawing as a file of its own.
     pub fn svg(&self) -> String {
         self.finished(&format!("<style>{}</style>\n", style_sheet()))
     }
 
-    /// The drawing as a part of a page that has [`crate::style_sheet`] among its styles.
+    /// Returns the drawing as a part of a page whose styles include [`crate::style_sheet`].
     pub fn inline_svg(&self) -> String {
         self.finished("")
     }
@@ -187,7 +187,7 @@ impl Canvas {
     }
 }
 
-/// The attribute of classes, if there are any.
+/// Returns the `class` attribute, or nothing if there are no classes.
 fn classes(class: &str) -> String {
     match class.trim() {
         "" => String::new(),
@@ -195,7 +195,7 @@ fn classes(class: &str) -> String {
     }
 }
 
-/// Straight from each place to the next.
+/// Returns the path data of straight lines from each place to the next.
 pub fn polyline(places: &[[f64; 2]]) -> String {
     let mut d = String::new();
     for (k, [x, y]) in places.iter().map(|place| place.map(number)).enumerate() {
@@ -205,7 +205,7 @@ pub fn polyline(places: &[[f64; 2]]) -> String {
     d
 }
 
-/// Two places after the point, and no more than it takes.
+/// Formats a number with at most two decimals, and without trailing zeros.
 ///
 /// ```
 /// assert_eq!([2.0, 0.125, -0.001].map(qrt_drawing::number), ["2", "0.12", "0"]);
@@ -216,7 +216,7 @@ pub fn number(value: f64) -> String {
     if text == "-0" { "0" } else { text }.to_owned()
 }
 
-/// A width that `text` surely fits in, in letters of 12 pixels.
+/// Returns a width in which `text` certainly fits, in letters of 12 pixels.
 pub fn text_width(text: &str) -> f64 {
     7.0 * text.chars().count() as f64
 }

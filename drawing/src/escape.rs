@@ -1,9 +1,9 @@
-//! Text within XML and HTML.
+//! Escapes of text within XML and HTML.
 
-/// Text as it may stand between tags, or within a quoted attribute.
+/// Escapes text for use between tags or within a quoted attribute.
 ///
-/// XML has no control characters, not even escaped: all but tabs and ends of lines are shown as
-/// what cannot be shown.
+/// XML has no control characters, not even escaped ones. All of them except tabs and line ends
+/// become U+FFFD, the replacement character.
 ///
 /// ```
 /// assert_eq!(qrt_drawing::escaped("a <&\"> b\u{7}"), "a &lt;&amp;&quot;&gt; b\u{fffd}");

@@ -1,10 +1,9 @@
-//! One drawing kit for all that qrt draws: what `qrt inspect` and `qrt trade` write, and the book's
-//! figures.
+//! The drawing kit of qrt: it draws the figures of `qrt inspect`, of `qrt trade` and of the book.
 //!
-//! A [`Canvas`] collects a drawing's elements and becomes an SVG that is self-contained, has no
-//! scripts and follows its reader's colour scheme. A [`Panel`] is a part of it with linear axes; a
-//! [`Plot`] is a whole one with logarithmic axes. Their colours are those of one palette
-//! ([`coloured`]), in which each name means one thing.
+//! A [`Canvas`] collects a drawing's elements and becomes an SVG. The SVG is self-contained, has no
+//! scripts and follows its reader's colour scheme. A [`Panel`] is a part of a drawing with linear
+//! axes. A [`Plot`] is a whole drawing with logarithmic axes. All colours come from one palette
+//! ([`coloured`]), in which each name has one meaning.
 //!
 //! ```
 //! use qrt_drawing::Canvas;

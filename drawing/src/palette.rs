@@ -1,31 +1,31 @@
-//! One palette, for light and for dark pages.
+//! The colour palette, for light and dark pages.
 
 use std::fmt::Write as _;
 
-/// Styles of series; beyond, they come again.
+/// Number of styles of series. Further series repeat the styles from the first.
 pub const STYLES: usize = 14;
 
-/// By name: what a colour is on light and on dark pages.
+/// Colours by name, on light and on dark pages.
 const PALETTE: [(&str, [&str; 2]); 20] = [
-    // Words and strokes; what is said beside them; grids; the ground.
+    // Text and strokes; secondary text; grids; the background.
     ("ink", ["#1f2328", "#e6edf3"]),
     ("soft", ["#59636e", "#9da7b3"]),
     ("grid", ["#d1d9e0", "#343b44"]),
     ("page", ["#ffffff", "#0d1117"]),
-    // Boxes of circuits: what computes, what uncomputes, what flips the phase.
+    // Boxes of circuits: compute, uncompute, phase flip.
     ("box", ["#f3f5f8", "#232932"]),
     ("undo", ["#e6eaf0", "#2d3540"]),
     ("flip", ["#fdf0d5", "#4a3b17"]),
-    // Roles of registers, as areas with words on them: Paul Tol's bright scheme, which people with
-    // any colour vision can tell apart, lighter on dark ground.
+    // Roles of registers, as areas with text on them: Paul Tol's bright scheme, distinguishable
+    // with any colour vision, lighter on dark pages.
     ("id", ["#4477aa", "#6f9fd0"]),
     ("comparator", ["#aa3377", "#cf6aa3"]),
     ("work", ["#66ccee", "#4aa9c9"]),
     ("scratch", ["#b8bcc4", "#5d646f"]),
     ("colour", ["#ee6677", "#f08a96"]),
     ("flag", ["#228833", "#4fae5f"]),
-    // Series of points, as lines on the page: Okabe and Ito's, which the colour-blind can tell
-    // apart, darkened or lightened until they stand out from it.
+    // Series of points, as lines on the page: Okabe and Ito's colours, distinguishable for the
+    // colour-blind, darkened or lightened for contrast with the page.
     ("s0", ["#0a5ea8", "#5fb0f5"]),
     ("s1", ["#b3500a", "#f0883e"]),
     ("s2", ["#08795a", "#35c79a"]),
@@ -35,8 +35,8 @@ const PALETTE: [(&str, [&str; 2]); 20] = [
     ("s6", ["#2b7f9e", "#63c5e0"]),
 ];
 
-/// What drawings look like, in a class of their own so that a page may hold them, too. Two series
-/// of one colour differ in their marks, which are filled or hollow.
+/// Style rules of drawings. All are under one class, so that a page can contain drawings. Two
+/// series of the same colour differ in their marks, which are filled or hollow.
 const RULES: &str = "\
 .drawing{font:14px system-ui,-apple-system,'Segoe UI','DejaVu Sans',sans-serif}
 .drawing text{fill:$ink;stroke:none}.drawing .soft{fill:$soft}.drawing .page{fill:$page}
@@ -64,19 +64,22 @@ const RULES: &str = "\
 .drawing .edge{stroke:$page;stroke-width:.4}.drawing .in-use{stroke:$ink;fill:none;stroke-width:1.2}
 ";
 
-/// The styles of drawings: a file of its own holds them, a page needs them once for all that are in
-/// it.
+/// Returns the style sheet of drawings. A file of its own contains it; a page needs it once for all
+/// its drawings.
 pub fn style_sheet() -> String {
     let print = "@media print{.drawing .page,.drawing .hollow{fill:#ffffff}}";
     format!("{}{print}", coloured(RULES))
 }
 
-/// Rules of a style sheet in which `$name` is a colour of the palette: as they are on light pages,
-/// and in a second part what differs on dark ones. There a colour outranks all rules of the first
-/// part that are as specific: what has none, such as `stroke:none`, may not rely on coming later.
+/// Returns style rules in which each `$name` is replaced by that colour of the palette.
 ///
-/// The colours are written into the rules, not into variables, which few programs besides browsers
-/// know.
+/// The first part has all rules, with the colours of light pages. The second part has the
+/// declarations of colours again, for dark pages. There a colour overrides every rule of the first
+/// part with the same specificity. So a declaration without a colour, such as `stroke:none`, must
+/// not rely on its later position to override a colour.
+///
+/// The colours are written into the rules. Variables would not work, since few programs besides
+/// browsers support them.
 ///
 /// ```
 /// assert_eq!(
@@ -98,7 +101,7 @@ pub fn coloured(rules: &str) -> String {
     format!("{light}@media (prefers-color-scheme:dark){{{dark}}}\n")
 }
 
-/// Rules with the palette's colours of a light page (0) or of a dark one (1) for their names.
+/// Replaces the names of colours in `rules` by the colours for a light page (0) or a dark page (1).
 fn named(rules: &str, page: usize) -> String {
     let mut parts = rules.split('$');
     let mut out = parts.next().unwrap_or_default().to_owned();
@@ -112,7 +115,7 @@ fn named(rules: &str, page: usize) -> String {
     out
 }
 
-/// Marks of radius 4 about the origin, by the colour that they are first used with.
+/// Outlines of marks of radius 4 about the origin, one for each colour of series.
 const MARKS: [&str; 7] = [
     "M-4 0a4 4 0 1 0 8 0a4 4 0 1 0 -8 0z",
     "M-3.6 -3.6h7.2v7.2h-7.2z",
@@ -123,17 +126,17 @@ const MARKS: [&str; 7] = [
     "M-4.6 -1.2l4.6 -3.6l4.6 3.6l-1.8 5.4h-5.6z",
 ];
 
-/// The class of the colour of series `number`.
+/// Returns the class of the colour of series `number`.
 pub(crate) fn series(number: usize) -> String {
     format!("s{}", number % MARKS.len())
 }
 
-/// Whether its marks are hollow, and its line is dashed.
+/// True if the marks of series `number` are hollow and its line is dashed.
 pub(crate) fn hollow(number: usize) -> bool {
     number / MARKS.len() % 2 == 1
 }
 
-/// The outline of its marks.
+/// Returns the outline of the marks of series `number`.
 pub(crate) fn mark(number: usize) -> &'static str {
     MARKS[number % MARKS.len()]
 }

@@ -7,14 +7,14 @@ use crate::canvas::{Canvas, polyline};
 pub struct Panel {
     /// Left, top, right, bottom on the drawing.
     pub edges: [f64; 4],
-    /// What the left and the right edge stand for.
+    /// Values of x at the left and the right edge.
     pub x: [f64; 2],
-    /// What the bottom and the top stand for.
+    /// Values of y at the bottom and the top edge.
     pub y: [f64; 2],
 }
 
 impl Panel {
-    /// Where a point is on the drawing.
+    /// Returns the place of a point on the drawing.
     pub fn at(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let [left, top, right, bottom] = self.edges;
         [
@@ -23,7 +23,7 @@ impl Panel {
         ]
     }
 
-    /// Axes with ticks (value, label), and what they measure.
+    /// Adds axes with ticks (value, label) and with the labels of the axes.
     pub fn axes(&self, canvas: &mut Canvas, [x, y]: [&[(f64, String)]; 2], labels: [&str; 2]) {
         let [left, top, right, bottom] = self.edges;
         for (value, label) in x {
@@ -43,20 +43,20 @@ impl Panel {
         canvas.upright("", [left - 60.0, f64::midpoint(top, bottom)], labels[1]);
     }
 
-    /// Straight lines through points, as a path's data.
+    /// Returns the path data of straight lines through points.
     pub fn curve(&self, points: impl IntoIterator<Item = [f64; 2]>) -> String {
         let places: Vec<[f64; 2]> = points.into_iter().map(|point| self.at(point)).collect();
         polyline(&places)
     }
 }
 
-/// Ticks at these values, with as many decimals.
+/// Returns ticks at `values`, labelled with `decimals` decimals.
 pub fn ticks(values: impl IntoIterator<Item = f64>, decimals: usize) -> Vec<(f64, String)> {
     let tick = |value: f64| (value, minus(&format!("{value:.decimals$}")));
     values.into_iter().map(tick).collect()
 }
 
-/// A number with the sign that is as wide as a plus.
+/// Replaces hyphens by the minus sign, which is as wide as a plus.
 pub fn minus(text: &str) -> String {
     text.replace('-', "\u{2212}")
 }

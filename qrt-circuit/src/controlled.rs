@@ -1,7 +1,7 @@
 //! Code under a condition.
 //!
-//! Only what changes a register in place needs to look at the condition. What is computed out of
-//! place is undone within the same code, whether the condition holds or not.
+//! Only operations that change a register in place read the condition. The results of out-of-place
+//! operations are undone within the same code, whether the condition holds or not.
 
 use super::machine::{Call, Declaration, Machine};
 use super::{Bit, Op, Type, When};
@@ -11,14 +11,13 @@ use super::{Bit, Op, Type, When};
 pub struct Controlled<'a, M: Machine> {
     machine: &'a mut M,
     when: Bit<&'a M::Register>,
-    /// How many parts have been entered that are undone again by what follows, and need no
-    /// condition.
+    /// Number of entered parts that need no condition, because the code after them undoes them.
     unconditional: u32,
 }
 
 /// Runs `branch` where `when` holds.
 ///
-/// Within another branch the two conditions are ANDed once, for all of this one.
+/// Within another branch, the two conditions are ANDed once for all of this branch.
 pub fn controlled<M: Machine>(
     machine: &mut M,
     when: Bit<&M::Register>,
@@ -42,7 +41,7 @@ pub fn controlled<M: Machine>(
     }
 }
 
-/// Runs a part that is undone again by what follows, so that no condition needs to be looked at.
+/// Runs `part` without a condition, because the code after it undoes it.
 pub fn unconditional<M: Machine>(machine: &mut M, part: impl FnOnce(&mut M)) {
     machine.unconditional(true);
     part(machine);
@@ -143,7 +142,8 @@ mod tests {
 
     type Number = Reg<Recorded, UInt<3>>;
 
-    /// What `b` is after a program of two conditions and two numbers, of all contents of these.
+    /// Runs a program of two conditions and a number, and returns the number `b` after it, for all
+    /// contents of the three.
     fn all(code: impl Fn(&mut Recorder, [Bit<&Recorded>; 2], &mut Number)) -> Vec<u64> {
         let mut m = Recorder::new(Style::InPlace);
         let [p, q]: [Reg<_, Bool>; 2] = ["p", "q"].map(|name| Reg::input(&mut m, name));

@@ -1,16 +1,16 @@
-//! Work that is spread over the cores there are.
+//! Work that is distributed over the processor's cores.
 
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
-/// On how many threads something is found.
+/// Number of threads of a computation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Cores {
-    /// On the caller's thread alone.
+    /// The caller's thread alone.
     #[default]
     One,
-    /// On as many as the machine runs at a time.
+    /// All threads that the machine can run at a time.
     All,
 }
 
@@ -18,12 +18,13 @@ impl Cores {
     fn count(self) -> usize {
         match self {
             Self::One => 1,
-            // A browser has one and does not say so.
+            // A browser has one thread and does not report it.
             Self::All => thread::available_parallelism().map_or(1, NonZeroUsize::get),
         }
     }
 
-    /// What `of` makes of each item, in their order; a thread takes so many of them at a time.
+    /// Applies `of` to each item and returns the results in the items' order. A thread takes
+    /// `at_a_time` items at a time.
     pub fn map<T: Sync, R: Send>(
         self,
         items: &[T],
@@ -47,7 +48,7 @@ impl Cores {
             }
         };
         let mut parts = thread::scope(|scope| {
-            // A machine that has no thread left does all of it on this one.
+            // If the machine has no thread left, this thread does all the work.
             let spawn = |_| thread::Builder::new().spawn_scoped(scope, work).ok();
             let others: Vec<_> = (1..threads).filter_map(spawn).collect();
             let mut parts = work();

@@ -1,9 +1,9 @@
-//! What operations compute, on integers: the definition that every machine is held against.
+//! Evaluation of operations on integers: the definition that every machine is tested against.
 
 use super::{Bit, Instruction, Op, Operand, Program, RegisterId, When, Word};
 
-/// A register that is undone, and does not hold what its operation makes of its operands now:
-/// its inverse would not leave 0.
+/// An error: a register is undone that does not hold the result of its operation on the current
+/// operands. The operation's inverse would not leave 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Unclean {
     /// The register that is undone.
@@ -31,16 +31,16 @@ impl std::fmt::Display for Unclean {
 
 impl std::error::Error for Unclean {}
 
-/// The contents of a program's registers, one path's.
+/// The contents of a program's registers on one path.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Contents {
-    /// The bits of each register. Garbage is not followed: its registers stay 0.
+    /// The bits of each register. Garbage is not simulated: its registers stay 0.
     pub registers: Vec<u64>,
     /// The bits of each classical parameter.
     pub parameters: Vec<u64>,
     /// The width of each register, in bits.
     pub widths: Vec<u32>,
-    /// Whether the basis state's phase has been flipped: its amplitude has the factor -1.
+    /// True if the phase of the basis state is flipped: its amplitude has the factor -1.
     pub negative: bool,
 }
 
@@ -49,11 +49,11 @@ fn mask(width: u32) -> u64 {
 }
 
 impl Contents {
-    /// The contents before a program's first instruction: its inputs hold `inputs`, everything else
-    /// 0.
+    /// Returns the contents before a program's first instruction: the inputs hold `inputs`, all
+    /// other registers 0.
     ///
     /// # Panics
-    /// If there are fewer inputs than the program has.
+    /// If `inputs` has fewer entries than the program has inputs.
     pub fn new(program: &Program, inputs: &[u64], parameters: &[u64]) -> Self {
         let widths: Vec<u32> = program.registers.iter().map(|r| r.width).collect();
         let mut contents = Self {
@@ -68,10 +68,10 @@ impl Contents {
         contents
     }
 
-    /// Follows one instruction of a program.
+    /// Executes one instruction of a program.
     ///
     /// # Errors
-    /// An inverse that does not find what its operation computes; the register is 0 after it all
+    /// An inverse that does not find the result of its operation; its register is 0 afterwards all
     /// the same.
     pub fn follow(&mut self, program: &Program, instruction: Instruction) -> Result<(), Unclean> {
         let op = &program.ops[instruction.op as usize];
@@ -239,7 +239,7 @@ impl Contents {
         }
     }
 
-    /// Undoes `op`: its targets become zero, and what it changed in place is as before.
+    /// Undoes `op`: its targets become zero, and its changes in place are reversed.
     pub fn uncompute(&mut self, op: &Op) {
         let targets = op.targets();
         if targets.is_empty() {
@@ -290,7 +290,8 @@ fn added(a: i64, b: i64, subtract: bool) -> i64 {
     }
 }
 
-/// Quotient and whether it fits `width` bits, of unsigned numbers.
+/// Divides unsigned numbers. Returns the quotient and whether it fits `width` bits. A dividend
+/// whose quotient does not fit counts as 0; a quotient by 0 has all bits set.
 fn divided(a: i64, b: i64, width: u32) -> (i64, bool) {
     let fits = i128::from(a) < i128::from(b) << width;
     let all = mask(width).cast_signed();

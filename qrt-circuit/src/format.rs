@@ -1,6 +1,6 @@
-//! Number formats as types, and registers that carry theirs.
+//! Number formats as types, and registers that carry their formats.
 //!
-//! A routine's registers have their widths in their types, so that what doesn't fit together does
+//! A routine's registers have their widths in their types, so registers that do not fit together do
 //! not compile:
 //!
 //! ```
@@ -36,7 +36,7 @@ pub struct UFixed<const I: i32, const F: u32>;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Bool;
 
-/// What a register's bits mean, as a type.
+/// The meaning of a register's bits, as a type.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not the format of a register",
     label = "not a format",
@@ -45,10 +45,10 @@ pub struct Bool;
 pub trait Format {
     /// The format as a value.
     const TYPE: Type;
-    /// How many bits a register of this format has: 1 to 63.
+    /// Number of bits of a register of this format: 1 to 63.
     const WIDTH: u32;
 
-    /// The bits that stand for `value`, if it is a number of this format.
+    /// Returns the bits that stand for `value`. `None` if `value` is not a number of this format.
     fn bits(value: f64) -> Option<u64> {
         let scaled = value * 2_f64.powi(fraction(Self::TYPE).cast_signed());
         let whole = scaled as i64;
@@ -56,7 +56,7 @@ pub trait Format {
         (whole as f64 == scaled && Self::value(bits) == value).then_some(bits)
     }
 
-    /// The number that `bits` stand for.
+    /// Returns the number that `bits` stand for.
     fn value(bits: u64) -> f64 {
         let signed = matches!(Self::TYPE, Type::Int | Type::Fixed { .. });
         let word = Word {
@@ -74,23 +74,23 @@ fn fraction(ty: Type) -> u32 {
     }
 }
 
-/// A register's width, checked where the code is compiled.
+/// Checks a register's width at compile time.
 #[doc(hidden)]
 pub const fn width(bits: i64) -> u32 {
     assert!(0 < bits && bits < 64, "a register has 1 to 63 bits");
     bits as u32
 }
 
-/// The format that a parameter of a routine has, where it is computed from the routine's constants.
+/// The expected format of a routine's parameter, computed from the routine's constants.
 #[doc(hidden)]
 pub trait Expected {
     /// The format.
     type Format: Format;
-    /// What is wrong with a register of another.
+    /// The message for a register of another format.
     const OTHERWISE: &'static str;
 }
 
-/// Does not compile, if the register's format is another one than expected.
+/// Fails to compile if the register's format is not the expected one.
 #[doc(hidden)]
 #[inline(always)]
 pub fn agree<E: Expected, R, T: Format>(_: Option<&Reg<R, T>>) {
@@ -132,7 +132,7 @@ impl Format for Bool {
 
 /// A register of the format `T`, on a machine whose registers are `R`.
 ///
-/// It is handed to routines by reference: `&` to be read, `&mut` to be changed.
+/// Routines take it by reference: `&` to read it, `&mut` to change it.
 pub struct Reg<R, T> {
     register: R,
     format: PhantomData<T>,
@@ -145,7 +145,7 @@ impl<R: fmt::Debug, T> fmt::Debug for Reg<R, T> {
 }
 
 impl<R, T: Format> Reg<R, T> {
-    /// A register that was declared with this format.
+    /// Wraps a register that was declared with this format.
     #[doc(hidden)]
     pub fn new(register: R) -> Self {
         Self {
@@ -154,7 +154,7 @@ impl<R, T: Format> Reg<R, T> {
         }
     }
 
-    /// A register of one's own, which holds 0.
+    /// Allocates a work register that holds 0.
     #[inline(always)]
     pub fn zero<M: Machine<Register = R>>(machine: &mut M, name: &'static str) -> Self {
         Self::new(machine.zero(&Declaration::work(name, T::TYPE, T::WIDTH)))
@@ -166,25 +166,25 @@ impl<R, T: Format> Reg<R, T> {
         machine.undo([self.register]);
     }
 
-    /// Frees a register of one's own, which holds 0 again.
+    /// Frees a work register that holds 0 again.
     #[inline(always)]
     pub fn free<M: Machine<Register = R>>(self, machine: &mut M) {
         machine.free(self.register);
     }
 
-    /// The machine's register.
+    /// Returns the machine's register.
     #[inline(always)]
     pub fn register(&self) -> &R {
         &self.register
     }
 
-    /// The machine's register, to be changed.
+    /// Returns the machine's register, for a change.
     #[inline(always)]
     pub fn register_mut(&mut self) -> &mut R {
         &mut self.register
     }
 
-    /// All of its bits, as an integer in units of the lowest.
+    /// Returns all bits of the register, as an integer in units of the lowest bit.
     #[inline(always)]
     pub fn word(&self) -> Word<&R> {
         Word {
@@ -195,10 +195,10 @@ impl<R, T: Format> Reg<R, T> {
 }
 
 impl<T: Format> Reg<Recorded, T> {
-    /// A register that a machine has, read in the format `T`.
+    /// Wraps a machine's register, to read it in the format `T`.
     ///
     /// # Panics
-    /// If the register has another width than `T`.
+    /// If the width of `register` is not that of `T`.
     pub fn of(register: Recorded) -> Self {
         assert!(
             register.width() == T::WIDTH,
@@ -209,7 +209,7 @@ impl<T: Format> Reg<Recorded, T> {
         Self::new(register)
     }
 
-    /// A register that holds something before the recorded program's first instruction.
+    /// Declares an input: a register that holds a value before the program's first instruction.
     pub fn input(recorder: &mut Recorder, name: &'static str) -> Self {
         Self::new(recorder.input(&Declaration::work(name, T::TYPE, T::WIDTH)))
     }

@@ -6,17 +6,17 @@ use std::ops::Range;
 /// The index of a qubit of a [`Circuit`].
 pub type Qubit = u32;
 
-/// A gate on basis states. All are their own inverses.
+/// A gate on basis states. Each gate is its own inverse.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Gate {
     /// Flips a qubit.
     X(Qubit),
-    /// Flips the second where the first holds.
+    /// Flips the second qubit where the first is 1.
     Cx(Qubit, Qubit),
-    /// Flips the third where the first and the second hold: a Toffoli.
+    /// Flips the third qubit where the first and the second are 1: a Toffoli.
     Ccx(Qubit, Qubit, Qubit),
-    /// Flips the qubit where bit `bit` of classical parameter `parameter` is set: an X, or nothing, in
-    /// the circuit of a pixel.
+    /// Flips the qubit where bit `bit` of classical parameter `parameter` is set. In the circuit of
+    /// a pixel, that is an X or nothing.
     Load {
         /// The parameter's index in [`Circuit::parameters`].
         parameter: u32,
@@ -25,11 +25,11 @@ pub enum Gate {
         /// The qubit that is flipped.
         target: Qubit,
     },
-    /// Flips the phase where the qubit holds.
+    /// Flips the phase where the qubit is 1.
     Z(Qubit),
 }
 
-/// What receives gates one after another.
+/// A receiver of gates, one after another.
 pub trait Gates {
     /// Receives the next gate.
     fn gate(&mut self, gate: Gate);
@@ -39,12 +39,12 @@ pub trait Gates {
     fn x(&mut self, target: Qubit) {
         self.gate(Gate::X(target));
     }
-    /// Flips `target` where `control` holds.
+    /// Flips `target` where `control` is 1.
     #[inline(always)]
     fn cx(&mut self, control: Qubit, target: Qubit) {
         self.gate(Gate::Cx(control, target));
     }
-    /// Flips `target` where both controls hold.
+    /// Flips `target` where both controls are 1.
     #[inline(always)]
     fn ccx(&mut self, a: Qubit, b: Qubit, target: Qubit) {
         self.gate(Gate::Ccx(a, b, target));
@@ -64,16 +64,15 @@ pub struct Circuit {
     pub gates: Vec<Gate>,
     /// The range of [`Circuit::gates`] of each instruction of the program.
     pub ranges: Vec<Range<usize>>,
-    /// How many qubits there are: the most that are in use at any time.
+    /// Number of qubits: the most that are in use at any time.
     pub qubits: u32,
-    /// How many qubits are in use while each instruction of the program runs, its own ancillas
-    /// included.
+    /// Number of qubits in use during each instruction of the program, its own ancillas included.
     pub in_use: Vec<u32>,
-    /// Registers that hold something before the first gate, and their qubits, bit 0 first. All
-    /// other qubits are zero then.
+    /// Registers that hold a value before the first gate, and their qubits, bit 0 first. All other
+    /// qubits are zero then.
     pub inputs: Vec<(RegisterId, Vec<Qubit>)>,
-    /// Registers that hold something after the last gate, and their qubits. All other qubits are
-    /// zero then.
+    /// Registers that hold a value after the last gate, and their qubits. All other qubits are zero
+    /// then.
     pub outputs: Vec<(RegisterId, Vec<Qubit>)>,
     /// The classical parameters that loads read.
     pub parameters: Vec<Parameter>,

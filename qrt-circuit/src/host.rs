@@ -1,27 +1,27 @@
-//! How one reversible function calls another.
+//! Calls between reversible functions.
 //!
-//! A function of `#[reversible]` is its own inverse's only text: it runs on a [`Host`], which says
-//! in which direction. That is a machine, or, within another reversible function, its [`Caller`].
-//! Only reversible functions take callers, so that nothing else is called where it could not be
-//! undone; and callers know which functions are running, so that one that would never end does not
-//! compile.
+//! The text of a `#[reversible]` function is also the text of its inverse. The function runs on a
+//! [`Host`], which determines the direction. The host is a machine or, within another reversible
+//! function, its [`Caller`]. Only reversible functions take callers, so no other function is called
+//! where it could not be undone. A caller knows the functions that are running, so an endless
+//! recursion does not compile.
 
 use super::machine::Machine;
 use std::fmt;
 use std::marker::PhantomData;
 
-/// What a reversible function runs on: any [`Machine`], or the function that calls it.
+/// The host of a reversible function: any [`Machine`], or the function that calls it.
 pub trait Host {
     /// A register of the machine.
     type Register;
-    /// The machine that the function's operations run on.
+    /// The machine that runs the function's operations.
     type Machine: Machine<Register = Self::Register>;
-    /// Whether the function is undone.
+    /// True if the function is undone.
     const UNDONE: bool;
-    /// The functions that run already, the last first.
+    /// The functions that are running, the last call first.
     const RUNNING: Option<&'static Running>;
 
-    /// The machine itself.
+    /// Returns the machine itself.
     fn machine(&mut self) -> &mut Self::Machine;
 }
 
@@ -37,20 +37,20 @@ impl<M: Machine> Host for M {
     }
 }
 
-/// Functions that call each other.
+/// A running function and its callers.
 #[derive(Clone, Copy, Debug)]
 pub struct Running {
-    /// The path of the last.
+    /// The path of the function that was called last.
     pub function: &'static str,
-    /// The line and the column where it is written.
+    /// The line and the column of its definition.
     pub place: [u32; 2],
-    /// The function that has called it, with those that called that.
+    /// The function that called it, with the callers of that one.
     pub from: Option<&'static Running>,
 }
 
 impl Running {
-    /// Whether the last function runs already. Reversible code has no branch that could end a
-    /// recursion, so that it would never return.
+    /// True if the last function was already running. Reversible code has no branch that could end
+    /// a recursion, so the function would never return.
     ///
     /// ```
     /// use qrt_circuit::Running;
@@ -83,20 +83,20 @@ const fn equal(a: &[u8], b: &[u8]) -> bool {
     at == a.len() && at == b.len()
 }
 
-/// A function that runs, with those that called it, as a type.
+/// A running function and its callers, as a type.
 pub trait Frame {
-    /// The same as a value.
+    /// The function and its callers as a value.
     const RUNNING: &'static Running;
 }
 
-/// A reversible function that calls another: on its machine, forwards or to be undone.
+/// The caller of a reversible function: a reversible function on its machine, forwards or undone.
 pub struct Caller<'a, M, F, const UNDONE: bool> {
     machine: &'a mut M,
     frame: PhantomData<F>,
 }
 
 impl<'a, M: Machine, F: Frame, const UNDONE: bool> Caller<'a, M, F, UNDONE> {
-    /// The function `F`, which runs on this machine.
+    /// Creates the caller for the function `F`, which runs on `machine`.
     #[inline(always)]
     pub fn new(machine: &'a mut M) -> Self {
         Self {
@@ -105,7 +105,7 @@ impl<'a, M: Machine, F: Frame, const UNDONE: bool> Caller<'a, M, F, UNDONE> {
         }
     }
 
-    /// Calls a reversible function with these registers.
+    /// Calls a reversible function with `registers`.
     #[inline(always)]
     pub fn call<G, H, P>(mut self, function: G, registers: impl Handed<P>)
     where
@@ -116,8 +116,8 @@ impl<'a, M: Machine, F: Frame, const UNDONE: bool> Caller<'a, M, F, UNDONE> {
     }
 }
 
-/// The host that a function runs on: `(H,)` of `H`, so that it is known for certain that the
-/// function is reversible before it is asked for whose host that is.
+/// The type of a function's host, wrapped: `(H,)` for `H`. The wrapper makes the compiler establish
+/// that the function is reversible before it resolves the host's type.
 pub trait HostOf {
     /// The host.
     type Host;
@@ -127,9 +127,9 @@ impl<H> HostOf for (H,) {
     type Host = H;
 }
 
-/// A function's host that is `T`.
+/// A function's host type that equals `T`.
 pub trait Is<T>: HostOf {
-    /// The host.
+    /// Returns `host` as the function's host type.
     fn is(host: &mut T) -> &mut Self::Host;
 }
 
@@ -140,7 +140,7 @@ impl<H> Is<H> for (H,) {
     }
 }
 
-/// Registers that a function takes, `P`: as many, in its formats.
+/// The registers that a function takes, `P`: their number and formats must agree.
 #[diagnostic::on_unimplemented(
     message = "these are not the registers that the function takes [QRT0813]",
     label = "of another number, format or reference",
@@ -148,7 +148,7 @@ impl<H> Is<H> for (H,) {
             declared; one whose width is computed goes where the parameter's is"
 )]
 pub trait Handed<P> {
-    /// The same.
+    /// Returns the registers unchanged.
     fn handed(self) -> P;
 }
 
@@ -177,14 +177,14 @@ impl<M: Machine, F: Frame, const UNDONE: bool> Host for Caller<'_, M, F, UNDONE>
     }
 }
 
-/// A function of `#[reversible]`, which takes a [`Host`] and registers, `P` of them.
+/// A function of `#[reversible]`, which takes a [`Host`] and the registers `P`.
 #[diagnostic::on_unimplemented(
     message = "this function is not reversible [QRT0812]",
     label = "`#[reversible]` is missing before it",
     note = "help: write `#[reversible]` before the function that is called"
 )]
 pub trait Reversible<H: HostOf, P> {
-    /// Runs it.
+    /// Runs the function.
     fn run(self, host: &mut H::Host, registers: P);
 }
 

@@ -2,14 +2,14 @@
 //! and Toffoli, costs, and quantum counting around them.
 //!
 //! A computation that runs on a superposition has to be reversible: it may flip bits and swap
-//! states, never overwrite or forget. This crate lets you write such a computation on *numbers*
-//! (add, multiply, divide, compare, look up in a table), and gives you its inverse, its gates and
-//! its cost. It knows nothing of what the numbers mean.
+//! states, never overwrite or forget. With this crate you write a reversible computation on
+//! *numbers* (add, multiply, divide, compare, look up in a table), and get its inverse, its gates
+//! and its cost. The crate gives the numbers no meaning.
 //!
 //! # In ten minutes: a squarer
 //!
-//! A [`Recorder`] is a [`Machine`] that writes down what it is asked to do. A [`Declaration`] names
-//! a register and says how many qubits it has and what they mean.
+//! A [`Recorder`] is a [`Machine`] that records the operations that it is called with. A
+//! [`Declaration`] states a register's name, its number of qubits and their meaning.
 //!
 //! ```
 //! use qrt_circuit::{Declaration, Machine, Program, Recorder, Style, Type, Word};
@@ -29,8 +29,8 @@
 //! assert_eq!(names, ["x", "square", "scratch"]);
 //! ```
 //!
-//! **Definition.** [`Contents`] follows the program on integers, one basis state at a time. This is
-//! what an operation means; everything else is held against it.
+//! **Definition.** [`Contents`] runs the program on integers, one basis state at a time. It defines
+//! the meaning of an operation; all other implementations are tested against it.
 //!
 //! ```
 //! # use qrt_circuit::{Declaration, Machine, Program, Recorder, Style, Type, Word};
@@ -126,41 +126,40 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! From here: [`mod@format`] gives registers types (`UInt<8>`, `Fixed<2, 14>`); [`controlled`] runs
-//! code under a condition; [`quantum`] makes a phase oracle of a program that flips a phase, and
-//! puts Grover's iterate and quantum counting around it.
+//! Further reading: [`mod@format`] gives registers types (`UInt<8>`, `Fixed<2, 14>`).
+//! [`controlled`] runs code under a condition. [`quantum`] makes a phase oracle of a program that
+//! flips a phase, and builds Grover's iterate and quantum counting around it.
 //!
-//! # What a program means
+//! # Meaning of a program
 //!
-//! A [`Program`] is a straight line of [`Instruction`]s over [`Register`]s of qubits. Each is an
-//! [`Op`] or an op's inverse, and permutes the basis states: given the integers that its operands
-//! hold, it writes an integer into a register. There are no branches; what depends on a path is
-//! selected, and every path runs every instruction.
+//! A [`Program`] is a sequence of [`Instruction`]s on [`Register`]s of qubits. Each instruction is
+//! an [`Op`] or an op's inverse, and permutes the basis states: it reads the integers that its
+//! operands hold and writes an integer into a register. There are no branches. A value that depends
+//! on the path is selected, and every path runs every instruction.
 //!
-//! **Bit order.** Bit 0 of a register is its least significant. So it is for path indices, sample
-//! indices, masks, tables' addresses and what is exported.
+//! **Bit order.** Bit 0 of a register is its least significant bit. The same order applies to path
+//! indices, sample indices, masks, tables' addresses and exported circuits.
 //!
 //! **Evaluation.** Before the first instruction the *inputs* hold the path index (and the
-//! comparator), and all other registers are zero. An op out of place finds its targets zero and
-//! leaves its result there; each register is the target of one op, so a register has one meaning
-//! wherever it isn't zero. `evaluate` says on integers what each op computes, and is the definition
-//! of it.
+//! comparator), and all other registers are zero. An out-of-place op finds its targets zero and
+//! leaves its result there. Each register is the target of one op, so its meaning is the same
+//! wherever it is not zero. `evaluate` computes each op on integers, and is its definition.
 //!
-//! **Who owns ancillas.** An op with garbage (carries, remainders, partial sums) owns a *scratch*
-//! register for it that no other op reads. What it borrows and returns within itself is its
-//! lowering's affair. Qubits have an owner from the instruction that computes a register to the one
-//! that undoes it; in between nobody else has them, and outside of it they are zero and can be
-//! anybody's.
+//! **Ownership of ancillas.** An op with garbage (carries, remainders, partial sums) owns a
+//! *scratch* register for it, which no other op reads. Qubits that an op borrows and returns are
+//! internal to its lowering. A register owns its qubits from the instruction that computes it to
+//! the instruction that undoes it. Outside of that interval the qubits are zero, and can be
+//! allocated to any register.
 //!
-//! **What uncompute undoes.** The inverse of an op out of place returns its targets and its garbage
-//! to zero, *provided that its operands hold what they held when it ran*. In
-//! [`Program::inverse`], the inverses in reverse order, they do: that is why uncomputation is never
-//! written by hand. Between compute and uncompute a program may therefore add ops that read its
-//! results (compare the colour, flip a phase) and none that change them.
+//! **Conditions of uncompute.** The inverse of an out-of-place op returns its targets and its
+//! garbage to zero, *provided that its operands hold the values that they held when the op ran*. In
+//! [`Program::inverse`], which has the inverses in reverse order, they do. That is why
+//! uncomputation is never written by hand. Between compute and uncompute a program may therefore
+//! add ops that read its results (compare the colour, flip a phase), but none that change them.
 //!
-//! **Three readings.** An op's meaning on integers, its lowering to X, CNOT and Toffoli, and the
-//! count of these must agree for every content of its operands. Machines are built on one of the
-//! three alone, so that each checks the others.
+//! **Three implementations.** An op's meaning on integers, its lowering to X, CNOT and Toffoli, and
+//! the count of these gates must agree for every content of its operands. Each machine is built on
+//! one of the three alone, so each machine checks the others.
 
 #![forbid(unsafe_code)]
 

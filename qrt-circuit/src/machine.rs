@@ -1,42 +1,42 @@
-//! What reversible code runs on.
+//! Machines that run reversible code.
 //!
-//! Code that the macros generate is a straight line of calls of a [`Machine`]: one for each
-//! [`super::Instruction`] of the program that it stands for. Over a [`super::Recorder`] it yields
-//! that program; over a machine that holds numbers it computes with them, compiled by `rustc` and
-//! inlined, without a list of operations to look through.
+//! Code that the macros generate is a straight line of calls of a [`Machine`], one for each
+//! [`super::Instruction`] of its program. On a [`super::Recorder`] the calls yield that program. On
+//! a machine that holds numbers they compute with them: `rustc` compiles and inlines the calls, and
+//! no list of operations is interpreted.
 
 use super::{Bit, BlockId, Multiples, Op, Operand, RegisterId, Style, Tag, Type, When, Word};
 use std::sync::Arc;
 
-/// A register as it is declared in code.
+/// The declaration of a register in code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Declaration {
-    /// The register's index in the program's list; none for one that joins the list when it is
-    /// computed.
+    /// The register's index in the program's list; `None` for a register that joins the list when
+    /// it is computed.
     pub id: Option<RegisterId>,
-    /// The index of the garbage register of the operation whose first target this register is; none
-    /// if it has no place in the program's list.
+    /// The index of the garbage register of the operation whose first target this register is;
+    /// `None` if it has no place in the program's list.
     pub scratch: Option<RegisterId>,
     /// The register's name.
     pub name: &'static str,
-    /// What the register's bits mean.
+    /// The meaning of the register's bits.
     pub ty: Type,
     /// The tag by which the program's author finds the register again.
     pub tag: Tag,
-    /// How many qubits the register has.
+    /// Number of qubits of the register.
     pub width: u32,
-    /// The block whose operation computes it.
+    /// The block whose operation computes the register.
     pub block: BlockId,
-    /// The least and the greatest number that the register holds, in units of its lowest bit, where
-    /// that is known.
+    /// The least and the greatest number that the register holds, in units of its lowest bit, if
+    /// known.
     pub range: Option<[i64; 2]>,
 }
 
 impl Declaration {
-    /// A work register of one's own.
+    /// Declares a work register, without a place in the program's list.
     ///
     /// # Panics
-    /// If it has more than 64 bits; in a constant, that is an error of the compiler.
+    /// If it has more than 64 bits and is not garbage; in a constant, that is a compile error.
     pub const fn work(name: &'static str, ty: Type, width: u32) -> Self {
         let scratch = matches!(ty, Type::Scratch);
         assert!(width <= 64 || scratch, "a register has at most 64 bits");
@@ -52,7 +52,7 @@ impl Declaration {
         }
     }
 
-    /// A register that has a place in the program's list.
+    /// Declares a register that has a place in the program's list.
     pub const fn at(id: u32, name: &'static str, ty: Type, tag: Tag, width: u32) -> Self {
         Self {
             id: Some(RegisterId(id)),
@@ -61,7 +61,7 @@ impl Declaration {
         }
     }
 
-    /// The same declaration, computed by an operation of this block.
+    /// Returns the same declaration, computed by an operation of this block.
     pub const fn block(self, block: u32) -> Self {
         Self {
             block: BlockId(block),
@@ -69,8 +69,8 @@ impl Declaration {
         }
     }
 
-    /// The same declaration, of a register that holds numbers from `low` to `high`, in units of its
-    /// lowest bit.
+    /// Returns the same declaration, of a register that holds numbers from `low` to `high`, in
+    /// units of its lowest bit.
     pub const fn range(self, low: i64, high: i64) -> Self {
         Self {
             range: Some([low, high]),
@@ -78,8 +78,8 @@ impl Declaration {
         }
     }
 
-    /// The same declaration, as the first target of an operation whose garbage is in register
-    /// number `scratch`.
+    /// Returns the same declaration, as the first target of an operation whose garbage is in
+    /// register number `scratch`.
     pub const fn scratch(self, scratch: u32) -> Self {
         Self {
             scratch: Some(RegisterId(scratch)),
@@ -87,68 +87,69 @@ impl Declaration {
         }
     }
 
-    /// Whether the register's top bit is a sign.
+    /// True if the register's top bit is a sign.
     #[inline(always)]
     pub const fn signed(&self) -> bool {
         matches!(self.ty, Type::Int | Type::Fixed { .. })
     }
 }
 
-/// What reversible code asks of a [`Machine`].
+/// A call of reversible code to a [`Machine`].
 #[derive(Debug)]
 pub enum Call<'a, R> {
-    /// An operation. Its garbage is the machine's own affair, and so is how it is lowered: the
-    /// register declared for the garbage is a placeholder.
+    /// An operation. The machine decides on its garbage and on its lowering: the register declared
+    /// for the garbage is a placeholder.
     Compute(Op<&'a R, &'a Declaration>),
     /// The inverse of the operation that computed these registers, all of them and no others, in
-    /// its order. Registers that no operation computed have none, and nothing happens.
+    /// its order. If no operation computed them, nothing happens.
     Undo(&'a [R]),
-    /// What follows is charged to this block.
+    /// Charges the following calls to this block.
     Block(BlockId),
 }
 
-/// What reversible code runs on.
+/// A machine that runs reversible code.
 ///
-/// A machine needs [`Machine::call`] alone. All other methods are provided: one for each [`Op`], of
-/// the same name, whose documentation says what it computes; `t` declares its target. Operations
-/// return their targets, which are theirs alone until [`Machine::undo`] returns them: a register
-/// can be read by reference as often as one likes, and be undone once.
+/// An implementation needs [`Machine::call`] alone. All other methods are provided: one for each
+/// [`Op`], of the same name, whose documentation defines the result; `t` declares its target.
+/// Operations return their targets, which belong to the caller until [`Machine::undo`] returns
+/// them. A register can be read by reference any number of times, and be undone once.
 ///
-/// Code that the macros generate is a straight line of calls of these methods: over a
-/// [`super::Recorder`] it yields a program, over a machine that holds numbers it computes with
-/// them. An operation's inverse finds its operands as the operation found them. Generated code sees
-/// to that; code written by hand is checked by `#[reversible]`.
+/// Code that the macros generate is a straight line of calls of these methods. On a
+/// [`super::Recorder`] it yields a program; on a machine that holds numbers it computes with them.
+/// An operation's inverse must find its operands as the operation found them. Generated code
+/// ensures that; `#[reversible]` checks code written by hand.
 pub trait Machine {
-    /// A register: a handle on what was computed and is not yet undone.
+    /// A register: a handle on a result that is not yet undone.
     type Register;
 
-    /// Does what is asked. Returns the registers that an operation out of place computes, in their
+    /// Executes a call. Returns the registers that an out-of-place operation computes, in their
     /// order, and nothing else.
     fn call(&mut self, call: Call<'_, Self::Register>) -> Vec<Self::Register>;
 
-    /// The conjunction of a bit and the condition under which this machine's registers change, to
-    /// be undone by the caller; none where they change on every path. See [`super::controlled`].
+    /// Returns the conjunction of a bit and the condition under which this machine's registers
+    /// change. The caller undoes it. `None` if they change on every path. See
+    /// [`super::controlled`].
     fn joined(&mut self, _when: Bit<&Self::Register>) -> Option<Self::Register> {
         None
     }
-    /// Tells the machine that a part begins or ends that is undone again by what follows, and
-    /// therefore needs no condition. See [`super::unconditional`].
+    /// Marks the beginning or the end of a part that the code after it undoes, and that therefore
+    /// needs no condition. See [`super::unconditional`].
     fn unconditional(&mut self, _entered: bool) {}
 
-    /// What follows is charged to this block.
+    /// Charges the following calls to this block.
     fn block(&mut self, block: BlockId) {
         self.call(Call::Block(block));
     }
-    /// A register of one's own, which holds 0. It is computed by an operation without gates, so
-    /// that its qubits have an owner.
+    /// Allocates a work register that holds 0. An operation without gates computes it, so that its
+    /// qubits have an owner.
     fn zero(&mut self, t: &Declaration) -> Self::Register {
         self.add(t, Operand::Constant(0), Operand::Constant(0))
     }
-    /// Frees a register of one's own, which holds 0 again.
+    /// Frees a work register that holds 0 again.
     fn free(&mut self, register: Self::Register) {
         self.undo([register]);
     }
-    /// The inverse of the operation that computed these registers: see [`Call::Undo`].
+    /// Runs the inverse of the operation that computed these registers: see [`Call::Undo`].
     fn undo<const N: usize>(&mut self, computed: [Self::Register; N]) {
         self.call(Call::Undo(&computed));
     }
@@ -375,8 +376,8 @@ pub trait Machine {
             },
         )
     }
-    /// [`Op::Table`], of which the `low` lowest address bits select among words read together where
-    /// there is garbage to hold them. An address beyond the columns may not occur.
+    /// [`Op::Table`]. The `low` lowest address bits select among words read together, if there is
+    /// garbage to hold these words. An address beyond the columns may not occur.
     fn table<const N: usize>(
         &mut self,
         targets: [&Declaration; N],
@@ -435,7 +436,7 @@ pub trait Machine {
     }
 }
 
-/// What stands for an operation's garbage, and for its style, until a machine decides on them.
+/// Placeholders for an operation's garbage and for its style, until a machine decides on them.
 const GARBAGE: Declaration = Declaration::work("scratch", Type::Scratch, 0);
 const STYLE: Style = Style::OutOfPlace;
 
@@ -458,7 +459,7 @@ fn compute_all<M: Machine + ?Sized, const N: usize>(
 }
 
 impl<R> Word<R> {
-    /// The bits `offset .. offset + width`, as an unsigned number.
+    /// Reads the bits `offset .. offset + width`, as an unsigned number.
     #[inline(always)]
     pub const fn unsigned(register: R, offset: u32, width: u32) -> Self {
         Self {
@@ -470,7 +471,7 @@ impl<R> Word<R> {
         }
     }
 
-    /// The bits `offset .. offset + width`, of which the top one is the sign.
+    /// Reads the bits `offset .. offset + width`, of which the top one is the sign.
     #[inline(always)]
     pub const fn signed(register: R, offset: u32, width: u32) -> Self {
         Self {
@@ -482,7 +483,7 @@ impl<R> Word<R> {
         }
     }
 
-    /// The same bits with `shift` zeros below: the number times `2^shift`.
+    /// Returns the same bits with `shift` zeros below: the number times `2^shift`.
     #[inline(always)]
     pub fn shifted(self, shift: u32) -> Self {
         Self { shift, ..self }
@@ -490,7 +491,7 @@ impl<R> Word<R> {
 }
 
 impl<R> Bit<R> {
-    /// Bit number `index`; 0 is the least significant.
+    /// Reads bit number `index`; 0 is the least significant.
     #[inline(always)]
     pub const fn at(register: R, index: u32) -> Self {
         Self {
@@ -500,7 +501,7 @@ impl<R> Bit<R> {
         }
     }
 
-    /// The negation of the bit.
+    /// Returns the negation of the bit.
     #[inline(always)]
     pub fn inverted(self) -> Self {
         Self {

@@ -1,40 +1,41 @@
 //! Products of a number with many constants, as sums of one another.
 //!
-//! Geometry multiplies the same few coordinates with many constants. A product by itself
-//! is a sum of shifted copies of the number, with one addition less than its constant has signed
-//! digits. But 45 is 5 times 9 and takes two additions instead of three, and after 45 the constant 361
-//! takes only one more. That is *multiple constant multiplication* (Voronenko and Püschel,
-//! *Multiplierless multiple constant multiplication*, ACM Transactions on Algorithms 3, 2007), and
-//! what follows is a heuristic like theirs: a multiple that is one addition away from those that are
-//! there is taken; of the others, one that brings as many of them as possible to one addition.
+//! Geometry multiplies the same few coordinates by many constants. A single product is a sum of
+//! shifted copies of the number, with one addition less than its constant has signed digits. But 45
+//! is 5 times 9 and takes two additions instead of three, and after 45 the constant 361 takes only
+//! one more. That is *multiple constant multiplication* (Voronenko and Püschel, *Multiplierless
+//! multiple constant multiplication*, ACM Transactions on Algorithms 3, 2007). The search below is
+//! a heuristic like theirs. It takes a wanted multiple that is one addition away from the known
+//! ones. If there is none, it takes a multiple that brings the most of the wanted ones to one
+//! addition.
 //!
 //! All sums are exact, and a product drops its lowest bits afterwards.
 //!
-//! The search is a part of what `qrt!` does while a program is compiled, in a build of it that nobody
-//! optimised, where whatever is not an operator or an index into a slice is a call: hence plain loops,
-//! and sets of their own.
+//! The search is a part of what `qrt!` does while a program is compiled, usually in an unoptimised
+//! build. There, everything except an operator or an index into a slice is a call: hence plain
+//! loops, and a set type of its own.
 
 use crate::Cores;
 use std::collections::{HashMap, HashSet};
 use std::hash::{Hash, Hasher};
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// So many candidates are compared by what they leave to do, at most.
+/// The most candidates that are compared by their estimated remaining work.
 const COMPARED: usize = 64;
 
-/// Constants have at most so many bits.
+/// The most bits of a constant.
 const CONSTANT_BITS: u32 = 40;
 
 /// A multiple and how far it is shifted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct Term {
-    /// An odd number.
+    /// The odd factor.
     pub(crate) factor: i64,
     pub(crate) shift: u32,
 }
 
 impl Term {
-    /// Of a number above 0.
+    /// Splits a number above 0 into its odd factor and its shift.
     pub(crate) fn of(number: i64) -> Self {
         let shift = number.trailing_zeros();
         Self {
@@ -44,7 +45,7 @@ impl Term {
     }
 }
 
-/// How a multiple follows from two others: `a ± b`, without the zeros below.
+/// The sum of two terms that yields a multiple: `a ± b`, without the zeros below.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct Sum {
     pub(crate) a: Term,
@@ -54,8 +55,8 @@ pub(crate) struct Sum {
 }
 
 impl Sum {
-    /// About how many Toffolis it takes beyond the bits of the number: those of the sum from where both
-    /// terms have bits.
+    /// Estimates the Toffolis of the sum, except for those of the number's bits: those of the bits
+    /// from the place where both terms have bits.
     fn price(&self, multiple: i64) -> i32 {
         let bits = 64 - multiple.leading_zeros() + self.zeros;
         let alone = if self.subtract {
@@ -71,25 +72,26 @@ impl Sum {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Multiples {
     products: Box<[(i64, u32)]>,
-    /// Odd multiples, each after those that it is the sum of.
+    /// Odd multiples, each after the terms of its sum.
     sums: Arc<[(i64, Sum)]>,
 }
 
-/// Sums by which multiples are computed, found once for the same constants without their zeros.
+/// A cache of the sums that compute multiples, found once for the same constants without their
+/// zeros.
 #[derive(Clone, Debug, Default)]
 pub struct KnownSums {
     found: HashMap<Vec<i64>, Arc<[(i64, Sum)]>>,
 }
 
-/// The sums follow from the products.
+/// Hashes the products alone, since the sums follow from them.
 impl Hash for Multiples {
     fn hash<H: Hasher>(&self, state: &mut H) {
         self.products.hash(state);
     }
 }
 
-/// Calls `found` with all sums of `known` and another one of `all` that are `multiple`, as far as their
-/// terms are at most `most`.
+/// Calls `found` with all sums of `known` and another multiple of `all` that equal `multiple`, if
+/// their terms are at most `most`.
 fn partners(multiple: i64, known: i64, most: i64, all: &Set, mut found: impl FnMut(Partner)) {
     let mut offer = |whole: i64, term: Term| {
         let shifted = term.factor << term.shift;
@@ -129,16 +131,15 @@ fn partners(multiple: i64, known: i64, most: i64, all: &Set, mut found: impl FnM
     }
 }
 
-/// The other multiples of which one and `known` are the terms of `multiple`, some of them more than
-/// once.
+/// The other multiples that form `multiple` together with `known`, some of them more than once.
 struct Others {
     numbers: [i64; 4 * CONSTANT_BITS as usize],
     count: usize,
 }
 
 impl Others {
-    /// Both numbers are odd, so that an even one comes of them where neither is shifted, and nowhere
-    /// else.
+    /// Finds the multiples. `multiple` and `known` are odd, so their sum or difference is even only
+    /// if neither is shifted.
     #[inline(always)]
     fn of(multiple: i64, known: i64, most: i64) -> Self {
         let mut others = Self {
@@ -173,13 +174,13 @@ impl Others {
     }
 }
 
-/// `|a - b|`; the library's own is a call where nobody optimises it.
+/// `|a - b|`; the library's function is a call in unoptimised code.
 #[inline(always)]
 fn distance(a: i64, b: i64) -> i64 {
     if a < b { b - a } else { a - b }
 }
 
-/// A number above 0 without its factors of two.
+/// Returns a number above 0 without its factors of two.
 #[inline(always)]
 fn odd_part(mut number: i64) -> i64 {
     while number & 1 == 0 {
@@ -193,9 +194,10 @@ fn odd_part(mut number: i64) -> i64 {
 struct Partner {
     whole: i64,
     term: Term,
-    /// The other term's number.
+    /// The other term, as a number.
     other: i64,
-    /// Whether one of the two is subtracted: the other one from `term`, unless `from_other`.
+    /// True if one term is subtracted: the other one from `term`, or `term` from it if
+    /// `from_other`.
     minus: bool,
     from_other: bool,
 }
@@ -219,10 +221,10 @@ impl Partner {
 
 /// A set of odd numbers.
 struct Set {
-    /// All of them in the order in which they came, as far as there are any.
+    /// The numbers in the order of insertion; `held` of them are set.
     all: Box<[i64]>,
     held: usize,
-    /// 0 where there is none; a power of two of them, twice as many as fit into `all`.
+    /// The hash table: 0 in a free place. Its length is a power of two, and twice that of `all`.
     places: Box<[i64]>,
 }
 
@@ -235,15 +237,15 @@ impl Set {
         }
     }
 
-    /// From where on the number is searched for.
+    /// Returns the place at which the search for the number begins.
     #[inline(always)]
     fn first_place(places: &[i64], number: i64) -> usize {
-        // 32 bits by 32 bits, which cannot overflow.
+        // A product of 32 bits by 32 bits cannot overflow.
         let folded = (number ^ number >> 32) as u32 as u64;
         ((folded * 0x9e37_79b1) >> 24) as usize & (places.len() - 1)
     }
 
-    /// Where the number is, or would be.
+    /// Returns the place of the number, or the free place for it.
     #[inline(always)]
     fn place(places: &[i64], number: i64) -> usize {
         let last = places.len() - 1;
@@ -286,12 +288,12 @@ impl Set {
         (self.all, self.places) = (all, places);
     }
 
-    /// Removes all of them, and keeps the room.
+    /// Removes all numbers, and keeps the memory.
     fn clear(&mut self) {
         let last = self.places.len() - 1;
         while self.held > 0 {
             self.held -= 1;
-            // From there on, places are taken up to the number's own at least.
+            // From the first place on, all places up to the number's own are taken.
             let mut place = Self::first_place(&self.places, self.all[self.held]);
             while self.places[place] != 0 {
                 self.places[place] = 0;
@@ -301,25 +303,26 @@ impl Set {
     }
 }
 
-/// Nonzero digits of a number in the signed form that has fewest.
+/// Number of nonzero digits of a number in the signed form with the fewest.
 #[inline(always)]
 fn digits(number: i64) -> u32 {
     ((number ^ (3 * number)) as u64).count_ones()
 }
 
 impl Multiples {
-    /// Products of a number with constants, each of which drops so many of its lowest
-    /// bits; none if a constant is below 1 or has more than 40 bits.
+    /// Products of a number with constants: each constant, and the number of lowest bits that its
+    /// product drops. `None` if a constant is below 1 or has more than 40 bits.
     pub fn new(products: &[(i64, u32)]) -> Option<Self> {
         Self::known(products, &mut KnownSums::default())
     }
 
-    /// The same, by what is known of constants: the sums follow from these alone.
+    /// Finds products as [`Multiples::new`] does, with a cache: the sums follow from the constants
+    /// alone.
     pub fn known(products: &[(i64, u32)], known: &mut KnownSums) -> Option<Self> {
         Self::all(&[products.into()], known, Cores::One).pop()?
     }
 
-    /// As [`Multiples::known`], of several numbers' products.
+    /// Finds products as [`Multiples::known`] does, for several numbers.
     pub fn all(
         products: &[Box<[(i64, u32)]>],
         known: &mut KnownSums,
@@ -329,7 +332,7 @@ impl Multiples {
         let unknown = odd.iter().flatten();
         let unknown = unknown.filter(|odd| !known.found.contains_key(*odd));
         let unknown: Vec<&Vec<i64>> = unknown.collect::<HashSet<_>>().into_iter().collect();
-        // Room that has been made is used again: it is most of what a search allocates.
+        // Memory of earlier searches is reused: it is most of the memory that a search allocates.
         let rooms = Mutex::new(Vec::new());
         let rooms = || rooms.lock().unwrap_or_else(PoisonError::into_inner);
         let found = cores.map(&unknown, 4, |odd| {
@@ -351,7 +354,7 @@ impl Multiples {
         own.collect()
     }
 
-    /// The constants, and how many of their products' lowest bits are dropped.
+    /// Returns the constants, each with the number of lowest bits that its product drops.
     pub fn products(&self) -> &[(i64, u32)] {
         &self.products
     }
@@ -361,8 +364,8 @@ impl Multiples {
     }
 }
 
-/// The constants without their zeros, in ascending order; none if one is below 1 or has more than 40
-/// bits.
+/// Returns the constants without their zeros, in ascending order. `None` if one is below 1 or has
+/// more than 40 bits.
 fn odd_factors(products: &[(i64, u32)]) -> Option<Vec<i64>> {
     let constants = 1..1 << CONSTANT_BITS;
     let odd = products.iter().map(|(factor, _)| {
@@ -376,30 +379,31 @@ fn odd_factors(products: &[(i64, u32)]) -> Option<Vec<i64>> {
 }
 
 struct Search {
-    /// No multiple and no term is greater.
+    /// The largest value of a multiple or a term.
     most: i64,
     known: Vec<i64>,
     is_known: Set,
-    /// What is one sum away from the first of those that are known, and how many these are.
+    /// The multiples that are one sum away from the known ones, and the number of known ones
+    /// considered.
     near: Set,
     reached: usize,
-    /// What is still to do, in ascending order.
+    /// The multiples that are still to do, in ascending order.
     wanted: Vec<Wanted>,
 }
 
 /// A multiple that is still to do.
 struct Wanted {
     multiple: i64,
-    /// From which further multiples it would be one sum.
+    /// The further multiples from which it would be one sum.
     from: Set,
-    /// Whether one of them is known.
+    /// True if one of them is known.
     is_near: bool,
 }
 
 impl Wanted {
     #[inline(always)]
     fn insert(&mut self, other: i64, known: &Set) {
-        // What is near is made before its set is looked at again.
+        // A near multiple is computed before its set is read again.
         if !self.is_near {
             self.is_near = known.contains(other);
             self.from.insert(other);
@@ -418,8 +422,8 @@ impl Wanted {
 }
 
 impl Search {
-    /// The sums by which these odd numbers, in ascending order, are computed. The set is empty, and
-    /// returned so.
+    /// Returns the sums that compute the odd numbers `odd`, which ascend. `room` is an empty set,
+    /// and is returned empty.
     fn of(odd: &[i64], room: Set) -> (Vec<(i64, Sum)>, Set) {
         let mut search = Self {
             most: odd.last().map_or(1, |most| most << 2),
@@ -468,7 +472,7 @@ impl Search {
         self.wanted.insert(place, wanted);
     }
 
-    /// Adds what is one sum away from those that are known.
+    /// Adds to `near` the multiples that are one sum away from the known ones.
     fn reach(&mut self) {
         while self.reached < self.known.len() {
             self.reached += 1;
@@ -476,7 +480,8 @@ impl Search {
         }
     }
 
-    /// Adds what is one sum away from the multiple at this place and those before it.
+    /// Adds to `near` the multiples that are one sum away from the one at `place` and those before
+    /// it.
     fn reach_from(&mut self, place: usize) {
         let multiple = self.known[place];
         let (most, near) = (self.most, &mut self.near);
@@ -542,7 +547,8 @@ impl Search {
             if let Some(between) = self.between() {
                 return self.add(between);
             }
-            // Nothing is two sums away: what has the fewest digits of all that would help is wanted, too.
+            // No multiple that is one sum away helps: a helpful multiple with the fewest digits is
+            // wanted, too.
             let (mut fewest, mut simplest) = (u32::MAX, Vec::new());
             for wanted in &self.wanted {
                 let from = &wanted.from;
@@ -559,7 +565,7 @@ impl Search {
                     next += 1;
                 }
             }
-            // Of these, the least of those that most would be one sum from.
+            // Takes the least of the multiples that help the most wanted ones.
             simplest.sort_unstable();
             let (mut most, mut next) = (0, None);
             for run in simplest.chunk_by(i64::eq) {
@@ -572,7 +578,7 @@ impl Search {
         }
     }
 
-    /// Of what is one sum away, that from which most of what is wanted is one sum.
+    /// Returns the multiple, one sum away, from which the most wanted ones are one sum.
     fn between(&mut self) -> Option<i64> {
         self.reach();
         let mut helpful = Vec::new();
@@ -587,7 +593,7 @@ impl Search {
             }
         }
         helpful.sort_unstable();
-        // Those that help most, in ascending order.
+        // The multiples that help the most, in ascending order.
         let helpful: &[i64] = &helpful;
         let (mut most, mut best) = (0, Vec::new());
         let mut first = 0;
@@ -608,7 +614,8 @@ impl Search {
         if most == self.wanted.len() || best.is_empty() {
             return best.first().copied();
         }
-        // What the others would then need, by the digits of the simplest multiple that would help.
+        // Estimates the remaining work of the others by the digits of the simplest multiple that
+        // would help.
         let mut least: Option<(u32, i64)> = None;
         for &between in best.iter().take(COMPARED) {
             let mut left = 0;
@@ -642,7 +649,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// Checks that each sum is what it says, of what was made before it, and returns how many there are.
+    /// Checks each sum against the multiples made before it, and returns the number of sums.
     fn checked(wanted: &[i64]) -> usize {
         let products: Vec<(i64, u32)> = wanted.iter().map(|&factor| (factor, 0)).collect();
         let multiples = Multiples::new(&products).unwrap();
@@ -671,17 +678,18 @@ mod tests {
         assert_eq!(checked(&[3]), 1);
         assert_eq!(checked(&[]), 0);
         assert_eq!(checked(&[1, 4, 6, 3]), 1);
-        // A sum of two multiples on the way, both at most four times the greatest, is greater than that.
+        // A sum of two intermediate multiples, both at most four times the greatest constant, can
+        // exceed that bound.
         let wanted = [3_812_379, 1_824_933, 1_168_737, 37_648, 8_853_035];
         assert!(checked(&wanted) <= 20);
         for wrong in [0, -3, 1 << 40] {
             assert_eq!(Multiples::new(&[(3, 0), (wrong, 0)]), None);
         }
-        // 24 additions by their digits.
+        // Signed digits would take 24 additions.
         assert!(checked(&[160_563, 155_959, 82_957, 40_649]) <= 12);
     }
 
-    /// Signed digits alone are what a product took before.
+    /// Without the search, a product takes the additions of its signed digits alone.
     #[test]
     fn one_constant_takes_no_more_additions_than_its_digits_and_mostly_fewer() {
         let odd = || (1..1_i64 << 12).step_by(2);
@@ -698,7 +706,7 @@ mod tests {
 
     #[test]
     fn sums_are_the_same_wherever_they_are_searched_for() {
-        // As many as lead to sets of thousands, in rooms that others have left.
+        // Enough constants for sets of thousands, in memory that other searches have left.
         let products: Vec<Box<[(i64, u32)]>> = (0..64)
             .map(|set| (1..13).map(|n| ((set * 131 + n) * 7_919 * n, 0)).collect())
             .collect();

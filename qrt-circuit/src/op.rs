@@ -1,16 +1,16 @@
-//! Operations: each stated once, with what it reads, what it computes and how it is lowered.
+//! Operations: each is declared once, with its operands, its results and its lowering's choices.
 //!
-//! The list below is all that a program, a recorder, a machine and the lowering know of an
-//! operation's shape: names, targets, garbage and renamings follow from it. What an operation
-//! computes on integers is in [`super::Contents`]; its gates are in [`super::lower`].
+//! A program, a recorder, a machine and the lowering take an operation's shape from the list below:
+//! names, targets, garbage and renamings follow from it. [`super::Contents`] defines an operation's
+//! result on integers; [`super::lower`] defines its gates.
 
 use super::{Bit, Multiples, Operand, RegisterId, Word};
 use std::fmt::Debug;
 use std::sync::Arc;
 
-/// Something that an operation reads: registers of the type `R`.
+/// A field that an operation reads, on registers of the type `R`.
 trait Reads<R> {
-    /// The same of registers of the type `S`.
+    /// The same field on registers of the type `S`.
     type Of<S>;
     fn renamed<S>(self, rename: &mut impl FnMut(R) -> S) -> Self::Of<S>;
     fn each<'a>(&'a self, see: &mut dyn FnMut(&'a R));
@@ -32,11 +32,11 @@ pub enum Argument<'a, R = RegisterId> {
     Operand(&'a Operand<R>),
     /// The condition of a change in place.
     Condition,
-    /// A constant, whose debug form is Rust.
+    /// A constant, whose debug form is Rust code.
     Constant(&'a dyn Debug),
 }
 
-/// When an addition in place happens.
+/// The condition of an addition in place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum When<R = RegisterId> {
     /// The change happens on every path.
@@ -47,7 +47,7 @@ pub enum When<R = RegisterId> {
     Reversed(Bit<R>),
 }
 
-/// How the operations that have garbage are lowered.
+/// The lowering of the operations that have garbage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
 pub enum Style {
     /// Partial sums out of place: fewest gates, most garbage.
@@ -147,7 +147,7 @@ impl<R> Reads<R> for When<R> {
     }
 }
 
-/// What becomes of a field, by its kind:
+/// Generates the code for a field, by its kind:
 ///
 /// * `reads`: a number, a bit or a condition from registers; `register`: a whole register that is
 ///   read or changed in place;
@@ -235,20 +235,20 @@ macro_rules! operations {
         }
 
         impl<R, T> Op<R, T> {
-            /// The operation's name, which is also that of the method of [`super::Machine`] that
-            /// computes it.
+            /// Returns the operation's name, which is also the name of the method of
+            /// [`super::Machine`] that computes it.
             pub fn name(&self) -> &'static str {
                 match self { $( Self::$name { .. } => $word, )* }
             }
 
-            /// The same operation on other registers: `read` of those that it reads or changes in
-            /// place, then `write` of those that it computes, garbage last.
+            /// Returns the same operation on other registers: `read` maps those that it reads or
+            /// changes in place, then `write` maps those that it computes, garbage last.
             pub fn map<S, U>(
                 self,
                 mut read: impl FnMut(R) -> S,
                 mut write: impl FnMut(T) -> U,
             ) -> Op<S, U> {
-                // Not every operation has both.
+                // Some operations use only one of the two.
                 let (_, _) = (&mut read, &mut write);
                 match self {
                     $( Self::$name { $($field),* } => Op::$name {
@@ -263,7 +263,7 @@ macro_rules! operations {
                 }
             }
 
-            /// The register that holds the operation's garbage; none if it has none.
+            /// Returns the register of the operation's garbage. `None` if it has none.
             pub fn scratch(&self) -> Option<T>
             where
                 T: Copy,
@@ -289,7 +289,7 @@ macro_rules! operations {
                 }
             }
 
-            /// How the operation is lowered, where there is a choice.
+            /// Returns the style of the lowering, if there is a choice.
             pub fn style(&self) -> Option<Style> {
                 #[allow(unused_assignments, unused_mut, reason = "most are lowered in one way")]
                 match self {
@@ -312,8 +312,8 @@ macro_rules! operations {
                 }
             }
 
-            /// What it reads and its constants, in the order of the arguments of the method of
-            /// [`super::Machine`] that computes it.
+            /// Returns its operands and its constants, in the order of the arguments of the method
+            /// of [`super::Machine`] that computes it.
             pub fn arguments(&self) -> Vec<Argument<'_, R>> {
                 let mut all = Vec::new();
                 match self {
@@ -326,7 +326,7 @@ macro_rules! operations {
         }
 
         impl<R, T: Copy> Op<R, T> {
-            /// The registers that hold the results of an operation out of place.
+            /// Returns the registers of the results of an out-of-place operation.
             pub fn targets(&self) -> Vec<T> {
                 let mut all = Vec::new();
                 match self {
@@ -343,24 +343,24 @@ macro_rules! operations {
 operations! {
     /// An operation of a [`super::Program`].
     ///
-    /// Most compute into *targets* that are zero before: out of place. The inverse returns such a
-    /// target to zero, given the same operands; it is not asked what it makes of anything else. The
-    /// others, at the end of the list, change a register in place, and their inverses are exact for
-    /// every content.
+    /// Most operations compute out of place, into *targets* that are zero before. The inverse
+    /// returns a target to zero, given the same operands; its effect on any other content is
+    /// unspecified. The others, at the end of the list, change a register in place, and their
+    /// inverses are exact for every content.
     ///
-    /// Numbers are those of [`Word::read`]. Targets hold a result's lowest bits: `w` stands for the
-    /// target's width and "mod 2^w" for what fits. All operands, and all results before they are cut
-    /// to their target, lie within 63 bits, products within 126.
+    /// Numbers are those of [`Word::read`]. Targets hold a result's lowest bits: `w` is the
+    /// target's width, and "mod 2^w" keeps the bits that fit. All operands, and all results before
+    /// they are cut to their target, lie within 63 bits, products within 126.
     ///
-    /// A target never overlaps an operand. `scratch` registers are computed beside the target and
-    /// returned to zero with it; their content is the lowering's own affair. Their width is
-    /// `lower::scratch_width`.
+    /// A target never overlaps an operand. `scratch` registers are computed together with the
+    /// target and returned to zero with it. Their content is internal to the lowering. Their width
+    /// is `lower::scratch_width`.
     {
         /// `t = a mod 2^w`
         Copy = "copy"
         /// The number that is copied.
         reads a: Word<R>,
-        /// The target `t`, or what is changed in place.
+        /// The target `t`.
         target target: T,
     }
     {
@@ -368,7 +368,7 @@ operations! {
         Load = "load"
         /// The parameter's index in the program's list.
         constant parameter: u32,
-        /// The target `t`, or what is changed in place.
+        /// The target `t`.
         target target: T,
     }
     {
@@ -379,10 +379,10 @@ operations! {
         register source: R,
         /// The bits of t that each bit of the source flips.
         constant columns: Arc<[u64]>,
-        /// The parameter that is the pixel's shift, by its index in the program's list; none if
-        /// there is no shift.
+        /// The index of the pixel's shift in the program's list of parameters; `None` if there is
+        /// no shift.
         constant parameter: Option<u32>,
-        /// The target `t`, or what is changed in place.
+        /// The target `t`.
         target target: T,
     }
     {
@@ -412,9 +412,9 @@ operations! {
         reads a: Operand<R>,
         /// The second operand.
         reads b: Operand<R>,
-        /// Whether b is subtracted.
+        /// True if b is subtracted.
         constant subtract: bool,
-        /// The target `t`, or what is changed in place.
+        /// The target `t`.
         target target: T,
     }
     {
@@ -424,7 +424,7 @@ operations! {
         reads a: Word<R>,
         /// The condition.
         reads when: Bit<R>,
-        /// The target `t`, or what is changed in place.
+        /// The target `t`.
         target target: T,
     }
     {
@@ -432,11 +432,11 @@ operations! {
         Select = "select"
         /// The condition.
         reads when: Bit<R>,
-        /// The number where it holds.
+        /// The number where the condition holds.
         reads a: Operand<R>,
-        /// The number where it does not.
+        /// The number where the condition does not hold.
         reads b: Operand<R>,
-        /// The target `t`, or what is changed in place.
+        /// The target `t`.
         target target: T,
     }
     {
@@ -456,11 +456,11 @@ operations! {
         reads a: Word<R>,
         /// The second factor.
         reads b: Word<R>,
-        /// How many of the result's lowest bits are dropped.
+        /// Number of the result's lowest bits that are dropped.
         constant drop: u32,
-        /// How the operation is lowered.
+        /// The style of the lowering.
         style style: Style,
-        /// The target `t`, or what is changed in place.
+        /// The target `t`.
         target target: T,
         /// The register of the garbage.
         garbage scratch: T,
@@ -470,11 +470,11 @@ operations! {
         Square = "square"
         /// The number `a` that is read.
         reads a: Word<R>,
-        /// How many of the result's lowest bits are dropped.
+        /// Number of the result's lowest bits that are dropped.
         constant drop: u32,
-        /// How the operation is lowered.
+        /// The style of the lowering.
         style style: Style,
-        /// The target `t`, or what is changed in place.
+        /// The target `t`.
         target target: T,
         /// The register of the garbage.
         garbage scratch: T,
@@ -486,11 +486,11 @@ operations! {
         reads a: Word<R>,
         /// The factor.
         constant factor: i64,
-        /// How many of the result's lowest bits are dropped.
+        /// Number of the result's lowest bits that are dropped.
         constant drop: u32,
-        /// How the operation is lowered.
+        /// The style of the lowering.
         style style: Style,
-        /// The target `t`, or what is changed in place.
+        /// The target `t`.
         target target: T,
         /// The register of the garbage.
         garbage scratch: T,
@@ -501,7 +501,7 @@ operations! {
         Multiples = "multiples"
         /// The number `a` that is read.
         reads a: Word<R>,
-        /// The factors, what is dropped, and the sums.
+        /// The factors, the numbers of dropped bits, and the sums.
         constant products: Arc<Multiples>,
         /// The targets.
         targets targets: Box<[T]>,
@@ -516,11 +516,11 @@ operations! {
         reads a: Word<R>,
         /// The divisor.
         reads b: Word<R>,
-        /// How the operation is lowered.
+        /// The style of the lowering.
         style style: Style,
         /// The quotient.
         target quotient: T,
-        /// Whether the quotient fits: one bit.
+        /// The bit that is 1 if the quotient fits.
         target fits: T,
         /// The register of the garbage.
         garbage scratch: T,
@@ -530,25 +530,26 @@ operations! {
         SquareRoot = "square_root"
         /// The number `a` that is read.
         reads a: Word<R>,
-        /// How the operation is lowered.
+        /// The style of the lowering.
         style style: Style,
-        /// The target `t`, or what is changed in place.
+        /// The target `t`.
         target target: T,
         /// The register of the garbage.
         garbage scratch: T,
     }
     {
-        /// `t_k = columns[k][address] mod 2^w_k`: a QROM of `columns[k].len()` entries, the same number
-        /// for all k. An address beyond them reads what suits the lowering; it may not occur.
+        /// `t_k = columns[k][address] mod 2^w_k`: a QROM of `columns[k].len()` entries, the same
+        /// number for all k. An address beyond them may not occur, and its result depends on the
+        /// lowering.
         Table = "table"
         /// Bits of the address, the least significant first.
         reads address: Box<[Bit<R>]>,
         /// The entries of each column, by address.
         constant columns: Arc<[Box<[i64]>]>,
-        /// How many of the lowest address bits select among words read together, under
+        /// Number of the lowest address bits that select among words read together, under
         /// [`Style::OutOfPlace`].
         constant low: u32,
-        /// How the operation is lowered.
+        /// The style of the lowering.
         style style: Style,
         /// The targets.
         targets targets: Box<[T]>,
@@ -560,9 +561,9 @@ operations! {
         XorInto = "xor_into"
         /// The number that is added over GF(2).
         reads a: Operand<R>,
-        /// The condition; none if the change is everywhere.
+        /// The condition; `None` if the change is on every path.
         reads when: Option<Bit<R>>,
-        /// The target `t`, or what is changed in place.
+        /// The register `t`, which is changed in place.
         register target: R,
     }
     {
@@ -570,11 +571,11 @@ operations! {
         AddInto = "add_into"
         /// The number that is added or subtracted.
         reads a: Operand<R>,
-        /// Whether it is subtracted.
+        /// True if the number is subtracted.
         constant subtract: bool,
-        /// The condition; none if the change is everywhere.
+        /// The condition.
         reads when: When<R>,
-        /// The target `t`, or what is changed in place.
+        /// The register `t`, which is changed in place.
         register target: R,
     }
     {
@@ -584,7 +585,7 @@ operations! {
         register a: R,
         /// The second operand.
         register b: R,
-        /// The condition; none if the change is everywhere.
+        /// The condition; `None` if the change is on every path.
         reads when: Option<Bit<R>>,
     }
     {
@@ -596,15 +597,15 @@ operations! {
 }
 
 impl Op {
-    /// Registers that are zero before it and hold its results after it, garbage included; none for
-    /// an operation in place.
+    /// Returns the registers that are zero before the operation and hold its results after it,
+    /// garbage included; empty for an operation in place.
     pub fn fresh(&self) -> Vec<RegisterId> {
         let mut fresh = self.targets();
         fresh.extend(self.scratch());
         fresh
     }
 
-    /// Registers that it reads or changes in place.
+    /// Returns the registers that the operation reads or changes in place.
     pub fn reads(&self) -> Vec<RegisterId> {
         let mut reads = Vec::new();
         self.each_read(&mut |register| reads.push(*register));
@@ -613,7 +614,7 @@ impl Op {
 }
 
 impl<R, T> Op<R, T> {
-    /// The same operation with its garbage in this register, if it has any.
+    /// Returns the same operation with its garbage in this register, if it has any.
     pub fn with_scratch(mut self, scratch: T) -> Self {
         if let Some(field) = self.scratch_mut() {
             *field = scratch;
@@ -621,7 +622,7 @@ impl<R, T> Op<R, T> {
         self
     }
 
-    /// The same operation, lowered in this style where there is a choice.
+    /// Returns the same operation, lowered in this style where there is a choice.
     pub fn with_style(mut self, style: Style) -> Self {
         if let Some(field) = self.style_mut() {
             *field = style;

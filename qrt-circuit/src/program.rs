@@ -3,13 +3,13 @@
 use super::{Block, BlockId, Circuit, Op, Operand, Register, RegisterId, lower};
 use std::fmt;
 
-/// A classical parameter: a word that whoever runs the program supplies. In a circuit it is built
-/// in: it is loaded by Xs.
+/// A classical parameter: a word that the caller supplies for each run of the program. It is built
+/// into a circuit: Xs load it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Parameter {
     /// The parameter's name.
     pub name: String,
-    /// How many bits the parameter has: 1 to 64.
+    /// Number of bits of the parameter: 1 to 64.
     pub width: u32,
 }
 
@@ -18,7 +18,7 @@ pub struct Parameter {
 pub struct Instruction {
     /// The operation's index in [`Program::ops`].
     pub op: u32,
-    /// Whether the operation is undone.
+    /// True if the operation is undone.
     pub inverse: bool,
     /// The block that the instruction's cost is charged to.
     pub block: BlockId,
@@ -37,13 +37,13 @@ pub struct Program {
     pub ops: Vec<Op>,
     /// The instructions, in the order in which they run.
     pub instructions: Vec<Instruction>,
-    /// Registers that hold something before the first instruction: its
-    /// operands. In [`Program::inverse`], also what the program computed.
+    /// Registers that hold a value before the first instruction: the program's operands. In
+    /// [`Program::inverse`], they also include its results.
     pub inputs: Vec<RegisterId>,
 }
 
 impl Program {
-    /// The program that undoes this one: the inverses in reverse order.
+    /// Returns the program that undoes this one: the inverses in reverse order.
     pub fn inverse(&self) -> Self {
         let mut inverse = self.clone();
         inverse.instructions.reverse();
@@ -54,7 +54,7 @@ impl Program {
         inverse
     }
 
-    /// Registers that hold something after the last instruction, the inputs included.
+    /// Returns the registers that hold a value after the last instruction, the inputs included.
     pub fn outputs(&self) -> Vec<RegisterId> {
         let mut held = vec![false; self.registers.len()];
         for input in &self.inputs {
@@ -74,9 +74,11 @@ impl Program {
         self.registers[register.index()].width
     }
 
-    /// The program with its classical parameters built in: those of the list have these words, and
-    /// the result has none. Constants take their places, so that it computes the same with the same
-    /// registers, and every machine runs it, inverse and export included, without being told of words.
+    /// Returns the program with its classical parameters built in: `words` are their contents, and
+    /// the result has no parameters.
+    ///
+    /// Constants take the places of the parameters. So the result computes the same with the same
+    /// registers, and every machine runs it without words, inverse and export included.
     ///
     /// ```
     /// use qrt_circuit::{BlockId, Instruction, Op, Parameter, Program, Register, RegisterId, Type};
@@ -98,7 +100,8 @@ impl Program {
     /// ```
     ///
     /// # Errors
-    /// Another number of words than parameters, or a word with more bits than its parameter.
+    /// The number of words is not the number of parameters, or a word has more bits than its
+    /// parameter.
     pub fn bound(&self, words: &[u64]) -> Result<Self, WordError> {
         if words.len() != self.parameters.len() {
             return Err(WordError::Number {
@@ -114,12 +117,12 @@ impl Program {
         }
         let constant = |parameter: u32| {
             let unused = 64 - self.parameters[parameter as usize].width.min(64);
-            // All that is wanted are the lowest bits.
+            // Only the lowest bits are needed.
             Operand::Constant((words[parameter as usize] << unused).cast_signed() >> unused)
         };
         let mut bound = self.clone();
         bound.parameters.clear();
-        // By operation: the one that follows it, in place.
+        // By operation: the in-place operation that follows it.
         let mut shifts = vec![None; self.ops.len()];
         for (place, op) in self.ops.iter().enumerate() {
             match *op {
@@ -152,7 +155,7 @@ impl Program {
         bound.instructions.clear();
         for &instruction in &self.instructions {
             let shift = shifts[instruction.op as usize].map(|op| Instruction { op, ..instruction });
-            // What comes last is undone first.
+            // The last operation is undone first.
             bound
                 .instructions
                 .extend(shift.filter(|_| instruction.inverse));
@@ -164,22 +167,22 @@ impl Program {
         Ok(bound)
     }
 
-    /// The program as gates: [`lower::circuit`]. For more gates than memory holds, see
+    /// Lowers the program to gates: [`lower::circuit`]. If the gates exceed the memory, see
     /// [`lower::each_instruction`].
     pub fn circuit(&self) -> Circuit {
         lower::circuit(self)
     }
 }
 
-/// Why words are not those of a program's classical parameters.
+/// An error: words that are not those of a program's classical parameters.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum WordError {
-    /// Another number of words than parameters.
+    /// The number of words is not the number of parameters.
     Number {
-        /// How many words were given.
+        /// Number of words given.
         given: usize,
-        /// How many parameters the program has.
+        /// Number of parameters of the program.
         expected: usize,
     },
     /// A word has more bits than its parameter.

@@ -1,4 +1,4 @@
-//! Reversible code, recorded as a program.
+//! A machine that records reversible code as a program.
 
 use super::machine::{Call, Declaration, Machine};
 use super::{
@@ -7,7 +7,7 @@ use super::{
 use std::collections::HashMap;
 use std::sync::atomic::{AtomicU32, Ordering};
 
-/// A machine that records what it is asked to do.
+/// A machine that records its calls as a program.
 ///
 /// ```
 /// use qrt_circuit::{Declaration, Machine, Recorder, Style, Type, Word, When};
@@ -21,22 +21,22 @@ use std::sync::atomic::{AtomicU32, Ordering};
 /// assert_eq!(program.inputs.len(), 2);
 /// ```
 ///
-/// Registers belong to the recorder that made them, and to its clones; another one panics where it
-/// is handed one of them.
+/// Registers belong to the recorder that made them, and to its clones. Another recorder panics if
+/// it receives one of them.
 #[derive(Clone, Debug)]
 pub struct Recorder {
-    /// By which its registers are told from those of others.
+    /// A number that distinguishes its registers from those of other recorders.
     number: u32,
     program: Program,
     style: Style,
     /// The operation that computes each register.
     computed: HashMap<RegisterId, u32>,
     block: BlockId,
-    /// How many instructions it records.
+    /// The most instructions that it records.
     most: usize,
 }
 
-/// The instructions of a routine, at most: a hundred times those that trace a mesh of 1,536 faces.
+/// The most instructions of a routine: a hundred times those that trace a mesh of 1,536 faces.
 const MOST: usize = 1 << 24;
 
 /// A register of a [`Recorder`]: a handle on a register of the program that it records.
@@ -48,17 +48,17 @@ pub struct Recorded {
 }
 
 impl Recorded {
-    /// The register's index in the program's list.
+    /// Returns the register's index in the program's list.
     pub fn id(&self) -> RegisterId {
         self.id
     }
 
-    /// How many qubits the register has.
+    /// Number of qubits of the register.
     pub fn width(&self) -> u32 {
         self.width
     }
 
-    /// The register's index, if that recorder made it.
+    /// Returns the register's index. Panics if another recorder made it.
     fn on(&self, recorder: u32) -> RegisterId {
         assert!(
             self.recorder == recorder,
@@ -69,14 +69,14 @@ impl Recorded {
     }
 }
 
-/// Recorders so far.
+/// Number of recorders created so far.
 static RECORDERS: AtomicU32 = AtomicU32::new(0);
 
 impl Recorder {
-    /// Records a program of one block, whose operations are lowered in `style`.
+    /// Creates a recorder of a program of one block, whose operations are lowered in `style`.
     ///
-    /// Recording panics at its operation 2^24 + 1: loops that call routines with loops would otherwise fill
-    /// any memory.
+    /// Recording panics at its operation 2^24 + 1. Otherwise loops that call routines with loops
+    /// could fill any memory.
     pub fn new(style: Style) -> Self {
         let program = Program {
             blocks: vec![Block::default()],
@@ -92,8 +92,8 @@ impl Recorder {
         }
     }
 
-    /// Records a program whose registers, blocks and parameters are known: declarations have their
-    /// places in the list.
+    /// Creates a recorder of a program whose registers, blocks and parameters are known:
+    /// declarations have their places in the list.
     pub fn of(
         registers: &[Declaration],
         blocks: Vec<Block>,
@@ -109,7 +109,7 @@ impl Recorder {
         recorder
     }
 
-    /// A register that holds something before the first instruction.
+    /// Declares an input: a register that holds a value before the first instruction.
     pub fn input(&mut self, t: &Declaration) -> Recorded {
         let id = self.declare(t);
         self.program.inputs.push(id);
@@ -125,7 +125,7 @@ impl Recorder {
         }
     }
 
-    /// The register's index in the program's list.
+    /// Returns the register's index in the program's list.
     ///
     /// # Panics
     /// If another recorder made it.
@@ -133,12 +133,12 @@ impl Recorder {
         register.on(self.number)
     }
 
-    /// The program that has been recorded until now.
+    /// Returns the program recorded so far.
     pub fn program(&self) -> &Program {
         &self.program
     }
 
-    /// The recorded program.
+    /// Returns the recorded program.
     pub fn finish(self) -> Program {
         self.program
     }
@@ -156,8 +156,8 @@ impl Recorder {
         id
     }
 
-    /// The register of the garbage of `op`: the one declared with its first target, or a new one of
-    /// the width that its lowering needs.
+    /// Returns the register of the garbage of `op`: the one declared with its first target, or a
+    /// new one of the width that its lowering needs.
     fn scratch(&mut self, declared: Option<RegisterId>, op: &Op) -> RegisterId {
         declared.unwrap_or_else(|| {
             let registers = &self.program.registers;
@@ -255,7 +255,7 @@ mod tests {
     use super::*;
     use crate::{When, Word};
 
-    /// Calls in loops of routines with loops are told of, before they fill the memory.
+    /// Recording reports calls in loops of routines with loops, before they fill the memory.
     #[test]
     #[should_panic(expected = "a program of more than 3 operations")]
     fn no_routine_is_endless() {

@@ -1,4 +1,4 @@
-//! Registers, and how operations read them.
+//! Registers, and the operands that operations read from them.
 
 /// The index of a register in the list of a [`super::Program`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -11,7 +11,7 @@ impl RegisterId {
     }
 }
 
-/// What a register's bits mean.
+/// The meaning of a register's bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Type {
     /// One bit: a truth value.
@@ -22,12 +22,12 @@ pub enum Type {
     Int,
     /// An unsigned number in units of `2^-fraction`.
     UFixed {
-        /// How many of the register's bits are after the point.
+        /// Number of the register's bits after the point.
         fraction: u32,
     },
     /// A number in two's complement, in units of `2^-fraction`.
     Fixed {
-        /// How many of the register's bits are after the point.
+        /// Number of the register's bits after the point.
         fraction: u32,
     },
     /// Garbage, which no other operation reads: carries, remainders, partial sums.
@@ -35,7 +35,7 @@ pub enum Type {
 }
 
 impl Type {
-    /// The type as it is written for a register of `width` bits: `UInt<8>`, `Fixed<2, 14>`.
+    /// Returns the type as it is written for a register of `width` bits: `UInt<8>`, `Fixed<2, 14>`.
     pub fn name(self, width: u32) -> String {
         match self {
             Self::Bool => "Bool".to_owned(),
@@ -58,26 +58,26 @@ impl Type {
     }
 }
 
-/// A number by which the author of a program finds a register or a block again. Nothing here reads
-/// it: it travels with the program.
+/// A number by which the author of a program finds a register or a block again. This crate never
+/// reads it: it travels with the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Default)]
 pub struct Tag(pub u64);
 
 /// A named, typed array of qubits. Bit 0 is the least significant.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Register {
-    /// The name that the author gave it.
+    /// The name that the author gave the register.
     pub name: String,
-    /// What the register's bits mean.
+    /// The meaning of the register's bits.
     pub ty: Type,
     /// The tag by which the program's author finds the register again: a role, say.
     pub tag: Tag,
-    /// How many qubits the register has.
+    /// Number of qubits of the register.
     pub width: u32,
-    /// The block whose operation computes it.
+    /// The block whose operation computes the register.
     pub block: BlockId,
-    /// The least and the greatest number that the register holds, in units of its lowest bit, where
-    /// that has been proven.
+    /// The least and the greatest number that the register holds, in units of its lowest bit, if
+    /// proven.
     pub range: Option<[i64; 2]>,
 }
 
@@ -112,7 +112,7 @@ impl BlockId {
 /// A part of the program that has a name. Blocks form a tree; each instruction is charged to one.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Block {
-    /// The block around it; none for the root.
+    /// The block around it; `None` for the root.
     pub parent: Option<BlockId>,
     /// The name that the author gave it.
     pub name: String,
@@ -125,23 +125,23 @@ pub struct Block {
 ///
 /// Shifts, truncation by floor, and sign extension are wiring, and cost nothing.
 ///
-/// A program names its registers by `RegisterId`; what runs on a [`super::Machine`] borrows them.
+/// A program names its registers by `RegisterId`; code on a [`super::Machine`] borrows them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Word<R = RegisterId> {
     /// The register that is read.
     pub register: R,
     /// The first bit read, 0 the least significant.
     pub offset: u32,
-    /// How many bits are read; above 0.
+    /// Number of bits read; above 0.
     pub width: u32,
-    /// Whether the top bit read is a sign.
+    /// True if the top bit read is a sign.
     pub signed: bool,
-    /// How many zeros follow below the bits read.
+    /// Number of zeros that follow below the bits read.
     pub shift: u32,
 }
 
 impl<R> Word<R> {
-    /// The same bits of a register that is named otherwise.
+    /// Returns the same bits of a renamed register.
     #[inline(always)]
     pub fn of<S>(self, rename: impl FnOnce(R) -> S) -> Word<S> {
         Word {
@@ -153,12 +153,12 @@ impl<R> Word<R> {
         }
     }
 
-    /// How many bits the number has that it stands for, its sign and the zeros below included.
+    /// Number of bits of the number, its sign and the zeros below included.
     pub fn bits(&self) -> u32 {
         self.width + self.shift
     }
 
-    /// The number it stands for, if `register` is the register's content.
+    /// Returns the number that the word stands for, if `register` is the register's content.
     #[inline]
     pub fn read(&self, register: u64) -> i64 {
         let unused = 64 - self.width;
@@ -171,7 +171,7 @@ impl<R> Word<R> {
         value << self.shift
     }
 
-    /// The least and the greatest number it can stand for.
+    /// Returns the least and the greatest number that the word can stand for.
     pub fn range(&self) -> [i64; 2] {
         let (low, high) = if self.signed {
             let half = 1_i64 << (self.width - 1);
@@ -190,12 +190,12 @@ pub struct Bit<R = RegisterId> {
     pub register: R,
     /// The bit that is read; 0 is the least significant.
     pub index: u32,
-    /// Whether the negation of the bit is read.
+    /// True if the negation of the bit is read.
     pub inverted: bool,
 }
 
 impl<R> Bit<R> {
-    /// The same bit of a register that is named otherwise.
+    /// Returns the same bit of a renamed register.
     #[inline(always)]
     pub fn of<S>(self, rename: impl FnOnce(R) -> S) -> Bit<S> {
         Bit {
@@ -205,7 +205,7 @@ impl<R> Bit<R> {
         }
     }
 
-    /// The truth it stands for, if `register` is the register's content.
+    /// Returns the truth value of the bit, if `register` is the register's content.
     #[inline]
     pub fn read(&self, register: u64) -> bool {
         (register >> self.index & 1 == 1) != self.inverted
@@ -222,7 +222,7 @@ pub enum Operand<R = RegisterId> {
 }
 
 impl<R> Operand<R> {
-    /// The same number of a register that is named otherwise.
+    /// Returns the same number of a renamed register.
     #[inline(always)]
     pub fn of<S>(self, rename: impl FnOnce(R) -> S) -> Operand<S> {
         match self {

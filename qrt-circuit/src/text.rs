@@ -1,6 +1,6 @@
-//! Numbers for people.
+//! Numbers in readable form.
 
-/// `1234567` as `1,234,567`.
+/// Formats `1234567` as `1,234,567`.
 ///
 /// ```
 /// assert_eq!(qrt_circuit::grouped(1_234_567), "1,234,567");

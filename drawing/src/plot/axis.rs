@@ -1,25 +1,25 @@
 //! Logarithmic axes and their ticks.
 
-/// What an axis' numbers are written as.
+/// The scale of an axis, and the notation of its numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scale {
     /// Decades: 0.01, 0.1, 1.
     Log,
-    /// A number of bits b, which stands at `2^b`: a slope over it is one over `2^b`.
+    /// Numbers of bits b, which stand for `2^b`: a slope is taken over `2^b`.
     Bits,
 }
 
 /// An axis of a plot: its label and its scale.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
-    /// What the axis measures, as text beside it.
+    /// The label: the quantity that the axis measures.
     pub label: String,
-    /// How values become places on the axis.
+    /// The map from values to places on the axis.
     pub scale: Scale,
 }
 
 impl Axis {
-    /// An axis of decades.
+    /// Creates an axis of decades.
     pub fn log(label: &str) -> Self {
         Self {
             label: label.to_owned(),
@@ -27,7 +27,7 @@ impl Axis {
         }
     }
 
-    /// An axis of bits.
+    /// Creates an axis of bits.
     pub fn bits(label: &str) -> Self {
         Self {
             label: label.to_owned(),
@@ -35,7 +35,7 @@ impl Axis {
         }
     }
 
-    /// What a point's coordinate is as a number on this axis.
+    /// Returns the place of a value on this axis. `None` if the place is not finite.
     pub(super) fn place(&self, value: f64) -> Option<f64> {
         let place = match self.scale {
             Scale::Log => libm::log10(value),
@@ -44,7 +44,7 @@ impl Axis {
         place.is_finite().then_some(place)
     }
 
-    /// The logarithm whose slope is fitted: to the base 10.
+    /// Returns the base-10 logarithm of the value at `place`, over which slopes are fitted.
     pub(super) fn logarithm(&self, place: f64) -> f64 {
         match self.scale {
             Scale::Log => place,
@@ -52,7 +52,7 @@ impl Axis {
         }
     }
 
-    /// The range shown of some places, a little wider than theirs, and never empty.
+    /// Returns the range of the axis for `places`: a little wider than theirs, and never empty.
     pub(super) fn range(&self, places: impl Iterator<Item = f64>) -> [f64; 2] {
         let ends = places.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], place| {
             [low.min(place), high.max(place)]
@@ -67,7 +67,7 @@ impl Axis {
         [middle - half, middle + half]
     }
 
-    /// Ticks within a range of places, at most about `most`: where each stands, and what it says.
+    /// Returns at most about `most` ticks within a range of places: (place, label) of each.
     pub(super) fn ticks(&self, [low, high]: [f64; 2], most: usize) -> Vec<(f64, String)> {
         match self.scale {
             Scale::Bits => (whole(low, high, most).into_iter())
@@ -78,7 +78,7 @@ impl Axis {
     }
 }
 
-/// Whole numbers of a range, at a step of 1, 2, 3, 4, 6, ...
+/// Returns the whole numbers of a range, with a step of 1, 2, 3, 4, 6, ...
 fn whole(low: f64, high: f64, most: usize) -> Vec<f64> {
     let steps = [1.0, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 16.0, 24.0];
     let fits = |step: &&f64| (((high - low) / **step) as usize) < most.max(2);
@@ -106,7 +106,7 @@ fn decades(low: f64, high: f64, most: usize) -> Vec<(f64, String)> {
     ticks
 }
 
-/// `digit 10^exponent` as people write it.
+/// Formats `digit 10^exponent`: as a decimal for exponents from -4 to 4, else as a power of ten.
 fn written(digit: f64, exponent: f64) -> String {
     let exponent = exponent as i32;
     if (-4..=4).contains(&exponent) {

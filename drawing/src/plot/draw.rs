@@ -1,5 +1,5 @@
-//! A plot as a drawing: 580 units wide, which a telephone shows at some 0.75 and a page at 1; wider where a
-//! name or the title takes more.
+//! Drawings of plots. A plot is 580 units wide, and wider if a name or the title needs more. A
+//! telephone shows 580 units at a scale of about 0.75, a page at 1.
 
 use super::labels::apart;
 use super::{Axis, Drawn, Fit, Plot, Series};
@@ -13,18 +13,18 @@ const LEFT: f64 = 76.0;
 const RIGHT: f64 = WIDTH - 144.0;
 const TOP: f64 = 40.0;
 const BOTTOM: f64 = TOP + 300.0;
-/// Of fits drawn as curves.
+/// Number of steps of a band's outline.
 const BAND_STEPS: i32 = 24;
-/// From a series' last point to its name.
+/// Distance from the panel's right edge to the names of series.
 const GAP: f64 = 16.0;
-/// Between names, and between lines of the legend.
+/// Distance between names, and between lines of the legend.
 const LINE: f64 = 17.0;
-/// Width of a letter of a name and of the title, at most on average: those of DejaVu Sans.
+/// Upper bounds on the average width of a letter, of names and of the title: those of DejaVu Sans.
 const LETTER: f64 = 8.4;
 const TITLE_LETTER: f64 = 8.6;
 /// Left end of the title.
 const TITLE_LEFT: f64 = 14.0;
-/// Of the legend.
+/// Number of columns of the legend.
 const COLUMNS: usize = 2;
 
 /// One series, ready to be drawn.
@@ -36,7 +36,7 @@ struct Curve<'a> {
 }
 
 impl Curve<'_> {
-    /// The first and the last x.
+    /// Returns the first and the last x.
     fn ends(&self) -> [f64; 2] {
         let xs = || self.places.iter().map(|p| p[0]);
         [
@@ -45,7 +45,7 @@ impl Curve<'_> {
         ]
     }
 
-    /// The last point.
+    /// Returns the last point.
     fn last(&self) -> [f64; 2] {
         let before = [f64::NEG_INFINITY, 0.0];
         self.places.iter().fold(
@@ -71,7 +71,7 @@ pub(super) fn plot(plot: &Plot) -> Canvas {
     let panel = Panel {
         edges: [LEFT, TOP, RIGHT, BOTTOM],
         x: plot.x.range(places().map(|p| p[0])),
-        // Error bars may leave the panel where points do not.
+        // The range covers the points; error bars may leave the panel.
         y: plot.y.range(places().map(|p| p[1])),
     };
     let rows = curves.len().div_ceil(COLUMNS);
@@ -98,7 +98,7 @@ pub(super) fn plot(plot: &Plot) -> Canvas {
     canvas
 }
 
-/// The width in which all names beside the panel and the title are whole.
+/// Returns the width that shows the title and all names beside the panel in full.
 fn width(plot: &Plot, curves: &[Curve<'_>]) -> f64 {
     let letters = |text: &str| text.chars().count() as f64;
     let names = curves.iter().map(|curve| letters(&curve.series.name));
@@ -113,13 +113,13 @@ struct Drawing<'a> {
 }
 
 impl Drawing<'_> {
-    /// Where a place is, but not above or below the panel.
+    /// Returns a place on the drawing, clamped to the panel above and below.
     fn within(&self, place: [f64; 2]) -> [f64; 2] {
         let [x, y] = self.panel.at(place);
         [x, y.clamp(TOP, BOTTOM)]
     }
 
-    /// Where a fit is at a place on the x axis, `bands` times its band at 95 % above its line.
+    /// Returns the point of a fit at `x`, `bands` times its 95 % band above its line.
     fn fitted(&self, fit: &Fit, x: f64, bands: f64) -> [f64; 2] {
         let logarithm = self.plot.x.logarithm(x);
         let off = if bands == 0.0 {
@@ -130,7 +130,7 @@ impl Drawing<'_> {
         self.within([x, unlogarithm(&self.plot.y, fit.at(logarithm) + off)])
     }
 
-    /// The outline of a fit's band.
+    /// Draws a fit's band.
     fn band(&self, canvas: &mut Canvas, curve: &Curve<'_>) {
         let Some(fit) = curve.fit.filter(|fit| fit.slope_band.is_finite()) else {
             return;
@@ -180,7 +180,8 @@ impl Drawing<'_> {
         }
     }
 
-    /// The name of each series beside its last point, moved apart where they would overlap.
+    /// Draws the name of each series beside its last point. Names that would overlap are moved
+    /// apart.
     fn names(&self, canvas: &mut Canvas, curves: &[Curve<'_>]) {
         let last: Vec<[f64; 2]> = curves.iter().map(|c| self.panel.at(c.last())).collect();
         let wanted: Vec<f64> = last.iter().map(|at| at[1]).collect();
@@ -192,7 +193,7 @@ impl Drawing<'_> {
     }
 }
 
-/// From a logarithm to the base 10 back to a place.
+/// Converts a base-10 logarithm back to a place.
 fn unlogarithm(axis: &Axis, logarithm: f64) -> f64 {
     logarithm / axis.logarithm(1.0)
 }
@@ -202,7 +203,7 @@ fn put_mark(canvas: &mut Canvas, number: usize, at: [f64; 2]) {
     canvas.path_at(&format!("mark {}{hollow}", class(number)), at, mark(number));
 }
 
-/// Marks, names and slopes below the plot.
+/// Draws the legend: marks, names and slopes below the plot.
 fn legend(canvas: &mut Canvas, curves: &[Curve<'_>]) {
     let rows = curves.len().div_ceil(COLUMNS).max(1);
     for (k, curve) in curves.iter().enumerate() {

@@ -1,7 +1,8 @@
-//! Power laws by least squares, with how sure they are.
+//! Power laws fitted by least squares, with confidence intervals.
 
-/// `y = 10^at_mean (x / 10^mean)^slope`, fitted to log10 y over log10 x by least squares; all
-/// points count alike.
+/// The power law `y = 10^at_mean (x / 10^mean)^slope`.
+///
+/// It is fitted to log10 y over log10 x by least squares, with equal weights of all points.
 ///
 /// ```
 /// use qrt_drawing::Fit;
@@ -13,24 +14,24 @@
 pub struct Fit {
     /// The exponent: the slope of log10 y over log10 x.
     pub slope: f64,
-    /// Half the width of the slope's interval at 95 % (Student's t); infinite for two points.
+    /// Half the width of the slope's 95 % interval (Student's t); infinite for two points.
     pub slope_band: f64,
-    /// Root mean square of what the line leaves of the points' log10 y.
+    /// Root mean square of the residuals of log10 y.
     pub residual: f64,
     /// The mean of the points' log10 x.
     mean: f64,
     /// log10 y of the line at the mean.
     at_mean: f64,
-    /// How many points were fitted.
+    /// Number of fitted points.
     count: f64,
     /// Sum of squares of log10 x about its mean.
     spread: f64,
-    /// `t s`: Student's quantile times what is left of log10 y at a point.
+    /// `t s`: Student's quantile times the residual standard deviation of log10 y.
     reach: f64,
 }
 
 impl Fit {
-    /// Fits points (log10 x, log10 y). None for fewer than two different x.
+    /// Fits points (log10 x, log10 y). `None` if there are fewer than two different x.
     pub fn of(points: impl IntoIterator<Item = (f64, f64)>) -> Option<Self> {
         let points: Vec<(f64, f64)> = points.into_iter().collect();
         let count = points.len() as f64;
@@ -38,7 +39,7 @@ impl Fit {
         let (x, y) = (mean(|p| p.0), mean(|p| p.1));
         let spread: f64 = points.iter().map(|p| (p.0 - x) * (p.0 - x)).sum();
         let product: f64 = points.iter().map(|p| (p.0 - x) * (p.1 - y)).sum();
-        // Nor where there is no point.
+        // Also false if there are no points: the spread of none is 0.
         let distinct = spread > 1e-12;
         if !distinct {
             return None;
@@ -66,20 +67,22 @@ impl Fit {
         })
     }
 
-    /// log10 y at a log10 x.
+    /// Returns log10 y of the line at log10 x = `x`.
     pub fn at(&self, x: f64) -> f64 {
         self.at_mean + self.slope * (x - self.mean)
     }
 
-    /// Half the width of the line's interval at 95 % there.
+    /// Returns half the width of the line's 95 % interval at log10 x = `x`.
     pub fn band(&self, x: f64) -> f64 {
         let off = x - self.mean;
         self.reach * (1.0 / self.count + off * off / self.spread).sqrt()
     }
 }
 
-/// The 97.5 % quantile of Student's t: tabulated to 12 degrees of freedom, then by the expansion of
-/// Cornish and Fisher (Abramowitz & Stegun 26.7.5), off by less than 1e-4.
+/// Returns the 97.5 % quantile of Student's t.
+///
+/// It is tabulated up to 12 degrees of freedom. Beyond, it is the expansion of Cornish and Fisher
+/// (Abramowitz & Stegun 26.7.5), with an error below 1e-4.
 fn student(freedom: usize) -> f64 {
     const TABLE: [f64; 12] = [
         12.7062, 4.3027, 3.1824, 2.7764, 2.5706, 2.4469, 2.3646, 2.3060, 2.2622, 2.2281, 2.2010,
@@ -101,7 +104,7 @@ fn student(freedom: usize) -> f64 {
 mod tests {
     use super::*;
 
-    /// Quantiles of printed tables.
+    /// Compares with the quantiles of printed tables.
     #[test]
     fn students_quantiles_are_the_tabulated_ones() {
         for (freedom, quantile) in [
@@ -115,8 +118,8 @@ mod tests {
         }
     }
 
-    /// Anscombe's first quartet (*Graphs in Statistical Analysis*, 1973): y = 3.00 + 0.500 x, with
-    /// a standard error of the slope of 0.118.
+    /// Compares with Anscombe's first set (*Graphs in Statistical Analysis*, 1973): y = 3.00 +
+    /// 0.500 x, with a standard error of the slope of 0.118.
     #[test]
     fn a_published_regression_is_reproduced() {
         let x = [10.0, 8.0, 13.0, 9.0, 11.0, 14.0, 6.0, 4.0, 12.0, 7.0, 5.0];

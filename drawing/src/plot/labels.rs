@@ -1,12 +1,14 @@
-//! Labels beside one another that do not overlap.
+//! Placement of labels without overlaps.
 
-/// Moves `wanted` heights apart so that neighbours are at least `gap` apart and all lie within
-/// `low..=high` as far as there is room: each group of labels in each other's way is centred about
-/// where its members want to be.
+/// Moves heights apart so that neighbours are at least `gap` apart.
+///
+/// All heights lie within `low..=high`, and the gap shrinks if there is too little room. Each group
+/// of labels that would overlap is centred on the mean of its members' `wanted` heights.
 pub(super) fn apart(wanted: &[f64], gap: f64, low: f64, high: f64) -> Vec<f64> {
     let mut order: Vec<usize> = (0..wanted.len()).collect();
     order.sort_by(|&a, &b| wanted[a].total_cmp(&wanted[b]).then(a.cmp(&b)));
-    // (members, sum over members of where the group's first would stand for their sake)
+    // (members, sum over members of the group's first height that would give the member its wanted
+    // one)
     let mut groups: Vec<(usize, f64)> = Vec::new();
     let gap = gap.min((high - low) / (wanted.len().max(2) - 1) as f64);
     let start = |&(count, sum): &(usize, f64)| {

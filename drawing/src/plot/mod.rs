@@ -16,11 +16,11 @@ use crate::Canvas;
 
 /// A plot on logarithmic axes.
 ///
-/// It is a title, two [`Axis`] and any number of [`Series`]: points with error bars, which
-/// may be joined, or have a power law fitted to them ([`Fit`]), drawn with its confidence band.
-/// Each series is named where it ends and in the legend; it has a colour and a shape of its own, so
-/// that it is told apart in print, too. What a logarithm has no place for (zero, infinity, NaN) is
-/// left out.
+/// It has a title, two [`Axis`] and any number of [`Series`]: points with error bars. The plot can
+/// join the points, or fit a power law to them ([`Fit`]) and draw its confidence band. Each series
+/// has its name where it ends and in the legend. It has a colour and a shape of its own, so that it
+/// can be distinguished in print, too. Values without a logarithm (zero, infinity, NaN) are left
+/// out.
 ///
 /// ```
 /// use qrt_drawing::{Axis, Drawn, Plot, Series};
@@ -36,18 +36,18 @@ use crate::Canvas;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plot {
-    /// What it shows, for those who cannot see it, too.
+    /// The title, which also describes the plot to readers who cannot see it.
     pub title: String,
-    /// From left to right.
+    /// The horizontal axis, from left to right.
     pub x: Axis,
-    /// The axis that points upwards.
+    /// The vertical axis, upwards.
     pub y: Axis,
-    /// What is drawn, the first one in the first style.
+    /// The series to draw, the first one in the first style.
     pub series: Vec<Series>,
 }
 
 impl Plot {
-    /// The plot as a drawing.
+    /// Draws the plot.
     pub fn draw(&self) -> Canvas {
         draw::plot(self)
     }

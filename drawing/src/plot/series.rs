@@ -12,35 +12,36 @@ pub struct Point {
     pub high: f64,
 }
 
-/// What is drawn through the points.
+/// The line drawn through the points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Drawn {
     /// The points alone, without a line.
     Points,
-    /// Lines from each to the next.
+    /// Straight lines from each point to the next.
     Joined,
-    /// The power law that fits them best, with its band at 95 %.
+    /// The best-fitting power law, with its 95 % band.
     Fit,
-    /// What none of the points is better than in both: from each level right to the next.
+    /// The staircase of a Pareto front: from each point horizontally to the x of the next, then
+    /// vertically to it.
     Steps,
 }
 
 /// Points that belong together.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Series {
-    /// What they are called.
+    /// The name of the series.
     pub name: String,
     /// The points, from left to right.
     pub points: Vec<Point>,
-    /// What is drawn through them.
+    /// The line drawn through the points.
     pub drawn: Drawn,
-    /// The style of its colour and marks, below [`crate::STYLES`], where the same thing has it in
-    /// other plots, too; none for that of its place in the plot.
+    /// The style of its colour and marks, below [`crate::STYLES`]. It gives the same series the
+    /// same style in several plots. `None` is the style of its position in the plot.
     pub style: Option<usize>,
 }
 
 impl Series {
-    /// A series of points without error bars.
+    /// Creates a series of points without error bars.
     pub fn of(name: &str, points: impl IntoIterator<Item = (f64, f64)>, drawn: Drawn) -> Self {
         let bare = |(x, y)| Point {
             x,
@@ -56,15 +57,15 @@ impl Series {
         }
     }
 
-    /// The same in a style of its own, wherever it stands in a plot.
+    /// Sets a style, which then does not depend on the position in a plot.
     #[must_use]
     pub fn styled(mut self, style: usize) -> Self {
         self.style = Some(style);
         self
     }
 
-    /// What of it has a place on the axes: (x, y, low, high) as places. The ends of an error bar
-    /// that have none end at the point.
+    /// Returns the points that have a place on the axes: (x, y, low, high) as places. An end of an
+    /// error bar that has no place is put at the point.
     pub(super) fn places(&self, x: &Axis, y: &Axis) -> Vec<[f64; 4]> {
         let place = |point: &Point| {
             let at = y.place(point.y)?;
@@ -74,7 +75,7 @@ impl Series {
         self.points.iter().filter_map(place).collect()
     }
 
-    /// The power law, if one is asked for and there are points enough.
+    /// Fits the power law, if `drawn` is [`Drawn::Fit`] and there are enough points.
     pub(super) fn fit(&self, x: &Axis, y: &Axis) -> Option<Fit> {
         let places = self.places(x, y);
         let logarithms = places

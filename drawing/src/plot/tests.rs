@@ -1,4 +1,4 @@
-//! What a plot must hold.
+//! Tests of the contents of plots.
 
 use super::*;
 use crate::STYLES;
@@ -27,7 +27,7 @@ fn a_slope_is_that_of_its_power_law() {
     assert!(svg.contains("Error &amp; &lt;price&gt;"));
 }
 
-/// Over bits b, the slope is one over 2^b.
+/// Over bits b, the slope is taken over 2^b.
 #[test]
 fn a_slope_over_bits_is_over_their_power_of_two() {
     let mut plot = plot(vec![Series::of(
@@ -59,7 +59,7 @@ fn what_has_no_logarithm_is_left_out() {
     for word in ["NaN", "inf"] {
         assert!(!svg.contains(word), "{svg}");
     }
-    // One point has a place, an error bar down to zero included.
+    // One point has a place, even if its error bar reaches down to zero.
     let mut series = Series::of("one", [(3.0, 0.1)], Drawn::Fit);
     series.points[0].low = 0.0;
     let svg = plot(vec![series]).draw().svg();
@@ -107,7 +107,7 @@ fn ticks_are_numbers_that_people_write() {
     assert_eq!(labels(-20.0, 20.0).len(), 7);
 }
 
-/// What is drawn in several plots has one colour in all of them.
+/// A series that several plots draw has one colour in all of them.
 #[test]
 fn a_series_keeps_its_style_wherever_it_stands() {
     let points = [(1.0, 1.0), (10.0, 0.1)];
@@ -126,7 +126,8 @@ fn a_series_keeps_its_style_wherever_it_stands() {
     }
 }
 
-/// Some letters of 14 pixels are wider and some narrower than half of that; DejaVu Sans has 8.4 on average.
+/// Some letters of 14 pixels are wider and some narrower than 7 pixels; the average in DejaVu Sans
+/// is 8.4.
 #[test]
 fn long_names_and_titles_are_whole() {
     for (title, name, width) in [

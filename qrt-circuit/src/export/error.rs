@@ -1,14 +1,14 @@
-//! What an export refuses.
+//! Errors of an export.
 
 use std::{fmt, io};
 
-/// Why a circuit is not written.
+/// The reason why a circuit is not written.
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum ExportError {
-    /// The index has fewer qubits than its parts are said to have.
+    /// The index has fewer qubits than the parts that the caller names.
     IndexBits {
-        /// Bits that the parts are said to have, together.
+        /// Sum of the bits of the parts.
         parts: u32,
         /// Qubits of the index.
         index: u32,
@@ -20,7 +20,7 @@ pub enum ExportError {
         /// The bit that the gate reads, 0 the least significant.
         bit: u32,
     },
-    /// A phase on so many qubits has no gate in the libraries.
+    /// The libraries have no gate for a phase on this number of qubits.
     TooManyQubits(usize),
     /// The flag of [`Export::with_cancel`](super::Export::with_cancel) ended the writing.
     Interrupted,

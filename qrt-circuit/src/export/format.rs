@@ -1,4 +1,4 @@
-//! The two languages.
+//! The two OpenQASM languages.
 
 /// A language in which a circuit is written.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -20,7 +20,7 @@ impl Format {
         }
     }
 
-    /// The two lines that come first.
+    /// Returns the first two lines of a text.
     pub(super) fn header(self) -> &'static str {
         match self {
             Self::OpenQasm3 => "OPENQASM 3.0;\ninclude \"stdgates.inc\";\n",
@@ -28,7 +28,7 @@ impl Format {
         }
     }
 
-    /// The declaration of a register of qubits.
+    /// Returns the declaration of a register of qubits.
     pub(super) fn qubits(self, name: &str, qubits: usize) -> String {
         match self {
             Self::OpenQasm3 => format!("qubit[{qubits}] {name};\n"),
@@ -36,7 +36,7 @@ impl Format {
         }
     }
 
-    /// The declaration of a register of classical bits.
+    /// Returns the declaration of a register of classical bits.
     pub(super) fn bits(self, name: &str, bits: usize) -> String {
         match self {
             Self::OpenQasm3 => format!("bit[{bits}] {name};\n"),
@@ -44,7 +44,7 @@ impl Format {
         }
     }
 
-    /// The statement that measures a qubit into a bit.
+    /// Returns the statement that measures a qubit into a bit.
     pub(super) fn measure(self, qubit: &str, bit: &str) -> String {
         match self {
             Self::OpenQasm3 => format!("{bit} = measure {qubit};\n"),
@@ -52,7 +52,7 @@ impl Format {
         }
     }
 
-    /// The gate that multiplies by `exp(i angle)` where one qubit holds, and where two do.
+    /// Returns the gate that multiplies by `exp(i angle)` where all of its one or two qubits are 1.
     pub(super) fn phase(self, qubits: usize) -> Option<&'static str> {
         match (self, qubits) {
             (Self::OpenQasm3, 1) => Some("p"),
@@ -64,8 +64,8 @@ impl Format {
     }
 }
 
-/// Names that a register cannot have in one of the languages, between spaces: their words, and the
-/// functions, constants and gates of their libraries. Names of one letter are not listed.
+/// Names that a register cannot have in one of the languages, separated by spaces: the keywords,
+/// and the functions, constants and gates of the libraries. Names of one letter are not listed.
 const RESERVED: [&str; 4] = [
     "OPENQASM include defcalgrammar def cal defcal gate extern box let break continue if else end \
      return for while in switch case default nop pragma input output const readonly mutable qreg \
@@ -78,7 +78,7 @@ const RESERVED: [&str; 4] = [
      cphase rzz rxx",
 ];
 
-/// Whether a register may not be called so.
+/// True if a register may not have this name.
 pub(super) fn is_reserved(name: &str) -> bool {
     let mut words = RESERVED.iter().flat_map(|words| words.split_whitespace());
     words.any(|word| word == name)

@@ -1,4 +1,4 @@
-//! Gates, a line each.
+//! The writer of gates, one a line.
 
 use super::{ExportError, Format, PHASE_REGISTER, Register};
 use crate::quantum::{QuantumGate, Turns};
@@ -8,24 +8,24 @@ use std::f64::consts::TAU;
 use std::fmt::Write as _;
 use std::io::{self, Write};
 
-/// What an export has written: its gates, qubits and bytes.
+/// Counts of an export: its gates, qubits and bytes.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Tally {
-    /// How many gates were written, by the name of the gate.
+    /// Number of gates written, by the name of the gate.
     pub by_name: BTreeMap<&'static str, u64>,
-    /// How many qubits the circuit has, of all registers.
+    /// Number of qubits of the circuit, in all registers.
     pub qubits: u32,
-    /// How many bytes the text has.
+    /// Number of bytes of the text.
     pub bytes: u64,
 }
 
 impl Tally {
-    /// How many gates were written, of all names.
+    /// Number of gates written, of all names.
     pub fn gates(&self) -> u64 {
         self.by_name.values().sum()
     }
 
-    /// What was written, in words: `2 qubits, 3 gates: 2 z, 1 cz`, the most frequent gate first.
+    /// Describes the counts in words: `2 qubits, 3 gates: 2 z, 1 cz`, the most frequent gate first.
     pub fn text(&self) -> String {
         let mut names: Vec<_> = self.by_name.iter().collect();
         names.sort_by_key(|(name, gates)| (std::cmp::Reverse(**gates), **name));
@@ -51,7 +51,8 @@ impl Tally {
 pub(super) struct Writer<'a, W> {
     format: Format,
     registers: &'a [Register],
-    /// Of each qubit: which register's it is, and which of its bits. Millions of names would take a gigabyte.
+    /// The register of each qubit, and its bit there. The names of millions of qubits would take a
+    /// gigabyte.
     places: Vec<[u32; 2]>,
     tally: Tally,
     line: String,
@@ -126,7 +127,7 @@ impl<'a, W: Write> Writer<'a, W> {
         line.clear();
         line.push_str(gate);
         if let Some(angle) = angle {
-            // As a decimal that is read as the same number; without a point it would be a whole one.
+            // A decimal that reads back as the same number; without a point it would be an integer.
             let point = if angle.fract() == 0.0 { ".0" } else { "" };
             // Writing to a string cannot fail.
             let _ = write!(line, "({angle}{point})");
@@ -159,7 +160,7 @@ impl<'a, W: Write> Writer<'a, W> {
 
     fn phase(&mut self, turns: Turns, on: &[Qubit]) -> Result<(), ExportError> {
         match *on {
-            // Z X Z X = -1, on whichever qubit.
+            // Z X Z X = -1, on any qubit.
             [] if turns == Turns::HALF && !self.places.is_empty() => {
                 for name in ["z", "x", "z", "x"] {
                     self.line(name, None, &[0])?;
@@ -190,7 +191,7 @@ impl<'a, W: Write> Writer<'a, W> {
         Ok(())
     }
 
-    /// Says how many gates there were.
+    /// Writes a last line with the counts, and returns them.
     pub(super) fn end(mut self) -> io::Result<Tally> {
         self.comment(&self.tally.text())?;
         self.out.flush()?;
@@ -198,7 +199,8 @@ impl<'a, W: Write> Writer<'a, W> {
     }
 }
 
-/// Appends a number's digits: most of a text are such numbers, and formatting them takes twice as long.
+/// Appends a number's digits. Most of a text is numbers, and the standard formatting takes twice
+/// the time.
 fn push_number(line: &mut String, mut number: u32) {
     let mut digits = [0; 10];
     let mut first = digits.len();

@@ -1,15 +1,15 @@
-//! Circuits for other programs, as OpenQASM.
+//! Export of circuits as OpenQASM, for other programs.
 //!
 //! An [`Export`] writes the oracle, the Grover iterate or the whole counting circuit of a pixel as
-//! flat OpenQASM 3 or 2, gate by gate and without holding it.
+//! flat OpenQASM 3 or 2. It writes gate by gate and does not hold the circuit in memory.
 //!
-//! # Which OpenQASM
+//! # Subset of OpenQASM
 //!
-//! As little as there can be: registers, single gates of the standard library on single qubits,
-//! numbers as angles, one measurement a line. No `gate`, `def`, modifier, loop, broadcast or constant
-//! expression. So Qiskit (two importers of OpenQASM 3, one of 2), Q#, Cirq and MQT Core read both
-//! languages. pytket reads OpenQASM 2. PennyLane reads OpenQASM 3 without the lines of `include` and
-//! of measurements. (`benches/peers/openqasm.py` has them do it.)
+//! The text uses the smallest subset: registers, single gates of the standard library on single
+//! qubits, numbers as angles, one measurement a line. It has no `gate`, `def`, modifier, loop,
+//! broadcast or constant expression. Therefore Qiskit (two importers of OpenQASM 3, one of 2), Q#,
+//! Cirq and MQT Core read both languages. pytket reads OpenQASM 2. PennyLane reads OpenQASM 3
+//! without the lines of `include` and of measurements. (`benches/peers/openqasm.py` runs them.)
 //!
 //! | gate | OpenQASM 3 | OpenQASM 2 |
 //! |---|---|---|
@@ -18,14 +18,15 @@
 //! | another phase on one qubit, two | `p`, `cp` | `u1`, `cu1` |
 //! | a rotation | `ry` | `ry` |
 //!
-//! The Grover iterate's global phase of -1 is `z x z x` on one qubit: whoever puts the circuit
-//! under a control counts the good basis states, and not the others.
+//! The Grover iterate's global phase of -1 is `z x z x` on one qubit. With it, phase estimation of
+//! the circuit under a control counts the good basis states. Without it, phase estimation would
+//! count the others.
 //!
 //! # Registers
 //!
-//! `index`, which is in superposition, or parts of it under names of the caller's; `work`, zero
-//! before and after; for counting also `phase_register`, whose qubits are measured into `outcome`,
-//! and for the sine window `bond`, which is zero before and after. Bit 0 of each is its least
+//! `index` is in superposition; the caller may name parts of it. `work` is zero before and after. A
+//! counting circuit also has `phase_register`, whose qubits are measured into `outcome`, and for
+//! the sine window `bond`, which is zero before and after. Bit 0 of each register is its least
 //! significant.
 //!
 //! ```
@@ -70,10 +71,10 @@ use std::borrow::Cow;
 use std::io::Write;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// How many gates are written between two looks at what may end the writing.
+/// Number of gates between two checks of the cancel flag.
 const STRIDE: u64 = 1 << 16;
 
-/// What the phase register is called. (`phase` is a gate in OpenQASM, and `id` another.)
+/// Name of the phase register. (OpenQASM has a gate `phase`, and a gate `id`.)
 const PHASE_REGISTER: &str = "phase_register";
 
 /// A register of an exported circuit.
@@ -85,18 +86,18 @@ pub struct Register {
     pub qubits: Vec<Qubit>,
 }
 
-/// A part of a counting circuit, to be written.
+/// A part of a counting circuit, ready to be written.
 ///
-/// OpenQASM's libraries have no phase flip on more than three qubits. O_0's is on all qubits in
-/// superposition and, in a counting circuit, on its control: [`Counting::with`] and
-/// [`Conjunction::Toffolis`](crate::quantum::Conjunction::Toffolis) make circuits without such a
-/// flip.
+/// OpenQASM's libraries have no phase flip on more than three qubits. The phase flip of O_0 is on
+/// all qubits in superposition and, in a counting circuit, on its control. [`Counting::with`] and
+/// [`Conjunction::Toffolis`](crate::quantum::Conjunction::Toffolis) make circuits without a phase
+/// flip on more than three qubits.
 #[derive(Clone)]
 pub struct Export<'a> {
     counting: &'a Counting<'a>,
     part: Part,
     registers: Vec<Register>,
-    /// Bits that are measured: those of the phase register, if there is one.
+    /// Number of measured bits: those of the phase register, if there is one.
     outcome: usize,
     cancel: Option<&'a AtomicBool>,
     progress: Option<&'a dyn Fn(u64)>,
@@ -112,12 +113,14 @@ impl std::fmt::Debug for Export<'_> {
 }
 
 impl<'a> Export<'a> {
-    /// Prepares a part of a circuit for writing. `parts` names parts of the index, whose qubits are in
-    /// superposition or fixed: a register's name and its number of qubits each, from the index's bit 0
-    /// upwards. What is left of the index is called `index`.
+    /// Prepares a part of a circuit for writing.
+    ///
+    /// `parts` names parts of the index, whose qubits are in superposition or fixed. It has the
+    /// name and the number of qubits of each register, from the index's bit 0 upwards. The rest of
+    /// the index is called `index`.
     ///
     /// # Errors
-    /// The index has fewer qubits than its parts.
+    /// The index has fewer qubits than `parts` in all.
     pub fn new(
         counting: &'a Counting<'a>,
         part: Part,
@@ -136,7 +139,7 @@ impl<'a> Export<'a> {
             rest = others;
         }
         registers.push(("index", rest.to_vec()));
-        // Beyond the iterate's qubits are the phase register's, and the window's bond.
+        // The phase register's qubits and the window's bond follow the iterate's qubits.
         let iterate = counting.iterate().qubits().min(counting.qubits_of(part));
         let work = (0..iterate)
             .filter(|qubit| !index.contains(qubit))
@@ -167,7 +170,7 @@ impl<'a> Export<'a> {
         })
     }
 
-    /// Sets a flag that ends the writing; it is looked at every few ten thousand gates.
+    /// Sets a flag that ends the writing. The export checks it every few ten thousand gates.
     pub fn with_cancel(mut self, cancel: &'a AtomicBool) -> Self {
         self.cancel = Some(cancel);
         self
@@ -180,27 +183,29 @@ impl<'a> Export<'a> {
         self
     }
 
-    /// The registers, in the order in which they are declared; none is empty.
+    /// Returns the registers in the order of their declarations; none is empty.
     pub fn registers(&self) -> &[Register] {
         &self.registers
     }
 
-    /// How many qubits all registers have together.
+    /// Number of qubits of all registers together.
     pub fn qubits(&self) -> u32 {
         self.counting.qubits_of(self.part)
     }
 
-    /// How many gates the circuit has. The text has a few more: some are written as several.
+    /// Number of gates of the circuit. The text has a few more, since some are written as several.
     pub fn gates(&self) -> u64 {
         self.counting.gates(self.part)
     }
 
-    /// Writes the circuit, with `comments` under its header, a line each. What cannot stand in a
-    /// comment, line breaks and all that is not ASCII, is escaped.
+    /// Writes the circuit, with `comments` under its header, a line each.
+    ///
+    /// Line breaks and characters outside ASCII, which comments cannot contain, are escaped.
     ///
     /// # Errors
-    /// An error of `out`; the flag to end it; a phase flip on more than three qubits, of which the
-    /// oracle of a scene has none. Some text may have been written by then.
+    /// An error of `out`; [`ExportError::Interrupted`] if the cancel flag is set; a phase flip on
+    /// more than three qubits, which the oracle of a scene does not have. By then a part of the
+    /// text may have been written.
     pub fn write(
         &self,
         format: Format,
@@ -235,13 +240,16 @@ impl<'a> Export<'a> {
     }
 }
 
-/// Writes a reversible program: its inputs and what it computes as registers of their names, in
-/// which characters that OpenQASM's names lack become `_`, and which begin with `r_` if they were a
-/// word or a gate of OpenQASM; and all other qubits, which are zero before and after, as `work`.
-/// `words` are the contents of its classical parameters, `comments` as in [`Export::write`].
+/// Writes a reversible program.
+///
+/// Its inputs and its results become registers of their names. Characters that OpenQASM's names
+/// lack become `_`. A name gets the prefix `r_` if it is a word or a gate of OpenQASM, has one
+/// letter, or does not begin with a lower-case letter. All other qubits, which are zero before and
+/// after, become `work`. `words` are the contents of the classical parameters. `comments` are as in
+/// [`Export::write`].
 ///
 /// # Errors
-/// An error of `out`, and a parameter without a word.
+/// An error of `out`; a parameter without a word.
 pub fn write_program(
     program: &Program,
     words: &[u64],
@@ -278,7 +286,7 @@ pub fn write_program(
     Ok(out.end()?)
 }
 
-/// The registers of a program's circuit, each with a name of its own.
+/// Returns the registers of a program's circuit, each with a name of its own.
 fn registers(program: &Program, circuit: &Circuit) -> Vec<Register> {
     let held = circuit.inputs.iter().chain(&circuit.outputs);
     let mut seen = Vec::new();
@@ -298,7 +306,8 @@ fn registers(program: &Program, circuit: &Circuit) -> Vec<Register> {
             .chars()
             .map(legal)
             .collect();
-        // Names of one letter are gates, as some others are; all begin with a letter.
+        // Some names of one letter are gates, as some longer ones are; all names begin with a
+        // letter.
         let plain = name.len() > 1 && name.starts_with(|c: char| c.is_ascii_lowercase());
         let plain = plain && !format::is_reserved(&name);
         let name = if plain { name } else { format!("r_{name}") };

@@ -127,7 +127,7 @@ fn a_programs_registers_keep_their_names() {
     );
 }
 
-/// Words and gates of OpenQASM are names that authors of circuits like, too.
+/// Words and gates of OpenQASM are also common names of registers.
 #[test]
 fn words_of_the_language_are_no_names_of_registers() {
     use crate::{Declaration, Recorder, Style, Type};

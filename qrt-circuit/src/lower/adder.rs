@@ -1,15 +1,16 @@
 //! Additions and comparisons.
 //!
-//! Out of place, the carry into bit i is computed where the sum's bit i will be, with one AND a bit
-//! (Gidney 2018), since `maj(a, b, c) = a ^ (a ^ b)(a ^ c)`. In place, carries go up a ladder and
-//! come down again: 2n - 2 Toffolis for n bits. A carry takes the place of the addend's bit where
-//! that is a qubit of its own (Cuccaro, Draper, Kutin and Moulton 2004), and a borrowed bit where it
-//! is a constant or the copy of a sign. A controlled addition adds to the ladder one Toffoli a bit,
-//! 3n - 2 in all (Takahashi, Tani and Kunihiro 2010).
+//! Out of place, the carry into bit i is computed in the place of the sum's bit i, with one AND a
+//! bit (Gidney 2018), since `maj(a, b, c) = a ^ (a ^ b)(a ^ c)`. In place, a ladder of carries is
+//! computed upwards and uncomputed downwards: 2n - 2 Toffolis for n bits. A carry takes the place
+//! of the addend's bit if that bit is a qubit of its own (Cuccaro, Draper, Kutin and Moulton 2004).
+//! It takes a borrowed bit if the addend's bit is a constant or the copy of a sign. A controlled
+//! addition adds one Toffoli a bit to the ladder, 3n - 2 in all (Takahashi, Tani and Kunihiro
+//! 2010).
 
 use super::{Gates, Lowering, Qubit, Wire};
 
-/// How a carry came to be.
+/// The place of a carry, and its gates.
 enum Carry {
     /// It follows from the wires, without a gate.
     Free,
@@ -28,7 +29,7 @@ impl Lowering {
         }
     }
 
-    /// Flips all of `target` where `wire` holds.
+    /// Flips all of `target` where `wire` is 1.
     pub(super) fn flips(&mut self, wire: Wire, target: &[Qubit]) {
         for t in target {
             self.copy(wire, *t);
@@ -104,7 +105,7 @@ impl Lowering {
         }
     }
 
-    /// The majority of a constant and two others: their AND or their OR.
+    /// `t ^= maj(constant, a, b)`: an AND or an OR.
     fn and_or(&mut self, constant: Wire, a: Wire, b: Wire, target: Qubit) {
         let or = constant.inverted();
         self.and(a.xor(or), b.xor(or), target);
@@ -128,7 +129,7 @@ impl Lowering {
             };
             let mut next = Wire::majority(a, b, carry);
             if next == Some(Wire::qubit(t)) {
-                // The carry goes on, and t becomes the sum.
+                // The carry propagates, and t becomes the sum.
                 self.cx(t, above);
                 next = Some(Wire::qubit(above));
             }
@@ -173,8 +174,8 @@ impl Lowering {
         }
     }
 
-    /// `t += a + carry mod 2^w`, in place, where `when` holds; a has w wires, none of them of t or
-    /// of `when`.
+    /// `t += a + carry mod 2^w`, in place, where `when` is 1. a has w wires, none of which is a
+    /// qubit of t or of `when`.
     pub(super) fn add_into(&mut self, a: &[Wire], carry: bool, when: Wire, target: &[Qubit]) {
         let Some(top) = target.len().checked_sub(1) else {
             return;
@@ -235,7 +236,7 @@ impl Lowering {
         }
     }
 
-    /// A carry in the addend's place, or its inverse.
+    /// Computes a carry in the addend's place, or uncomputes it.
     fn carry(&mut self, carry: Qubit, t: Qubit, addend: Qubit) {
         self.carried.push(self.gates.len());
         self.ccx(carry, t, addend);
@@ -288,9 +289,9 @@ impl Lowering {
     }
 }
 
-/// Whether the wire's qubit is at no other place.
+/// True if the qubit of the wire at `place` is at no other place of `wires`.
 fn alone(wires: &[Wire], place: usize) -> bool {
-    // A plain loop: where nobody optimises it, as in a macro, an iterator takes longer.
+    // A plain loop: in unoptimised code, as in a macro, an iterator takes longer.
     let mut other = 0;
     while other < wires.len() {
         if other != place && wires[other].source() == wires[place].source() {
@@ -301,8 +302,8 @@ fn alone(wires: &[Wire], place: usize) -> bool {
     true
 }
 
-/// The place from which on neither of the numbers changes: there the carry no longer changes, and
-/// two bits on neither does the sum.
+/// Returns the place from which on the bits of both numbers repeat. From there on the carry no
+/// longer changes; from two bits further on, the sum no longer changes either.
 pub(super) fn settled(a: &[Wire], b: &[Wire]) -> usize {
     let mut place = a.len().saturating_sub(1);
     while place > 0 && a[place - 1] == a[place] && b[place - 1] == b[place] {

@@ -3,8 +3,8 @@
 use super::{Gates, Lowering, Qubit, Wire};
 
 impl Lowering {
-    /// `t = if when { -a } else { a }`: a carry that starts as `when` goes on through the zeros of
-    /// a, and where it has stopped the bits are complemented.
+    /// `t = if when { -a } else { a }`: a carry that starts as `when` propagates through the zeros
+    /// of a; the bits above the place where it stops are complemented.
     pub(super) fn negate(&mut self, a: &[Wire], when: Wire, target: &[Qubit]) {
         let mut carry = when;
         for (place, t) in target.iter().enumerate() {
@@ -13,7 +13,7 @@ impl Lowering {
                 if next.is_none() {
                     self.and(carry, a[place].xor(true), *above);
                 } else if next == Some(Wire::qubit(*t)) {
-                    // The carry goes on, and t becomes the sum.
+                    // The carry propagates, and t becomes the sum.
                     self.cx(*t, *above);
                     next = None;
                 }
@@ -72,7 +72,7 @@ impl Lowering {
         }
     }
 
-    /// `t ^= when a`; the copies of a sign are computed once.
+    /// `t ^= when a`. Copies of a sign are computed once.
     pub(super) fn xor_into(&mut self, a: &[Wire], when: Wire, target: &[Qubit]) {
         let mut place = 0;
         while place < target.len() {
@@ -97,8 +97,8 @@ impl Lowering {
     }
 }
 
-/// What is read where `when` holds, and where it does not: a wire of the condition's own qubit is a
-/// constant there.
+/// Returns the wire that is read where `when` holds, and the wire that is read where it does not.
+/// There, a wire of the condition's own qubit is a constant.
 pub(super) fn chosen(when: Wire, a: Wire, b: Wire) -> [Wire; 2] {
     let a = if a.related(when) && a.source().is_some() {
         Wire::constant(a == when)
@@ -113,7 +113,7 @@ pub(super) fn chosen(when: Wire, a: Wire, b: Wire) -> [Wire; 2] {
     [a, b]
 }
 
-/// The carry `carry and not a`, of a negation, where it follows without a gate.
+/// Returns the carry `carry and not a` of a negation. `None` if it takes a gate.
 pub(super) fn turned(a: &[Wire], place: usize, when: Wire, carry: Wire) -> Option<Wire> {
     let bit = a[place];
     if carry == Wire::ZERO || bit == when || bit == Wire::ONE {

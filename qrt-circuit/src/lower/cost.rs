@@ -1,4 +1,4 @@
-//! What operations cost: their gates, counted instead of kept.
+//! Costs of operations. Their gates are counted and not kept.
 
 use super::super::{Gate, Op, Program, RegisterId};
 use super::figures::Figures;
@@ -7,16 +7,16 @@ use std::collections::HashMap;
 use std::iter::Sum;
 use std::ops::Add;
 
-/// How many gates of each kind an operation, or a program, takes.
+/// Number of gates of each kind in an operation or a program.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Cost {
-    /// Toffolis, where everything is undone unitarily.
+    /// Toffolis, if everything is undone unitarily.
     pub toffoli: u64,
-    /// ANDs that are left when those that computed into clean bits are undone by measurement.
+    /// ANDs that remain if measurement undoes those that were computed into clean bits.
     pub and_measured: u64,
     /// CNOT gates.
     pub cnot: u64,
-    /// X gates, those that a pixel's classical parameters may need included.
+    /// X gates, including those that a pixel's classical parameters may need.
     pub x: u64,
 }
 
@@ -39,16 +39,16 @@ impl Sum for Cost {
     }
 }
 
-/// What an operation and its inverse cost, given the widths of its registers: its gates, counted.
+/// Returns the costs of an operation and of its inverse, given the widths of its registers.
 ///
-/// Of the ANDs into clean bits, those that an operation returns itself are undone by measurement
-/// within it; those that stay are undone by measurement in its inverse.
+/// Some ANDs into clean bits are returned by the operation itself: measurement undoes them within
+/// it. The others stay, and measurement undoes them within its inverse.
 pub fn costs(op: &Op, width: impl Fn(RegisterId) -> u32) -> [Cost; 2] {
     let (op, widths) = canonical(op, width);
     counted(&op, &widths).costs
 }
 
-/// The figures of an operation on registers of these widths, by their numbers.
+/// Returns the figures of an operation on registers of these `widths`, indexed by register number.
 pub(super) fn counted(op: &Op, widths: &[u32]) -> Figures {
     let mut lowering = placed(widths);
     let own = lowering.pool.made();
@@ -68,7 +68,7 @@ pub(super) fn counted(op: &Op, widths: &[u32]) -> Figures {
     let (mut cost, mut kept, mut returned) = (Cost::default(), 0, 0);
     let gates: &[Gate] = &lowering.gates;
     let clean: &mut [Clean] = &mut clean;
-    // A plain loop: where nobody optimises it, as in a macro, an iterator takes as long as the rest.
+    // A plain loop: in unoptimised code, as in a macro, an iterator takes the time of all the rest.
     let mut next = 0;
     while next < gates.len() {
         let place = next;
@@ -117,30 +117,30 @@ pub(super) fn counted(op: &Op, widths: &[u32]) -> Figures {
     }
 }
 
-/// What is known of a qubit, as far as Toffolis go.
+/// The known state of a qubit, as far as it matters to Toffolis.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Clean {
-    /// The qubit holds something.
+    /// The qubit holds a value.
     No,
-    /// The qubit is zero, and what a Toffoli computes into it stays.
+    /// The qubit is zero, and the result of a Toffoli into it stays.
     Kept,
-    /// The qubit is zero, and what a Toffoli computes into it is uncomputed.
+    /// The qubit is zero, and the result of a Toffoli into it is uncomputed.
     Borrowed,
-    /// The qubit holds what the next Toffoli on it uncomputes.
+    /// The qubit holds a result that the next Toffoli on it uncomputes.
     Lent,
 }
 
-/// What an operation, or its inverse, costs, given the widths of its registers.
+/// Returns the cost of an operation, or of its inverse, given the widths of its registers.
 pub fn cost(op: &Op, inverse: bool, width: impl Fn(RegisterId) -> u32) -> Cost {
     costs(op, width)[usize::from(inverse)]
 }
 
-/// How many Toffolis a program has.
+/// Number of Toffolis of a program.
 pub fn toffoli(program: &Program) -> u64 {
     tally(program).iter().map(|cost| cost.toffoli).sum()
 }
 
-/// What each instruction of a program costs.
+/// Returns the cost of each instruction of a program.
 pub fn tally(program: &Program) -> Vec<Cost> {
     let mut known: HashMap<u32, [Cost; 2]> = HashMap::new();
     let instructions = program.instructions.iter();

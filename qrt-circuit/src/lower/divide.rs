@@ -1,13 +1,13 @@
 //! Quotients.
 //!
-//! Division without restoring: each step doubles the remainder, brings down a bit of the dividend,
-//! and subtracts the divisor where the remainder is not negative and adds it where it is; the sign of
-//! what comes out is the complement of the quotient's bit, and its qubit is that bit's. Remainders lie
-//! in [-b, b), and have one bit more than b.
+//! Division without restoring. Each step doubles the remainder and brings down a bit of the
+//! dividend. Then it subtracts the divisor where the remainder is not negative, and adds it where
+//! the remainder is negative. The sign of the result is the complement of the quotient's bit, and
+//! its qubit becomes that bit. Remainders lie in [-b, b), and have one bit more than b.
 //!
-//! The dividend's bits are ANDed with `a < b 2^n` if it has more than n bits. If it has not, the
-//! quotient always fits unless b is 0; then the dividend's bits would reach the sign of the remainder
-//! if the quotient is wider than b, and those alone are ANDed.
+//! If the dividend has more than n bits, its bits are ANDed with `a < b 2^n`. Otherwise the
+//! quotient always fits unless b is 0. Then the dividend's bits would reach the sign of the
+//! remainder if the quotient is wider than b, and only those bits are ANDed.
 
 use super::super::{Style, Word};
 use super::{Gates, Lowering, Qubit, Wire, extended, qubits};

@@ -1,4 +1,4 @@
-//! What operations cost and how many qubits they take, found once for all that are alike.
+//! Costs and numbers of qubits of operations, computed once for operations that are alike.
 
 use super::super::{Cores, Op, RegisterId};
 use super::cost::{Cost, counted};
@@ -6,10 +6,10 @@ use super::place::canonical;
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
 
-/// What the lowering of an operation tells.
+/// The figures that the lowering of an operation yields.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Figures {
-    /// What the operation costs, and its inverse: [`super::costs`].
+    /// The costs of the operation and of its inverse: [`super::costs`].
     pub costs: [Cost; 2],
     /// The width in qubits of its garbage register: [`super::scratch_width`].
     pub scratch: u32,
@@ -17,8 +17,10 @@ pub struct Figures {
     pub borrowed: u32,
 }
 
-/// The figures of operations, each found once: those of an operation follow from what it does, the
-/// widths of its registers and which of these are one, not from their numbers.
+/// A cache of the figures of operations.
+///
+/// The figures of an operation depend on its kind, on the widths of its registers and on which of
+/// these are the same, but not on the registers' numbers. So each is computed once.
 ///
 /// ```
 /// use qrt_circuit::lower::{KnownFigures, costs};
@@ -38,20 +40,19 @@ pub struct Figures {
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct KnownFigures {
-    /// Where the figures of each are in `found`.
+    /// The index in `found` of the figures of each operation.
     places: QuickMap<Shape, usize>,
     found: Vec<Figures>,
 }
 
-/// An operation on registers that are numbered in the order in which it names them, and their
-/// widths.
+/// An operation whose registers are numbered in the order in which it names them, and their widths.
 pub(super) type Shape = (Op, Box<[u32]>);
 
-/// A map whose keys nobody chooses to collide.
+/// A hash map for trusted keys: no protection against chosen collisions.
 pub(super) type QuickMap<K, V> = HashMap<K, V, BuildHasherDefault<Quick>>;
 
 impl KnownFigures {
-    /// The figures of an operation, given the widths of its registers.
+    /// Returns the figures of an operation, given the widths of its registers.
     pub fn of(&mut self, op: &Op, width: impl Fn(RegisterId) -> u32) -> Figures {
         let place = self.places.entry(canonical(op, width));
         let place = *place.or_insert_with_key(|(op, widths)| {
@@ -61,7 +62,7 @@ impl KnownFigures {
         self.found[place]
     }
 
-    /// The figures of operations, one by one, given the widths of their registers.
+    /// Returns the figures of `ops`, one by one, given the widths of their registers.
     pub fn all(
         &mut self,
         ops: &[&Op],
@@ -84,19 +85,19 @@ impl KnownFigures {
         places.into_iter().map(|place| self.found[place]).collect()
     }
 
-    /// How many operations there are that differ.
+    /// Number of different operations in the cache.
     pub fn len(&self) -> usize {
         self.found.len()
     }
 
-    /// Whether there is none.
+    /// True if the cache has no operation.
     pub fn is_empty(&self) -> bool {
         self.found.is_empty()
     }
 }
 
-/// A hash that takes one multiplication a word: of use where nobody chooses the keys to collide, and
-/// where nothing is optimised.
+/// A hash that takes one multiplication a word, for trusted keys and unoptimised code: no
+/// protection against chosen collisions.
 #[doc(hidden)]
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Quick(u64);
@@ -110,7 +111,7 @@ impl Quick {
 
 impl Hasher for Quick {
     fn finish(&self) -> u64 {
-        // The map looks at the lowest bits and at the highest.
+        // The map uses the lowest bits and the highest bits.
         self.0 ^ (self.0 >> 32)
     }
     fn write(&mut self, bytes: &[u8]) {

@@ -1,25 +1,26 @@
-//! Ghosts: what a program takes where registers may be undone by measurement.
+//! Ghosts: the instructions that a program needs if registers may be undone by measurement.
 //!
-//! A register that is measured in the X basis is free at once, without its operation running
-//! backwards. What stays is a *ghost*: where the measurement gave `m`, each path has the sign
-//! `(-1)^(m.v)` of the value `v` that the register had. When the same operation has computed `v` again,
-//! Zs on its bits take that sign away (Gidney, *Spooky pebble games and irreversible
-//! uncomputation*, 2019; Kornerup, Sadun & Soloveichik, *Tight bounds on the spooky pebble game*,
-//! Quantum 9, 1636, 2025). Until then nothing is lost: all values are functions of the index, which
-//! an oracle does not change, and so is the sign.
+//! A register that is measured in the X basis is free at once: its operation does not run
+//! backwards. A *ghost* stays. If the measurement gave `m`, each path has the sign `(-1)^(m.v)`,
+//! where `v` is the value that the register had. When the same operation has computed `v` again, Zs
+//! on its bits remove that sign (Gidney, *Spooky pebble games and irreversible uncomputation*,
+//! 2019; Kornerup, Sadun & Soloveichik, *Tight bounds on the spooky pebble game*, Quantum 9, 1636,
+//! 2025). Until then nothing is lost: all values are functions of the index, which an oracle does
+//! not change, and so is the sign.
 //!
-//! A program whose scopes are undone early computes their operations several times. So each but the
-//! last run of an operation may end in a ghost, which the next run repairs; the last is undone by
-//! gates. What was computed anew only to undo something that is a ghost now need not run at all.
-//! Of `k` scopes, one in another, the innermost is computed `k + 1` times in place of `2^k`.
+//! A program whose scopes are undone early computes their operations several times. Each run of an
+//! operation except the last may end in a ghost, which the next run repairs. Gates undo the last
+//! run. An operation that was recomputed only to undo a register that is now a ghost need not run
+//! at all. Of `k` nested scopes, the innermost is computed `k + 1` times instead of `2^k`.
 
 use super::super::{Op, Program};
 
-/// Which instructions are left of a program that returns all it computes to zero, where registers may
-/// leave ghosts. All qubits are where they were, so that it needs no more of them.
+/// Returns the instructions that remain of a program that returns all its results to zero, if
+/// registers may leave ghosts: true for each that remains.
 ///
-/// Where an operation changes a register in place, or two compute the same one, or something is not
-/// returned to zero, all instructions are left.
+/// All qubits keep their places, so the program needs no more qubits. All instructions remain if an
+/// operation changes a register in place, if two operations compute the same register, or if a
+/// register is not returned to zero.
 pub fn with_ghosts(program: &Program) -> Vec<bool> {
     let Some(runs) = Runs::of(program) else {
         return vec![true; program.instructions.len()];
@@ -34,9 +35,9 @@ pub fn with_ghosts(program: &Program) -> Vec<bool> {
     left
 }
 
-/// Who computed what each instruction reads.
+/// The instructions that computed the operands of each instruction.
 struct Runs {
-    /// For each instruction, those that computed what it reads.
+    /// For each instruction, the instructions that computed the registers that it reads.
     reads: Vec<Vec<usize>>,
     /// The last run of each operation, and its inverse; operations that compute nothing.
     always: Vec<usize>,
@@ -44,9 +45,9 @@ struct Runs {
 
 impl Runs {
     fn of(program: &Program) -> Option<Self> {
-        // The instruction that computed what a register holds.
+        // The instruction that computed the content of each register.
         let mut holder: Vec<Option<usize>> = vec![None; program.registers.len()];
-        // The last run of each operation: where it begins and ends.
+        // The last run of each operation: the instructions at which it begins and ends.
         let mut last: Vec<Option<[usize; 2]>> = vec![None; program.ops.len()];
         let mut writer: Vec<Option<u32>> = vec![None; program.registers.len()];
         let mut reads = Vec::with_capacity(program.instructions.len());
@@ -64,7 +65,7 @@ impl Runs {
                 always.push(at);
             }
             for register in &fresh {
-                // Two that write one register need not compute the same.
+                // Two operations that write the same register need not compute the same value.
                 let writer = writer[register.index()].get_or_insert(instruction.op);
                 if *writer != instruction.op {
                     return None;
@@ -76,7 +77,7 @@ impl Runs {
                 *holder = (!instruction.inverse).then_some(at);
             }
         }
-        // What is not returned to zero was never undone.
+        // A register that is not returned to zero was never undone.
         if holder.iter().any(Option::is_some) {
             return None;
         }
@@ -90,7 +91,8 @@ mod tests {
     use super::*;
     use crate::{Bit, BlockId, Instruction, Register, RegisterId, Type, Word};
 
-    /// What scope k computes, its copy, and that undone again.
+    /// Appends the steps of a scope: its operation, the copy of its result, and the inverse of its
+    /// operation.
     fn run(scope: u32, depth: u32, out: &mut Vec<(u32, bool)>) {
         let mut inside = Vec::new();
         if scope + 1 < depth {
@@ -102,8 +104,8 @@ mod tests {
         out.extend(inside.iter().rev().map(|(op, inverse)| (*op, !inverse)));
     }
 
-    /// An AND of two bits for each scope: that of scope k reads the one of scope k + 1, and is copied
-    /// out before its scope is undone.
+    /// Returns a program with an AND of two bits for each scope. The AND of scope k reads the copy
+    /// of scope k + 1, and is itself copied out before its scope is undone.
     fn nested(depth: u32) -> Program {
         let bit = |register| Bit {
             register: RegisterId(register),
@@ -192,7 +194,7 @@ mod tests {
                 if left {
                     assert!(op.reads().iter().all(|read| there[read.index()]));
                     assert_eq!(there[at], instruction.inverse);
-                    // Computed again, it repairs what was measured.
+                    // The register is computed again, which repairs its ghost.
                     (there[at], ghost[at]) = (!instruction.inverse, false);
                 } else if instruction.inverse {
                     ghost[at] |= std::mem::take(&mut there[at]);

@@ -1,25 +1,25 @@
-//! Lowering of operations to X, CNOT and Toffoli, and what they cost.
+//! Lowering of operations to X, CNOT and Toffoli, and its costs.
 //!
 //! All gates are their own inverses, so an inverse is the reversed list. Nothing is measured.
 //!
 //! # Wires
 //!
-//! An operation's operands become lists of wires: a qubit, its negation, or a constant. Shifts,
-//! zeros above and sign extension cost nothing, and what follows from the wires alone (a carry of
-//! two equal bits is that bit) costs no gate. Two operands may share qubits.
+//! An operation's operands become lists of wires. A wire is a qubit, its negation, or a constant.
+//! Shifts, zeros above and sign extension cost nothing. A value that follows from the wires alone
+//! costs no gate: a carry of two equal bits is that bit. Two operands may share qubits.
 //!
 //! # Ancillas
 //!
-//! Garbage bits come from the operation's garbage register in the order in which the lowering
-//! allocates them; the same lowering, run on an unlimited supply, says how many qubits that
-//! register must have. Bits that are returned to zero within the operation are borrowed from those
-//! that nobody owns.
+//! Garbage bits come from the operation's garbage register, in the order in which the lowering
+//! allocates them. The same lowering, run on an unlimited supply, yields the number of qubits of
+//! that register. Bits that are returned to zero within the operation are borrowed from the free
+//! qubits.
 //!
 //! # Counts
 //!
-//! [`cost`] counts the gates that the lowering emits; that they agree with the published formulas
-//! is tested. Where the ANDs into clean bits are undone by measurement (Gidney, *Halving the cost
-//! of quantum addition*, 2018), `and_measured` of them remain.
+//! [`cost`] counts the gates that the lowering emits. Tests compare these counts with the published
+//! formulas. If measurement undoes the ANDs into clean bits (Gidney, *Halving the cost of quantum
+//! addition*, 2018), `and_measured` of them remain.
 
 mod adder;
 mod choose;
@@ -62,16 +62,16 @@ use wire::Wire;
 struct Lowering {
     /// The gates that have been emitted.
     gates: Vec<Gate>,
-    /// The qubits that nobody owns.
+    /// The free qubits.
     pool: Pool,
-    /// The qubits of each register; empty where it has none.
+    /// The qubits of each register; empty if it has none.
     registers: Vec<Vec<Qubit>>,
-    /// The bits of the current operation's garbage register that are allocated.
+    /// The allocated bits of the current operation's garbage register.
     garbage: Vec<Qubit>,
-    /// Gates that compute a carry in the place of a qubit that holds something, and, each after its
-    /// own, those that uncompute it.
+    /// Indices of the gates that compute a carry in the place of a qubit that holds a value, and of
+    /// the gates that uncompute the carry afterwards.
     carried: Vec<usize>,
-    /// The current operation's garbage register; none if bits are made as they are asked for.
+    /// The current operation's garbage register; `None` if bits are made on demand.
     scratch: Option<Vec<Qubit>>,
 }
 
@@ -87,7 +87,7 @@ impl Lowering {
         self.registers[id.index()].clone()
     }
 
-    /// The lowest `bits` bits of a word.
+    /// Returns the lowest `bits` bits of a word.
     fn word(&self, word: Word, bits: usize) -> Vec<Wire> {
         let register = &self.registers[word.register.index()];
         let (shift, offset) = (word.shift as usize, word.offset as usize);
@@ -131,14 +131,14 @@ impl Lowering {
 
     fn allocate_garbage(&mut self, bits: usize) -> Vec<Qubit> {
         let mut qubits = Vec::with_capacity(bits);
-        // A plain loop: where nobody optimises it, as in a macro, an iterator takes longer.
+        // A plain loop: in unoptimised code, as in a macro, an iterator takes longer.
         while qubits.len() < bits {
             qubits.push(self.garbage_bit());
         }
         qubits
     }
 
-    /// Runs backwards what was emitted from `start` to `end`.
+    /// Emits the gates from `start` to `end` again, in reverse order.
     fn undo(&mut self, start: usize, end: usize) {
         self.gates.reserve(end - start);
         for place in (start..end).rev() {
@@ -147,8 +147,8 @@ impl Lowering {
         }
     }
 
-    /// Copies, into borrowed bits, those of `wires` whose qubit is among `others` or came before;
-    /// [`Self::attach`] returns them.
+    /// Copies wires into borrowed bits, if their qubits are among `others` or earlier in `wires`.
+    /// [`Self::attach`] returns these bits.
     fn detach(&mut self, wires: &mut [Wire], others: &[Wire]) -> Vec<(Wire, Qubit)> {
         let mut copies = Vec::new();
         for place in 0..wires.len() {
@@ -171,7 +171,7 @@ impl Lowering {
         }
     }
 
-    /// Emits an operation. Registers of what it computes have been placed.
+    /// Emits an operation. The registers of its results have been placed.
     fn lower(&mut self, op: &Op) {
         self.garbage.clear();
         self.carried.clear();
@@ -352,8 +352,8 @@ impl Lowering {
         self.flips(sign, target);
     }
 
-    /// What an addition in place adds, the condition on which it is subtracted, and that on which
-    /// it is added.
+    /// Returns the addend of an in-place addition, the wire on which it is subtracted, and the wire
+    /// that controls the addition.
     fn addend(
         &self,
         a: Operand,
@@ -393,7 +393,7 @@ impl Lowering {
         }
     }
 
-    /// Two operands as unsigned numbers of the same width, in the same order.
+    /// Converts two operands to unsigned numbers of the same width; their order is preserved.
     fn compared(&self, a: Operand, b: Operand) -> (Vec<Wire>, Vec<Wire>) {
         let ([a_bits, a_signed], [b_bits, b_signed]) = (extent(a), extent(b));
         let signed = a_signed + b_signed > 0;
@@ -411,7 +411,7 @@ impl Lowering {
     }
 }
 
-/// Bits of an operand, and 1 if the top one is a sign.
+/// Returns the number of bits of an operand, and 1 if the top one is a sign.
 fn extent(operand: Operand) -> [usize; 2] {
     match operand {
         Operand::Word(word) => [word.bits() as usize, usize::from(word.signed)],
@@ -433,7 +433,8 @@ fn invert(wires: &mut [Wire], inverted: bool) {
     }
 }
 
-/// The lowest `bits` of a number whose own bits are `wires`, with `above` above them.
+/// Returns the lowest `bits` bits of a number whose own bits are `wires`, with copies of `above`
+/// above them.
 fn extended(wires: &[Wire], above: Wire, bits: usize) -> Vec<Wire> {
     let mut extended = Vec::with_capacity(bits);
     extended.extend_from_slice(&wires[..bits.min(wires.len())]);

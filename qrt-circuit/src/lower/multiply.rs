@@ -1,30 +1,32 @@
 //! Products.
 //!
-//! Of two ways the cheaper is taken.
+//! There are two methods; the cheaper one is used.
 //!
 //! *Plain rows*: row i is `a_i b`, n ANDs, added at bit i.
 //!
-//! *Signed digits*: with digits d = 2 a_i - 1 of either sign in place of the bits, and the top one
-//! negated since it is the sign's, `2a + 1 = sum d_i 2^i`; so `a b = -(not a_0) b + sum_{i > 0} d_i
-//! 2^(i - 1) b`. The first term takes n ANDs and a negation, and each of the others is an addition
-//! or subtraction, as the row's bit says: b is complemented by CNOTs from that bit, which is also
-//! the carry in. No row needs ANDs of its own, and the product takes about one Toffoli for each
-//! pair of bits. (Booth's idea of signed digits, with the digit 0 left out.)
+//! *Signed digits*: digits d = 2 a_i - 1 of either sign take the place of the bits, and the top one
+//! is negated since it is the sign's. Then `2a + 1 = sum d_i 2^i`, so
+//! `a b = -(not a_0) b + sum_{i > 0} d_i 2^(i - 1) b`. The first term takes n ANDs and a negation.
+//! Each other term is an addition or a subtraction, as the row's bit decides: CNOTs from that bit
+//! complement b, and that bit is also the carry in. No row needs ANDs of its own, and the product
+//! takes about one Toffoli for each pair of bits. (This is Booth's idea of signed digits, without
+//! the digit 0.)
 //!
-//! Out of place each row's partial sum is n + 2 new bits, of which the lowest is the product's. In
+//! Out of place, each row's partial sum is n + 2 new bits, the lowest of which is the product's. In
 //! place, rows are added within the product's bits.
 
 use super::super::{Style, Word};
 use super::{Gates, Lowering, Qubit, Wire, extended, invert, qubits};
 
-/// Where the bits of a result go: those from `drop` on to the target, those below to the garbage.
+/// The places of a result's bits: those from `drop` on are in the target, those below in the
+/// garbage.
 pub(super) struct Landing<'a> {
     pub(super) drop: usize,
     pub(super) target: &'a [Qubit],
 }
 
 impl<'a> Landing<'a> {
-    /// The landing of a result with `shift` zeros below, of which `drop` bits are dropped.
+    /// Creates the landing of a result with `shift` zeros below, of which `drop` bits are dropped.
     pub(super) fn new(shift: u32, drop: u32, target: &'a [Qubit]) -> Self {
         let zeros = (shift.saturating_sub(drop) as usize).min(target.len());
         Self {
@@ -33,7 +35,8 @@ impl<'a> Landing<'a> {
         }
     }
 
-    /// Bits of a result of `bits` that are computed: those that the target has, and those below.
+    /// Number of bits that are computed of a result of `bits` bits: those of the target, and those
+    /// below.
     pub(super) fn needed(&self, bits: usize, signed: bool) -> usize {
         if self.target.is_empty() || (self.drop >= bits && !signed) {
             0
@@ -42,24 +45,24 @@ impl<'a> Landing<'a> {
         }
     }
 
-    /// The target's bit for bit `place` of the result.
+    /// Returns the target's bit for bit `place` of the result, if the target has it.
     pub(super) fn at(&self, place: usize) -> Option<Qubit> {
         let place = place.checked_sub(self.drop)?;
         self.target.get(place).copied()
     }
 }
 
-/// Shape of a product: what its cost depends on.
+/// The shape of a product, which determines its cost.
 pub(super) struct Product {
-    /// Bits of a, and whether the top is a sign.
+    /// Number of bits of a. The next field is true if the top one is a sign.
     pub(super) rows: usize,
     pub(super) a_signed: bool,
-    /// Bits of b.
+    /// Number of bits of b. The next field is true if the top one is a sign.
     pub(super) row: usize,
     pub(super) b_signed: bool,
-    /// Bits of the product.
+    /// Number of bits of the product.
     bits: usize,
-    /// Bits that are computed.
+    /// Number of bits that are computed.
     pub(super) needed: usize,
 }
 
@@ -81,12 +84,12 @@ impl Product {
         }
     }
 
-    /// How many digits a has: an unsigned number has a further one, its sign's.
+    /// Number of digits of a. An unsigned number has one more, for its sign.
     pub(super) fn digits(&self) -> usize {
         self.rows + usize::from(!self.a_signed)
     }
 
-    /// Toffolis in plain rows.
+    /// Number of Toffolis in plain rows.
     fn plain(&self, style: Style) -> u64 {
         let (row, needed) = (self.row, self.needed);
         let negated = if self.rows == 1 && self.a_signed {
@@ -107,7 +110,7 @@ impl Product {
         (row.min(needed) + negated + rows.sum::<usize>()) as u64
     }
 
-    /// Toffolis in rows of signed digits; there are none of a single bit.
+    /// Number of Toffolis in rows of signed digits. A single digit has no rows and is never chosen.
     fn signed(&self, style: Style) -> u64 {
         let (row, needed) = (self.row, self.needed);
         if self.digits() == 1 {
@@ -120,13 +123,13 @@ impl Product {
     }
 }
 
-/// Toffolis of a sum of `bits` bits of which the first carry follows from the wires, as a
-/// negation's does.
+/// Number of Toffolis of a sum of `bits` bits whose first carry follows from the wires, as in a
+/// negation.
 fn negation(bits: usize) -> usize {
     bits.saturating_sub(2)
 }
 
-/// Toffolis of carries that stay, or that a sum in place uncomputes.
+/// Number of Toffolis of carries. Out of place the carries stay; in place the sum uncomputes them.
 fn carried(carries: usize, style: Style) -> usize {
     match style {
         Style::OutOfPlace => carries,
@@ -135,7 +138,7 @@ fn carried(carries: usize, style: Style) -> usize {
 }
 
 impl Lowering {
-    /// A bit for bit `place` of a result.
+    /// Returns a qubit for bit `place` of a result: the target's, or a garbage bit.
     pub(super) fn land(&mut self, landing: &Landing, place: usize) -> Qubit {
         landing.at(place).unwrap_or_else(|| self.garbage_bit())
     }
@@ -145,7 +148,7 @@ impl Lowering {
         places.map(|place| self.land(landing, place)).collect()
     }
 
-    /// Bits for a partial sum at `from`, of which the lowest `last` are the result's.
+    /// Allocates the bits of a partial sum at `from`, the lowest `last` of which are the result's.
     pub(super) fn partial(
         &mut self,
         landing: &Landing,
@@ -197,7 +200,8 @@ impl Lowering {
         }
     }
 
-    /// Complements b's qubits where `sign` holds, and says what they are then; again, and they are b.
+    /// Complements b's qubits where `sign` is 1, and returns the resulting wires. A second call
+    /// restores b.
     pub(super) fn complement(&mut self, sign: Wire, b: &[Wire]) -> Vec<Wire> {
         if let Some(sign) = sign.source() {
             for qubit in b.iter().filter_map(|wire| wire.source()) {
@@ -211,7 +215,7 @@ impl Lowering {
         b.iter().map(complement).collect()
     }
 
-    /// The negative of `y`, in `bits` bits.
+    /// Computes the negative of `y`, extended by `above`, in the bits of `target`.
     fn negative(&mut self, y: &[Wire], above: Wire, target: &[Qubit]) {
         let mut y = extended(y, above, target.len());
         invert(&mut y, true);
@@ -336,7 +340,7 @@ impl Lowering {
         Wire::qubit(product[p.needed - 1])
     }
 
-    /// The number in the lowest `bits` bits becomes its negative, of one bit more.
+    /// Negates the number in the lowest `bits` bits in place. The result has one bit more.
     pub(super) fn negate_in_place(&mut self, number: &[Qubit], bits: usize, signed: bool) {
         let window = &number[..(bits + 1).min(number.len())];
         if signed && window.len() > bits {
@@ -348,7 +352,7 @@ impl Lowering {
     }
 }
 
-/// Whether the digit is the last, and the wire on which its row is subtracted.
+/// Returns whether the digit is the last one, and the wire on which its row is subtracted.
 fn digit(a: &[Wire], p: &Product, place: usize) -> (bool, Wire) {
     let top = place + 1 == p.digits();
     let bit = a.get(place).copied().unwrap_or(Wire::ZERO);

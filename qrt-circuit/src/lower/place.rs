@@ -6,15 +6,15 @@ use super::figures::Shape;
 use std::cell::RefCell;
 use std::convert::Infallible;
 
-/// The pool of qubits that nobody owns, and from which ancillas are allocated.
+/// The pool of free qubits, from which ancillas are allocated.
 #[derive(Default)]
 pub(super) struct Pool {
     idle: Vec<Qubit>,
     made: u32,
-    /// Qubits that were allocated and not freed, and the most of them.
+    /// Number of qubits that are allocated and not yet freed, and its maximum.
     lent: u32,
     most_lent: u32,
-    /// The most qubits that have been in use since this was last set.
+    /// The most qubits in use since this field was last set.
     pub(super) peak: u32,
 }
 
@@ -28,7 +28,7 @@ impl Pool {
         qubit
     }
 
-    /// Makes a qubit that has not been in use before.
+    /// Makes a new qubit, which has not been in use before.
     pub(super) fn make(&mut self) -> Qubit {
         self.made += 1;
         let in_use = self.in_use();
@@ -44,18 +44,17 @@ impl Pool {
         self.idle.push(qubit);
     }
 
-    /// The qubits that are free, in the order in which they were freed.
+    /// Returns the free qubits, in the order in which they were freed.
     pub(super) fn idle(&self) -> &[Qubit] {
         &self.idle
     }
 
-    /// How many qubits there are.
+    /// Number of qubits made.
     pub(super) fn made(&self) -> u32 {
         self.made
     }
 
-    /// The most qubits that were allocated at a time, beside those of registers that were placed
-    /// before.
+    /// The most qubits allocated at a time, without those of registers that were placed before.
     pub(super) fn most_lent(&self) -> u32 {
         self.most_lent
     }
@@ -66,7 +65,7 @@ impl Pool {
 }
 
 impl Lowering {
-    /// A lowering with the program's inputs placed.
+    /// Creates a lowering with the program's inputs placed.
     pub(super) fn on(program: &Program) -> Self {
         let mut lowering = Self {
             registers: vec![Vec::new(); program.registers.len()],
@@ -93,7 +92,7 @@ impl Lowering {
         }
     }
 
-    /// Registers that have qubits.
+    /// Returns the registers that have qubits.
     fn held(&self) -> Vec<(RegisterId, Vec<Qubit>)> {
         let all = self.registers.iter().enumerate();
         all.filter(|(_, qubits)| !qubits.is_empty())
@@ -101,7 +100,7 @@ impl Lowering {
             .collect()
     }
 
-    /// Emits an operation or its inverse, and says how many qubits are in use meanwhile.
+    /// Emits an operation or its inverse, and returns the number of qubits in use meanwhile.
     fn instruction(&mut self, program: &Program, op: &Op, inverse: bool) -> u32 {
         self.place_fresh(program, op);
         self.pool.peak = self.pool.in_use();
@@ -116,14 +115,14 @@ impl Lowering {
         self.pool.peak
     }
 
-    /// Allocates the qubits of what an operation computes, as far as they are not there.
+    /// Allocates the qubits of an operation's results, unless they are placed already.
     pub(super) fn place_fresh(&mut self, program: &Program, op: &Op) {
         for register in op.fresh() {
             self.place(register, program.width(register));
         }
     }
 
-    /// Frees them.
+    /// Frees the qubits of an operation's results.
     pub(super) fn displace_fresh(&mut self, op: &Op) {
         for register in op.fresh().into_iter().rev() {
             self.displace(register);
@@ -143,8 +142,8 @@ pub fn scratch_width(op: &Op, width: impl Fn(RegisterId) -> u32) -> u32 {
     lowering.garbage.len() as u32
 }
 
-/// An operation on registers that are numbered in the order in which it names them, and the widths of
-/// these; that of its garbage register, which is still to be found, is 0.
+/// Returns an operation whose registers are numbered in the order in which it names them, and their
+/// widths. The width of its garbage register, which is still unknown, is 0.
 pub(super) fn canonical(op: &Op, width: impl Fn(RegisterId) -> u32) -> Shape {
     let scratch = op.scratch();
     let (op, registers) = numbered(op);
@@ -152,9 +151,10 @@ pub(super) fn canonical(op: &Op, width: impl Fn(RegisterId) -> u32) -> Shape {
     (op, registers.into_iter().map(width).collect())
 }
 
-/// An operation on registers that are numbered in the order in which it names them, and these.
+/// Returns an operation whose registers are numbered in the order in which it names them, and those
+/// registers.
 pub(super) fn numbered(op: &Op) -> (Op, Vec<RegisterId>) {
-    // Shared by what is read and what is written.
+    // Registers that are read and registers that are written share one numbering.
     let known = RefCell::new(Vec::new());
     let number = |id: RegisterId| {
         let ids = &mut *known.borrow_mut();
@@ -169,7 +169,7 @@ pub(super) fn numbered(op: &Op) -> (Op, Vec<RegisterId>) {
     (op, known.into_inner())
 }
 
-/// A lowering with registers of these widths on qubits of their own.
+/// Creates a lowering with registers of these `widths` on qubits of their own.
 pub(super) fn placed(widths: &[u32]) -> Lowering {
     let mut lowering = Lowering {
         registers: vec![Vec::new(); widths.len()],
@@ -182,14 +182,14 @@ pub(super) fn placed(widths: &[u32]) -> Lowering {
     lowering
 }
 
-/// Lowers a program. The qubits of a register are allocated when it is computed, and freed, zero
-/// again, when it is undone.
+/// Lowers a program. A register's qubits are allocated when it is computed, and freed, zero again,
+/// when it is undone.
 pub fn circuit(program: &Program) -> Circuit {
     parts(program, &[]).into_iter().next().unwrap_or_default()
 }
 
-/// Lowers a program, cut before the instructions `cuts`, which ascend: parts that share their
-/// qubits.
+/// Lowers a program in parts that share their qubits. It is cut before the instructions `cuts`,
+/// which ascend.
 pub fn parts(program: &Program, cuts: &[usize]) -> Vec<Circuit> {
     let mut lowering = Lowering::on(program);
     let ends = cuts.iter().copied().chain([program.instructions.len()]);
@@ -219,9 +219,11 @@ pub fn parts(program: &Program, cuts: &[usize]) -> Vec<Circuit> {
     parts
 }
 
-/// The gates of the parts between the first and the last of those that [`parts`] makes, where these two are too
-/// large to be kept. Their gates are counted; of the first there are its `outputs`, and of all parts `qubits` and
-/// `parameters`, and nothing else.
+/// Lowers a program as [`parts`] does, but keeps only the gates of the parts between the first and
+/// the last. The gates of these two may be too many to be kept.
+///
+/// Returns the parts, and the number of gates of the first and the last. The first part also has
+/// its `outputs`; all parts have `qubits` and `parameters`. Nothing else is set.
 pub fn parts_between(program: &Program, cuts: &[usize]) -> (Vec<Circuit>, usize) {
     let mut parts: Vec<Circuit> = vec![Circuit::default(); cuts.len() + 1];
     let mut lowering = Lowering::on(program);
@@ -248,8 +250,10 @@ pub fn parts_between(program: &Program, cuts: &[usize]) -> (Vec<Circuit>, usize)
     (parts, left_out)
 }
 
-/// Lowers a program instruction by instruction: `each` gets its gates, which are not kept, and how
-/// many qubits are in use meanwhile. The number of qubits in all is returned.
+/// Lowers a program instruction by instruction, and returns the number of qubits in all.
+///
+/// `each` receives the gates of an instruction, which are not kept, and the number of qubits in use
+/// meanwhile.
 pub fn each_instruction(program: &Program, mut each: impl FnMut(&[Gate], u32)) -> u32 {
     let every = try_each_instruction(program, |gates, in_use| {
         each(gates, in_use);
@@ -261,10 +265,10 @@ pub fn each_instruction(program: &Program, mut each: impl FnMut(&[Gate], u32)) -
     }
 }
 
-/// As [`each_instruction`], until `each` fails.
+/// Lowers a program as [`each_instruction`] does, until `each` fails.
 ///
 /// # Errors
-/// That of `each`.
+/// An error of `each`.
 pub fn try_each_instruction<E>(
     program: &Program,
     mut each: impl FnMut(&[Gate], u32) -> Result<(), E>,

@@ -1,10 +1,10 @@
 //! Square roots.
 //!
-//! Digit by digit without restoring, two bits of the radicand a step. With Q the root so far, q its
-//! last bit and D the remainder, the next is `4D + pair - (4Q + 1)` where q holds and `4D + pair +
-//! (4Q + 3)` where it does not; both are `4D + pair + 3 + 4 (Q ^ q)`, with all bits of Q flipped
-//! where q holds, so that a step is one addition. The sign of what comes out is the complement of
-//! the root's next bit, and its qubit is that bit's. After j steps D has j + 2 bits: k(k + 1)/2
+//! Digit by digit without restoring, two bits of the radicand a step. Let Q be the root so far, q
+//! its last bit and D the remainder. The next remainder is `4D + pair - (4Q + 1)` where q is 1, and
+//! `4D + pair + (4Q + 3)` where q is 0. Both are `4D + pair + 3 + 4 (Q ^ q)`, with all bits of Q
+//! flipped where q is 1, so a step is one addition. The sign of the result is the complement of the
+//! root's next bit, and its qubit becomes that bit. After j steps D has j + 2 bits: k(k + 1)/2
 //! Toffolis for a root of k bits, out of place.
 
 use super::super::{Style, Word};
@@ -54,7 +54,7 @@ impl Lowering {
         }
     }
 
-    /// Flips the root's first bits where the last of them holds, and returns the step's addend. A
+    /// Flips the root's first bits where the last of them is 1, and returns the step's addend. A
     /// second call flips them back.
     fn turn(&mut self, root: &[Qubit], step: usize) -> Vec<Wire> {
         let Some(last) = step.checked_sub(1).map(|before| root.len() - 1 - before) else {

@@ -1,9 +1,9 @@
 //! Products with a constant.
 //!
-//! The factor in signed digits, no two of them next to each other (the canonical form, which has the
-//! fewest), is a sum of shifted copies, added or subtracted from the lowest up. Out of place, only
-//! where the copies overlap does an addition cost anything; in place, it takes twice as many
-//! Toffolis.
+//! The factor is written in signed digits, no two of them next to each other (the canonical form,
+//! which has the fewest). The product is then a sum of shifted copies, added or subtracted from the
+//! lowest up. Out of place, an addition has a cost only where the copies overlap. In place, it
+//! takes twice the Toffolis.
 
 use super::super::multiples::{Multiples, Term};
 use super::super::{Op, RegisterId, Style, Word};
@@ -12,21 +12,22 @@ use super::{Gates, Lowering, Qubit, Wire, extended, invert, qubits};
 
 /// The addition of a shifted copy.
 pub(super) struct Row {
-    /// The lowest bit it changes.
+    /// The lowest bit that the row changes.
     pub(super) place: usize,
     pub(super) subtract: bool,
-    /// Bits of the partial sum before and after it, and whether the top is a sign.
+    /// Number of bits of the partial sum before and after the row, and whether the top one is a
+    /// sign.
     pub(super) before: (usize, bool),
     pub(super) after: (usize, bool),
 }
 
-/// What a product with a constant consists of.
+/// The rows of a product with a constant.
 pub(super) struct Rows {
-    /// How many zeros the product has below.
+    /// Number of zeros below the product's bits.
     pub(super) shift: u32,
-    /// Whether the lowest digit is -1.
+    /// True if the lowest digit is -1.
     pub(super) negative: bool,
-    /// The first partial sum: a or -a.
+    /// The extent of the first partial sum, a or -a.
     pub(super) first: (usize, bool),
     pub(super) added: Vec<Row>,
 }
@@ -70,26 +71,27 @@ impl Rows {
         }
     }
 
-    /// Bits of the product, and whether the top is a sign.
+    /// Returns the number of bits of the product, and whether the top one is a sign.
     pub(super) fn extent(&self) -> (usize, bool) {
         self.added.last().map_or(self.first, |row| row.after)
     }
 
-    /// Bits of the sum of the rows that begin below `needed`, and whether the top is a sign.
+    /// Returns the number of bits of the sum of the rows that begin below `needed`, and whether the
+    /// top one is a sign.
     fn reached(&self, needed: usize) -> (usize, bool) {
         let beyond = self.added.iter().find(|row| row.place >= needed);
         beyond.map_or(self.extent(), |row| row.before)
     }
 
-    /// Whether the lowest digit, -1, and the next, +1, are one subtraction.
+    /// True if the lowest digit, -1, and the next, +1, become one subtraction.
     pub(super) fn fused(&self, needed: usize) -> bool {
         let adds = |row: &Row| !row.subtract && row.place < needed;
         self.negative && self.added.first().is_some_and(adds)
     }
 }
 
-/// No more Toffolis than an operation has, found without its gates: of use for products with a constant
-/// out of place, and 0 for all others.
+/// Returns a lower bound on the Toffolis of an operation, without its gates. It is useful for
+/// out-of-place products with a constant, and 0 for all other operations.
 pub fn least_toffoli(op: &Op, width: impl Fn(RegisterId) -> u32) -> u64 {
     let &Op::Scale {
         a,
@@ -107,8 +109,8 @@ pub fn least_toffoli(op: &Op, width: impl Fn(RegisterId) -> u32) -> u64 {
     let target = vec![0; width(target) as usize];
     let needed = Landing::new(rows.shift, drop, &target).needed(bits, signed);
     let own = a.width as usize;
-    // One for each carry out of a bit of the longer number, but for the first, which may be free, and the
-    // last, where two tops may be one.
+    // One for each carry out of a bit of the longer number, except for the first carry, which may
+    // be free, and the last, where the two top bits may be one.
     let mut least = if rows.negative && !rows.fused(needed) {
         own.min(rows.first.0.min(needed)).saturating_sub(2)
     } else {
@@ -117,7 +119,7 @@ pub fn least_toffoli(op: &Op, width: impl Fn(RegisterId) -> u32) -> u64 {
     for (index, row) in rows.added.iter().enumerate() {
         let end = row.after.0.min(needed);
         if index == 0 && rows.fused(needed) {
-            // Between the two copies there may be constants alone.
+            // There may be nothing but constants between the two copies.
             least += (own.min(row.place) + own.min(end - row.place)).saturating_sub(3);
         } else if row.place < row.before.0.min(end) {
             let longer = own.max(row.before.0 - row.place);
@@ -132,7 +134,8 @@ pub fn least_toffoli(op: &Op, width: impl Fn(RegisterId) -> u32) -> u64 {
     least as u64
 }
 
-/// Bits of the numbers in `range` times `factor`.
+/// Returns the number of bits of the numbers in `range` times `factor`, and whether the top one is
+/// a sign.
 fn extent(range: [i64; 2], factor: i128) -> (usize, bool) {
     let ends = range.map(|end| i128::from(end) * factor);
     let (low, high) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
@@ -144,7 +147,7 @@ fn extent(range: [i64; 2], factor: i128) -> (usize, bool) {
     }
 }
 
-/// The wires of a multiple among those that are known, all that is asked for, and whether the top is a
+/// Returns the wires of the multiple `factor`, which is in `known`, and whether the top one is a
 /// sign.
 fn multiple_of(known: &[(i64, Vec<Wire>, bool)], factor: i64) -> (&[Wire], bool) {
     let mut place = 0;
@@ -187,7 +190,7 @@ impl Lowering {
         }
     }
 
-    /// All sums are garbage, of which the targets are copies.
+    /// Computes all sums as garbage, and copies them to the targets.
     pub(super) fn multiples(&mut self, a: Word, products: &Multiples, targets: &[Vec<Qubit>]) {
         let number = Word { shift: 0, ..a };
         let range = number.range();
@@ -201,7 +204,7 @@ impl Lowering {
                 shifted.extend_from_slice(own);
                 extended(&shifted, top(own, signed), bits)
             });
-            // Below them there is one term alone.
+            // Below the overlap there is one term alone.
             let (alone, below) = match (sum.a.shift, sum.b.shift) {
                 (shift, 0) if !sum.subtract => (shift as usize, &b),
                 (_, shift) => (shift as usize, &a),
@@ -315,7 +318,7 @@ impl Lowering {
     }
 }
 
-/// Where a row begins, and what it adds or subtracts.
+/// Returns the first bit of a row, and the two operands of its addition or subtraction.
 pub(super) fn operands(
     sum: &[Wire],
     own: &[Wire],

@@ -1,4 +1,4 @@
-//! How many qubits circuits have, and their Toffoli depth.
+//! Number of qubits and Toffoli depth of circuits.
 
 use super::super::{Circuit, Gate, Program, Qubit};
 #[cfg(doc)]
@@ -17,8 +17,8 @@ pub struct Size {
     pub depth: u64,
 }
 
-/// The size of the circuit that [`super::circuit`] would return, whose gates may be more than fit
-/// into memory.
+/// Returns the size of the circuit that [`super::circuit`] would return. It keeps no gates, so they
+/// may exceed the memory.
 pub fn size(program: &Program) -> Size {
     let mut clock = Clock::default();
     let mut in_use = Vec::with_capacity(program.instructions.len());
@@ -33,7 +33,7 @@ pub fn size(program: &Program) -> Size {
     }
 }
 
-/// The qubits of [`size`] alone.
+/// Returns the number of qubits of [`size`] alone.
 pub fn most_qubits(program: &Program) -> u32 {
     let mut known = KnownFigures::default();
     most_qubits_by(program, |op| {
@@ -42,7 +42,8 @@ pub fn most_qubits(program: &Program) -> u32 {
     })
 }
 
-/// As [`most_qubits`], by what each operation, of this number, borrows: [`Figures::borrowed`].
+/// Returns [`most_qubits`], given the number of qubits that each operation borrows, by its index:
+/// [`Figures::borrowed`].
 pub fn most_qubits_by(program: &Program, mut borrowed: impl FnMut(usize) -> u32) -> u32 {
     let mut held = vec![false; program.registers.len()];
     let (mut in_use, mut most) = (0, 0);

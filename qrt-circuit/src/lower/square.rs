@@ -1,22 +1,22 @@
 //! Squares.
 //!
-//! With digits of either sign, `2a + 1 = sum d_i 2^i` (see [`super::multiply`]), and with X_k the sum
-//! of those up to the k-th, `X_k^2 = X_(k-1)^2 + d_k 2^(k+1) X_(k-1) + 4^k`: a row adds or subtracts
-//! what is known of the number so far, which takes no ANDs, and rows are half as long as a product's.
-//! Of `Y_k = (X_k^2 - 1) / 4` the last is `a^2 + a`, from which a is subtracted. About n^2 / 2
-//! Toffolis in all.
+//! With digits of either sign, `2a + 1 = sum d_i 2^i` (see [`super::multiply`]). Let X_k be the sum
+//! of the digits up to the k-th; then `X_k^2 = X_(k-1)^2 + d_k 2^(k+1) X_(k-1) + 4^k`. A row adds
+//! or subtracts the known part of the number, which takes no ANDs, and rows are half the length of
+//! a product's. The last of `Y_k = (X_k^2 - 1) / 4` is `a^2 + a`, from which a is subtracted. That
+//! takes about n^2 / 2 Toffolis in all.
 
 use super::super::{Style, Word};
 use super::multiply::Landing;
 use super::{Gates, Lowering, Qubit, Wire, extended, invert, qubits};
 
-/// Bits of a square that are computed.
+/// Number of bits of a square that are computed.
 pub(super) fn needed(a: Word, landing: &Landing) -> usize {
     let bits = 2 * a.width as usize - usize::from(a.signed);
     landing.needed(bits, false)
 }
 
-/// Bits that row `place` changes, from bit `place - 1` on.
+/// Number of bits that row `place` changes, from bit `place - 1` on.
 pub(super) fn row_bits(place: usize, needed: usize) -> usize {
     (place + 1).min((needed + 1).saturating_sub(place))
 }
@@ -28,7 +28,7 @@ impl Lowering {
         if needed == 0 {
             return;
         }
-        // A sign bit, and 0 above where there is none.
+        // The top digit is the sign bit, or 0 for an unsigned number.
         let digits = a.width as usize + usize::from(!a.signed);
         let own = self.word(Word { shift: 0, ..a }, digits);
         if a.width == 1 {
@@ -85,7 +85,8 @@ impl Lowering {
     }
 }
 
-/// The digits below `place` as a number in two's complement, and where it is subtracted.
+/// Returns the digits below `place` as a number in two's complement, and the wire on which it is
+/// subtracted.
 fn row(a: &[Wire], place: usize) -> (Vec<Wire>, Wire) {
     let mut known = vec![Wire::ONE];
     known.extend_from_slice(&a[..place - 1]);

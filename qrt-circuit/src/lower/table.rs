@@ -1,19 +1,19 @@
 //! Tables: QROM, read by a one-hot address.
 //!
-//! The high bits of the address become a one-hot register by doubling in place: `new[i + 2^j] =
-//! old[i] and b`, then `old[i] ^= new[i + 2^j]`, for each further bit b. One-hot bits sum to 1, so the
-//! last new one of each bit takes CNOTs alone: 2^h - h - 1 Toffolis, fewer than the unary iteration
-//! of Babbush et al. (2018) by the h of its lone leaves, and no ancilla beyond the one-hot register,
-//! which stays. Entries are CNOTs from it.
+//! The high bits of the address become a one-hot register by doubling in place:
+//! `new[i + 2^j] = old[i] and b`, then `old[i] ^= new[i + 2^j]`, for each further bit b. One-hot
+//! bits sum to 1, so the last new one of each bit takes CNOTs alone. That takes 2^h - h - 1
+//! Toffolis, fewer than the unary iteration of Babbush et al. (2018) by the h of its lone leaves.
+//! The only ancilla is the one-hot register, which stays. Entries are CNOTs from it.
 //!
 //! The low bits select among words read side by side (Low, Kliuchnikov and Schaeffer 2018), by a
-//! tree: a Toffoli for each pair of different functions of the address, and none for equal or
-//! opposite ones, nor for a function that another bit has already.
+//! tree. It takes a Toffoli for each pair of different functions of the address. Equal or opposite
+//! functions, and a function that another bit already has, take none.
 
 use super::{Gates, Lowering, Qubit, Wire};
 use std::collections::HashMap;
 
-/// Where a planned function of the address is read from.
+/// The source of a planned function of the address.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Source {
     Zero,
@@ -30,9 +30,9 @@ struct Function {
 
 #[derive(Debug)]
 enum Node {
-    /// The sum of one-hot bits: by group, whether it is in it.
+    /// The sum of the one-hot bits of some groups: one bit a group, set if the group is included.
     Leaf(Vec<u64>),
-    /// One of two functions, by a low bit of the address.
+    /// One of two functions, selected by a low bit of the address.
     Select {
         bit: usize,
         low: Function,
@@ -40,24 +40,24 @@ enum Node {
     },
 }
 
-/// What is computed for a table.
+/// The plan of the computation of a table.
 #[derive(Default)]
 pub(super) struct Plan {
-    /// Entries of the one-hot register; 1 if there is none.
+    /// Number of entries of the one-hot register; 1 if there is none.
     groups: usize,
     low: usize,
-    /// The functions that are computed, each after those that it reads.
+    /// The functions to compute, each after those that it reads.
     nodes: Vec<Node>,
-    /// The functions that the targets are, by column and by bit.
+    /// The functions of the targets, by column and by bit.
     outputs: Vec<Vec<Function>>,
 }
 
-/// A bit of a vector.
+/// Returns bit `place` of a vector.
 fn get(bits: &[u64], place: usize) -> bool {
     bits[place / 64] >> (place % 64) & 1 == 1
 }
 
-/// The lowest `bits` bits.
+/// Returns the lowest `bits` bits.
 fn truncated(vector: &[u64], bits: usize) -> Vec<u64> {
     let mut vector = vector[..bits.div_ceil(64)].to_vec();
     if let (Some(last), rest @ 1..) = (vector.last_mut(), bits % 64) {
@@ -66,7 +66,7 @@ fn truncated(vector: &[u64], bits: usize) -> Vec<u64> {
     vector
 }
 
-/// By level: the lower half of each `2^(level + 1)` bits of a word.
+/// Masks by level: the lower half of each `2^(level + 1)` bits of a word.
 const LOWER: [u64; 6] = [
     0x5555_5555_5555_5555,
     0x3333_3333_3333_3333,
@@ -76,7 +76,7 @@ const LOWER: [u64; 6] = [
     0x0000_0000_ffff_ffff,
 ];
 
-/// Of each `2^(below + 1)` bits, the lower half and the upper half.
+/// Returns the lower and the upper halves of all runs of `2^(below + 1)` bits.
 fn halves(vector: &[u64], below: usize) -> [Vec<u64>; 2] {
     if let Some(words) = below.checked_sub(6).map(|above| 1 << above) {
         let half = |which: usize| {
@@ -106,13 +106,13 @@ fn halves(vector: &[u64], below: usize) -> [Vec<u64>; 2] {
 /// The bits of a table's entries, by column and by bit: entry 0 first.
 struct Truths {
     columns: Vec<Vec<Vec<u64>>>,
-    /// Entries of the longest column.
+    /// Number of entries of the longest column.
     length: usize,
 }
 
 impl Truths {
-    /// The `width(column)` lowest bits of each column, for up to `low` low bits of the address.
-    /// Entries beyond the last are as it is.
+    /// Reads the `width(column)` lowest bits of each column, for up to `low` low bits of the
+    /// address. Entries beyond the last equal the last.
     fn new(
         address_bits: usize,
         columns: &[Box<[i64]>],
@@ -125,7 +125,7 @@ impl Truths {
         let length = columns.iter().map(|column| column.len()).max().unwrap_or(0);
         let length = length.clamp(1, all);
         let padded = length.next_multiple_of(1 << low);
-        // Plain loops: where nobody optimises them, as in a macro, iterators take ten times as long.
+        // Plain loops: in unoptimised code, as in a macro, iterators take ten times the time.
         let bits = |index: usize, column: &[i64]| {
             let mut entries = column.to_vec();
             entries.resize(padded, column.last().copied().unwrap_or(0));
@@ -151,7 +151,7 @@ impl Truths {
         }
     }
 
-    /// The plan, unless it needs more than `most` Toffolis.
+    /// Returns the plan. `None` if it needs more than `most` Toffolis.
     fn plan(&self, low: usize, most: u64) -> Option<Plan> {
         let groups = self.length.div_ceil(1 << low);
         let mut planner = Planner {
@@ -179,13 +179,13 @@ struct Planner {
     groups: usize,
     nodes: Vec<Node>,
     known: HashMap<(usize, Vec<u64>), Function>,
-    /// How many more Toffolis the plan may take.
+    /// Number of Toffolis that the plan may still take.
     left: u64,
 }
 
 impl Planner {
-    /// Plans a function of the group and the lowest `level` bits, the latter counting first; none
-    /// if that takes too many Toffolis.
+    /// Plans a function of the group and the lowest `level` bits, which are the low bits of its
+    /// index. `None` if that takes too many Toffolis.
     fn plan(&mut self, level: usize, function: Vec<u64>) -> Option<Function> {
         let bits = self.groups << level;
         if get(&function, 0) {
@@ -240,7 +240,7 @@ impl Planner {
 }
 
 impl Plan {
-    /// Plans a table of which the targets have the widths `width`.
+    /// Plans a table whose targets have the widths `width`.
     pub(super) fn new(
         address_bits: usize,
         columns: &[Box<[i64]>],
@@ -249,11 +249,11 @@ impl Plan {
     ) -> Self {
         let low = (low as usize).min(address_bits);
         let plan = Truths::new(address_bits, columns, low, width).plan(low, u64::MAX);
-        // There are not that many.
+        // No plan exceeds this limit.
         plan.unwrap_or_default()
     }
 
-    /// Toffolis, all of which compute into clean bits.
+    /// Number of Toffolis, all of which compute into clean bits.
     pub(super) fn toffoli(&self) -> u64 {
         let selected = self.nodes.iter().filter(|node| match node {
             Node::Leaf(_) => false,
@@ -263,21 +263,21 @@ impl Plan {
     }
 }
 
-/// The number of new bits that each high bit of the address makes of a one-hot register of so many
-/// entries.
+/// Returns, for each high bit of the address, the number of bits that it adds to a one-hot register
+/// of `groups` entries.
 fn news(groups: usize) -> impl Iterator<Item = usize> {
     let olds = (0..).map(|bit| 1_usize << bit);
     olds.take_while(move |old| *old < groups)
         .map(move |old| old.min(groups - old))
 }
 
-/// Toffolis of the one-hot register.
+/// Number of Toffolis of the one-hot register.
 fn doubling(groups: usize) -> u64 {
     news(groups).map(|new| new as u64 - 1).sum()
 }
 
-/// How many low bits of an address of `address_bits` best select among words read together: the
-/// number with the fewest Toffolis.
+/// Returns the number of low bits, of an address of `address_bits`, that select among words read
+/// together: the number with the fewest Toffolis.
 pub fn best_low(address_bits: u32, columns: &[Box<[i64]>]) -> u32 {
     let bits = |column: &[i64]| {
         let bits = |entry: &i64| 65 - (entry ^ (entry >> 63)).leading_zeros();
@@ -288,7 +288,7 @@ pub fn best_low(address_bits: u32, columns: &[Box<[i64]>]) -> u32 {
     let truths = Truths::new(address_bits as usize, columns, most as usize, |column| {
         widths[column]
     });
-    // From the middle, which is seldom far from the best, so that most others end early.
+    // Begins in the middle, which is seldom far from the best, so that most other plans end early.
     let mut lows: Vec<u32> = (0..=most).collect();
     lows.sort_by_key(|low| low.abs_diff(most / 2));
     let mut best = (u64::MAX, 0);

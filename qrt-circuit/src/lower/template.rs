@@ -1,8 +1,9 @@
-//! Operations lowered once for all that are alike, on qubits of their own.
+//! Operations lowered once for all operations that are alike, on qubits of their own.
 //!
-//! The gates of an operation follow from what it does and from the widths of its registers; where its
-//! qubits are only names them. So what is made of the gates of a program that runs many times, or whose
-//! operations are much alike, is made once for all that are, as long as there is room to keep it.
+//! The gates of an operation depend on its kind and on the widths of its registers; the places of
+//! its qubits only rename them. So results made from gates are computed once for all operations
+//! that are alike, while they fit into the memory budget. That pays for a program that runs many
+//! times, or whose operations are much alike.
 
 use super::super::{Gate, Program, Qubit};
 use super::Lowering;
@@ -10,15 +11,16 @@ use super::figures::{QuickMap, Shape};
 use super::place::{numbered, placed};
 use std::collections::hash_map::Entry;
 
-/// Bytes of a template beside what was made: its operation, and its place in a map.
+/// Bytes of a template besides its result: its operation, and its place in a map.
 const ENTRY: usize = 320;
 
-/// What was made of the gates of operations, `T` of those of one operation or of its inverse.
+/// A cache of results made from gates: one `T` for each operation and each inverse.
 pub struct Templates<T> {
-    /// What was asked for lately, and what was before that, by shape and whether it is the inverse.
+    /// Templates used lately, and templates used before that, by shape and by whether it is the
+    /// inverse.
     lately: QuickMap<(Shape, bool), Template<T>>,
     before: QuickMap<(Shape, bool), Template<T>>,
-    /// Bytes of the former, and of both together at most.
+    /// Bytes of `lately`, and the most bytes of both maps together.
     held: usize,
     room: usize,
 }
@@ -26,14 +28,14 @@ pub struct Templates<T> {
 struct Template<T> {
     made: T,
     bytes: usize,
-    /// How many qubits it borrows: they are numbered after those of its registers.
+    /// Number of qubits that it borrows. They are numbered after those of its registers.
     borrowed: u32,
-    /// The numbers of these, in the order in which they are given back.
+    /// The numbers of the borrowed qubits, in the order in which they are returned.
     returned: Box<[Qubit]>,
 }
 
 impl<T> Templates<T> {
-    /// None, and room for so many bytes of them.
+    /// Creates an empty cache with a memory budget of `bytes`.
     pub fn with_room(bytes: usize) -> Self {
         Self {
             lately: QuickMap::default(),
@@ -90,9 +92,12 @@ impl<T> Template<T> {
     }
 }
 
-/// Lowers a program instruction by instruction, as [`super::try_each_instruction`] does, with each operation
-/// on qubits of its own: `make` gets its gates and how many qubits they have, and says how many bytes what it
-/// makes of them takes; `each` gets that and the program's qubits by the number of the operation's own.
+/// Lowers a program instruction by instruction, as [`super::try_each_instruction`] does, with each
+/// operation on qubits of its own.
+///
+/// `make` receives an operation's gates and their number of qubits. It returns a result and the
+/// size of the result in bytes. `each` receives the result, and the program's qubits by the number
+/// of the operation's own.
 ///
 /// ```
 /// use qrt_circuit::lower::{Templates, circuit, try_each_template};
@@ -123,7 +128,7 @@ impl<T> Template<T> {
 /// ```
 ///
 /// # Errors
-/// That of `make` or of `each`.
+/// An error of `make` or of `each`.
 pub fn try_each_template<T, E>(
     program: &Program,
     templates: &mut Templates<T>,

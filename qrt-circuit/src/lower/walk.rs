@@ -1,20 +1,20 @@
 //! Tables without garbage: unary iteration.
 //!
-//! A walk over the tree of addresses (Babbush et al. 2018) holds the conjunction of the bits on the
-//! way in one ancilla a level. From a node to its two children it takes an AND; from one child to
-//! the other a CNOT; and back another AND: `2 (2^k - 2)` Toffolis, and no wider words cost more.
-//! Subtrees of equal entries are not walked.
+//! A walk over the tree of addresses (Babbush et al. 2018) holds the conjunction of the bits on its
+//! path in one ancilla a level. The way from a node to its two children takes an AND, the way from
+//! one child to the other a CNOT, and the way back another AND: `2 (2^k - 2)` Toffolis. Wider words
+//! cost no more. Subtrees of equal entries are not walked.
 
 use super::{Gates, Lowering, Qubit, Wire};
 
-/// Where the entries of a subtree begin and end.
+/// The entries of a subtree, by index.
 type Range = std::ops::Range<usize>;
 
 fn entry(column: &[i64], place: usize) -> i64 {
     column.get(place).or(column.last()).copied().unwrap_or(0)
 }
 
-/// The two halves of a subtree; none where they are equal.
+/// Returns the two halves of a subtree. `None` if they are equal.
 fn halves(columns: &[Box<[i64]>], masks: &[i64], range: &Range) -> Option<[Range; 2]> {
     let middle = range.start.midpoint(range.end);
     let half = middle - range.start;
@@ -28,7 +28,7 @@ fn halves(columns: &[Box<[i64]>], masks: &[i64], range: &Range) -> Option<[Range
     split.then_some([range.start..middle, middle..range.end])
 }
 
-/// The bits of entries that matter, by column.
+/// Returns the masks of the bits of entries that matter, by column.
 fn masks(columns: usize, width: impl Fn(usize) -> usize) -> Vec<i64> {
     let mask = |column| match width(column) {
         width @ 0..64 => (1_i64 << width) - 1,
@@ -38,7 +38,7 @@ fn masks(columns: usize, width: impl Fn(usize) -> usize) -> Vec<i64> {
 }
 
 fn all_zero(columns: &[Box<[i64]>], masks: &[i64], range: &Range) -> bool {
-    // Plain loops: where nobody optimises them, as in a macro, iterators take longer.
+    // Plain loops: in unoptimised code, as in a macro, iterators take longer.
     let mut which = 0;
     while which < columns.len() {
         let (column, mask) = (&columns[which], masks[which]);
@@ -68,7 +68,8 @@ impl Lowering {
         self.attach(copies);
     }
 
-    /// Adds the entries of `range` where `held`, and on all paths if there is no such qubit.
+    /// XORs the entries of `range` into the targets where `held` is 1; on all paths if it is
+    /// `None`.
     fn visit(
         &mut self,
         address: &[Wire],
@@ -112,13 +113,13 @@ impl Lowering {
             None => source,
             Some(_) => self.pool.allocate(),
         };
-        // In `at`: the path is in the upper half.
+        // `at` holds: the path is in the upper half.
         self.flip(bit, source);
         if let Some(held) = held {
             self.ccx(held, source, at);
         }
         self.visit(address, columns, masks, targets, high, Some(at));
-        // Now: in the lower half.
+        // `at` now holds: the path is in the lower half.
         match held {
             Some(held) => self.cx(held, at),
             None => self.x(at),

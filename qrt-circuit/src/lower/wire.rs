@@ -1,4 +1,4 @@
-//! Wires: what a bit of an operand is.
+//! Wires: the bits of operands.
 
 use super::Qubit;
 
@@ -29,13 +29,13 @@ impl Wire {
         }
     }
 
-    /// The wire's qubit; none for a constant.
+    /// Returns the wire's qubit. `None` for a constant.
     #[inline(always)]
     pub(super) const fn source(self) -> Option<Qubit> {
         self.source
     }
 
-    /// Whether the wire is the negation of its qubit, or the constant 1.
+    /// True if the wire is the negation of its qubit, or the constant 1.
     #[inline(always)]
     pub(super) const fn inverted(self) -> bool {
         self.inverted
@@ -50,7 +50,7 @@ impl Wire {
         }
     }
 
-    /// Whether the two wires are equal, or each other's negation, whatever the qubits hold.
+    /// True if the two wires are equal, or each other's negation, for all contents of the qubits.
     #[inline(always)]
     pub(super) fn related(self, other: Self) -> bool {
         match (self.source, other.source) {
@@ -60,8 +60,8 @@ impl Wire {
         }
     }
 
-    /// The majority of three, where it follows without a gate: that of two equal bits is that bit,
-    /// and that of two opposite ones the third.
+    /// Returns the majority of three wires if it follows without a gate: that of two equal bits is
+    /// that bit, and that of two opposite bits is the third.
     pub(super) fn majority(a: Self, b: Self, c: Self) -> Option<Self> {
         if a.related(b) {
             return Some(if a.inverted == b.inverted { a } else { c });

@@ -4,20 +4,20 @@ use super::QuantumGate::{Ccx, Phase};
 use super::{QuantumGate, Turns};
 use crate::Qubit;
 
-/// How a phase flip that more than two qubits control is written.
+/// The circuit of a phase flip that more than two qubits control.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Conjunction {
-    /// As one multi-controlled gate, without ancillas.
+    /// One multi-controlled gate, without ancillas.
     #[default]
     Whole,
-    /// As Toffolis into ancillas that are zero, a phase flip on two qubits, and the Toffolis
-    /// backwards (Barenco et al., *Elementary gates for quantum computation*, 1995, section 7):
-    /// `2 (k - 2)` Toffolis and `k - 2` ancillas for `k` qubits. Within G the oracle's ancillas serve.
+    /// Toffolis into ancillas that are zero, a phase flip on two qubits, and the Toffolis backwards
+    /// (Barenco et al., *Elementary gates for quantum computation*, 1995, section 7): `2 (k - 2)`
+    /// Toffolis and `k - 2` ancillas for `k` qubits. Within G the oracle's ancillas are reused.
     Toffolis,
 }
 
 impl Conjunction {
-    /// How many ancillas a phase flip on `qubits` qubits needs.
+    /// Number of ancillas of a phase flip on `qubits` qubits.
     pub fn ancillas(self, qubits: u32) -> u32 {
         match self {
             Self::Whole => 0,
@@ -25,13 +25,13 @@ impl Conjunction {
         }
     }
 
-    /// How many gates a phase flip on `qubits` qubits takes.
+    /// Number of gates of a phase flip on `qubits` qubits.
     pub fn gates(self, qubits: u32) -> u64 {
         1 + 2 * u64::from(self.ancillas(qubits))
     }
 
-    /// Flips the phase where all of `on` hold. `ancillas` are zero, before and after, and as many
-    /// as [`Conjunction::ancillas`] says.
+    /// Flips the phase where all of `on` are 1. `ancillas` are zero before and after; their number
+    /// is [`Conjunction::ancillas`].
     pub(super) fn sign<E>(
         self,
         on: &[Qubit],

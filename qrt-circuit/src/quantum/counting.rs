@@ -1,4 +1,4 @@
-//! Quantum counting's circuit.
+//! The circuit of quantum counting.
 
 use super::QuantumGate::{H, X};
 use super::Window;
@@ -8,22 +8,22 @@ use super::{
 };
 use crate::Qubit;
 
-/// Which part of the counting circuit is handed over, gate by gate.
+/// A part of the counting circuit, which is emitted gate by gate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Part {
     /// One call of the phase oracle O_f alone.
     Oracle,
     /// One iterate G alone, its global phase included.
     Grover,
-    /// All of it: preparation, controlled powers of G, inverse Fourier transform.
+    /// The whole circuit: preparation, controlled powers of G, inverse Fourier transform.
     Counting,
 }
 
 /// The counting circuit of an oracle: phase estimation of its Grover iterate.
 ///
 /// Its qubits are the iterate's, then the phase register's, then the sine window's bond. All are
-/// zero before; after it all but the oracle's qubits in superposition and the phase register are
-/// zero again.
+/// zero before it. After it, all are zero again except the oracle's qubits in superposition and the
+/// phase register.
 #[derive(Clone, Debug)]
 pub struct Counting<'a> {
     iterate: GroverIterate<'a>,
@@ -32,7 +32,8 @@ pub struct Counting<'a> {
 }
 
 impl<'a> Counting<'a> {
-    /// Counting with a register of `T = 2^phase_bits`, prepared in a window.
+    /// Creates the counting circuit with a phase register of `T = 2^phase_bits`, prepared in a
+    /// window.
     ///
     /// # Errors
     /// `phase_bits` is not in `1..=40`.
@@ -44,7 +45,7 @@ impl<'a> Counting<'a> {
         Self::with(oracle, phase_bits, window, Conjunction::Whole)
     }
 
-    /// As [`Counting::new`], with O_0's phase flip written as `conjunction` says.
+    /// Creates the circuit of [`Counting::new`], with O_0's phase flip as `conjunction` specifies.
     ///
     /// # Errors
     /// As [`Counting::new`].
@@ -66,24 +67,24 @@ impl<'a> Counting<'a> {
         })
     }
 
-    /// The Grover iterate whose phase is estimated.
+    /// Returns the Grover iterate whose phase is estimated.
     pub fn iterate(&self) -> &GroverIterate<'a> {
         &self.iterate
     }
 
-    /// The phase register, bit 0 first.
+    /// Returns the phase register, bit 0 first.
     pub fn phase_register(&self) -> &[Qubit] {
         &self.counter
     }
 
-    /// How many qubits the whole circuit has: they are `0..qubits`.
+    /// Number of qubits of the whole circuit: they are `0..qubits`.
     pub fn qubits(&self) -> u32 {
         let bond = u32::from(window::has_bond(self.window));
         self.iterate.qubits() + self.counter.len() as u32 + bond
     }
 
-    /// The qubits that are zero after each iterate and at the end: all but those in superposition,
-    /// those that are fixed at 1, and the phase register's.
+    /// Returns the qubits that are zero after each iterate and at the end: all except those in
+    /// superposition, those that are fixed at 1, and the phase register's.
     pub fn ancillas(&self) -> Vec<Qubit> {
         let oracle = self.iterate.oracle();
         let held = [oracle.superposed(), oracle.ones(), &self.counter].concat();
@@ -91,7 +92,7 @@ impl<'a> Counting<'a> {
         all.filter(|qubit| !held.contains(qubit)).collect()
     }
 
-    /// How many qubits a part uses: they are `0..qubits_of`.
+    /// Number of qubits that a part uses: they are `0..qubits_of`.
     pub fn qubits_of(&self, part: Part) -> u32 {
         match part {
             Part::Oracle => self.iterate.oracle().qubits(),
@@ -100,7 +101,7 @@ impl<'a> Counting<'a> {
         }
     }
 
-    /// How many gates of a part are handed over.
+    /// Number of gates that a part emits.
     pub fn gates(&self, part: Part) -> u64 {
         let bits = self.counter.len() as u32;
         match part {
@@ -116,15 +117,15 @@ impl<'a> Counting<'a> {
         }
     }
 
-    /// Queries: calls of the oracle, `T - 1`.
+    /// Number of queries, that is, calls of the oracle: `T - 1`.
     pub fn queries(&self) -> u64 {
         (1 << self.counter.len()) - 1
     }
 
-    /// Hands over a part, gate by gate.
+    /// Emits a part, gate by gate.
     ///
     /// # Errors
-    /// The sink's, which ends it.
+    /// An error of `sink`, which ends the circuit.
     pub fn part<E>(
         &self,
         part: Part,
@@ -149,12 +150,12 @@ impl<'a> Counting<'a> {
     /// superposition and Xs on those that are fixed at 1.
     ///
     /// # Errors
-    /// The sink's.
+    /// An error of `sink`.
     pub fn prepare<E>(
         &self,
         sink: &mut impl FnMut(QuantumGate<'_>) -> Result<(), E>,
     ) -> Result<(), E> {
-        // The window first: while its bond is entangled, a simulator has twice the states.
+        // The window comes first: while its bond is entangled, a simulator has twice the states.
         let bond = self.iterate.qubits() + self.counter.len() as u32;
         window::prepare(self.window, &self.counter, bond, sink)?;
         let oracle = self.iterate.oracle();
@@ -163,13 +164,14 @@ impl<'a> Counting<'a> {
         ids.iter().try_for_each(|id| sink(H(*id)))
     }
 
-    /// One G under the control of bit `bit` of the phase register, which controls `2^bit` of them.
+    /// Emits one G under the control of bit `bit` of the phase register, which controls `2^bit` of
+    /// them.
     ///
     /// # Errors
-    /// The sink's.
+    /// An error of `sink`.
     ///
     /// # Panics
-    /// If the register has no such bit.
+    /// If the phase register has no bit `bit`.
     pub fn query<E>(
         &self,
         bit: u32,
@@ -178,10 +180,10 @@ impl<'a> Counting<'a> {
         self.iterate.apply(Some(self.counter[bit as usize]), sink)
     }
 
-    /// The inverse Fourier transform of the phase register.
+    /// Emits the inverse Fourier transform of the phase register.
     ///
     /// # Errors
-    /// The sink's.
+    /// An error of `sink`.
     pub fn inverse_fourier<E>(
         &self,
         sink: &mut impl FnMut(QuantumGate<'_>) -> Result<(), E>,

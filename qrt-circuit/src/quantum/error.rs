@@ -1,10 +1,10 @@
-//! What the counting circuit refuses.
+//! Errors of the counting circuit.
 
 use super::MAX_PHASE_BITS;
 use crate::Qubit;
 use std::fmt;
 
-/// Why there is no such circuit.
+/// The reason why a circuit cannot be built.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum QuantumError {
@@ -12,7 +12,7 @@ pub enum QuantumError {
     NoIndex,
     /// A truth table has more entries than can be listed.
     TableBits {
-        /// Address bits of the table that was asked for.
+        /// Address bits of the requested table.
         bits: u32,
         /// The most address bits that a table may have.
         most: u32,

@@ -1,20 +1,20 @@
 //! The inverse quantum Fourier transform.
 //!
 //! `|j>` with amplitudes `exp(2 pi i j y / T) / sqrt(T)` becomes `|y>` (Nielsen & Chuang, section
-//! 5.1, backwards): swaps that reverse the register, then from qubit 0 up the phases that the qubits
-//! below ask for, and a Hadamard.
+//! 5.1, backwards): swaps that reverse the register, then, from qubit 0 up, the phases that the
+//! qubits below control, and a Hadamard.
 
 use super::QuantumGate::{Cx, H, Phase};
 use super::{QuantumGate, Turns};
 use crate::Qubit;
 
-/// How many gates the transform of `bits` qubits takes.
+/// Number of gates of the transform of `bits` qubits.
 pub(super) fn gates(bits: u32) -> u64 {
     let bits = u64::from(bits);
     3 * (bits / 2) + bits + bits * bits.saturating_sub(1) / 2
 }
 
-/// Hands over the inverse transform of `register`, bit 0 first. A swap is three CNOTs.
+/// Emits the inverse transform of `register`, bit 0 first. A swap is three CNOTs.
 pub(super) fn inverse<E>(
     register: &[Qubit],
     sink: &mut impl FnMut(QuantumGate<'_>) -> Result<(), E>,

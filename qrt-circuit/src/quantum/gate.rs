@@ -9,9 +9,9 @@ use std::f64::consts::TAU;
 pub enum QuantumGate<'a> {
     /// Flips a qubit.
     X(Qubit),
-    /// Flips the second where the first holds.
+    /// Flips the second qubit where the first is 1.
     Cx(Qubit, Qubit),
-    /// Flips the third where the first and the second hold.
+    /// Flips the third qubit where the first and the second are 1.
     Ccx(Qubit, Qubit, Qubit),
     /// Hadamard: `|0> -> (|0> + |1>)/sqrt(2)`, `|1> -> (|0> - |1>)/sqrt(2)`.
     H(Qubit),
@@ -22,12 +22,13 @@ pub enum QuantumGate<'a> {
         /// The qubit that is rotated.
         target: Qubit,
     },
-    /// Multiplies by `exp(2 pi i turns)` where all of `on` hold: on one qubit Z, S, T and their
-    /// like, on two a controlled phase, on more a multi-controlled one, on none the global phase.
+    /// Multiplies by `exp(2 pi i turns)` where all of `on` are 1. On one qubit it is Z, S, T and
+    /// the like, on two a controlled phase, on more a multi-controlled phase, on none the global
+    /// phase.
     Phase {
         /// The phase, in turns.
         turns: Turns,
-        /// The qubits that all must hold, no two of them equal.
+        /// The qubits that must all be 1, no two of them equal.
         on: &'a [Qubit],
     },
 }
@@ -68,7 +69,7 @@ impl Turns {
     /// The phase of `numerator / 2^bits` turns.
     ///
     /// # Panics
-    /// If `bits` exceeds 52: an angle that f64 does not tell from others.
+    /// If `bits` exceeds 52: f64 does not distinguish the angle from others.
     pub fn new(numerator: i64, bits: u32) -> Self {
         assert!(bits <= 52, "phases have at most 52 bits");
         let size = 1_i64 << bits;
@@ -101,13 +102,13 @@ impl Turns {
         self.numerator as f64 / (1_u64 << self.bits) as f64
     }
 
-    /// The phase that undoes this one: its negative.
+    /// Returns the phase that undoes this one: its negative.
     pub fn inverse(self) -> Self {
         Self::new(-self.numerator, self.bits)
     }
 
-    /// `exp(2 pi i turns)`, as real and imaginary part: exact at multiples of a quarter turn,
-    /// elsewhere to an ulp.
+    /// Returns `exp(2 pi i turns)`, as real and imaginary part: exact at multiples of a quarter
+    /// turn, elsewhere to an ulp.
     pub fn factor(self) -> [f64; 2] {
         let turns = self.as_f64();
         let quarter = (4.0 * turns).round();

@@ -6,14 +6,14 @@ use crate::Qubit;
 
 /// `G = H O_0 H O_f`, over an oracle's qubits in superposition.
 ///
-/// O_0 flips the phase of every basis state *except* `|0...0>`: so G rotates the plane of good and
-/// bad basis states by `theta` turns, with `sin(pi theta)^2 = S/N`. With the opposite sign, that of
-/// `|0...0>` alone, G is its negative. Alone that is a global phase; under a control it is a Z on
-/// the control, and the count comes out as N - S.
+/// O_0 flips the phase of every basis state *except* `|0...0>`. So G rotates the plane of good and
+/// bad basis states by `theta` turns, with `sin(pi theta)^2 = S/N`. With the opposite sign, O_0
+/// would flip the phase of `|0...0>` alone, and the iterate would be the negative of G. Alone that
+/// is a global phase. Under a control it is a Z on the control, and the count is N - S.
 ///
-/// Under a control only the phase flips are controlled: the oracle's, O_0's, and the Z that makes
-/// O_0's sign right. The Hadamards and all that computes meet their inverses where the control is
-/// 0.
+/// Under a control only the phase flips are controlled: the oracle's, O_0's, and the Z that
+/// corrects O_0's sign. Where the control is 0, the Hadamards and all computations cancel with
+/// their inverses.
 #[derive(Clone, Debug)]
 pub struct GroverIterate<'a> {
     oracle: &'a PhaseOracle,
@@ -22,12 +22,12 @@ pub struct GroverIterate<'a> {
 }
 
 impl<'a> GroverIterate<'a> {
-    /// The iterate of an oracle, with O_0's phase flip as one gate.
+    /// Creates the iterate of an oracle, with O_0's phase flip as one gate.
     pub fn new(oracle: &'a PhaseOracle) -> Self {
         Self::with(oracle, Conjunction::Whole)
     }
 
-    /// The iterate of an oracle, with O_0's phase flip written as `conjunction` says.
+    /// Creates the iterate of an oracle, with O_0's phase flip as `conjunction` specifies.
     pub fn with(oracle: &'a PhaseOracle, conjunction: Conjunction) -> Self {
         let controlled = oracle.superposed().len() as u32 + 1;
         let mut ancillas = oracle.ancillas();
@@ -42,30 +42,30 @@ impl<'a> GroverIterate<'a> {
         }
     }
 
-    /// The oracle whose good basis states the iterate amplifies.
+    /// Returns the oracle whose good basis states the iterate amplifies.
     pub fn oracle(&self) -> &'a PhaseOracle {
         self.oracle
     }
 
-    /// All qubits but the control: `0..qubits`. Beyond the oracle's are ancillas of O_0, if the
-    /// oracle's own are too few.
+    /// Number of qubits except the control: they are `0..qubits`. Ancillas of O_0 follow the
+    /// oracle's qubits, if the oracle has too few.
     pub fn qubits(&self) -> u32 {
         let last = self.ancillas.iter().max().map_or(0, |last| last + 1);
         self.oracle.qubits().max(last)
     }
 
-    /// Gates of one iterate, with a control or without.
+    /// Number of gates of one iterate, with a control or without.
     pub fn gates(&self, controlled: bool) -> u64 {
         let ids = self.oracle.superposed().len() as u32;
         let sign = self.conjunction.gates(ids + u32::from(controlled));
         self.oracle.gates() + 4 * u64::from(ids) + sign + 1
     }
 
-    /// Hands over the gates of G, under the control of a qubit that is not among its own, or under
-    /// none.
+    /// Emits the gates of G, under `control`, which is not among its own qubits, or without a
+    /// control.
     ///
     /// # Errors
-    /// The sink's.
+    /// An error of `sink`.
     pub fn apply<E>(
         &self,
         control: Option<Qubit>,
@@ -78,7 +78,7 @@ impl<'a> GroverIterate<'a> {
         ids.iter().try_for_each(|id| sink(H(*id)))
     }
 
-    /// O_0: Xs around the phase flip of `|1...1>`, and a global phase of -1.
+    /// Emits O_0: Xs around the phase flip of `|1...1>`, and a global phase of -1.
     fn reflect<E>(
         &self,
         control: Option<Qubit>,

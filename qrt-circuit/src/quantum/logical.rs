@@ -1,19 +1,19 @@
-//! Logical counts: what estimators of physical resources take of a circuit.
+//! Logical counts: the input that estimators of physical resources take from a circuit.
 //!
-//! On a surface code Clifford gates (X, CNOT, H, S, CZ) are almost free, and what is paid for are
-//! Toffolis, T gates, rotations and measurements (Beverland et al., *Assessing requirements to scale
-//! to practical quantum advantage*, 2022, appendix D). These are counted gate by gate, as they are
-//! handed over.
+//! On a surface code, Clifford gates (X, CNOT, H, S, CZ) are almost free. The cost is in Toffolis,
+//! T gates, rotations and measurements (Beverland et al., *Assessing requirements to scale to
+//! practical quantum advantage*, 2022, appendix D). These are counted gate by gate, as the circuit
+//! emits them.
 
 use super::QuantumGate::{Ccx, Cx, H, Phase, Ry, X};
 use super::{Conjunction, QuantumGate, Turns};
 use crate::Qubit;
 use std::convert::Infallible;
 
-/// What a circuit hands its gates to.
+/// The receiver of a circuit's gates.
 type Sink<'a> = &'a mut dyn FnMut(QuantumGate<'_>) -> Result<(), Infallible>;
 
-/// Logical qubits, and the operations that an error-corrected machine pays for.
+/// Logical qubits, and the operations that have a cost on an error-corrected machine.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct LogicalCounts {
     /// Qubits, ancillas included.
@@ -26,18 +26,18 @@ pub struct LogicalCounts {
     pub t: u64,
     /// Rotations by other angles.
     pub rotations: u64,
-    /// Rotations on the longest chain of gates of which each waits for the one before.
+    /// Rotations on the longest chain of gates, each of which waits for the one before.
     pub rotation_depth: u64,
     /// Measurements of a qubit.
     pub measurements: u64,
 }
 
 impl LogicalCounts {
-    /// The counts of the gates that `circuit` hands over to the sink which it is given. Qubits are
-    /// `0..qubits`, up to the last that a gate is on.
+    /// Counts the gates that `circuit` emits to its sink. Qubits are `0..qubits`, up to the last
+    /// one that a gate is on.
     ///
-    /// A phase on two qubits takes three on one, of half the angle, and two CNOTs; more qubits are
-    /// brought down to two as [`Conjunction::Toffolis`] does it, whose ancillas are not counted.
+    /// A phase on two qubits takes three on one, of half the angle, and two CNOTs. A phase on more
+    /// qubits is reduced to two as in [`Conjunction::Toffolis`], whose ancillas are not counted.
     ///
     /// ```
     /// use qrt_circuit::quantum::{LogicalCounts, QuantumGate, Turns};
@@ -63,9 +63,9 @@ impl LogicalCounts {
         }
     }
 
-    /// The same circuit where so many pairs of its Toffolis, one of which undoes in a clean qubit
-    /// what the other has computed there, are an AND and a measurement (Gidney, *Halving the cost of
-    /// quantum addition*, 2018).
+    /// Returns the counts of the same circuit with `pairs` pairs of its Toffolis replaced. Of each
+    /// pair, one Toffoli undoes in a clean qubit the result of the other; an AND and a measurement
+    /// take their place (Gidney, *Halving the cost of quantum addition*, 2018).
     pub fn measuring(self, pairs: u64) -> Self {
         Self {
             toffoli: self.toffoli.saturating_sub(2 * pairs),
@@ -75,7 +75,8 @@ impl LogicalCounts {
         }
     }
 
-    /// This circuit and then another, on the same qubits; nothing where a count leaves u64.
+    /// Returns the counts of this circuit and then another, on the same qubits. `None` on overflow
+    /// of u64.
     pub fn then(self, other: Self) -> Option<Self> {
         Some(Self {
             qubits: self.qubits.max(other.qubits),
@@ -88,7 +89,8 @@ impl LogicalCounts {
         })
     }
 
-    /// This circuit so many times, one after another; nothing where a count leaves u64.
+    /// Returns the counts of `n` runs of this circuit, one after another. `None` on overflow of
+    /// u64.
     pub fn times(self, n: u64) -> Option<Self> {
         Some(Self {
             qubits: self.qubits,
@@ -102,7 +104,7 @@ impl LogicalCounts {
     }
 }
 
-/// The counts so far, and for each qubit how many rotations its state waits for.
+/// The counts so far, and for each qubit the number of rotations that its state waits for.
 #[derive(Default)]
 struct Tally {
     counts: LogicalCounts,
@@ -153,7 +155,8 @@ impl Tally {
         self.depths[on as usize] += 1;
     }
 
-    /// A gate on these qubits: each waits for what all have waited for.
+    /// Adds a gate on these qubits: each then waits for the most rotations that one of them waited
+    /// for.
     fn together(&mut self, on: &[Qubit]) {
         let last = on.iter().max().map_or(0, |last| *last as usize + 1);
         if self.depths.len() < last {

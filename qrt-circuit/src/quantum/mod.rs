@@ -1,17 +1,17 @@
 //! The counting circuit, gate by gate: the paper's whole figure.
 //!
-//! An oracle of [`super::lower`] permutes basis states and flips one phase. What quantum counting
-//! puts around it are Hadamards, phases and rotations: a [`QuantumGate`] is a gate of either kind.
+//! An oracle of [`super::lower`] permutes basis states and flips one phase. Quantum counting adds
+//! Hadamards, phases and rotations around it. A [`QuantumGate`] is a gate of either kind.
 //!
 //! * [`PhaseOracle`]: O_f, an oracle that flips the phase of good basis states, as gates;
 //! * [`GroverIterate`]: `G = H O_0 H O_f`, alone or under a control;
 //! * [`Counting`]: Hadamards on the qubits in superposition, the phase register's window,
 //!   controlled powers of G and the inverse Fourier transform;
-//! * [`LogicalCounts`]: what estimators of physical resources take of them.
+//! * [`LogicalCounts`]: the input that estimators of physical resources take from circuits.
 //!
-//! Circuits are handed over gate by gate and never held: the controlled powers of G repeat the
-//! oracle `T - 1` times. A *sink* is a closure that receives each gate and may refuse it, which
-//! ends the circuit:
+//! Circuits are emitted gate by gate and never held: the controlled powers of G repeat the oracle
+//! `T - 1` times. A *sink* is a closure that receives each gate and may refuse it, which ends the
+//! circuit:
 //!
 //! ```
 //! use qrt_circuit::quantum::{Counting, Part, PhaseOracle, QuantumGate, Window};
@@ -31,8 +31,7 @@
 //! ```
 //!
 //! **Bit order.** Bit 0 of every register is its least significant. Qubit j of the phase register
-//! controls `G^(2^j)`; once all is done the phase register reads `y`, and
-//! `theta~ = y/T` or `1 - y/T`.
+//! controls `G^(2^j)`. At the end the phase register reads `y`, and `theta~ = y/T` or `1 - y/T`.
 //!
 //! **Phases** are in turns: `Phase` multiplies by `exp(2 pi i turns)`.
 

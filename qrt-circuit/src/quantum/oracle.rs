@@ -13,28 +13,28 @@ const TABLE_BITS: u32 = 20;
 /// A step of an oracle's flip.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Flip {
-    /// An X, CNOT or Toffoli, which has no control of the iterate.
+    /// An X, CNOT or Toffoli, without the iterate's control.
     Gate(Gate),
-    /// Flips the phase where all these qubits hold. These alone carry an iterate's control.
+    /// Flips the phase where all these qubits are 1. Only these steps carry an iterate's control.
     Sign(Vec<Qubit>),
 }
 
 /// An oracle that flips the phase of good basis states: compute, flip, uncompute.
 ///
-/// Its qubits are `0..qubits`. Those of the index are in superposition, but for bits that are fixed;
-/// all others are zero before and after. Classical parameters are built in.
+/// Its qubits are `0..qubits`. The qubits of the index are in superposition, except for fixed bits.
+/// All others are zero before and after. Classical parameters are built in.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PhaseOracle {
     steps: Steps,
     /// The qubits of the index, bit 0 first: those in superposition and those that are fixed.
     index: Vec<Qubit>,
     superposed: Vec<Qubit>,
-    /// Of the fixed, those that hold 1.
+    /// The fixed qubits that hold 1.
     ones: Vec<Qubit>,
     qubits: u32,
 }
 
-/// What a call of an oracle does.
+/// The steps of a call of an oracle.
 #[derive(Clone, Debug, PartialEq)]
 enum Steps {
     Held {
@@ -44,7 +44,7 @@ enum Steps {
         /// Gates X, CNOT and Toffoli alone, in the order in which they run.
         uncompute: Vec<Gate>,
     },
-    /// A program that is lowered anew in each call.
+    /// A program that each call lowers again.
     Lowered {
         program: Program,
         words: Vec<u64>,
@@ -53,13 +53,15 @@ enum Steps {
 }
 
 impl PhaseOracle {
-    /// An oracle of circuits that share their qubits, as [`lower::parts`] makes them, for a pixel
-    /// with these `words`, the contents of its classical parameters. `superposed` are the qubits in
+    /// Creates an oracle of circuits that share their qubits, as [`lower::parts`] makes them, for a
+    /// pixel.
+    ///
+    /// `words` are the contents of the pixel's classical parameters. `superposed` are the qubits in
     /// superposition, bit 0 first.
     ///
     /// # Errors
-    /// No superposed qubits; a word that is missing; a gate on a qubit that is not there, or on one
-    /// qubit twice; a phase flipped outside of `flip`.
+    /// No superposed qubits; a missing word; a gate on a qubit that does not exist, or on one qubit
+    /// twice; a phase flip outside of `flip`.
     pub fn new(
         compute: &Circuit,
         flip: &Circuit,
@@ -87,12 +89,14 @@ impl PhaseOracle {
         oracle.checked()
     }
 
-    /// The oracle of a program that computes, flips and uncomputes, with very many gates: they are not held,
-    /// but made anew in each call. `superposed` are registers of its inputs, which come one after another.
-    /// It hands over what [`PhaseOracle::new`] does of its parts.
+    /// Creates an oracle of a program that computes, flips and uncomputes, with too many gates to
+    /// hold. Each call lowers them again.
+    ///
+    /// `superposed` are registers of its inputs, which come one after another. The oracle emits the
+    /// same gates as [`PhaseOracle::new`] of the program's parts.
     ///
     /// # Errors
-    /// As [`PhaseOracle::new`]; phases are flipped wherever the program flips them.
+    /// As [`PhaseOracle::new`], except that the program may flip phases anywhere.
     pub fn lowered(
         program: Program,
         superposed: &[RegisterId],
@@ -140,9 +144,11 @@ impl PhaseOracle {
         oracle.checked()
     }
 
-    /// An oracle without ancillas: its good basis states are those for which an odd number of
-    /// `monomials` hold, each the conjunction of some bits of the state (the algebraic normal form
-    /// of a truth table). Bits are qubits `0..bits`.
+    /// Creates an oracle without ancillas. Its good basis states are those in which an odd number
+    /// of `monomials` hold.
+    ///
+    /// Each monomial is the conjunction of some bits of the state (the algebraic normal form of a
+    /// truth table). Bits are qubits `0..bits`.
     ///
     /// # Errors
     /// No bits, or a monomial with a bit that is not one of them.
@@ -161,8 +167,8 @@ impl PhaseOracle {
         oracle.checked()
     }
 
-    /// An oracle that looks its basis states up: a table by unary iteration writes `good` into a
-    /// flag. The address is qubits `0..bits`.
+    /// Creates an oracle that looks its basis states up: a table by unary iteration writes `good`
+    /// into a flag. The address is qubits `0..bits`.
     ///
     /// # Errors
     /// No bits, or more than 20.
@@ -189,12 +195,14 @@ impl PhaseOracle {
         )
     }
 
-    /// The same oracle with some qubits of its index fixed: `zeros` hold 0 and `ones` hold 1, where
-    /// all others are in superposition. So a stratum is counted: where the whole begins with a
-    /// Hadamard, its circuit has an X, or nothing.
+    /// Returns the same oracle with some qubits of its index fixed: `zeros` hold 0 and `ones` hold
+    /// 1. All others stay in superposition.
+    ///
+    /// That counts a stratum: the stratum's circuit has an X, or nothing, where the whole's circuit
+    /// begins with a Hadamard.
     ///
     /// # Errors
-    /// A qubit that is not in superposition, or is named twice; none that stays in superposition.
+    /// A qubit that is not in superposition, or is named twice; no qubit left in superposition.
     ///
     /// ```
     /// use qrt_circuit::quantum::PhaseOracle;
@@ -213,34 +221,36 @@ impl PhaseOracle {
         self.checked()
     }
 
-    /// The qubits of the index, bit 0 first. All are in superposition, but those that are fixed.
+    /// Returns the qubits of the index, bit 0 first. All are in superposition, except for fixed
+    /// ones.
     pub fn index(&self) -> &[Qubit] {
         &self.index
     }
 
-    /// The fixed qubits that hold 1, before and after each call.
+    /// Returns the fixed qubits that hold 1, before and after each call.
     pub fn ones(&self) -> &[Qubit] {
         &self.ones
     }
 
-    /// The qubits in superposition, bit 0 first: the path index and, above it, the comparator.
+    /// Returns the qubits in superposition, bit 0 first: the path index and, above it, the
+    /// comparator.
     pub fn superposed(&self) -> &[Qubit] {
         &self.superposed
     }
 
-    /// How many qubits one call has, ancillas included: they are `0..qubits`.
+    /// Number of qubits of one call, ancillas included: they are `0..qubits`.
     pub fn qubits(&self) -> u32 {
         self.qubits
     }
 
-    /// The ancillas: the qubits that are zero before and after each call.
+    /// Returns the ancillas: the qubits that are zero before and after each call.
     pub fn ancillas(&self) -> Vec<Qubit> {
         let all = 0..self.qubits;
         all.filter(|qubit| !self.superposed.contains(qubit) && !self.ones.contains(qubit))
             .collect()
     }
 
-    /// How many gates one call has, phase flips included.
+    /// Number of gates of one call, phase flips included.
     pub fn gates(&self) -> u64 {
         match &self.steps {
             Steps::Held {
@@ -252,11 +262,11 @@ impl PhaseOracle {
         }
     }
 
-    /// Hands over the oracle's gates. With a `control`, only the phase flips have it: without a
-    /// flip, what is computed is uncomputed and nothing has happened.
+    /// Emits the oracle's gates. With a `control`, only the phase flips are controlled: without a
+    /// flip, uncompute cancels compute.
     ///
     /// # Errors
-    /// The sink's.
+    /// An error of `sink`.
     pub fn apply<E>(
         &self,
         control: Option<Qubit>,
@@ -284,7 +294,7 @@ impl PhaseOracle {
             Steps::Lowered { program, words, .. } => {
                 let done = lower::try_each_instruction(program, |next, _| {
                     for gate in next {
-                        // That there are words for all was checked.
+                        // `lowered` has checked that there is a word for each.
                         match with_words(*gate, words) {
                             Ok(Some(Gate::Z(qubit))) => sign(control, &[qubit], sink)?,
                             Ok(Some(gate)) => reversible(gate, sink)?,
@@ -309,7 +319,7 @@ impl PhaseOracle {
             uncompute,
         } = &self.steps
         else {
-            // Each gate was checked as it was counted.
+            // `lowered` has checked each gate while counting it.
             return Ok(self);
         };
         for gate in compute.iter().chain(uncompute) {
@@ -353,12 +363,12 @@ fn reversible<E>(
         Gate::X(t) => sink(X(t)),
         Gate::Cx(a, t) => sink(Cx(a, t)),
         Gate::Ccx(a, b, t) => sink(Ccx(a, b, t)),
-        // Neither is left: loads are built in, and phase flips are steps of their own.
+        // Neither occurs: loads are built in, and phase flips are steps of their own.
         Gate::Load { .. } | Gate::Z(_) => Ok(()),
     }
 }
 
-/// Flips the phase where `qubits` and the control hold.
+/// Flips the phase where `qubits` and the control are 1.
 fn sign<E>(
     control: Option<Qubit>,
     qubits: &[Qubit],
@@ -371,7 +381,7 @@ fn sign<E>(
     })
 }
 
-/// The gates with a pixel's classical parameters built in.
+/// Returns the gates with a pixel's classical parameters built in.
 fn loaded(gates: &[Gate], words: &[u64]) -> Result<Vec<Gate>, QuantumError> {
     let gates = gates.iter();
     gates
@@ -379,7 +389,7 @@ fn loaded(gates: &[Gate], words: &[u64]) -> Result<Vec<Gate>, QuantumError> {
         .collect()
 }
 
-/// A gate with a pixel's classical parameters built in: a load is an X, or nothing.
+/// Returns a gate with a pixel's classical parameters built in: a load is an X, or nothing.
 fn with_words(gate: Gate, words: &[u64]) -> Result<Option<Gate>, QuantumError> {
     Ok(match gate {
         Gate::Load {
@@ -391,13 +401,13 @@ fn with_words(gate: Gate, words: &[u64]) -> Result<Option<Gate>, QuantumError> {
             let word = word.ok_or(QuantumError::MissingWord { parameter, bit })?;
             (word >> bit & 1 == 1).then_some(Gate::X(target))
         }
-        // Toffolis of one control are CNOTs.
+        // A Toffoli with twice the same control is a CNOT.
         Gate::Ccx(a, b, t) if a == b => Some(Gate::Cx(a, t)),
         gate => Some(gate),
     })
 }
 
-/// The program that looks a flag up, flips its phase, and uncomputes it.
+/// Returns the program that looks up a flag, flips its phase, and uncomputes it.
 fn table(bits: u32, good: impl Fn(u64) -> bool) -> Program {
     let [id, flag, scratch] = [0, 1, 2].map(RegisterId);
     let entries: Box<[i64]> = (0..1 << bits).map(|id| i64::from(good(id))).collect();

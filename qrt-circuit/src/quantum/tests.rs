@@ -1,4 +1,4 @@
-//! Circuits against what they stand for, by a state vector written down plainly.
+//! Tests of circuits against their definitions, by a plain state vector.
 
 use super::Window;
 use super::*;
@@ -13,7 +13,7 @@ fn times(a: Amplitude, b: Amplitude) -> Amplitude {
     [a[0] * b[0] - a[1] * b[1], a[0] * b[1] + a[1] * b[0]]
 }
 
-/// All amplitudes, changed gate by gate in the most literal way.
+/// All amplitudes; each gate changes them by its definition.
 struct Plain(Vec<Amplitude>);
 
 impl Plain {
@@ -136,8 +136,8 @@ fn the_sine_window_is_what_its_formula_says() {
     }
 }
 
-/// Where a is tiny, `1 - D_m` must not be lost: the last bits' rotations differ little from a
-/// quarter turn, by angles that the sum of the amplitudes' squares is sensitive to.
+/// Checks that `1 - D_m` keeps its precision where a is tiny. The last bits' rotations differ
+/// little from a quarter turn, by angles that the sum of the amplitudes' squares is sensitive to.
 #[test]
 fn the_sine_window_of_many_bits_has_the_right_first_amplitudes() {
     // Amplitude of |j> along the staircase, without the state: the bond's two amplitudes.
@@ -194,7 +194,8 @@ fn the_fourier_transform_is_its_matrix() {
     }
 }
 
-/// Oracles of a truth table: looked up, and in its algebraic normal form.
+/// Returns two oracles of a truth table: one that looks it up, and one in its algebraic normal
+/// form.
 fn oracles(good: &[bool]) -> [PhaseOracle; 2] {
     let bits = good.len().ilog2();
     // Moebius' transform of the truth table.
@@ -212,7 +213,7 @@ fn oracles(good: &[bool]) -> [PhaseOracle; 2] {
     ]
 }
 
-/// Column `id` of `H O_0 H O_f`: twice the mean less the amplitude itself, after the sign.
+/// Returns column `id` of `H O_0 H O_f`: after the sign, twice the mean less the amplitude itself.
 fn iterated(good: &[bool], id: usize) -> Vec<Amplitude> {
     let sign = if good[id] { -1.0 } else { 1.0 };
     let mean = sign / good.len() as f64;

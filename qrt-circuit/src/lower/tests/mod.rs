@@ -1,4 +1,4 @@
-//! Gates against integers.
+//! Tests of gates against integers.
 mod published;
 mod random;
 mod simulate;

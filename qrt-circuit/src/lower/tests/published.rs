@@ -1,4 +1,4 @@
-//! Counts against the best published ones.
+//! Tests of counts against the best published ones.
 
 use super::super::super::{Bit, Op, Operand, RegisterId, Style, When, Word};
 use super::super::{Cost, best_low, cost};
@@ -20,7 +20,7 @@ fn counted(op: &Op, widths: &[u32]) -> [Cost; 2] {
     [false, true].map(|inverse| cost(op, inverse, |id| program.width(id)))
 }
 
-/// An operation, widths of its registers other than scratch, and the most Toffolis.
+/// A name, an operation, the widths of its registers other than scratch, and the most Toffolis.
 type Bar = (String, Op, Vec<u32>, u64);
 
 fn in_place(bars: &mut Vec<Bar>, n: u32, place: usize) {

@@ -1,4 +1,4 @@
-//! Every operation of up to 32 bits, at random, and programs of several operations.
+//! Tests of every operation of up to 32 bits, at random, and of programs of several operations.
 
 use super::super::super::{
     Bit, BlockId, Circuit, Contents, Cores, Gate, Instruction, Multiples, Op, Operand, RegisterId,
@@ -50,7 +50,7 @@ fn bit(register: u32) -> impl Strategy<Value = Bit> {
     })
 }
 
-/// Operands are of registers 0 and 1, of 32 bits, or both of register 0.
+/// Returns operations whose operands are of registers 0 and 1, of 32 bits, or both of register 0.
 fn op() -> impl Strategy<Value = (Op, Vec<u32>)> {
     let [r2, r3, r4] = [2, 3, 4].map(RegisterId);
     prop_oneof![
@@ -251,8 +251,8 @@ proptest! {
     }
 }
 
-/// What is found without the gates of a product with a constant is nearly all of its Toffolis, and what
-/// is found on all cores what is found one by one.
+/// The lower bound, found without gates, on the Toffolis of products with a constant is nearly all
+/// of them. Figures found on all cores equal those found one by one.
 #[test]
 fn products_with_constants_are_nearly_counted_without_their_gates() {
     let width = |register: RegisterId| [12, 31, 0][register.index()];
@@ -280,7 +280,7 @@ fn products_with_constants_are_nearly_counted_without_their_gates() {
     assert_eq!(each, again);
 }
 
-/// A chain of products of which each reads the one before, computed, undone and computed again.
+/// A chain of products, each of which reads the one before: computed, undone and computed again.
 #[test]
 fn registers_take_qubits_that_others_have_left() {
     let word = |register, width| Word {
@@ -339,8 +339,8 @@ fn registers_take_qubits_that_others_have_left() {
     let lowered = circuit(&all);
     assert_eq!(lowered, circuit(&all), "deterministic");
     assert_eq!(size(&all), size_of(&lowered));
-    // Both squares are alike, and the sum is not; each is computed and undone. Without room, what is asked
-    // for again at once is there.
+    // The two squares are alike, and the sum differs; each is computed and undone. Without room, a
+    // template is still there if it is requested again at once.
     for (room, times) in [(1 << 20, 4), (0, 9)] {
         let (gates, lowered_times) = by_templates(&all, room);
         assert_eq!(lowered_times, times);

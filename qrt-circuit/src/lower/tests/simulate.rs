@@ -1,4 +1,5 @@
-//! Runs an operation's gates on basis states, 64 at a time, and holds them against the integers.
+//! Simulates an operation's gates on basis states, 64 at a time, and compares them with the
+//! integers.
 
 use super::super::super::{
     Block, BlockId, Circuit, Contents, Gate, Instruction, Op, Parameter, Program, Qubit, Register,
@@ -7,8 +8,8 @@ use super::super::super::{
 use super::super::{Templates, circuit, cost, least_toffoli, scratch_width, try_each_template};
 use std::convert::Infallible;
 
-/// A program of one operation and, if `undone`, its inverse; `widths` are of all registers but the
-/// scratch register, which is the last.
+/// Creates a program of one operation and, if `undone`, its inverse. `widths` are those of all
+/// registers but the scratch register, which is the last.
 pub(super) fn program(op: &Op, widths: &[u32], undone: bool) -> Program {
     let scratch = scratch_width(op, |id| widths[id.index()]);
     let mut widths = widths.to_vec();
@@ -44,7 +45,7 @@ pub(super) fn program(op: &Op, widths: &[u32], undone: bool) -> Program {
 
 pub(super) const PARAMETERS: [u64; 2] = [0x9e37_79b9_7f4a_7c15, 0xd1b5_4a32_d192_ed03];
 
-/// Qubits, each of 64 states, and the signs of the amplitudes.
+/// Qubits in 64 states each, and the signs of the amplitudes.
 struct States {
     qubits: Vec<u64>,
     negative: u64,
@@ -85,7 +86,7 @@ impl States {
     }
 }
 
-/// An operation's circuit, forth and back.
+/// An operation's circuit, forwards and backwards.
 pub(super) struct Bench {
     op: Op,
     pub(super) program: Program,
@@ -93,8 +94,8 @@ pub(super) struct Bench {
     back: Circuit,
 }
 
-/// The gates of a program, each operation's lowered once for all that are alike, while there is so much
-/// room; and how many were lowered.
+/// Returns the gates of a program and the number of operations lowered. Operations that are alike
+/// are lowered once, within a memory budget of `room` bytes.
 pub(super) fn by_templates(program: &Program, room: usize) -> (Vec<Gate>, u32) {
     let (mut gates, mut lowered) = (Vec::new(), 0);
     let done = try_each_template(
@@ -131,7 +132,7 @@ pub(super) fn by_templates(program: &Program, room: usize) -> (Vec<Gate>, u32) {
 }
 
 impl Bench {
-    /// Lowers it, and holds its costs against its gates.
+    /// Lowers the operation, and compares its costs with its gates.
     pub(super) fn new(op: &Op, widths: &[u32]) -> Self {
         let program_forth = program(op, widths, false);
         let forth = circuit(&program_forth);
@@ -167,7 +168,7 @@ impl Bench {
         }
     }
 
-    /// Up to 64 inputs: by input register, their contents.
+    /// Checks up to 64 inputs, each with the contents of the input registers.
     pub(super) fn check(&self, lanes: &[Vec<u64>]) {
         let mut states = States {
             qubits: vec![0; self.back.qubits as usize],
@@ -232,7 +233,7 @@ impl Bench {
         assert_eq!(states.negative, 0);
     }
 
-    /// All contents of the inputs that `valid` lets pass.
+    /// Checks all contents of the inputs that `valid` accepts.
     pub(super) fn check_all(&self, valid: impl Fn(&[u64]) -> bool) {
         let widths: Vec<u32> = self
             .forth
@@ -261,7 +262,7 @@ impl Bench {
     }
 }
 
-/// Holds an operation against the integers, for all contents of its inputs.
+/// Compares an operation with the integers, for all contents of its inputs.
 pub(super) fn check(op: &Op, widths: &[u32]) {
     Bench::new(op, widths).check_all(|_| true);
 }

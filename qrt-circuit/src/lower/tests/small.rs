@@ -1,4 +1,4 @@
-//! Every operation, for all contents of small registers.
+//! Tests of every operation, for all contents of small registers.
 
 use super::super::super::{Bit, Multiples, Op, Operand, RegisterId, Style, When, Word};
 use super::simulate::{Bench, check};
@@ -32,7 +32,7 @@ fn bit(register: usize, index: u32, inverted: bool) -> Bit {
     }
 }
 
-/// Words of a register of 4 bits: of all signs, with offsets and shifts.
+/// Returns words of a register of 4 bits: signed and unsigned, with offsets and shifts.
 fn words(register: usize) -> Vec<Word> {
     let mut words = Vec::new();
     for signed in [false, true] {
