@@ -1,10 +1,10 @@
-//! By which name the author's crate knows `qrt`: another one where its Cargo.toml says
-//! `quantum = { package = "qrt" }`.
+//! The name by which the author's crate knows `qrt`. It is another name if the crate's Cargo.toml
+//! says `quantum = { package = "qrt" }`.
 
 use proc_macro2::{Group, Ident, TokenStream, TokenTree};
 use std::path::Path;
 
-/// The expansion with the name by which the crate in this folder knows `qrt`.
+/// Returns the expansion with the name by which the crate in `folder` knows `qrt`.
 pub(crate) fn named(tokens: TokenStream, folder: &Path) -> TokenStream {
     match name(folder) {
         Some(name) if name != "qrt" => renamed(tokens, &name),
@@ -12,7 +12,7 @@ pub(crate) fn named(tokens: TokenStream, folder: &Path) -> TokenStream {
     }
 }
 
-/// `::name` for every `::qrt`.
+/// Replaces every `::qrt` by `::name`.
 fn renamed(tokens: TokenStream, name: &str) -> TokenStream {
     let mut colons = 0;
     let tokens = tokens.into_iter().map(|token| {
@@ -24,7 +24,7 @@ fn renamed(tokens: TokenStream, name: &str) -> TokenStream {
                 inner.set_span(group.span());
                 inner.into()
             }
-            // A colon of a type may stand before the two.
+            // The colon of a type may precede the path's two colons.
             TokenTree::Ident(ident) if before >= 2 && ident == "qrt" => {
                 Ident::new(name, ident.span()).into()
             }
@@ -49,12 +49,12 @@ fn name(folder: &Path) -> Option<String> {
     dependency(&manifest, workspace).map(|name| name.replace('-', "_"))
 }
 
-/// What a manifest says of a dependency.
+/// A dependency, as a manifest describes it.
 struct Entry {
     name: String,
-    /// Its package is `qrt`, by this name or another.
+    /// True if its package is `qrt`, by this name or another.
     is_qrt: bool,
-    /// The workspace's manifest says which package it is.
+    /// True if the workspace's manifest states the package.
     inherited: bool,
 }
 
@@ -73,10 +73,10 @@ fn dependency(manifest: &str, workspace: impl Fn() -> String) -> Option<String> 
     Some(inherited.name.clone())
 }
 
-/// The entries of all tables of dependencies, as far as they tell which package is meant.
+/// Returns the entries of all tables of dependencies, as far as they identify the package.
 fn entries(manifest: &str) -> Vec<Entry> {
     let mut found = Vec::new();
-    // Within a table of dependencies, or of one of them.
+    // The state at a line: within a table of dependencies, or of the named one of them.
     let (mut within, mut of): (bool, Option<String>) = (false, None);
     for line in manifest.lines() {
         let line: String = line.chars().filter(|c| !c.is_whitespace()).collect();

@@ -1,9 +1,9 @@
 //! The macro front end of qrt: scenes in Rust's tokens, and reversible functions.
 //!
-//! Authors use it through the crate `qrt`, whose documentation holds the grammar. `scene/` reads the
-//! tokens into the tree that YAML becomes too, and hands it to the one checker; `generate/` writes
-//! the circuit; `reversible/` reads functions. All of it are functions on token streams of
-//! `proc_macro2`, which tests call.
+//! Authors use it through the crate `qrt`, whose documentation holds the grammar. `scene/` reads
+//! the tokens into the same tree that YAML becomes, and passes it to the one checker. `generate/`
+//! writes the circuit. `reversible/` reads functions. All of these are functions on token streams
+//! of `proc_macro2`, which tests call.
 
 #![forbid(unsafe_code)]
 
@@ -15,21 +15,21 @@ mod scene;
 #[cfg(test)]
 mod tests;
 
-/// One scene or more; see the crate `qrt` for the grammar.
+/// Expands one scene or more; see the crate `qrt` for the grammar.
 #[proc_macro]
 pub fn qrt(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
     expand::expand(input.into()).into()
 }
 
-/// As `qrt!`, with the functions that its scenes name; a part of what `qrt!` expands to.
+/// Continues `qrt!` with the functions that its scenes name; a part of the expansion of `qrt!`.
 #[doc(hidden)]
 #[proc_macro]
 pub fn qrt_with_terms(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
     expand::resume(input.into()).into()
 }
 
-/// Makes a function of registers reversible: generates it, its inverse and its program. The whole
-/// language, with examples, is described where the facade `qrt` shows this macro.
+/// Makes a function of registers reversible: generates it, its inverse and its program. The facade
+/// `qrt` documents the whole language at this macro, with examples.
 #[proc_macro_attribute]
 pub fn reversible(
     arguments: proc_macro::TokenStream,

@@ -1,4 +1,4 @@
-//! Compute and uncompute as straight-line code, with functions for what they repeat.
+//! Compute and uncompute as straight-line code, with functions for repeated parts.
 
 use super::lines::{self, Around, Line};
 use super::names::Names;
@@ -8,23 +8,23 @@ use qrt_core::oracle::{Channel, Oracle};
 use std::collections::{HashMap, HashSet};
 use std::fmt::Write as _;
 
-/// The fewest statements that become a function where they are repeated. Within few qubits, what is
-/// undone early is computed again, over and over: of the 30,000 statements of a box within 500 qubits
+/// The fewest statements that become a function if they are repeated. With few qubits, results that
+/// are undone early are recomputed many times: of the 30,000 statements of a box within 500 qubits
 /// 2,400 differ.
 const REPEATED: usize = 16;
 
-/// A statement of the code, or all of a function's.
+/// A statement of the code.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 enum Statement {
-    /// Charges what follows to a block.
+    /// Charges the following statements to a block.
     Block(BlockId),
     Compute(u32),
     Undo(u32),
-    /// Between compute and uncompute.
+    /// The place between compute and uncompute.
     Apply,
 }
 
-/// All statements of compute, and of what undoes it.
+/// Returns all statements of compute and of uncompute.
 fn statements(compute: &[Instruction], uncompute: &[Instruction]) -> Vec<Statement> {
     let (mut all, mut block) = (Vec::new(), None);
     let mut push_all = |instructions: &[Instruction], last: Option<Statement>| {
@@ -45,19 +45,19 @@ fn statements(compute: &[Instruction], uncompute: &[Instruction]) -> Vec<Stateme
     all
 }
 
-/// What statements do with the registers that are there before or after them.
+/// The effect of statements on the registers that exist before or after them.
 #[derive(Default)]
 struct Effect {
-    /// Those that are there before and after.
+    /// Registers that exist before and after.
     read: Vec<RegisterId>,
-    /// Those that are there before.
+    /// Registers that exist before, and not after.
     taken: Vec<RegisterId>,
-    /// Those that are there after.
+    /// Registers that exist after, and not before.
     made: Vec<RegisterId>,
 }
 
 impl Effect {
-    /// Of one after the other.
+    /// Returns the effect of `effects`, one after the other.
     fn chain<'a>(effects: impl Iterator<Item = &'a Self>) -> Self {
         let (mut read, mut taken, mut made) = (Vec::new(), Vec::new(), Vec::new());
         for effect in effects {
@@ -84,11 +84,11 @@ struct Coder<'a> {
     program: &'a Program,
     names: &'a Names,
     id: RegisterId,
-    /// By symbol.
+    /// The statement of each symbol.
     statements: Vec<Statement>,
-    /// By symbol, those of functions after those of statements.
+    /// The effect of each symbol; the symbols of functions follow those of statements.
     effects: Vec<Effect>,
-    /// The registers that the function being written has by reference.
+    /// The registers that the function being written takes by reference.
     lent: HashSet<RegisterId>,
 }
 
@@ -142,7 +142,7 @@ pub(super) fn write(out: &mut String, oracle: &Oracle, names: &Names) {
 }
 
 impl<'a> Coder<'a> {
-    /// A coder, and compute and uncompute as a sequence of its symbols.
+    /// Creates a coder, and returns compute and uncompute as a sequence of its symbols.
     fn new(oracle: &'a Oracle, names: &'a Names) -> (Self, Vec<usize>) {
         let mut coder = Self {
             program: &oracle.program,
@@ -257,7 +257,7 @@ impl<'a> Coder<'a> {
         }
     }
 
-    /// The variables of these, a comma after each.
+    /// Returns the variables of `registers`, with a comma after each.
     fn tuple(&self, registers: &[RegisterId]) -> String {
         let named = registers
             .iter()
@@ -307,9 +307,9 @@ impl<'a> Coder<'a> {
         targets.map(|target| self.names.of(target)).collect()
     }
 
-    /// The call that computes an operation out of place: a method of its name takes its targets'
-    /// declarations, what it reads, and its constants. Compute has no others: what is left in place
-    /// could not be undone by a copy.
+    /// Returns the call that computes an out-of-place operation: a method of the operation's name
+    /// takes the declarations of its targets, its operands, and its constants. Compute has no
+    /// operations in place, since a copy could not undo their results.
     fn call(&self, op: &Op) -> String {
         let declared = |target: &RegisterId| format!("&R[{}]", target.0);
         let targets: Vec<String> = op.targets().iter().map(declared).collect();
@@ -329,7 +329,7 @@ impl<'a> Coder<'a> {
             arguments.push(format!("[{}]", columns.join(", ")));
             arguments.push(low.to_string());
         } else if let Op::Multiples { a, .. } = op {
-            // By the number of the first target, as the tables are.
+            // The constant has the number of the first target, as tables have.
             let first = op.targets().first().map_or(0, |target| target.0);
             arguments.push(format!("[{}]", targets.join(", ")));
             arguments.push(self.word(*a));

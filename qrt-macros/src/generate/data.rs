@@ -6,7 +6,7 @@ use qrt_core::oracle::Oracle;
 use std::collections::HashMap;
 use std::fmt::Write as _;
 
-/// Writes the constants of all of them.
+/// Writes the constants of an oracle.
 pub(super) fn write(out: &mut String, oracle: &Oracle) {
     registers(out, oracle);
     blocks(out, oracle);
@@ -74,7 +74,7 @@ fn blocks(out: &mut String, oracle: &Oracle) {
     out.push_str("];\n");
 }
 
-/// Writes the columns of tables and the products of one number, each called by its target's number.
+/// Writes the columns of tables and the products of one number, each named by its target's number.
 fn tables(out: &mut String, oracle: &Oracle) {
     for op in &oracle.program.ops {
         if let Op::Table {
@@ -160,7 +160,7 @@ fn outline(out: &mut String, oracle: &Oracle) {
         .collect();
     out.push_str("const PARAMETERS: &[PixelWord] = &[\n");
     for word in &oracle.parameters {
-        // Its debug form is Rust.
+        // The word's debug form is Rust code.
         let _ = writeln!(out, "PixelWord::{word:?},");
     }
     out.push_str("];\nconst CHANNELS: &[Channel] = &[\n");

@@ -1,4 +1,4 @@
-//! The layout: where the numbers of a path are, ray by ray, with their formats as types.
+//! The layout: the places of a path's numbers, ray by ray, with their formats as types.
 
 use qrt_circuit::{Bit, Word};
 use qrt_core::compile::{NamedPlace, Place};
@@ -18,7 +18,7 @@ struct Named {
     components: Vec<Component>,
 }
 
-/// Writes a struct for each ray, and one of all; returns the latter's value.
+/// Writes a struct for each ray, and one for all of them; returns the value of the latter.
 pub(super) fn write(
     out: &mut String,
     scene: &str,
@@ -82,7 +82,7 @@ fn quantities(oracle: &Oracle, depth: usize) -> Vec<Named> {
     quantities
 }
 
-/// A number's format and its field.
+/// Returns a number's format and its field.
 fn component(oracle: &Oracle, place: usize, named: &NamedPlace) -> Component {
     let (word, negated, offset) = match named.place {
         Place::Number {
@@ -130,7 +130,7 @@ fn component(oracle: &Oracle, place: usize, named: &NamedPlace) -> Component {
     }
 }
 
-/// What a quantity is, for its documentation.
+/// Returns the documentation of a quantity.
 fn meaning(quantity: Quantity) -> &'static str {
     match quantity {
         Quantity::Origin => "Where it starts, in the scene's frame as the circuit scales it.",

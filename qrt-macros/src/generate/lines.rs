@@ -1,9 +1,9 @@
 //! Long straight lines of code, in blocks.
 //!
-//! Each `let` opens a scope within the last one's, and compilers go through scopes recursively: a
-//! function of thousands of them overflows their stacks. A block's scopes end with it. Compiled
-//! without optimisation, each `let` also has a place of its own in the function's frame: a closure's
-//! frame ends with it.
+//! Each `let` opens a scope within the scope of the one before, and compilers traverse scopes
+//! recursively: a function of thousands of them overflows their stacks. The scopes of a block end
+//! with it. In unoptimised code, each `let` also has a place of its own in the function's frame;
+//! the frame of a closure ends with it.
 
 use std::collections::HashMap;
 use std::fmt::Write as _;
@@ -21,18 +21,18 @@ pub(super) struct Line {
 /// The most statements of a block.
 const LENGTH: usize = 100;
 
-/// The closure that a block of statements is.
+/// The closure around a block of statements.
 #[derive(Clone, Copy)]
 pub(super) enum Around {
-    /// One that compilers may inline.
+    /// A closure that compilers may inline.
     Call,
-    /// One that they must inline if they optimise: instructions for vectors end up in a function
-    /// that may use them.
+    /// A closure that compilers must inline if they optimise, so that instructions for vectors end
+    /// up in a function that may use them.
     Inlined,
 }
 
-/// The statements, in blocks that hand on what they bind and do not consume, if `needed` after the
-/// statement of that number.
+/// Returns the statements in blocks. Each block returns the variables that it binds and does not
+/// consume, if they are `needed` after its last statement, which is given by its number.
 pub(super) fn blocks(
     lines: &[Line],
     around: Around,
@@ -54,7 +54,7 @@ pub(super) fn blocks(
             live.extend(line.bound.iter().map(String::as_str));
         }
         live.retain(|name| needed(name, last));
-        // Tuples of one and none are the block's affair: a trailing comma suits all.
+        // A trailing comma suits tuples of one and of none, too.
         let live: String = live.iter().fold(String::new(), |mut all, name| {
             let _ = write!(all, "{name}, ");
             all
@@ -69,8 +69,8 @@ pub(super) fn blocks(
     out
 }
 
-/// The number of the last statement that names each variable. Of several statements that bind a
-/// name, there is one.
+/// Returns the number of the last statement that names each variable. If several statements bind
+/// the same name, the last one counts.
 pub(super) fn last_uses(lines: &[Line]) -> HashMap<&str, usize> {
     let mut uses = HashMap::new();
     for (number, line) in lines.iter().enumerate() {

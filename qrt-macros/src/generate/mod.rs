@@ -1,8 +1,8 @@
 //! From a checked scene to Rust: its circuit's figures, its layout of registers, and its compute and
 //! uncompute as straight-line code.
 //!
-//! The code is written as text and read back as tokens: it is long, and making it token by token
-//! takes a macro that nobody has optimised many times as long.
+//! The code is written as text and read back as tokens. It is long, and an unoptimised macro takes
+//! many times the time to make it token by token.
 
 mod code;
 mod data;
@@ -25,15 +25,15 @@ use qrt_core::syntax::Problem;
 use qrt_core::valid::ValidScene;
 use std::fmt::Write as _;
 
-/// The most operations of a circuit that becomes code. Beyond, the code would take minutes to
+/// The most operations of a circuit that becomes code. The code of more would take minutes to
 /// compile.
 const MOST: usize = 20_000;
 
-/// What stands beside the struct of a scene and its function `scene()`: of the scene's name, its
-/// visibility, the `cfg`s on it, and by primitive the label that its author gave it.
+/// Returns the code beside the struct of a scene and its function `scene()`. It takes the scene's
+/// name, its visibility, the `cfg`s on it, and by primitive the label that its author gave it.
 ///
 /// # Errors
-/// A scene without a circuit, or with one that goes beyond its budget.
+/// A scene without a circuit, or with a circuit that exceeds its budget.
 pub(crate) fn scene(
     name: &str,
     visibility: &str,
@@ -46,17 +46,17 @@ pub(crate) fn scene(
 
 /// The tokens of text that this module wrote.
 fn parsed_text(text: &str) -> TokenStream {
-    // Its tests read all kinds of it; what they miss must not vanish.
+    // Tests read all kinds of this text; text that they miss must not vanish.
     let unread = || quote::quote!(::core::compile_error! { "the circuit's code cannot be read" });
     if proc_macro::is_available() {
-        // The compiler's own reader is optimised, which the macro is not.
+        // The compiler's own parser is optimised, unlike the macro.
         let read = text.parse::<proc_macro::TokenStream>();
         return read.map_or_else(|_| unread(), TokenStream::from);
     }
     text.parse().unwrap_or_else(|_| unread())
 }
 
-/// What [`scene`] returns, as text.
+/// Returns the result of [`scene`] as text.
 fn text(
     scene: &str,
     public: &str,
@@ -114,8 +114,8 @@ fn text(
     Ok(out)
 }
 
-/// Reports what of the scene's oracles is beyond its budget. Those whose costs are not `known`, of
-/// pixels of another class, are compiled for it.
+/// Reports the oracles of the scene that exceed its budget. Oracles whose costs are not `known`, of
+/// pixels of another class, are compiled for that.
 fn keep_budget(valid: &ValidScene, known: &[OracleCost]) -> Result<(), Vec<Problem>> {
     if valid.scene().budget.is_none() {
         return Ok(());
@@ -124,7 +124,7 @@ fn keep_budget(valid: &ValidScene, known: &[OracleCost]) -> Result<(), Vec<Probl
     check_budget(valid, &costs.map_err(|error| vec![error.problem()])?)
 }
 
-/// What the circuit is and costs.
+/// Returns the constants of the circuit's properties and costs.
 fn figures(
     scene: &str,
     public: &str,

@@ -4,7 +4,7 @@ use qrt_circuit::RegisterId;
 use qrt_core::oracle::Oracle;
 use std::collections::HashSet;
 
-/// The variables that registers are in.
+/// The variables of registers.
 pub(super) struct Names(Vec<String>);
 
 impl Names {
@@ -14,7 +14,7 @@ impl Names {
         let name = |(id, register): (usize, &qrt_circuit::Register)| {
             let plain = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };
             let mut name: String = register.name.chars().map(plain).collect();
-            // Generated registers are called by what computes them and their numbers.
+            // A generated register is named after its operation, and its name ends in its number.
             if !name.ends_with(&id.to_string()) && id != oracle.id.index() {
                 name = format!("{name}_{id}");
             }
@@ -26,14 +26,14 @@ impl Names {
         Self(registers.map(name).collect())
     }
 
-    /// The variable that holds a register.
+    /// Returns the variable that holds a register.
     pub(super) fn of(&self, register: RegisterId) -> &str {
         &self.0[register.index()]
     }
 }
 
-/// Names of fields for an author's names, in their order, all different: what is no letter, digit
-/// or `_` becomes `_`, and a name that is there already gets a number.
+/// Returns names of fields for an author's names, in their order, all different. A character that
+/// is no letter, digit or `_` becomes `_`, and a name that is already taken gets a number.
 pub(super) fn identifiers<'a>(names: impl Iterator<Item = &'a str>) -> Vec<String> {
     let mut taken: HashSet<String> = HashSet::new();
     let own = |name: &str| {
@@ -50,7 +50,7 @@ pub(super) fn identifiers<'a>(names: impl Iterator<Item = &'a str>) -> Vec<Strin
         } else if name.starts_with(char::is_numeric) {
             name.insert(0, '_');
         }
-        // `self` and its like cannot be raw.
+        // `self` and some other keywords cannot be raw.
         match syn::parse_str::<proc_macro2::Ident>(&name) {
             Ok(_) => name,
             Err(_) => syn::parse_str::<proc_macro2::Ident>(&format!("r#{name}"))

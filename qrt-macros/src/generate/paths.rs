@@ -1,21 +1,23 @@
-//! The registers of a path, with their formats as types, and what its faces and materials are
-//! called: what predicates are written with.
+//! The registers of a path, with their formats as types, and the names of its faces and materials:
+//! the vocabulary of predicates.
 
 use super::names::identifiers;
 use qrt_core::oracle::paths::{PathFormat, PathFormats, PathNumber, RayNumber};
 use qrt_core::valid::ValidScene;
 use std::fmt::Write as _;
 
-/// A label of more faces than these has no list of them: its material tells them as well.
+/// The most faces of a label with a list of them. A label of more faces has no list, since its
+/// material distinguishes them as well.
 const MOST_FACES: usize = 1_000;
 
 /// An author's name, and the numbers that it stands for.
 type Named = (String, Vec<usize>);
 
-/// The module of what is used here.
+/// The module of the items used here.
 const PATHS: &str = "::qrt::core::oracle::paths";
 
-/// Writes a struct of a path's registers and how it is made; nothing for a scene that is too large.
+/// Writes a struct of a path's registers and its construction; nothing for a scene that is too
+/// large.
 pub(super) fn write(
     out: &mut String,
     scene: &str,
@@ -97,7 +99,7 @@ pub(super) fn numbers(
 ) {
     let surfaces = valid.surfaces().iter().map(|surface| surface.name.clone());
     let materials: Vec<Named> = surfaces.zip((1..).map(|n| vec![n])).collect();
-    // By label in the order of the text: the faces of all primitives that it names.
+    // By label, in the order of the text: the faces of all primitives with that label.
     let mut faces: Vec<Named> = Vec::new();
     for (primitive, label) in labels.iter().enumerate() {
         let Some(label) = label else {
@@ -122,7 +124,7 @@ pub(super) fn numbers(
     );
 }
 
-/// Writes a struct with a field for each name, and a constant of it.
+/// Writes a struct with a field for each name, and a constant of that struct.
 fn table(
     out: &mut String,
     (scene, public, conditions): (&str, &str, &str),

@@ -1,21 +1,22 @@
-//! What a sequence repeats, said once.
+//! Repeated parts of a sequence, written once.
 //!
-//! Pairs of neighbours that occur more than once become symbols of their own, the most frequent first,
-//! until every pair of what is left occurs once: Larsson and Moffat, *Off-line dictionary-based
-//! compression*, Proceedings of the IEEE 88 (2000). Of these symbols, those that are too short
-//! to be worth it, or are used once, are then written out again.
+//! Pairs of neighbours that occur more than once become symbols of their own, the most frequent
+//! first, until every pair of the remaining sequence occurs once: Larsson and Moffat, *Off-line
+//! dictionary-based compression*, Proceedings of the IEEE 88 (2000). Symbols that are too short to
+//! be worth it, or are used once, are then written out again.
 
 use std::collections::{HashMap, HashSet};
 
-/// A sequence with symbols for what it repeats.
+/// A sequence with symbols for its repeated parts.
 pub(super) struct Repeats {
     pub(super) whole: Vec<usize>,
-    /// What the symbols beyond those of the sequence stand for, each after those that it uses.
+    /// The contents of the symbols beyond those of the sequence, each after those that it uses.
     pub(super) parts: Vec<Vec<usize>>,
 }
 
 impl Repeats {
-    /// Of a sequence of symbols below a number. Each part stands for at least so many of them.
+    /// Finds the repeats in a sequence of symbols below `symbols`. Each part stands for at least
+    /// `least` of them.
     pub(super) fn of(sequence: Vec<usize>, symbols: usize, least: usize) -> Self {
         let mut whole = sequence;
         let mut pairs: Vec<[usize; 2]> = Vec::new();
@@ -33,8 +34,8 @@ impl Repeats {
     }
 }
 
-/// The pairs of neighbours that occur most often, and others that occur nearly as often as far as no two
-/// pairs share a symbol; none if no pair occurs twice.
+/// Returns the pairs of neighbours that occur most often, and others that occur nearly that often,
+/// if no two pairs share a symbol. Empty if no pair occurs twice.
 fn frequent(sequence: &[usize]) -> Vec<[usize; 2]> {
     let mut pairs: Vec<[usize; 2]> = sequence.windows(2).map(|two| [two[0], two[1]]).collect();
     pairs.sort_unstable();
@@ -56,7 +57,7 @@ fn frequent(sequence: &[usize]) -> Vec<[usize; 2]> {
     apart.collect()
 }
 
-/// The sequence with symbols in the place of pairs.
+/// Returns the sequence with symbols in the place of pairs.
 fn replace(sequence: &[usize], replaced: &HashMap<[usize; 2], usize>) -> Vec<usize> {
     let mut out = Vec::with_capacity(sequence.len());
     let mut rest = sequence;
@@ -70,11 +71,11 @@ fn replace(sequence: &[usize], replaced: &HashMap<[usize; 2], usize>) -> Vec<usi
     out
 }
 
-/// Writes out the pairs that are no parts.
+/// A writer of sequences, which writes out the pairs that are no parts.
 struct Writer {
     symbols: usize,
     pairs: Vec<[usize; 2]>,
-    /// The symbols of those that are.
+    /// The symbols of the pairs that are parts.
     parts: Vec<Option<usize>>,
 }
 
@@ -89,7 +90,8 @@ impl Writer {
             uses[*symbol] += 1;
         }
         let mut next = symbols..;
-        // What uses a long part is long itself: no use of one is in what is too short.
+        // A symbol that uses a long part is long itself, so no symbol that is too short uses a
+        // part.
         let parts = lengths.iter().zip(uses).skip(symbols);
         let parts = parts.map(|(length, uses)| {
             let is_part = *length >= least && uses > 1;
@@ -133,7 +135,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// The sequence that it was, after a check of its parts.
+    /// Checks the parts, and returns the original sequence.
     fn unfolded(repeats: &Repeats, symbols: usize, least: usize) -> Vec<usize> {
         let mut parts: Vec<Vec<usize>> = Vec::new();
         let write = |parts: &[Vec<usize>], sequence: &[usize]| {
@@ -154,7 +156,7 @@ mod tests {
 
     #[test]
     fn nested_repetitions_are_told_once() {
-        // Each level does the last one twice, with something of its own around it.
+        // Each level repeats the last one twice, with symbols of its own around it.
         let mut sequence: Vec<usize> = (0..20).collect();
         for level in 0..8 {
             let once = sequence.clone();

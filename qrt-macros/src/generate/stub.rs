@@ -1,12 +1,12 @@
-//! What stands beside a scene with errors, so that the rest of a program is understood, and the
-//! compiler speaks of little but the scene's errors.
+//! The code beside a scene with errors. With it, the compiler understands the rest of a program,
+//! and reports little but the scene's errors.
 
 use proc_macro2::TokenStream;
 
-/// How many rays such a scene seems to have.
+/// Number of rays in the code of a scene with errors.
 const RAYS: usize = 16;
 
-/// What the layout of a scene can have.
+/// The fields that the layout of a scene can have.
 const VECTORS: [&str; 2] = ["origin", "direction"];
 const NUMBERS: [&str; 14] = [
     "distance",
@@ -25,7 +25,8 @@ const NUMBERS: [&str; 14] = [
     "direction_z",
 ];
 
-/// Its figures are 1, its functions never return, and its layout has all that any can have.
+/// Returns the code: its figures are 1, its functions never return, and its layout has every field
+/// that a layout can have.
 pub(crate) fn stub(name: &str, visibility: &str, conditions: &str) -> TokenStream {
     let never = "::core::unreachable!(\"this scene has errors\")";
     let field =

@@ -2,8 +2,8 @@
 
 use super::*;
 
-/// One of the smallest scenes whose circuit has something of everything: two rays, a search that
-/// meets or misses, a register that a scope copies out, tables, words of a pixel, and a place in the
+/// One of the smallest scenes whose circuit has every kind of part: two rays, a search that meets
+/// or misses, a register that a scope copies out, tables, words of a pixel, and a place in the
 /// layout with an offset.
 const SMALL: &str = "
 name: lamp
@@ -21,7 +21,7 @@ comparator: { bits: 2 }
 circuit: { uncompute: scoped }
 ";
 
-/// As if the macro had named its primitives.
+/// Returns labels, as if the macro had named the scene's primitives.
 fn labels() -> [Option<String>; 2] {
     ["ground", "sky"].map(|label| Some(label.to_owned()))
 }
@@ -36,7 +36,7 @@ fn parsed(text: &str) -> ValidScene {
         .valid
 }
 
-/// Text as `rustfmt` writes it.
+/// Returns text as `rustfmt` formats it.
 fn formatted(text: &str) -> String {
     use std::io::Write as _;
     use std::process::{Command, Stdio};
@@ -57,7 +57,7 @@ fn formatted(text: &str) -> String {
     String::from_utf8(output.stdout).unwrap()
 }
 
-/// After a deliberate change, `QRT_BLESS=1 cargo test -p qrt-macros` writes the text anew.
+/// After a deliberate change, `QRT_BLESS=1 cargo test -p qrt-macros` writes the text again.
 #[test]
 fn the_code_of_a_small_scene_is_as_it_was() {
     let code = formatted(&text("Lamp", "pub", "", (&labels(), &small(""))).unwrap());
@@ -75,7 +75,7 @@ fn the_code_of_a_small_scene_is_as_it_was() {
     );
 }
 
-/// Of the box within 500 qubits, some 30,000 statements become 5,000.
+/// For the box within 500 qubits, some 30,000 statements become 5,000.
 #[test]
 fn what_a_circuit_of_few_qubits_repeats_is_written_once() {
     let box_ = include_str!("../../../scenes-yaml/cornell-box.yaml");
@@ -87,7 +87,7 @@ fn what_a_circuit_of_few_qubits_repeats_is_written_once() {
     assert!(computed + undone < 5_000, "{computed} {undone}");
 }
 
-/// The small scene folds them.
+/// The small scene folds them, so this test takes a wider scene.
 #[test]
 fn directions_and_origins_in_registers_are_vectors_of_signed_places_with_offsets() {
     let wide = SMALL
@@ -124,8 +124,8 @@ fn a_budget_is_held_when_the_scene_is_compiled() {
     assert_eq!(codes, ["QRT0601", "QRT0602"]);
 }
 
-/// Of the box whose lamp is sampled, the oracles of pixels that see no lamp have more Toffolis than
-/// those that the code is of.
+/// For the box whose lamp is sampled, the oracles of pixels that see no lamp have more Toffolis
+/// than the oracles that the code is generated from.
 #[test]
 fn a_budget_is_held_by_the_oracles_of_all_pixels() {
     let lit = include_str!("../../../scenes-yaml/lit-box.yaml");

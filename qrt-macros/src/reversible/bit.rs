@@ -8,7 +8,7 @@ use std::rc::Rc;
 use syn::{BinOp, Expr, Lit, UnOp};
 
 impl Scope {
-    /// Whether an expression is true or false, by its form, and not a number.
+    /// True if the form of an expression is that of a truth value, and not of a number.
     pub(super) fn is_bit(&self, expression: &Expr) -> bool {
         match expression {
             Expr::Paren(inner) => self.is_bit(&inner.expr),
@@ -45,7 +45,7 @@ impl Scope {
         }
     }
 
-    /// What the registers of an array are.
+    /// Returns the kind of the registers of an array.
     fn array(&self, path: &syn::ExprPath) -> Option<Kind> {
         let name = path.path.get_ident()?;
         let mut known = self.registers.iter();
@@ -53,7 +53,7 @@ impl Scope {
         Some(array.format.kind)
     }
 
-    /// Understands an expression that must be true or false.
+    /// Reads an expression that must be true or false.
     pub(super) fn bit(&mut self, expression: &Expr) -> Option<Bit> {
         match expression {
             Expr::Paren(inner) => self.bit(&inner.expr),
@@ -109,7 +109,7 @@ impl Scope {
 
     #[cfg_attr(test, track_caller)]
     fn not_a_bit(&mut self, expression: &Expr) -> Option<Bit> {
-        // What is wrong within the expression is more to the point.
+        // A problem within the expression is more to the point.
         let before = self.problems.count();
         let known = self.number(expression).is_some();
         if known || self.problems.count() == before {
@@ -130,7 +130,7 @@ impl Scope {
         let (a, b) = (self.number(&binary.left), self.number(&binary.right));
         let (a, b) = (a?, b?);
         let source = quote::quote!(#binary);
-        // They meet at the fraction that their sum would have.
+        // Both are aligned to the fraction that their sum would have.
         let sum = self.added(&a.size, &b.size, false, &source)?;
         let help = "compare numbers of 62 bits or fewer, such as `a[0..62]`";
         self.check_bits(&sum.width, &source, help)?;

@@ -24,8 +24,8 @@ impl Scope {
         self.called(function, &call.args.iter().collect::<Vec<_>>(), source)
     }
 
-    /// `x.method(..)`, which takes `x` by `&mut` where it may be changed, and `(&x).method(..)`:
-    /// calls of a function of the format of `x`.
+    /// Reads `x.method(..)`, which takes `x` by `&mut` if it may be changed, and `(&x).method(..)`.
+    /// Both call a function of the format of `x`.
     pub(super) fn method(
         &mut self,
         call: &ExprMethodCall,
@@ -116,7 +116,7 @@ impl Scope {
         complete.then_some(Statement { kind, source })
     }
 
-    /// Refuses constants of a call that Rust does not compute.
+    /// Reports constants of a call that Rust does not compute.
     fn generics(&mut self, function: &ExprPath) -> Option<()> {
         let last = function.path.segments.last()?;
         let PathArguments::AngleBracketed(given) = &last.arguments else {
@@ -142,7 +142,7 @@ impl Scope {
         Some(())
     }
 
-    /// Whether a path names the function that is read here.
+    /// True if a path names the function that is being read.
     fn is_routine(&self, path: &ExprPath) -> bool {
         if path.qself.is_some() {
             return false;
@@ -153,7 +153,7 @@ impl Scope {
         names == [routine.as_str()] || names == ["Self", routine.as_str()]
     }
 
-    /// A register, whether it may be changed, and its name.
+    /// Reads an argument: a register, whether it may be changed, and its name.
     fn argument(&mut self, argument: &Expr) -> Option<(Rc<Register>, bool, Ident)> {
         let Expr::Reference(reference) = argument else {
             let shown = text(argument);
@@ -273,7 +273,7 @@ impl Scope {
     }
 }
 
-/// The function that a path names, and whether it is called to be undone.
+/// Returns the function that a path names, and whether the call undoes it.
 fn forward(path: &ExprPath) -> (ExprPath, bool) {
     let mut path = path.clone();
     let Some(last) = path.path.segments.last_mut() else {

@@ -1,23 +1,23 @@
 //! Constants, exactly as they are written.
 
-/// `units * 2^-fraction`, with as few fraction bits as it takes.
+/// `units * 2^-fraction`, with the fewest fraction bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Constant {
     pub(super) units: i64,
     pub(super) fraction: u32,
 }
 
-/// Why decimal digits are no exact constant.
+/// The reason why decimal digits are not an exact constant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Inexact {
     /// No number of fraction bits is enough: the constant has no last bit.
     Never,
-    /// The constant needs more bits than there are.
+    /// The constant needs more bits than a number can have.
     TooLong,
 }
 
 impl Constant {
-    /// Reads decimal digits, with a point and an exponent if there are.
+    /// Reads decimal digits, with an optional point and exponent.
     pub(super) fn read(digits: &str) -> Result<Self, Inexact> {
         let (mantissa, exponent) = digits.split_once(['e', 'E']).unwrap_or((digits, "0"));
         let exponent: i32 = exponent.parse().map_err(|_| Inexact::TooLong)?;
@@ -32,7 +32,7 @@ impl Constant {
             number = number.checked_mul(10).ok_or(Inexact::TooLong)?;
             places += 1;
         }
-        // A tenth is a half of a fifth, and fifths have no last bit.
+        // A division by 10 divides by 2 and by 5, and fifths have no last bit.
         for _ in 0..places {
             if number % 5 != 0 {
                 return Err(Inexact::Never);
@@ -52,7 +52,7 @@ impl Constant {
     }
 }
 
-/// Bits of a number, its sign included if it is negative.
+/// Number of bits of a number, its sign included if it is negative.
 pub(super) fn bits(number: i128) -> i64 {
     let size = if number < 0 { !number } else { number };
     let bits = i64::from(128 - size.leading_zeros());

@@ -1,5 +1,5 @@
-//! Widths, places of bits and numbers of passes: linear in the constants that a routine is generic
-//! over and in the variables of its loops.
+//! Widths, places of bits and numbers of passes. They are linear in the constants that a routine is
+//! generic over and in the variables of its loops.
 
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
@@ -13,7 +13,7 @@ pub(super) struct Linear {
     terms: BTreeMap<String, Term>,
 }
 
-/// What a name is multiplied by, and how the generated code writes it.
+/// The factor of a name, and the name's tokens in the generated code.
 #[derive(Clone, Debug)]
 struct Term {
     factor: i64,
@@ -38,12 +38,13 @@ impl From<i64> for Linear {
 }
 
 impl Linear {
-    /// A constant of the function's generics, or a loop's variable.
+    /// Returns the number of a name: a constant of the function's generics, or a loop's variable.
     pub(super) fn name(name: &Ident) -> Self {
         Self::named(name.to_string(), quote!(#name))
     }
 
-    /// What is called so in messages, and is a `u32` of the generated code.
+    /// Returns a number that messages show as `text`, and whose `tokens` are a `u32` of the
+    /// generated code.
     pub(super) fn named(text: String, tokens: TokenStream) -> Self {
         let factor = 1;
         Self {
@@ -79,12 +80,12 @@ impl Linear {
         self.plus(&other.times(-1))
     }
 
-    /// The number, if it depends on nothing.
+    /// Returns the number, if it depends on no name.
     pub(super) fn known(&self) -> Option<i64> {
         self.terms.is_empty().then_some(self.constant)
     }
 
-    /// Whether it is known not to be negative, whatever the names stand for.
+    /// True if it is known not to be negative, for all values of the names.
     pub(super) fn never_negative(&self) -> bool {
         self.constant >= 0 && self.terms.values().all(|term| term.factor >= 0)
     }
@@ -99,7 +100,7 @@ impl Linear {
             .map_or(0, |term| term.factor)
     }
 
-    /// The same sum with `value` in place of `name`.
+    /// Returns the same sum with `value` in place of `name`.
     pub(super) fn with(&self, name: &Ident, value: &Self) -> Self {
         let factor = self.factor(name);
         let mut rest = self.clone();
@@ -107,7 +108,7 @@ impl Linear {
         rest.plus(&value.times(factor))
     }
 
-    /// Its parts that are added and those that are subtracted.
+    /// Returns the parts that are added, and the parts that are subtracted.
     fn sides(&self) -> [Self; 2] {
         [1, -1].map(|sign| {
             let mut side = self.times(sign);
@@ -117,7 +118,7 @@ impl Linear {
         })
     }
 
-    /// As a `u32` of the generated code.
+    /// Returns the number as a `u32` of the generated code.
     pub(super) fn tokens(&self) -> TokenStream {
         let [plus, minus] = self.sides();
         let plus = plus.sum();
@@ -125,7 +126,7 @@ impl Linear {
         quote!(#plus #(- #minus)*)
     }
 
-    /// The same, so that an operator may follow.
+    /// Returns the same tokens, grouped so that an operator may follow.
     pub(super) fn grouped(&self) -> TokenStream {
         let tokens = self.tokens();
         if tokens.clone().into_iter().count() == 1 {
@@ -134,14 +135,14 @@ impl Linear {
         quote!((#tokens))
     }
 
-    /// That it is not negative, as a condition of the generated code without a negative number.
+    /// Returns the condition that it is not negative, as generated code without a negative number.
     pub(super) fn never_negative_tokens(&self) -> TokenStream {
         let [plus, minus] = self.sides();
         let (plus, minus) = (plus.sum(), minus.sum());
         quote!(#minus <= #plus)
     }
 
-    /// The same as an `i64`, which may be negative.
+    /// Returns the number as an `i64` of the generated code, which may be negative.
     pub(super) fn signed_tokens(&self) -> TokenStream {
         let [plus, minus] = self.sides().map(|side| side.sum());
         quote!((#plus) as ::core::primitive::i64 - (#minus) as ::core::primitive::i64)
@@ -185,7 +186,7 @@ impl std::fmt::Display for Linear {
         if self.constant != 0 || parts.is_empty() {
             parts.push((self.constant < 0, self.constant.unsigned_abs().to_string()));
         }
-        // What is added comes first.
+        // Added parts come first.
         parts.sort_by_key(|(subtracted, _)| *subtracted);
         for (place, (subtracted, part)) in parts.iter().enumerate() {
             match (place, subtracted) {
@@ -199,10 +200,10 @@ impl std::fmt::Display for Linear {
     }
 }
 
-/// A loop's variable, and from where to where it runs.
+/// A loop's variable, and the bounds of its range.
 pub(super) type Loop = (Ident, [Linear; 2]);
 
-/// The least that a number can be in these loops, the outer ones first.
+/// Returns the least value of a number in `loops`, the outer ones first.
 pub(super) fn least(number: &Linear, loops: &[Loop]) -> Linear {
     let mut least = number.clone();
     for (variable, [first, end]) in loops.iter().rev() {
@@ -216,8 +217,7 @@ pub(super) fn least(number: &Linear, loops: &[Loop]) -> Linear {
     least
 }
 
-/// Whether two runs of bits, each a first bit and a number of bits, have none in common for
-/// certain.
+/// True if two runs of bits, each a first bit and a number of bits, certainly have none in common.
 pub(super) fn apart(a: &[Linear; 2], b: &[Linear; 2], loops: &[Loop]) -> bool {
     let before = |[first, width]: &[Linear; 2], [other, _]: &[Linear; 2]| {
         least(&other.minus(&first.plus(width)), loops).never_negative()
@@ -262,7 +262,7 @@ impl Dim {
         Self(self.0.iter().chain(&other.0).cloned().collect()).reduced()
     }
 
-    /// Without the parts that are never greater than another.
+    /// Removes the parts that are never greater than another.
     fn reduced(self) -> Self {
         let mut kept: Vec<Linear> = Vec::new();
         for part in self.0 {
@@ -282,7 +282,7 @@ impl Dim {
         }
     }
 
-    /// As a `u32` of the generated code.
+    /// Returns the number of bits as a `u32` of the generated code.
     pub(super) fn tokens(&self) -> TokenStream {
         let parts = self.0.iter().map(Linear::tokens);
         let all = parts.reduce(|a, b| quote!(::core::cmp::max(#a, #b)));

@@ -1,4 +1,4 @@
-//! The generated Rust: the function, its inverse, and the program that both are.
+//! The generated Rust: the function, its inverse, and its program.
 
 mod arguments;
 mod formats;
@@ -14,11 +14,11 @@ use proc_macro2::{Delimiter, Group, Span, TokenStream, TokenTree};
 use quote::{ToTokens, format_ident, quote, quote_spanned};
 use syn::{ExprPath, Ident, PathArguments};
 
-/// All Rust that a routine expands to.
+/// Returns all Rust that a routine expands to.
 ///
-/// The function itself holds both directions: within others it is called in either, by its own
-/// name. Its inverse and its program repeat one of them each, and name no other item: a macro does
-/// not see whether they stand in a module or in an `impl`.
+/// The function itself contains both directions, so that other functions call it in either
+/// direction by its own name. Its inverse and its program each repeat one direction, and name no
+/// other item, since a macro does not see whether they stand in a module or in an `impl`.
 pub(super) fn routine(routine: &Routine) -> TokenStream {
     let demands = routine.demands.iter().map(|demand| {
         let (condition, message) = (&demand.condition, &demand.message);
@@ -88,7 +88,7 @@ pub(super) fn routine(routine: &Routine) -> TokenStream {
     functions(&routine.signature, &both, &backward, &forward)
 }
 
-/// The function as its callees know it, which are not to call it; and what is said if they do.
+/// Returns the frame by which its callees know the function, and the message if they call it.
 fn frame(name: &Ident) -> (TokenStream, String) {
     let text = name.to_string();
     let message = format!(
@@ -109,7 +109,7 @@ fn frame(name: &Ident) -> (TokenStream, String) {
     (frame, message)
 }
 
-/// Whether a routine calls another.
+/// True if a routine calls another.
 fn calls(statements: &[Statement]) -> bool {
     statements.iter().any(|statement| match &statement.kind {
         K::Call { .. } => true,
@@ -119,7 +119,7 @@ fn calls(statements: &[Statement]) -> bool {
     })
 }
 
-/// Whether generated code names anything of the circuit's.
+/// True if generated code names any item of the circuit crate.
 fn uses(code: &TokenStream) -> bool {
     code.clone().into_iter().any(|token| match token {
         TokenTree::Ident(name) => name == "__qrt",
@@ -128,7 +128,7 @@ fn uses(code: &TokenStream) -> bool {
     })
 }
 
-/// The functions of a routine that was not understood: whoever calls them sees no more errors.
+/// Returns the functions of a routine with errors, so that calls of them cause no further errors.
 pub(super) fn unfinished(signature: &Signature) -> TokenStream {
     let body = quote!(::core::unreachable!(););
     let functions = functions(signature, &body, &body, &body);
@@ -140,7 +140,7 @@ pub(super) fn unfinished(signature: &Signature) -> TokenStream {
     })
 }
 
-/// The functions of a routine that a trait declares.
+/// Returns the functions of a routine that a trait declares.
 pub(super) fn declared(signature: &Signature) -> TokenStream {
     let body = TokenStream::new();
     let functions = functions(signature, &body, &body, &body).into_iter();
@@ -199,13 +199,13 @@ fn functions(
         quote!(#name: #reference #ty)
     });
     let named: Vec<TokenStream> = named.collect();
-    // The machine is one argument more than the author has written.
+    // The machine is one argument more than those that the author has written.
     let many = (parameters.len() >= 7).then(|| quote!(#[allow(clippy::too_many_arguments)]));
     let inverse_doc = format!(" The inverse of [`{name}`]: undoes what it has done.");
     let program_doc =
         format!(" [`{name}`] as a program, whose inputs are its registers in their order.");
     let some = (!own_constants.is_empty()).then(|| quote!(<#(const #own_constants: u32),*>));
-    // The trait's own attributes hold there.
+    // In a trait, the trait's own attributes apply.
     let must_use = (!in_trait).then(|| quote!(#[must_use]));
     let style = own("style");
     let inputs = parameters.iter().map(|parameter| {
@@ -262,14 +262,15 @@ fn functions(
     }
 }
 
-/// What the machine's type is called.
+/// Returns the name of the machine's type, which is not a constant's.
 fn machine_name(constants: &[Ident]) -> Ident {
     let names = ["M", "Machine", "AnyMachine"].map(|name| format_ident!("{name}"));
     let free = names.into_iter().find(|name| !constants.contains(name));
     free.unwrap_or_else(|| format_ident!("TheMachine"))
 }
 
-/// The function that a call names, or its inverse, whose names differ by their ends.
+/// Returns the function that a call names, or its inverse. Their names differ by the ending
+/// `_inverse`.
 pub(super) fn function(path: &ExprPath, inverse: bool) -> ExprPath {
     let mut path = path.clone();
     if let Some(last) = path.path.segments.last_mut()
@@ -285,14 +286,14 @@ pub(super) fn function(path: &ExprPath, inverse: bool) -> ExprPath {
     path
 }
 
-/// As many registers are handed over by [`qrt_circuit::Caller::call`].
+/// The most registers that [`qrt_circuit::Caller::call`] takes.
 const MOST_CHECKED: usize = 16;
 
 struct Emitter {
     temporaries: usize,
-    /// What the function runs on.
+    /// The type of the host that the function runs on.
     host: TokenStream,
-    /// What the function is generic over.
+    /// The constants that the function is generic over.
     constants: Vec<Ident>,
 }
 
@@ -335,11 +336,11 @@ impl Emitter {
                 let register_count = arguments.len();
                 let (taken, arguments) = handed(arguments);
                 let host = &self.host;
-                // Errors about them underline the function.
+                // Errors about the arguments underline the function.
                 let mut arguments = Group::new(Delimiter::Parenthesis, quote!(#(#arguments,)*));
                 let name = function.path.segments.last().map(|last| last.ident.span());
                 arguments.set_span(name.unwrap_or_else(Span::call_site));
-                // A call of more registers is checked by the compiler alone.
+                // The compiler alone checks a call of more registers.
                 let call = if register_count > MOST_CHECKED {
                     let arguments = arguments.stream();
                     quote! {
@@ -442,7 +443,7 @@ impl Emitter {
                 temporaries.operand_at(&one, &first)
             }
             Term::Bit(Bit::Constant(false), _) => return TokenStream::new(),
-            // One Toffoli: of the two bits, one is read and one controls.
+            // That takes one Toffoli: one of the two bits is read, and the other one controls.
             Term::Bit(Bit::And(a, b), _) if !(a.is_negated() && b.is_negated()) => {
                 let (read, control) = if a.is_negated() { (b, a) } else { (a, b) };
                 let control = temporaries.bit(control);
@@ -493,7 +494,7 @@ impl Emitter {
     }
 }
 
-/// A register's name, as the author has written it.
+/// Returns a register's name, as the author has written it.
 fn shown(name: &Ident) -> String {
     as_written(name.to_string())
 }

@@ -1,4 +1,4 @@
-//! What is added to a register, and whether it fits.
+//! The terms that are added to a register, and the check that they fit.
 //!
 //! A sum is added term by term. Every number that a term can be must be a number of the target's
 //! format:
@@ -10,9 +10,9 @@
 //! | `UFixed<I, F>`, `Fixed<I, F>` | the same, of at most `F` bits after the point |
 //! | `Bool`, a bit | bits |
 //!
-//! Products of numbers with a point, and such numbers shifted down, are rounded down to the
-//! target's last bit; anything else is by `floor(..)`. `wrapping(..)` takes the lowest bits of what
-//! is too long, and the bits of what is signed.
+//! Products of numbers with a point, and numbers with a point that are shifted down, are rounded
+//! down to the target's last bit. Anything else is rounded down by `floor(..)` only. `wrapping(..)`
+//! takes the lowest bits of a number that is too long, and the bits of a signed number.
 
 use super::dim::{Dim, Linear};
 use super::ir::{Bit, Kind, Number, NumberKind, Place, Size, Term, Update};
@@ -22,7 +22,7 @@ use qrt_core::syntax::codes;
 use quote::{ToTokens, quote};
 use syn::{BinOp, Expr, UnOp};
 
-/// What an author has asked for.
+/// The requests of the author.
 #[derive(Clone, Copy, Default)]
 struct Asked {
     floor: bool,
@@ -30,7 +30,7 @@ struct Asked {
 }
 
 impl Scope {
-    /// The terms that an update adds or subtracts.
+    /// Returns the terms that an update adds or subtracts.
     pub(super) fn terms(
         &mut self,
         update: Update,
@@ -93,7 +93,7 @@ impl Scope {
             _ => self.bit(expression)?,
         };
         let source = expression.to_token_stream();
-        // What was negated is so by a term of its own.
+        // A negation becomes a term of its own.
         if let Bit::Not(inner) = bit {
             terms.push((Update::Xor, Term::Bit(*inner, source.clone())));
             terms.push((Update::Xor, Term::Bit(Bit::Constant(true), quote!(true))));
@@ -145,7 +145,7 @@ impl Scope {
         }
         self.here = begin(&expression.to_token_stream());
         let number = self.number(expression)?;
-        // A negative multiple is a multiple that is subtracted.
+        // A negative multiple is subtracted as a positive one.
         let number = match number.kind {
             NumberKind::Sum(inner) if update != Update::Xor => {
                 for (subtract, term) in inner {
@@ -161,7 +161,7 @@ impl Scope {
         Some(())
     }
 
-    /// A term, of which only as many bits are left as the target can take.
+    /// Cuts a term to the bits that the target can take.
     fn fitted(&mut self, target: &Place, number: Number, asked: Asked) -> Option<Number> {
         let format = &target.register.format;
         let (width, fraction, signed, fixed) = match &target.part {
@@ -291,7 +291,7 @@ impl Scope {
     }
 }
 
-/// Reads what `floor(..)` and `wrapping(..)` ask for.
+/// Reads the request of `floor(..)` or of `wrapping(..)`.
 fn request(call: &syn::ExprCall, asked: Asked) -> Option<Asked> {
     let Expr::Path(function) = &*call.func else {
         return None;
@@ -319,7 +319,7 @@ fn turned(update: Update, subtract: bool) -> Update {
     }
 }
 
-/// The nearest number with so many fraction bits, as it is written.
+/// Returns the nearest number with `fraction` fraction bits, as text.
 fn nearest(kind: &NumberKind, size: &Size, fraction: &Linear) -> String {
     let NumberKind::Constant(units) = kind else {
         return "0".to_owned();
@@ -330,7 +330,7 @@ fn nearest(kind: &NumberKind, size: &Size, fraction: &Linear) -> String {
     format!("{}", (value * scale).round() / scale)
 }
 
-/// The number aligned to the target's last bit, and cut to its first if it wraps.
+/// Aligns the number to the target's last bit, and cuts it to the target's first bit if it wraps.
 fn cut(number: Number, below: &Linear, wraps: Option<Linear>) -> Number {
     let source = number.source.clone();
     let mut size = number.size.clone();
@@ -343,7 +343,7 @@ fn cut(number: Number, below: &Linear, wraps: Option<Linear>) -> Number {
     } else {
         NumberKind::Dropped(Box::new(number), below.times(-1))
     };
-    // A product computes no more than is asked for.
+    // A product computes no more bits than needed.
     let computed = match &kind {
         NumberKind::Dropped(inner, _) => inner.is_product(),
         NumberKind::Product(..) | NumberKind::Square(_) => true,
@@ -356,7 +356,7 @@ fn cut(number: Number, below: &Linear, wraps: Option<Linear>) -> Number {
 }
 
 impl Number {
-    /// Whether the number is computed by an operation that can leave out the lowest bits.
+    /// True if an operation that can leave out the lowest bits computes the number.
     pub(super) fn is_product(&self) -> bool {
         match &self.kind {
             NumberKind::Pointed(inner) => inner.is_product(),

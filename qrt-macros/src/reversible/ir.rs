@@ -1,4 +1,4 @@
-//! A routine that has been understood: names are resolved, widths are known.
+//! The intermediate representation of a routine: names are resolved, widths are known.
 
 use super::dim::{self, Dim, Linear, Loop};
 use super::scope::{text, type_text};
@@ -15,17 +15,17 @@ pub(super) struct Routine {
     pub(super) demands: Vec<Demand>,
 }
 
-/// All of a function but its body.
+/// All parts of a function except its body.
 #[derive(Clone)]
 pub(super) struct Signature {
     pub(super) attributes: Vec<syn::Attribute>,
     pub(super) visibility: syn::Visibility,
     pub(super) name: Ident,
-    /// Whether it is a method of a trait.
+    /// True if it is a method of a trait.
     pub(super) in_trait: bool,
-    /// The constants that it is generic over itself.
+    /// The constants that the function itself is generic over.
     pub(super) own: Vec<Ident>,
-    /// These, and those of the `impl` around.
+    /// The function's own constants, and those of the `impl` around it.
     pub(super) constants: Vec<Ident>,
     pub(super) parameters: Vec<Rc<Register>>,
     /// Names of parameters that are not registers.
@@ -33,34 +33,34 @@ pub(super) struct Signature {
     pub(super) demands: Vec<Demand>,
 }
 
-/// What must hold of the constants that a routine is generic over, or that its module has.
+/// A condition on the constants that a routine is generic over, or that its module has.
 #[derive(Clone)]
 pub(super) struct Demand {
     pub(super) condition: TokenStream,
     pub(super) message: String,
-    /// The statement or term that it is for.
+    /// The statement or term that needs the condition.
     pub(super) span: Span,
 }
 
-/// A register, as it is declared; one of an array's, or all of them.
+/// A register as it is declared: a single one, one of an array's, or all of an array's.
 #[derive(Clone)]
 pub(super) struct Register {
     pub(super) name: Ident,
     /// The type of one register.
     pub(super) ty: Type,
-    /// How many registers an array has.
+    /// The number of registers of an array.
     pub(super) array: Option<Array>,
-    /// Which of the array's registers is meant.
+    /// The index of one of the array's registers.
     pub(super) element: Option<Linear>,
     pub(super) format: Format,
-    /// The type of the generated code that has its format, where Rust computes no such width.
+    /// The type of the generated code that has its format, if Rust cannot compute the width.
     pub(super) computed: Option<Ident>,
-    /// Whether it is a parameter, which is a reference, and no scratch register, which is a value.
+    /// True for a parameter, which is a reference; false for a scratch register, which is a value.
     pub(super) parameter: bool,
     pub(super) mutable: bool,
 }
 
-/// How many registers an array has, and how that is written.
+/// The number of registers of an array, and its tokens.
 #[derive(Clone)]
 pub(super) struct Array {
     pub(super) length: Linear,
@@ -68,12 +68,12 @@ pub(super) struct Array {
 }
 
 impl Register {
-    /// Whether this is all of an array's registers.
+    /// True if this is all of an array's registers.
     pub(super) fn is_array(&self) -> bool {
         self.array.is_some() && self.element.is_none()
     }
 
-    /// Whether the two are different registers for certain, in these loops.
+    /// True if the two are certainly different registers, in these loops.
     pub(super) fn is_apart(&self, other: &Self, loops: &[Loop]) -> bool {
         if self.name != other.name {
             return true;
@@ -83,7 +83,7 @@ impl Register {
         elements.is_some_and(|(a, b)| dim::apart(&one(a), &one(b), loops))
     }
 
-    /// The type that its declaration gives.
+    /// Returns the type of its declaration.
     pub(super) fn type_text(&self) -> String {
         let ty = type_text(&self.ty);
         match &self.array {
@@ -92,19 +92,19 @@ impl Register {
         }
     }
 
-    /// The type of its format in the generated code, within a routine of these constants.
+    /// Returns the type of its format in the generated code, within a routine of these constants.
     pub(super) fn format_tokens(&self, constants: &[Ident]) -> TokenStream {
         let ty = &self.ty;
         let computed = self.computed.as_ref();
         computed.map_or_else(|| quote!(#ty), |name| quote!(#name<#(#constants),*>))
     }
 
-    /// The register in the generated code.
+    /// Returns the register in the generated code.
     pub(super) fn tokens(&self) -> TokenStream {
         self.tokens_at(&self.name)
     }
 
-    /// The same, by its name as it stands somewhere.
+    /// Returns the register in the generated code, by its name as written at one place.
     pub(super) fn tokens_at(&self, name: &Ident) -> TokenStream {
         let element = self.element.as_ref().map(Linear::grouped);
         let element = element.map(|place| quote!([#place as ::core::primitive::usize]));
@@ -121,7 +121,7 @@ impl fmt::Display for Register {
     }
 }
 
-/// What a register's bits mean.
+/// The meaning of a register's bits.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Format {
     pub(super) kind: Kind,
@@ -148,7 +148,7 @@ impl Format {
     }
 }
 
-/// A number of an expression, and the place in the text that it stands for.
+/// A number of an expression, and its source text.
 #[derive(Clone)]
 pub(super) struct Number {
     pub(super) kind: NumberKind,
@@ -156,15 +156,15 @@ pub(super) struct Number {
     pub(super) source: TokenStream,
 }
 
-/// What a number's bits mean.
+/// The meaning of a number's bits.
 #[derive(Clone, Debug)]
 pub(super) struct Size {
     pub(super) width: Dim,
     pub(super) signed: bool,
     pub(super) fraction: Linear,
-    /// Whether it has a point, so that shifts move that and floor nothing.
+    /// True if it has a point. Shifts then move the point, and round nothing.
     pub(super) fixed: bool,
-    /// Whether its lowest fraction bits may be dropped without `floor(..)`.
+    /// True if its lowest fraction bits may be dropped without `floor(..)`.
     pub(super) floors: bool,
 }
 
@@ -172,20 +172,20 @@ pub(super) struct Size {
 pub(super) enum NumberKind {
     /// A constant, in units of the lowest fraction bit.
     Constant(i64),
-    /// A number that is known where the program is built: constants and loops' variables.
+    /// A number that is known when the program is built: constants and loops' variables.
     Given(Linear),
-    /// Bits of a register from the first on, as many as the number has.
+    /// Bits of a register from the given one on; their number is the number's width.
     Word(Rc<Register>, Linear),
     Truth(Box<Bit>),
     /// The number times `2^n`.
     Shifted(Box<Number>, Linear),
     /// The number without its `n` lowest bits: `floor(x / 2^n)`.
     Dropped(Box<Number>, Linear),
-    /// The same bits, with the point elsewhere.
+    /// The same bits, with the point at another place.
     Pointed(Box<Number>),
     Product(Box<Number>, Box<Number>),
     Square(Box<Number>),
-    /// Numbers that are added, and those (`true`) that are subtracted.
+    /// Numbers that are added, and numbers (`true`) that are subtracted.
     Sum(Vec<(bool, Number)>),
 }
 
@@ -201,11 +201,11 @@ pub(super) enum Bit {
     Equal(Box<Number>, Box<Number>),
 }
 
-/// Where an update goes: some bits of a register, or all.
+/// The target of an update: some bits of a register, or all.
 #[derive(Clone)]
 pub(super) struct Place {
     pub(super) register: Rc<Register>,
-    /// The first bit and their number.
+    /// The first bit and the number of bits.
     pub(super) part: Option<[Linear; 2]>,
 }
 
@@ -216,7 +216,7 @@ pub(super) enum Update {
     Xor,
 }
 
-/// What an update adds: one term of a sum.
+/// One term of the sum that an update adds.
 #[derive(Clone)]
 pub(super) enum Term {
     Number(Number),
@@ -236,9 +236,9 @@ pub(super) enum StatementKind {
     Swap(Rc<Register>, Rc<Register>),
     Call {
         path: ExprPath,
-        /// Whether the inverse of the function that is named is called.
+        /// True if the call is of the inverse of the named function.
         inverse: bool,
-        /// Registers, whether they may be changed, and their names as they stand there.
+        /// The registers, whether they may be changed, and their names in the call.
         arguments: Vec<(Rc<Register>, bool, Ident)>,
     },
     If(Bit, Vec<Statement>, Vec<Statement>),
@@ -250,7 +250,7 @@ pub(super) enum StatementKind {
     },
     /// Runs the first statements, then the second, then the inverses of the first.
     Within(Vec<Statement>, Vec<Statement>),
-    /// A scratch register, and what it is there for.
+    /// A scratch register, and the statements of its scope.
     Scratch(Rc<Register>, Vec<Statement>),
     Block(Vec<Statement>),
 }
@@ -303,7 +303,7 @@ impl Statement {
     }
 }
 
-/// The inverses of the statements, in reverse order.
+/// Returns the inverses of the statements, in reverse order.
 pub(super) fn inverse(statements: &[Statement]) -> Vec<Statement> {
     statements.iter().rev().map(Statement::inverse).collect()
 }

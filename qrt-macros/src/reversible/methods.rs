@@ -1,8 +1,8 @@
-//! Methods: the functions of an `impl`, whose `self` is a register of the format that it is for, and
-//! those that a trait declares.
+//! Methods: the functions of an `impl`, whose `self` is a register of the `impl`'s format, and the
+//! functions that a trait declares.
 //!
-//! The format of `self` is written at the `impl` and not at the function, so that the attribute
-//! stands there: every function of the `impl` is read with `self` and `Self` written out.
+//! The format of `self` is written at the `impl` and not at the function, so the attribute stands
+//! at the `impl`. Every function of the `impl` is read with `self` and `Self` written out.
 
 use super::problem::Problems;
 use super::scope::text;
@@ -14,10 +14,10 @@ use syn::{
     FnArg, ImplItem, ItemFn, ItemImpl, ItemTrait, ReceiverKind, TraitItem, Type, Visibility,
 };
 
-/// What `self` is called in the generated code, where it is a parameter like others.
+/// The name of `self` in the generated code, where it is a parameter like others.
 const SELF: &str = "__self";
 
-/// A text in which `self` is called what the author calls it.
+/// Returns a text in which `self` has the author's name again.
 pub(super) fn as_written(text: String) -> String {
     if text.contains(SELF) {
         return text.replace(SELF, "self");
@@ -25,7 +25,7 @@ pub(super) fn as_written(text: String) -> String {
     text
 }
 
-/// All Rust that an `impl` expands to.
+/// Returns all Rust that an `impl` expands to.
 pub(super) fn of_block(mut block: ItemImpl, problems: &mut Problems) -> TokenStream {
     let around = Around {
         constants: signature::constants(
@@ -79,7 +79,7 @@ pub(super) fn of_block(mut block: ItemImpl, problems: &mut Problems) -> TokenStr
     within_braces(block.to_token_stream(), functions)
 }
 
-/// All Rust that a trait expands to.
+/// Returns all Rust that a trait expands to.
 pub(super) fn of_trait(mut declared: ItemTrait, problems: &mut Problems) -> TokenStream {
     let around = Around {
         constants: signature::constants(
@@ -117,7 +117,7 @@ pub(super) fn of_trait(mut declared: ItemTrait, problems: &mut Problems) -> Toke
     within_braces(declared.to_token_stream(), functions)
 }
 
-/// The function with a parameter for `self`, and with the type that `Self` is.
+/// Returns the function with a parameter for `self`, and with the type that `Self` stands for.
 fn written_out(mut function: ItemFn, own: Option<&Type>, problems: &mut Problems) -> ItemFn {
     let ty = own.map_or_else(|| quote!(Self), ToTokens::to_token_stream);
     if let Some(FnArg::Receiver(receiver)) = function.sig.inputs.first() {
@@ -136,7 +136,7 @@ fn written_out(mut function: ItemFn, own: Option<&Type>, problems: &mut Problems
     written.unwrap_or(function)
 }
 
-/// Tokens with another name for `self`, and another type for `Self` where that stands alone.
+/// Replaces `self` by another name, and a `Self` that stands alone by a type.
 fn replaced(tokens: TokenStream, ty: &TokenStream) -> TokenStream {
     let trees: Vec<TokenTree> = tokens.into_iter().collect();
     let mut written = TokenStream::new();
@@ -164,7 +164,7 @@ fn replaced(tokens: TokenStream, ty: &TokenStream) -> TokenStream {
     written
 }
 
-/// An item with more between the braces that it ends with.
+/// Returns an item with more tokens between the braces that it ends with.
 fn within_braces(item: TokenStream, more: TokenStream) -> TokenStream {
     let mut trees: Vec<TokenTree> = item.into_iter().collect();
     if let Some(TokenTree::Group(body)) = trees.last_mut() {

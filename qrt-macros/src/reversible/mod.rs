@@ -1,4 +1,4 @@
-//! `#[reversible]`: from a function's tokens to it and its inverse.
+//! `#[reversible]`: from a function's tokens to the function and its inverse.
 //!
 //! ```text
 //! tokens --signature, statement, number, bit, fit--> Routine --track--> checked --emit--> Rust
@@ -30,7 +30,7 @@ use proc_macro2::{Delimiter, Group, Span, TokenStream, TokenTree};
 use qrt_core::syntax::codes;
 use scope::Scope;
 
-/// What the attribute expands an item to.
+/// Returns the expansion of an item with the attribute.
 pub(crate) fn expand(arguments: &TokenStream, item: TokenStream) -> TokenStream {
     let offer = term::offer(&item);
     let (tokens, problems) = expanded(arguments, item);
@@ -73,16 +73,16 @@ fn expanded(arguments: &TokenStream, item: TokenStream) -> (TokenStream, Problem
     (tokens, problems)
 }
 
-/// What a function stands in.
+/// The surroundings of a function.
 #[derive(Default)]
 struct Around {
     /// The constants that an `impl` is generic over.
     constants: Vec<syn::Ident>,
-    /// Whether it is a method of a trait.
+    /// True if it is a method of a trait.
     in_trait: bool,
 }
 
-/// The routine of a function, if nothing is wrong with it.
+/// Returns the routine of a function, if it has no errors.
 fn understood(function: &syn::ItemFn, around: &Around, problems: &mut Problems) -> Option<Routine> {
     let signature = signature::read(function, around, problems);
     let mut scope = Scope {
@@ -109,7 +109,8 @@ fn understood(function: &syn::ItemFn, around: &Around, problems: &mut Problems) 
     })
 }
 
-/// A function as it was written, but for its body: whoever calls it sees no more errors.
+/// Returns a function as it was written, except for its body, so that calls of it cause no further
+/// errors.
 fn without_body(item: TokenStream) -> TokenStream {
     let mut trees: Vec<TokenTree> = item.into_iter().collect();
     if let Some(TokenTree::Group(body)) = trees.last_mut()
@@ -120,7 +121,7 @@ fn without_body(item: TokenStream) -> TokenStream {
     quote::quote!(#[allow(unused, reason = "its body is wrong")] #(#trees)*)
 }
 
-/// The keyword that an item begins with, which is enough to be underlined.
+/// Returns the keyword that an item begins with, which errors underline.
 fn first(item: &syn::Item) -> TokenStream {
     let tokens = quote::quote!(#item).into_iter();
     let keyword = tokens.skip_while(|token| !matches!(token, TokenTree::Ident(_)));

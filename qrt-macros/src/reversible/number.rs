@@ -1,11 +1,11 @@
-//! Expressions that are numbers: what they are made of, and how many bits they take.
+//! Expressions that are numbers: their parts, and their numbers of bits.
 //!
 //! | expression | bits | fraction bits |
 //! |---|---|---|
 //! | register | its own | its own |
 //! | `a[i..j]` | `j - i`, unsigned | 0 |
 //! | a bit | 1, unsigned | 0 |
-//! | constant | as many as it takes | as many as it takes |
+//! | constant | the fewest that hold it | the fewest that hold it |
 //! | `a * b` | the sum | the sum |
 //! | `a + b`, `a - b` | one more than the longer, signed if a difference | the greater |
 //! | `a << n` | `n` more | its own |
@@ -21,11 +21,11 @@ use qrt_core::syntax::codes;
 use quote::quote;
 use syn::{BinOp, Expr, Lit, UnOp};
 
-/// How many bits a constant has whose value is not known here: those of a `u32`.
+/// Number of bits of a constant whose value is not known here: those of a `u32`.
 pub(super) const GIVEN: i64 = 32;
 
 impl Scope {
-    /// Understands an expression as a number.
+    /// Reads an expression as a number.
     pub(super) fn number(&mut self, expression: &Expr) -> Option<Number> {
         let source = quote!(#expression);
         if let Some(value) = self.given(expression) {
@@ -40,7 +40,7 @@ impl Scope {
             }
             Expr::Lit(literal) => self.literal(&literal.lit, source),
             Expr::Unary(unary) if matches!(unary.op, UnOp::Deref(_)) => {
-                // Reports the star.
+                // Reports the `*`.
                 self.place(expression)?;
                 None
             }
@@ -60,7 +60,8 @@ impl Scope {
         }
     }
 
-    /// A number of constants and loops' variables, if an expression is one, and never negative.
+    /// Reads an expression as a number of constants and loops' variables. `None` if it is another
+    /// expression, or is known to become negative.
     pub(super) fn given(&mut self, expression: &Expr) -> Option<Linear> {
         if !matches!(expression, Expr::Path(_) | Expr::Binary(_)) {
             return None;
@@ -358,7 +359,7 @@ impl Scope {
                 Some(size) => self.added(&size, &term.size, *subtract, &source)?,
             });
         }
-        // The only constant is a term of its own; a negative one is simply that.
+        // A single constant that is subtracted becomes a negative constant.
         if let [
             (
                 true,
@@ -380,7 +381,7 @@ impl Scope {
         })
     }
 
-    /// The size of a sum or a difference.
+    /// Returns the size of a sum or a difference.
     pub(super) fn added(
         &mut self,
         a: &Size,
@@ -404,7 +405,7 @@ impl Scope {
         })
     }
 
-    /// The greater of two numbers of fraction bits.
+    /// Returns the greater of two numbers of fraction bits.
     fn common(&mut self, a: &Linear, b: &Linear, source: &TokenStream) -> Option<Linear> {
         if self.certain(&a.minus(b)) {
             return Some(a.clone());
@@ -412,7 +413,7 @@ impl Scope {
         if self.certain(&b.minus(a)) {
             return Some(b.clone());
         }
-        // One that is known is a constant's, which the other must be able to hold.
+        // A known number is a constant's; the other one must be able to hold it.
         let (held, holding) = if a.known().is_some() { (a, b) } else { (b, a) };
         if held.known().is_some() {
             let message = "QRT0808: a constant has more fraction bits than what it is added to";
@@ -425,7 +426,7 @@ impl Scope {
         None
     }
 
-    /// Complains about what is too long to be read by an operation.
+    /// Reports a number that is too long for an operation to read.
     #[cfg_attr(test, track_caller)]
     pub(super) fn check_operand(&mut self, number: &Number) -> Option<()> {
         let help = "compute it from fewer bits, such as `a[0..16]`";
@@ -510,7 +511,7 @@ fn constant(units: i64, fraction: u32, source: TokenStream) -> Number {
     Number { kind, size, source }
 }
 
-/// A constant that is a whole number.
+/// Creates a constant that is a whole number.
 pub(super) fn units(units: i64) -> Number {
     constant(units, 0, quote!(#units))
 }

@@ -1,5 +1,5 @@
-//! Constants and types of the author's module. A macro does not see what they are: that is left to
-//! the compiler, and so is what must hold of them.
+//! Constants and types of the author's module. A macro does not see their values. The compiler
+//! computes them, and checks the demands on them.
 
 use super::dim::Linear;
 use super::ir::Demand;
@@ -8,7 +8,7 @@ use super::scope::{begin, text};
 use quote::quote;
 use syn::{Ident, Path};
 
-/// A constant of the module, by its path, if it is written like one.
+/// Returns a constant of the module, by its path, if it is written like one.
 pub(super) fn constant(path: &Path, demands: &mut Vec<Demand>) -> Option<Linear> {
     let name = &path.segments.last()?.ident;
     if !is_constant(name) {
@@ -35,7 +35,7 @@ pub(super) fn constant(path: &Path, demands: &mut Vec<Demand>) -> Option<Linear>
     ))
 }
 
-/// How many bits an integer has whose format has a name of its own.
+/// Returns the number of bits of an integer whose format has a name of its own.
 pub(super) fn width(path: &Path, demands: &mut Vec<Demand>) -> Linear {
     let shown = text(path);
     let format = quote!(<#path as ::qrt::circuit::format::Format>);
@@ -53,7 +53,7 @@ pub(super) fn width(path: &Path, demands: &mut Vec<Demand>) -> Linear {
     Linear::named(format!("{shown}::WIDTH"), quote!(#format::WIDTH))
 }
 
-/// Adds a demand that has not been made.
+/// Adds a demand, unless it has been made already.
 pub(super) fn demand(demands: &mut Vec<Demand>, mut new: Demand) {
     new.message = as_written(new.message);
     let condition = new.condition.to_string();
@@ -65,13 +65,13 @@ pub(super) fn demand(demands: &mut Vec<Demand>, mut new: Demand) {
     }
 }
 
-/// Whether a name is written like a constant's.
+/// True if a name is written like a constant's.
 fn is_constant(name: &Ident) -> bool {
     let name = name.to_string();
     name.contains(|letter: char| letter.is_uppercase()) && !name.contains(char::is_lowercase)
 }
 
-/// Whether a name is written like a type's.
+/// True if a name is written like a type's.
 pub(super) fn is_type(name: &Ident) -> bool {
     name.to_string().starts_with(char::is_uppercase)
 }

@@ -1,12 +1,12 @@
-//! What is wrong with a routine: a code, a place, the right thing to write. All of it is said at
-//! once.
+//! Problems of a routine: a code, a place, and the right thing to write. All problems are reported
+//! at once.
 
 use super::methods::as_written;
 use proc_macro2::{Ident, TokenStream};
 use qrt_core::syntax::codes;
 use quote::ToTokens;
 
-/// Everything that has been found wrong so far.
+/// All problems found so far.
 #[derive(Default)]
 pub(super) struct Problems {
     found: Vec<syn::Error>,
@@ -40,7 +40,7 @@ impl Problems {
         self.found.len()
     }
 
-    /// The problems as errors of the compiler, in the order of the text.
+    /// Returns the problems as errors of the compiler, in the order of the text.
     pub(super) fn tokens(&self) -> TokenStream {
         self.found
             .iter()
@@ -48,7 +48,7 @@ impl Problems {
             .collect()
     }
 
-    /// The messages of all problems.
+    /// Returns the messages of all problems.
     #[cfg(test)]
     pub(super) fn messages(&self) -> Vec<String> {
         self.found.iter().map(ToString::to_string).collect()

@@ -1,4 +1,4 @@
-//! What a statement can see: registers, constants, the loops around it.
+//! The names that a statement can use: registers, constants, the loops around it.
 
 use super::dim::{self, Linear, Loop};
 use super::ir::{Demand, Place, Register};
@@ -12,27 +12,27 @@ use quote::{ToTokens, quote};
 use std::rc::Rc;
 use syn::{BinOp, Expr, Ident, Lit, RangeLimits, UnOp};
 
-/// The state of a routine's understanding.
+/// The state of reading a routine.
 pub(super) struct Scope {
     pub(super) routine: Ident,
     pub(super) registers: Vec<Rc<Register>>,
-    /// Names whose declarations are wrong, which is enough to be said once.
+    /// Names whose declarations are wrong, which are reported only once.
     pub(super) unusable: Vec<Ident>,
     pub(super) constants: Vec<Ident>,
-    /// Variables of the loops around, and from where to where they run.
+    /// Variables of the loops around, and the bounds of their ranges.
     pub(super) loops: Vec<Loop>,
     pub(super) demands: Vec<Demand>,
     pub(super) problems: Problems,
-    /// Everything that has been written to so far, in the order of the text.
+    /// All writes so far, in the order of the text.
     pub(super) writes: Vec<(Place, TokenStream)>,
-    /// Fraction bits of what is updated, which say what constants can be.
+    /// Number of fraction bits of the updated register, which determine the possible constants.
     pub(super) fraction: Option<i64>,
-    /// The statement or term that is being understood.
+    /// The statement or term that is being read.
     pub(super) here: Span,
 }
 
 impl Scope {
-    /// The register that a name stands for; reports a name that stands for none.
+    /// Returns the register that a name stands for; reports a name that stands for none.
     pub(super) fn register(&mut self, name: &Ident) -> Option<Rc<Register>> {
         let mut latest_first = self.registers.iter().rev();
         let found = latest_first.find(|register| register.name == *name);
@@ -60,7 +60,7 @@ impl Scope {
         None
     }
 
-    /// Whether a name has been given to a register, or to what was meant as one.
+    /// True if a name stands for a register, or for a faulty declaration of one.
     fn is_known(&self, name: &Ident) -> bool {
         let mut registers = self.registers.iter();
         registers.any(|register| register.name == *name) || self.unusable.contains(name)
@@ -70,7 +70,7 @@ impl Scope {
         self.constants.contains(name) || self.loops.iter().any(|(variable, _)| variable == name)
     }
 
-    /// Complains if a name can't be given to something new.
+    /// Reports a name that is already taken.
     #[cfg_attr(test, track_caller)]
     pub(super) fn check_free(&mut self, name: &Ident) {
         if self.is_number(name) || self.registers.iter().any(|register| register.name == *name) {
@@ -81,7 +81,7 @@ impl Scope {
         }
     }
 
-    /// A number that is known where the routine is compiled.
+    /// Reads a number that is known when the routine is compiled.
     pub(super) fn linear(&mut self, expression: &Expr) -> Option<Linear> {
         match expression {
             Expr::Paren(inner) => self.linear(&inner.expr),
@@ -108,7 +108,7 @@ impl Scope {
         }
     }
 
-    /// As [`Scope::linear`], and if it is none, says that `what` must be one.
+    /// Reads a number as [`Scope::linear`] does. If there is none, reports that `what` must be one.
     #[cfg_attr(test, track_caller)]
     pub(super) fn must_be_known(&mut self, expression: &Expr, what: &str) -> Option<Linear> {
         let read = self.linear(expression);
@@ -121,7 +121,7 @@ impl Scope {
         read
     }
 
-    /// The first and the one after the last of a range.
+    /// Returns the first index of a range, and the index after the last.
     pub(super) fn range(
         &mut self,
         range: &syn::ExprRange,
@@ -142,17 +142,17 @@ impl Scope {
         })
     }
 
-    /// The most that a number can be in the loops around.
+    /// Returns the greatest value of a number in the loops around.
     pub(super) fn greatest(&self, number: &Linear) -> Linear {
         self.least(&number.times(-1)).times(-1)
     }
 
-    /// The least that a number can be in the loops around.
+    /// Returns the least value of a number in the loops around.
     pub(super) fn least(&self, number: &Linear) -> Linear {
         dim::least(number, &self.loops)
     }
 
-    /// Whether a number is never negative. Where that depends on the routine's constants, it is
+    /// True if a number is never negative. If that depends on the routine's constants, it is
     /// demanded of them, with this message.
     pub(super) fn holds(&mut self, number: &Linear, message: &str) -> bool {
         let least = self.least(number);
@@ -178,12 +178,12 @@ impl Scope {
         );
     }
 
-    /// Whether a number is never negative, whatever the constants are.
+    /// True if a number is never negative, for all values of the constants.
     pub(super) fn certain(&self, number: &Linear) -> bool {
         self.least(number).never_negative()
     }
 
-    /// Whether two places have no bit in common for certain.
+    /// True if two places certainly have no bit in common.
     pub(super) fn apart(&self, a: &Place, b: &Place) -> bool {
         if a.register.is_apart(&b.register, &self.loops) {
             return true;
@@ -194,7 +194,7 @@ impl Scope {
         dim::apart(a, b, &self.loops)
     }
 
-    /// The place that an expression names: a register, a bit of one, or some bits.
+    /// Returns the place that an expression names: a register, a bit of one, or some bits.
     pub(super) fn place(&mut self, expression: &Expr) -> Option<Place> {
         let place = self.any_place(expression)?;
         if place.register.is_array() {
@@ -208,7 +208,7 @@ impl Scope {
         Some(place)
     }
 
-    /// The same, or an array of registers.
+    /// Returns the place that an expression names, which may be an array of registers.
     pub(super) fn any_place(&mut self, expression: &Expr) -> Option<Place> {
         match expression {
             Expr::Paren(inner) => self.any_place(&inner.expr),
@@ -257,7 +257,7 @@ impl Scope {
         }
     }
 
-    /// One register of an array.
+    /// Returns one register of an array.
     fn element(&mut self, array: &Register, index: &Expr) -> Option<Register> {
         let place = self.must_be_known(index, "the place of a register")?;
         let length = array.array.as_ref().map(|array| array.length.clone())?;
@@ -276,7 +276,7 @@ impl Scope {
         })
     }
 
-    /// The first of some bits, and their number.
+    /// Returns the first of some bits, and their number.
     fn part(&mut self, register: &Register, index: &Expr) -> Option<[Linear; 2]> {
         let width = &register.format.width;
         let [first, end] = if let Expr::Range(range) = index {
@@ -305,13 +305,13 @@ impl Scope {
     }
 }
 
-/// The span where source text begins.
+/// Returns the span where source text begins.
 pub(super) fn begin(source: &TokenStream) -> Span {
     let first = source.clone().into_iter().next();
     first.map_or_else(Span::call_site, |token| token.span())
 }
 
-/// A whole number as it is written.
+/// Returns a whole number, as it is written.
 pub(super) fn integer(expression: &Expr) -> Option<i128> {
     match expression {
         Expr::Lit(literal) => match &literal.lit {
@@ -331,7 +331,7 @@ pub(super) fn integer(expression: &Expr) -> Option<i128> {
     }
 }
 
-/// Source text, with spaces as they are usually set.
+/// Returns source text, with the usual spaces.
 pub(super) fn text(source: impl ToTokens) -> String {
     let mut text = as_written(quote!(#source).to_string());
     for (from, to) in [
@@ -369,7 +369,7 @@ pub(super) fn text(source: impl ToTokens) -> String {
     text
 }
 
-/// A type, as it is usually written.
+/// Returns a type, as it is usually written.
 pub(super) fn type_text(ty: &syn::Type) -> String {
     text(ty)
         .replace(" <", "<")

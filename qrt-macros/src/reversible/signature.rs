@@ -14,7 +14,7 @@ use syn::{
     Type,
 };
 
-/// Reads the signature. What is wrong with it is left out of the result.
+/// Reads the signature. Its faulty parts are left out of the result.
 pub(super) fn read(function: &ItemFn, around: &Around, problems: &mut Problems) -> Signature {
     let signature = &function.sig;
     let plain = "write a plain `fn`: a routine runs at once, wherever it is called from";
@@ -87,7 +87,7 @@ pub(super) fn read(function: &ItemFn, around: &Around, problems: &mut Problems) 
             unusable.push(register.name);
             continue;
         }
-        // Two parameters of one name are rustc's to report.
+        // rustc reports two parameters of the same name.
         parameters.push(Rc::new(register));
     }
     Signature {
@@ -103,7 +103,7 @@ pub(super) fn read(function: &ItemFn, around: &Around, problems: &mut Problems) 
     }
 }
 
-/// The constants that a function, or what it stands in, is generic over.
+/// Returns the constants that a function, or the item around it, is generic over.
 pub(super) fn constants(
     generics: &syn::Generics,
     what: &str,
@@ -212,7 +212,7 @@ fn parameter(
     })
 }
 
-/// How many registers a type stands for, if it is an array's, and the type of one.
+/// Returns the number of registers, if a type is an array's, and the type of one register.
 pub(super) fn array<'a>(
     ty: &'a Type,
     constants: &[Ident],
@@ -235,7 +235,7 @@ pub(super) fn array<'a>(
     Some((Some(Array { length, written }), &array.elem))
 }
 
-/// A type as a register's: another format for what is none.
+/// Returns the text of a type as a register's. A type that is no format becomes another format.
 fn register_text(ty: &Type) -> String {
     if let Type::Array(array) = ty {
         let length = &array.len;
@@ -252,7 +252,7 @@ fn register_text(ty: &Type) -> String {
     }
 }
 
-/// The format that a type is.
+/// Returns the format of a type.
 pub(super) fn format(
     ty: &Type,
     constants: &[Ident],
@@ -324,7 +324,7 @@ fn no_format<T>(ty: &Type, problems: &mut Problems) -> Option<T> {
     None
 }
 
-/// Whether a type may be another name of a format.
+/// True if a type may be another name of a format.
 fn is_alias(ty: &Type) -> bool {
     let Type::Path(path) = ty else {
         return false;
@@ -348,7 +348,7 @@ fn bits(size: &GenericArgument, constants: &[Ident], demands: &mut Vec<Demand>) 
     }
 }
 
-/// A width: a sum of numbers, the module's constants and those of the function.
+/// Reads a width: a sum of numbers, the module's constants and those of the function.
 fn width(expression: &Expr, constants: &[Ident], demands: &mut Vec<Demand>) -> Option<Linear> {
     if let Some(number) = super::scope::integer(expression) {
         return i64::try_from(number).map(Linear::from).ok();
@@ -378,8 +378,9 @@ fn width(expression: &Expr, constants: &[Ident], demands: &mut Vec<Demand>) -> O
     }
 }
 
-/// What the generated code calls a format that Rust's types cannot say: one that is computed from
-/// the function's constants, or counts bits before the point by one of them, which is a `u32`.
+/// Returns the generated name of a format that Rust's types cannot express. Its width is computed
+/// from the function's constants, or one of these constants, which is a `u32`, counts the bits
+/// before its point.
 pub(super) fn computed(ty: &Type, format: &Format, constants: &[Ident]) -> Option<Ident> {
     let Type::Path(path) = ty else {
         return None;
@@ -412,7 +413,7 @@ pub(super) fn computed(ty: &Type, format: &Format, constants: &[Ident]) -> Optio
     computed.then(|| Ident::new(name.trim_end_matches("_0"), last.ident.span()))
 }
 
-/// Whether tokens name any of these.
+/// True if tokens name any of `names`.
 pub(super) fn names_any(tokens: TokenStream, names: &[Ident]) -> bool {
     tokens.into_iter().any(|token| match token {
         TokenTree::Ident(name) => names.contains(&name),

@@ -1,4 +1,4 @@
-//! Statements: what each of them changes, and that it can be undone.
+//! Statements: their changes, and the check that these can be undone.
 
 use super::dim::Linear;
 use super::ir::{Bit, Place, Register, Statement, StatementKind as K};
@@ -11,7 +11,7 @@ use std::rc::Rc;
 use syn::{BinOp, Block, Expr, Ident, Local, Pat, Stmt, StmtMacro, Type};
 
 impl Scope {
-    /// Understands a block. Its scratch registers are known up to its end.
+    /// Reads a block. Its scratch registers are known up to its end.
     pub(super) fn block(&mut self, block: &Block) -> Vec<Statement> {
         self.statements(&block.stmts)
     }
@@ -106,7 +106,8 @@ impl Scope {
         None
     }
 
-    /// `within! { .. } apply! { .. }`, and how many of the statements after the first it takes.
+    /// Reads `within! { .. } apply! { .. }`. Returns the statement, and the number of statements
+    /// after the first that it takes.
     fn macros(&mut self, call: &StmtMacro, others: &[Stmt]) -> (Option<Statement>, usize) {
         let path = &call.mac.path;
         let pair = "write `within! { .. } apply! { .. }`";
@@ -407,7 +408,7 @@ impl Scope {
         })
     }
 
-    /// Complains about more passes of the loops around than a program could hold: each becomes
+    /// Reports more passes of the loops around than a program could hold: each pass becomes
     /// operations of its own.
     fn check_passes(&mut self, place: &Expr) {
         const MOST: i64 = 1_000_000;
@@ -456,8 +457,8 @@ impl Scope {
     }
 }
 
-/// The text of an expression without the `*` that other Rust would need: a register is named as it
-/// is.
+/// Returns the text of an expression without the `*` that other Rust would need: a register has its
+/// plain name.
 pub(super) fn bare(expression: &Expr) -> String {
     match expression {
         Expr::Unary(unary) if matches!(unary.op, syn::UnOp::Deref(_)) => bare(&unary.expr),
@@ -469,7 +470,7 @@ pub(super) fn bare(expression: &Expr) -> String {
     }
 }
 
-/// The attribute that source text begins with.
+/// Returns the attribute that source text begins with.
 fn attribute(source: &TokenStream) -> Option<TokenStream> {
     let mut tokens = source.clone().into_iter();
     let sign = tokens.next().filter(|first| first.to_string() == "#")?;
@@ -477,7 +478,7 @@ fn attribute(source: &TokenStream) -> Option<TokenStream> {
     Some(quote!(#sign #body))
 }
 
-/// The name that a declaration gives.
+/// Returns the name that a declaration gives.
 fn declared(pattern: &Pat) -> Option<Ident> {
     match pattern {
         Pat::Ident(name) => Some(name.ident.clone()),

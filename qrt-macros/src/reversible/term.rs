@@ -1,17 +1,17 @@
 //! A routine as a BSDF's term: the mathematics of a function's statements.
 //!
-//! A macro sees its own tokens only. So `#[reversible]` writes, beside a function that could be a
-//! term, a macro of the function's name which hands the function's tokens on ([`offer`]); `qrt!`
-//! asks that macro for them, and reads them here ([`read`]):
+//! A macro sees its own tokens only. So, beside a function that could be a term, `#[reversible]`
+//! writes a macro of the function's name, which passes the function's tokens on ([`offer`]). `qrt!`
+//! calls that macro for the tokens, and reads them here ([`read`]):
 //!
 //! ```text
 //! tokens --understood--> Routine --signature--> outputs, variables --meaning--> expressions
 //! ```
 //!
 //! Every register is an expression in the BSDF's variables. An update adds to it or subtracts from
-//! it, exactly: the rounding to a register's last bit is left out. So is what leaves its first bit,
-//! which must therefore be impossible: whatever the variables are, each register's number stays one
-//! of its format.
+//! it, exactly: the rounding to a register's last bit is left out. So is an overflow beyond its
+//! first bit, which must therefore be impossible: for all values of the variables, each register's
+//! number stays a number of its format.
 
 mod bounds;
 mod content;
@@ -31,8 +31,8 @@ use proc_macro2::{Group, Span, TokenStream, TokenTree};
 /// One expression for grey, or one for each of red, green and blue.
 pub(crate) type Channels = Vec<String>;
 
-/// What the function of these tokens means, or the compiler's errors; none of those for what
-/// `#[reversible]` has reported already. Errors belong to where `site` belongs to.
+/// Reads the function of these tokens as a term, or returns the compiler's errors. There are no
+/// errors if `#[reversible]` has reported them already. Errors are resolved at `site`.
 pub(crate) fn read(function: TokenStream, site: Span) -> Result<Channels, TokenStream> {
     let function = placed(function, site);
     let mut problems = Problems::default();
@@ -53,7 +53,8 @@ fn channels(function: TokenStream, problems: &mut Problems) -> Option<Channels> 
     meaning.texts(&outputs)
 }
 
-/// Tokens that a macro has handed on, as if they had stood where they were written.
+/// Returns tokens that a macro has passed on: resolved at `site`, and located where they were
+/// written.
 fn placed(tokens: TokenStream, site: Span) -> TokenStream {
     let placed = tokens.into_iter().map(|mut token| {
         if let TokenTree::Group(group) = &token {

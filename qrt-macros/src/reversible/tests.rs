@@ -1,11 +1,11 @@
-//! The expansion as text, and what is found wrong, without a compiler around it.
+//! Tests of the expansion as text, and of problems, without a compiler around it.
 
 use super::expanded;
 use proc_macro2::TokenStream;
 use quote::quote;
 use std::path::Path;
 
-/// Compares with the file of this name, or writes it where `QRT_BLESS` is set.
+/// Compares with the file of this name, or writes it if `QRT_BLESS` is set.
 fn snapshot(name: &str, item: TokenStream) {
     let (tokens, problems) = expanded(&TokenStream::new(), item);
     assert_eq!(problems.messages(), [""; 0]);
@@ -29,7 +29,7 @@ fn snapshot(name: &str, item: TokenStream) {
     );
 }
 
-/// The codes of what is wrong.
+/// Returns the codes of the problems.
 fn codes(item: TokenStream) -> Vec<String> {
     let messages = expanded(&TokenStream::new(), item).1.messages();
     let code = |message: &String| {
@@ -105,8 +105,8 @@ fn what_a_register_reads_of_itself_is_undone_in_order() {
     assert_eq!(order(quote!(t[0] ^= x[0]; t[1] ^= t[0];)), [""; 0]);
 }
 
-/// `+=` and `-=` that follow each other may be taken back in any order, and so may `^=`; what
-/// stands between the two kinds, and a branch or a loop, has its place in the order.
+/// `+=` and `-=` that follow each other may be undone in any order, and so may `^=`. A statement
+/// between the two kinds, a branch and a loop keep their places in the order.
 #[test]
 fn neighbouring_additions_are_taken_back_in_any_order_and_nothing_else_is() {
     let undone = |done: TokenStream, last: TokenStream| {
@@ -130,7 +130,7 @@ fn neighbouring_additions_are_taken_back_in_any_order_and_nothing_else_is() {
     ] {
         assert_eq!(undone(sums.clone(), last.clone()), [""; 0], "{last}");
     }
-    // Twice what was done once, and once what was done twice.
+    // An inverse is missing, a change is made twice, and an inverse has the wrong sign.
     assert_eq!(undone(sums.clone(), quote!(t -= x; t += y;)), ["QRT0804"]);
     assert_eq!(
         undone(quote!(t += x; t += x;), quote!(t -= x;)),
@@ -153,7 +153,7 @@ fn neighbouring_additions_are_taken_back_in_any_order_and_nothing_else_is() {
     let apart = quote!(t += x; t ^= y; t += x;);
     assert_eq!(undone(apart, quote!(t -= x; t -= x; t ^= y;)), ["QRT0804"]);
 
-    // What is in a branch or a loop is added, too.
+    // Changes in a branch or a loop are additions, too.
     let inner = quote!(if z { t += y; } for _ in 0..2 { t += x; });
     let last = quote!(t -= x; for _ in 0..2 { t -= x; } if z { t -= y; });
     assert_eq!(undone(quote!(t += x; #inner), last.clone()), [""; 0]);
@@ -194,7 +194,7 @@ fn bits_are_taken_back_in_any_legal_order() {
             t[3] ^= y[0] & x[3]; t[2] ^= x[2] && y[1];),
         quote!(for i in 0..4 { t[i] ^= x[i] & y[3 - i]; } c ^= t[0];),
     );
-    // A sum is what has been added, whatever its bits have done in between.
+    // A sum is the total of its additions, regardless of changes of its bits in between.
     both(
         quote!(t += x; t[1] ^= z; c ^= t[2]; t[1] ^= z; t += y;),
         quote!(t -= x; t -= y; t += x; c ^= t[2]; t -= x;),
@@ -211,13 +211,13 @@ fn bits_are_taken_back_in_any_legal_order() {
         quote!(t ^= y; c ^= z & y[0]; if z { t ^= y; t ^= x; }),
         quote!(t ^= y; c ^= z & y[0]; if z { t ^= x; }),
     );
-    // What was read has been other in between, in other bits.
+    // The register that was read has changed in between, in other bits.
     both(
         quote!(t[0] ^= x[0]; c ^= t[0]; t[1] ^= x[1];),
         quote!(c ^= t[0]; t[1] ^= x[1]; t[0] ^= x[0];),
         quote!(t[0] ^= x[0]; c ^= t[0]; t[1] ^= x[1];),
     );
-    // A swap of scratch is a swap of what is in it.
+    // A swap of scratch registers swaps their contents.
     both(
         quote!(let mut s: UInt<4> = 0; s += x; t += y; swap(s, t);),
         quote!(t -= x; swap(s, t); t -= y; c ^= z; c ^= z;),
@@ -282,7 +282,7 @@ fn parts_are_taken_back_over_constants() {
         root(quote!(#rest for j in i + 2..N { step[i + j + 1] ^= root[j]; })),
         ["QRT0804"]
     );
-    // What is computed on the way has its order.
+    // Intermediate results keep their order.
     let way = |undo: TokenStream| {
         codes(quote! {
             fn f<const W: u32>(x: &UInt<W>, y: &UInt<W>, z: &mut UInt<W>) {
@@ -356,7 +356,7 @@ fn many_branches_are_followed_bit_by_bit() {
     assert_eq!(found, [""; 0]);
 }
 
-/// What is too long to be followed bit by bit is followed as wholes.
+/// Loops that are too long to be followed bit by bit are followed as wholes.
 #[test]
 fn long_loops_are_followed_as_wholes() {
     let long = |undo: TokenStream| {
@@ -595,7 +595,7 @@ fn what_constants_must_fulfil_is_asked_of_them() {
     }
 }
 
-/// The passes of loops within loops count together, those of a triangle as those of its square.
+/// The passes of nested loops count together. Those of a triangle count as those of its square.
 #[test]
 fn the_passes_of_all_loops_around_are_bounded() {
     for item in [

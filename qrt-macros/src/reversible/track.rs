@@ -1,8 +1,9 @@
-//! What each register holds: that scratch registers are zero again, and that what a `within!` read
-//! is there when it is undone.
+//! Tracking of the content of each register. It checks that scratch registers are zero again, and
+//! that the operands of a `within!` are unchanged when it is undone.
 //!
-//! Where all widths and bounds are known, a routine is followed bit by bit, and loops pass by pass
-//! ([`exact`]). In a routine over constants, registers and loops are followed as wholes ([`lists`]).
+//! If all widths and bounds are known, a routine is followed bit by bit, and loops pass by pass
+//! ([`exact`]). In a routine over constants, registers and loops are followed as wholes
+//! ([`lists`]).
 
 mod blame;
 mod content;
@@ -16,7 +17,7 @@ use super::problem::Problems;
 use exact::{Exact, Unknown};
 use std::rc::Rc;
 
-/// Looks through a routine's body.
+/// Checks a routine's body.
 pub(super) fn check(parameters: &[Rc<Register>], body: &[Statement], problems: &mut Problems) {
     let exact = Exact::new(parameters).and_then(|mut exact| {
         exact.run(body)?;

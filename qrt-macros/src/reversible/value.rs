@@ -1,4 +1,4 @@
-//! Expressions, computed out of place: what is computed first, and how the result is read.
+//! Expressions, computed out of place: their temporaries, and the way to read the result.
 
 use super::dim::{Dim, Linear};
 use super::ir::{Bit, Number, NumberKind, Register, Size};
@@ -6,23 +6,23 @@ use super::scope::text;
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 
-/// A name of the generated code's own, which no name of the author's can be mixed up with.
+/// Returns a name of the generated code, which cannot collide with an author's name.
 pub(super) fn own(name: &str) -> Ident {
     Ident::new(name, Span::mixed_site())
 }
 
-/// What a statement computes before and undoes after it.
+/// The temporaries that a statement computes before it and undoes after it.
 #[derive(Default)]
 pub(super) struct Temporaries {
     pub(super) computed: Vec<TokenStream>,
     names: Vec<Ident>,
-    /// Registers that can't be read while the statement runs: their bits are copied.
+    /// Registers that cannot be read while the statement runs: their bits are copied.
     pub(super) copied: Vec<syn::Ident>,
-    /// How many the routine has had before.
+    /// Number of temporaries that the routine has had before.
     first: usize,
 }
 
-/// A number, as it is read.
+/// A number, as an operation reads it.
 pub(super) enum Value {
     Constant(TokenStream),
     Word(View),
@@ -33,7 +33,7 @@ pub(super) enum Value {
 pub(super) struct View {
     /// The tokens of a reference to the register.
     register: TokenStream,
-    /// Its [`qrt_circuit::Word`], where all of it is read.
+    /// Its [`qrt_circuit::Word`], if all of it is read.
     whole: Option<TokenStream>,
     first: Linear,
     width: Dim,
@@ -103,7 +103,7 @@ impl Value {
 }
 
 impl Temporaries {
-    /// None yet, after so many of other statements.
+    /// Creates an empty list, after `first` temporaries of other statements.
     pub(super) fn after(first: usize) -> Self {
         Self {
             first,
@@ -111,7 +111,7 @@ impl Temporaries {
         }
     }
 
-    /// Undoes what was computed, last first.
+    /// Returns code that undoes the temporaries, last first.
     pub(super) fn undone(&self) -> TokenStream {
         let names = self.names.iter().rev();
         let machine = own("machine");
@@ -131,12 +131,12 @@ impl Temporaries {
         name
     }
 
-    /// An operand of an operation.
+    /// Returns an operand of an operation.
     pub(super) fn operand(&mut self, number: &Number) -> TokenStream {
         self.value(number).operand()
     }
 
-    /// An operand, shifted up to the first bit of a place.
+    /// Returns an operand, shifted up to the first bit of a place.
     pub(super) fn operand_at(&mut self, number: &Number, first: &Linear) -> TokenStream {
         self.value(number).shifted(first).operand()
     }
@@ -235,7 +235,7 @@ impl Temporaries {
             let shift = view.shift.minus(by);
             return Value::Word(View { shift, ..view });
         }
-        // Which of the two is more is not known: the zeros below become bits.
+        // It is not known here which of the two is greater: the zeros below become bits.
         let (declared, word) = (declaration(inner, &inner.size.width), view.tokens());
         let copy = self.operation("copy", &quote!(#declared, #word));
         let view = View::temporary(&copy, width, inner.size.signed);
@@ -245,7 +245,7 @@ impl Temporaries {
         })
     }
 
-    /// A product without its lowest bits; its size is that of `result`.
+    /// Computes a product without its lowest bits; its size is that of `result`.
     fn product(&mut self, number: &Number, drop: &Linear, result: &Number) -> Ident {
         if let NumberKind::Pointed(inner) = &number.kind {
             return self.product(inner, drop, result);
@@ -269,7 +269,7 @@ impl Temporaries {
         }
     }
 
-    /// A sum, its terms aligned to the result's last bit.
+    /// Computes a sum, with its terms aligned to the result's last bit.
     fn sum(&mut self, terms: &[(bool, Number)], result: &Number) -> Ident {
         let declared = declaration(result, &result.size.width);
         let fraction = &result.size.fraction;
@@ -292,7 +292,7 @@ impl Temporaries {
         name.unwrap_or_else(|| format_ident!("_"))
     }
 
-    /// A bit of a register or of what is computed.
+    /// Returns a bit of a register or of a temporary.
     pub(super) fn bit(&mut self, bit: &Bit) -> TokenStream {
         match bit {
             Bit::Constant(value) => {
@@ -353,7 +353,7 @@ impl Temporaries {
         }
     }
 
-    /// A bit that is not negated, as an operand, shifted up to the first bit of a place.
+    /// Returns a bit that is not negated as an operand, shifted up to the first bit of a place.
     pub(super) fn bit_operand(&mut self, bit: &Bit, first: &Linear) -> TokenStream {
         if let Bit::At(..) | Bit::Constant(_) | Bit::Not(_) = bit {
             let number = super::number::truth(bit.clone(), TokenStream::new());
@@ -373,7 +373,7 @@ impl Temporaries {
         self.operation("less", &quote!(#declared, #a, #b))
     }
 
-    /// Two numbers in units of the lower last bit of the two.
+    /// Returns two numbers in units of the lower last bit of the two.
     fn aligned(&mut self, a: &Number, b: &Number) -> [TokenStream; 2] {
         let more = a.size.fraction.minus(&b.size.fraction);
         let less = more.times(-1);

@@ -1,10 +1,10 @@
-//! The right thing to write, in the macro's form.
+//! Advice: the right thing to write, in the macro's form.
 
 use qrt_core::syntax::{
     Expected, Material, MeshFile, Sampling, Structure, What, Words, codes, listed, nearest,
 };
 
-/// Keys and entries as they may be written.
+/// Examples of keys and entries.
 const EXAMPLES: &[(&str, &str)] = &[
     ("name", "name: \"cornell-box\""),
     (
@@ -59,13 +59,13 @@ const EXAMPLES: &[(&str, &str)] = &[
     ("confidence", "confidence: 0.95"),
 ];
 
-/// A key, or an entry of a scene, as it may be written.
+/// Returns an example of a key, or of an entry of a scene.
 pub(crate) fn example(key: &str) -> Option<&'static str> {
     let found = EXAMPLES.iter().find(|(name, _)| *name == key);
     found.map(|(_, example)| *example)
 }
 
-/// A key of the record `name`, as it may be written.
+/// Returns an example of a key of the record `name`.
 pub(crate) fn record(name: &str) -> String {
     let key = match name {
         "perspective" | "orthographic" => "eye",
@@ -90,7 +90,7 @@ pub(crate) fn record(name: &str) -> String {
     format!("`{}`", example(key).unwrap_or(key))
 }
 
-/// A problem of the checker in the words of the macro.
+/// Returns a problem of the checker in the words of the macro.
 pub(crate) fn words(what: &What) -> Words {
     let mut words = match what {
         What::Structure(Structure::UnknownWord { word, noun, words }) => {
@@ -107,7 +107,7 @@ pub(crate) fn words(what: &What) -> Words {
     words
 }
 
-/// What to do about a problem, where tokens are written otherwise than text.
+/// Returns the help for a problem, if tokens are written differently from text.
 fn help(what: &What) -> Option<String> {
     let help = match what {
         What::Structure(Structure::MissingKeys { keys, .. }) => {
@@ -172,7 +172,7 @@ fn help(what: &What) -> Option<String> {
     Some(help.to_owned())
 }
 
-/// How a list of so many elements is written.
+/// Returns the form of a list of `count` elements.
 fn of_length(count: usize) -> Option<String> {
     let form = match count {
         2 => "write `(a, b)`",
@@ -188,7 +188,7 @@ fn one_of(words: &[&str]) -> String {
     format!("write {}", listed(&words, "or"))
 }
 
-/// A word of scenes as it is spelled in tokens.
+/// Returns a word of scenes as it is spelled in tokens.
 fn spelled(word: &str) -> String {
     word.replace('-', "_")
 }
@@ -201,7 +201,7 @@ mod tests {
 
     #[test]
     fn every_record_has_a_key_that_may_be_written() {
-        // What is written after these is no record of keys, or one of a kind.
+        // The values of these are no records of keys, or are records of a kind.
         let others = [
             "name", "camera", "material", "quad", "triangle", "const", "for",
         ];

@@ -1,4 +1,4 @@
-//! The entries of a scene, gathered into the tree that YAML becomes too.
+//! The entries of a scene, gathered into the same tree that YAML becomes.
 
 use super::advice::example;
 use super::tokens::{Token, join, place_of};
@@ -31,12 +31,12 @@ pub(super) const ENTRIES: [&str; 17] = [
 /// Entries that a loop may repeat.
 const REPEATED: [&str; 6] = ["quad", "triangle", "mesh", "depth", "const", "for"];
 
-/// What a primitive's or a depth's author called it.
+/// The origin of a primitive or a depth, with its author's label.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Origin {
     /// `quad`, `triangle`, `mesh` or `depth`.
     pub(crate) kind: &'static str,
-    /// The author's label; none if there is none.
+    /// The author's label; `None` if there is none.
     pub(crate) label: Option<String>,
     /// The loops' variables, such as `i = 3`; empty outside of loops.
     pub(crate) pass: String,
@@ -56,7 +56,7 @@ pub(crate) struct Body {
     /// The origin of each element of `depths`.
     pub(crate) rays: Vec<Origin>,
     pub(super) labels: Vec<(String, Span)>,
-    /// How many passes loops have taken so far.
+    /// Number of passes that loops have taken so far.
     pub(super) passes: usize,
 }
 
@@ -127,7 +127,7 @@ impl Body {
         }
     }
 
-    /// Steps over a doc comment; another attribute is a fault.
+    /// Skips a doc comment; reports any other attribute.
     fn attribute(&mut self, tokens: &[Token], at: usize) -> usize {
         let body = tokens.get(at + 1);
         let inner = body.and_then(|token| token.group(Delimiter::Bracket));
@@ -147,8 +147,8 @@ impl Body {
         at + 1 + usize::from(inner.is_some())
     }
 
-    /// Where the entry at `at` ends, and whether a comma separates it from the next; reports a
-    /// missing one.
+    /// Returns the end of the entry at `at`, and whether a comma separates it from the next;
+    /// reports a missing comma.
     fn end(&mut self, tokens: &[Token], at: usize) -> (usize, bool) {
         for next in at + 1..tokens.len() {
             let token = &tokens[next];
@@ -240,7 +240,7 @@ impl Body {
                         Some(near) => format!("did you mean `{near}`?"),
                         None => format!("there are {}", listed(&ENTRIES, "and")),
                     });
-                // What was meant is there, after all.
+                // The entry that the author meant counts as present.
                 let absent = |key: &str| self.blocks.iter().all(|block| block.key != key);
                 if let Some(near @ ("name" | "camera" | "film")) = near
                     && absent(near)
@@ -251,7 +251,7 @@ impl Body {
         }
     }
 
-    /// Adds an entry of which there is one.
+    /// Adds an entry that a scene has once.
     fn block(&mut self, key: &str, at: Span, node: Node) {
         self.reader.enter(&mut self.blocks, entry(key, at, node));
     }
@@ -263,7 +263,7 @@ impl Body {
         fault.help(format!("write `{}`", example(key).unwrap_or(key)));
     }
 
-    /// What follows the colon after `first`.
+    /// Returns the tokens after the colon that follows `first`.
     fn after_colon<'t>(&mut self, first: &Token, rest: &'t [Token]) -> Option<&'t [Token]> {
         if let [colon, rest @ ..] = rest
             && colon.is_sign(':')
@@ -277,7 +277,7 @@ impl Body {
         None
     }
 
-    /// The braces that `rest` is, and what stands in them.
+    /// Returns the place of the braces that `rest` consists of, and the tokens in them.
     pub(super) fn braces<'t>(
         &mut self,
         key: &str,
@@ -310,7 +310,7 @@ impl Body {
         None
     }
 
-    /// `kind { ... }`, as a map with one key.
+    /// Reads `kind { ... }` as a map with one key.
     pub(super) fn variant(
         &mut self,
         key: &str,
@@ -338,7 +338,8 @@ impl Body {
         }
     }
 
-    /// The tree; `place` is that of the scene's name, which is called `name` unless it says so.
+    /// Returns the tree. `place` is that of the scene's name; `name` is the name, unless an entry
+    /// gives another.
     pub(crate) fn tree(&mut self, name: &str, place: Span) -> Node {
         let mut entries = std::mem::take(&mut self.blocks);
         if entries.iter().all(|entry| entry.key != "name") {

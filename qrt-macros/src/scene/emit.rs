@@ -1,4 +1,4 @@
-//! What a scene is in Rust: a type, and the checked scene as a function of it.
+//! The Rust of a scene: a type, and the checked scene as a function of it.
 
 use super::{Header, Parsed, Source};
 use proc_macro2::{Literal, TokenStream};
@@ -6,7 +6,7 @@ use qrt_core::valid::ValidScene;
 use quote::quote;
 use std::path::{Path, PathBuf};
 
-/// A scene with nothing wrong, and what `generated` adds to it.
+/// Returns the expansion of a scene without errors, with the code that was `generated` for it.
 pub(crate) fn expansion(
     parsed: &Parsed,
     valid: &ValidScene,
@@ -26,13 +26,13 @@ pub(crate) fn expansion(
         _ => None,
     };
     let files = valid.files().iter().map(|file| {
-        // What the scene calls it, and where it is.
+        // The file's name in the scene, and its bytes.
         let own = folder.and_then(|folder| file.strip_prefix(folder).ok());
         let name = Literal::string(&own.unwrap_or(file).to_string_lossy());
         let bytes = bytes(file, root);
         quote!((#name, #bytes))
     });
-    // Cargo builds anew when a file changes that is included.
+    // Cargo builds again when an included file changes.
     let watched = match &parsed.source {
         Source::File(loaded) => {
             let bytes = bytes(Path::new(&loaded.source.name), root);
@@ -72,7 +72,7 @@ pub(crate) fn expansion(
     }
 }
 
-/// What can be said of a scene with errors: enough for the rest of a program to be understood.
+/// Returns the expansion of a scene with errors: enough for the rest of a program to be understood.
 pub(crate) fn stub(header: &Header) -> TokenStream {
     let Header {
         attributes,
@@ -102,7 +102,7 @@ pub(crate) fn stub(header: &Header) -> TokenStream {
     }
 }
 
-/// An expression for the bytes of `file`, which is relative to `root`.
+/// Returns an expression for the bytes of `file`, which is relative to `root`.
 fn bytes(file: &Path, root: &Path) -> TokenStream {
     let manifest = std::env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from);
     if file.is_relative() && manifest.as_deref() == Some(root) {
@@ -115,7 +115,7 @@ fn bytes(file: &Path, root: &Path) -> TokenStream {
     quote!(::core::include_bytes!(#file))
 }
 
-/// The scene's size, in a sentence.
+/// Describes the scene's size, in a sentence.
 fn about(valid: &ValidScene) -> String {
     let scene = valid.scene();
     let count = |count: usize, noun: &str| {

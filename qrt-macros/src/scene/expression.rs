@@ -1,5 +1,5 @@
-//! Expressions: tokens to the text that the scene's expression language reads, with the author's
-//! constants put in, and a way back from the text's bytes to the tokens.
+//! Expressions: from tokens to the text that the scene's expression language reads, with the
+//! author's constants put in, and back from the text's bytes to the tokens.
 
 use super::fault::Faults;
 use super::names::{Meaning, Names};
@@ -10,7 +10,7 @@ use qrt_core::syntax::tree::Span;
 use qrt_core::syntax::{Expression as Fault, Problem, What, codes, number as number_text};
 use std::ops::Range;
 
-/// An expression's text, and where its parts stand.
+/// An expression's text, and the places of its parts.
 #[derive(Debug, Default)]
 pub(crate) struct Expression {
     pub(crate) text: String,
@@ -18,13 +18,13 @@ pub(crate) struct Expression {
 }
 
 impl Expression {
-    /// The text of `tokens`; a name of the author's own becomes its value.
+    /// Returns the text of `tokens`. A name of the author's becomes its value.
     pub(crate) fn of(tokens: &[Token], names: &Names, faults: &mut Faults) -> Option<Self> {
         let mut expression = Self::default();
         expression.add(tokens, names, faults).then_some(expression)
     }
 
-    /// A text, all of which stands at one place.
+    /// Creates an expression of a text, all of which is at one place.
     pub(crate) fn whole(text: String, place: Span) -> Self {
         let pieces = vec![(0..text.len(), place)];
         Self { text, pieces }
@@ -36,7 +36,7 @@ impl Expression {
             match &token.kind {
                 Kind::Word(word) => match names.value(word) {
                     None => self.piece(word, token.place()),
-                    // What is faulty goes no further than this text.
+                    // The fault has been reported; 1 stands for the value.
                     Some(Meaning::Faulty) => self.piece("1", token.place()),
                     Some(Meaning::Number(value)) => {
                         let text = number_text(value);
@@ -85,7 +85,7 @@ impl Expression {
         self.pieces.push((start..self.text.len(), place));
     }
 
-    /// The place of the tokens of these bytes; beyond the end, that of the last token.
+    /// Returns the place of the tokens of these bytes; beyond the end, that of the last token.
     pub(crate) fn place(&self, bytes: &Range<usize>) -> Option<Span> {
         let touched = |range: &Range<usize>| range.start < bytes.end && bytes.start < range.end;
         let mut touched = self.pieces.iter().filter(|(range, _)| touched(range));
@@ -114,7 +114,7 @@ impl Expression {
     }
 }
 
-/// Whether a number is without a suffix; reports one.
+/// True if a number has no suffix; reports a suffix.
 #[cfg_attr(test, track_caller)]
 fn is_bare(token: &Token, digits: &str, suffix: &str, faults: &mut Faults) -> bool {
     if suffix.is_empty() {
@@ -127,9 +127,9 @@ fn is_bare(token: &Token, digits: &str, suffix: &str, faults: &mut Faults) -> bo
     false
 }
 
-/// A number: its text as written if it is a literal, and its value.
+/// Returns the text of a number: as written if it is a literal, otherwise its value.
 ///
-/// A number whose names are faulty is faulty, but nothing more is said of it.
+/// A number whose names are faulty is `None`, without a further report.
 pub(crate) fn number(
     tokens: &[Token],
     names: &Names,
@@ -167,7 +167,7 @@ pub(crate) fn number(
     }
 }
 
-/// As [`number`], but the value alone.
+/// Returns the value of the number that [`number`] reads.
 pub(crate) fn value(
     tokens: &[Token],
     names: &Names,

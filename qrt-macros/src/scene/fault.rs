@@ -1,4 +1,4 @@
-//! What is wrong with a macro's input, and how the compiler is told.
+//! Errors in a macro's input, and their reports to the compiler.
 
 use super::tokens::Table;
 use proc_macro2::{Delimiter, Group, Literal, Punct, Spacing, Span, TokenStream, TokenTree};
@@ -6,7 +6,7 @@ use qrt_core::syntax::tree;
 use quote::{quote, quote_spanned};
 use std::fmt::Write as _;
 
-/// One thing that is wrong, at a place.
+/// One error, at a place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Fault {
     /// The stable code of the fault: `QRT0700`.
@@ -18,14 +18,14 @@ pub(crate) struct Fault {
     also: Option<(tree::Span, String)>,
     /// The right thing to write.
     pub(crate) help: Option<String>,
-    /// What another report says, codes and all.
+    /// The text of another report, codes included.
     body: Option<String>,
-    /// Whether it was found in a loop, whose every pass may find it again.
+    /// True if it was found in a loop, of which every pass may find it again.
     repeats: bool,
 }
 
 impl Fault {
-    /// Says in which pass of a loop the fault was found.
+    /// States the pass of a loop in which the fault was found.
     pub(crate) fn in_pass(&mut self, pass: &str) -> &mut Self {
         self.repeats = true;
         self.note(format!("where {pass}"))
@@ -37,7 +37,7 @@ impl Fault {
         self
     }
 
-    /// Adds another place that matters, and why.
+    /// Adds another place that matters, and the reason.
     pub(crate) fn also(&mut self, place: tree::Span, why: impl Into<String>) -> &mut Self {
         self.also = Some((place, why.into()));
         self
@@ -55,12 +55,12 @@ impl Fault {
         self
     }
 
-    /// The compiler's names of its place's two ends.
+    /// Returns the compiler's spans of the two ends of its place.
     pub(crate) fn ends(&self, table: &Table) -> (Span, Span) {
         table.ends(self.place)
     }
 
-    /// The text that the compiler shows.
+    /// Returns the text that the compiler shows.
     pub(crate) fn text(&self, table: &Table) -> String {
         if let Some(body) = &self.body {
             return format!("{}\n\n{}", self.message, body.trim_end());
@@ -92,7 +92,7 @@ impl Fault {
 pub(crate) struct Faults(Vec<Fault>);
 
 impl Faults {
-    /// Adds one, to be described further.
+    /// Adds a fault, and returns it for further description.
     #[cfg_attr(test, track_caller)]
     pub(crate) fn add(
         &mut self,
@@ -117,12 +117,12 @@ impl Faults {
         &mut self.0[index]
     }
 
-    /// How many faults there are.
+    /// Number of faults.
     pub(crate) fn count(&self) -> usize {
         self.0.len()
     }
 
-    /// The faults in the order of their places; of those that loops repeat, the first.
+    /// Returns the faults in the order of their places; of those that loops repeat, the first.
     pub(crate) fn finalize(mut self) -> Vec<Fault> {
         self.0
             .sort_by_key(|fault| (fault.place.start, fault.place.end, fault.code));
@@ -139,8 +139,8 @@ impl Faults {
     }
 }
 
-/// The compiler's warning `text` at a span. A macro can't warn on stable Rust; but what is deprecated
-/// is warned about where it is used, and its note says why.
+/// Returns the compiler's warning `text` at a span. A macro cannot warn on stable Rust. But the
+/// compiler warns about the use of a deprecated item, and shows its note.
 pub(crate) fn compile_warning(text: &str, (first, _): (Span, Span)) -> TokenStream {
     let note = Literal::string(text);
     let used = quote_spanned!(first=> QRT_WARNING);
@@ -153,7 +153,7 @@ pub(crate) fn compile_warning(text: &str, (first, _): (Span, Span)) -> TokenStre
     }
 }
 
-/// The compiler's error `text` from one span to another.
+/// Returns the compiler's error `text` from one span to another.
 pub(crate) fn compile_error(text: &str, (first, last): (Span, Span)) -> TokenStream {
     let mut words: TokenStream = quote_spanned!(first=> ::core::compile_error);
     let mut bang = Punct::new('!', Spacing::Alone);

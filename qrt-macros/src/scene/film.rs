@@ -1,4 +1,4 @@
-//! The film: `64 x 64`, which to Rust may be one token, two or three.
+//! The film: `64 x 64`, which Rust may read as one token, two or three.
 
 use super::body::Body;
 use super::tokens::{Kind, Token, place_of};
@@ -8,7 +8,7 @@ use qrt_core::syntax::tree::{Node, Value};
 use std::sync::Arc;
 
 impl Body {
-    /// Reads what follows `film:`.
+    /// Reads the tokens after `film:`.
     pub(super) fn film(&mut self, first: &Token, rest: &[Token]) -> Node {
         let Some(place) = place_of(rest) else {
             self.form(first.place(), "`film` has no value", "film");
@@ -35,7 +35,7 @@ impl Body {
     }
 }
 
-/// The two sides of `64 x 64`, whose parts may be one token or several.
+/// Returns the two sides of `64 x 64`, whose parts may be one token or several.
 fn sides(tokens: &[Token]) -> Option<(Vec<Token>, Vec<Token>)> {
     let at = tokens.iter().position(|token| match &token.kind {
         Kind::Word(word) => split_x("", word).is_some(),
@@ -63,7 +63,7 @@ fn sides(tokens: &[Token]) -> Option<(Vec<Token>, Vec<Token>)> {
     (!width.is_empty() && !height.is_empty()).then_some((width, height))
 }
 
-/// `digits`, and the digits after the `x` that `text` begins with.
+/// Returns `digits`, and the digits after the `x` that `text` begins with.
 fn split_x(digits: &str, text: &str) -> Option<(String, String)> {
     let after = text.strip_prefix('x')?.replace('_', "");
     let is_number = after.bytes().all(|byte| byte.is_ascii_digit());

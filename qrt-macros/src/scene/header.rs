@@ -1,4 +1,4 @@
-//! What stands before a scene: docs, attributes, visibility and its name.
+//! The beginning of a scene: docs, attributes, visibility and its name.
 
 use super::fault::Faults;
 use proc_macro2::{Ident, TokenStream};
@@ -6,7 +6,7 @@ use qrt_core::syntax::tree::Span;
 use qrt_core::syntax::{Report, codes};
 use syn::parse::Parser as _;
 
-/// What a scene is called, and what stands before that.
+/// A scene's name, and the tokens before it.
 #[derive(Debug)]
 pub(crate) struct Header {
     /// The attributes and doc comments in front of the scene.
@@ -15,12 +15,12 @@ pub(crate) struct Header {
     pub(crate) visibility: TokenStream,
     /// The name of the scene's type.
     pub(crate) name: Ident,
-    /// Where the path of the scene's file stands, if it has one.
+    /// The place of the path of the scene's file, if it has one.
     pub(super) path: Option<Span>,
 }
 
 impl Header {
-    /// Of its attributes, those that all of what it expands to must have.
+    /// Returns the attributes that all of the scene's expansion must have: its `cfg`s.
     pub(crate) fn conditions(&self) -> TokenStream {
         let attributes = syn::Attribute::parse_outer.parse2(self.attributes.clone());
         let attributes = attributes.unwrap_or_default().into_iter();
@@ -28,7 +28,7 @@ impl Header {
         conditions.map(quote::ToTokens::into_token_stream).collect()
     }
 
-    /// The scene's name unless its entries give another: `cornell-box` for `CornellBox`.
+    /// Returns the scene's name unless its entries give another: `cornell-box` for `CornellBox`.
     pub(crate) fn scene_name(&self) -> String {
         let text = self.name.to_string();
         let text = text.strip_prefix("r#").unwrap_or(&text).replace('_', "-");
@@ -50,7 +50,7 @@ impl Header {
         name
     }
 
-    /// Adds what is wrong with the file, after the words `what`.
+    /// Adds the errors of the file, after the words `what`.
     pub(crate) fn report(&self, what: &str, report: &Report, faults: &mut Faults) {
         let place = self.path.unwrap_or_default();
         let code = report.codes().first().copied().unwrap_or(codes::UNREADABLE);

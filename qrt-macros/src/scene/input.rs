@@ -16,11 +16,11 @@ use quote::{ToTokens as _, quote};
 use std::path::Path;
 use std::sync::Arc;
 
-/// A scene that was read, checked if nothing is wrong with it.
+/// A scene that was read, and its checked form if it has no errors.
 pub(crate) type Read = (Parsed, Option<ValidScene>);
 
-/// What `qrt!` expands to, unless functions have to be asked for first; files are relative to
-/// `root`. Its warnings are left out where something is an error.
+/// Returns the expansion of `qrt!`, or the request for a function that its scenes name. Files are
+/// relative to `root`. Warnings are left out if there are errors.
 pub(crate) fn expand(asked: Asked, root: &Path) -> TokenStream {
     if let Some(question) = asked.next() {
         return question;
@@ -50,7 +50,7 @@ pub(crate) fn expand(asked: Asked, root: &Path) -> TokenStream {
     out
 }
 
-/// The compiler's warnings of a scene.
+/// Returns the compiler's warnings of a scene.
 fn warnings((parsed, valid): &Read, table: &Table) -> TokenStream {
     let mut warnings = Faults::default();
     if let Some(valid) = valid {
@@ -64,7 +64,7 @@ fn warnings((parsed, valid): &Read, table: &Table) -> TokenStream {
     shown.collect()
 }
 
-/// A scene's circuit as Rust.
+/// Returns a scene's circuit as Rust.
 fn generated(parsed: &Parsed, valid: &ValidScene) -> Result<TokenStream, Vec<Problem>> {
     let header = &parsed.header;
     let labels = parsed.primitives.iter();
@@ -77,7 +77,7 @@ fn generated(parsed: &Parsed, valid: &ValidScene) -> Result<TokenStream, Vec<Pro
     )
 }
 
-/// The scenes of `input`, which may name these terms.
+/// Reads the scenes of `input`, which may name `terms`.
 pub(crate) fn read(
     input: TokenStream,
     terms: &Terms,
@@ -110,7 +110,7 @@ pub(crate) fn read(
     scenes
 }
 
-/// Token trees without the invisible brackets of other macros' variables.
+/// Collects token trees without the invisible brackets of other macros' variables.
 pub(super) fn flatten(stream: TokenStream, out: &mut Vec<TokenTree>) {
     for tree in stream {
         match tree {
@@ -122,7 +122,7 @@ pub(super) fn flatten(stream: TokenStream, out: &mut Vec<TokenTree>) {
     }
 }
 
-/// What follows a scene's name: its entries, or a file.
+/// The tokens after a scene's name: its entries, or a file.
 enum Rest<'t> {
     Body(&'t [Token]),
     Path(&'t str, Span),
@@ -145,17 +145,17 @@ impl<'t> Input<'t> {
         self.tokens.get(self.at)
     }
 
-    /// The trees from `start` to here, as they were written.
+    /// Returns the trees from `start` to here, as they were written.
     fn since(&self, start: usize) -> TokenStream {
         self.trees[start..self.at].iter().cloned().collect()
     }
 
-    /// Reports what stands here in place of `expected`, and goes on after the next braces.
+    /// Reports the token here in place of `expected`, and continues after the next braces.
     #[cfg_attr(test, track_caller)]
     fn fail<T>(&mut self, code: &'static str, expected: &str) -> Option<T> {
         let last = self.tokens.last().map(Token::place).unwrap_or_default();
         let (place, found) = match self.peek() {
-            // Of a block, its opening bracket is enough.
+            // For a block, its opening bracket is enough.
             Some(token) => (tokens::place(token.first, token.first), token.found()),
             None => (last, "the end".to_owned()),
         };
@@ -247,7 +247,7 @@ impl<'t> Input<'t> {
         Some((parsed, valid.filter(|_| is_sound)))
     }
 
-    /// Reports a name that an earlier scene has, which is compiled under the same conditions.
+    /// Reports a name that an earlier scene has under the same conditions.
     fn is_taken(&mut self, header: &Header, place: Span) -> bool {
         let name = header.name.to_string();
         let conditions = header.conditions().to_string();
@@ -282,7 +282,7 @@ impl<'t> Input<'t> {
         }
     }
 
-    /// `<Fixed<2, 14>>`, as the precision that it means.
+    /// Reads `<Fixed<2, 14>>` as a precision.
     fn format(&mut self) -> Option<Entry> {
         if !self.peek()?.is_sign('<') {
             return None;
@@ -328,7 +328,7 @@ impl<'t> Input<'t> {
         None
     }
 
-    /// What follows the name: braces, or `from` and a path.
+    /// Reads the tokens after the name: braces, or `from` and a path.
     fn rest(&mut self) -> Option<Rest<'t>> {
         let token = self.peek();
         if let Some(inner) = token.and_then(|token| token.group(Delimiter::Brace)) {
@@ -356,7 +356,7 @@ impl<'t> Input<'t> {
     }
 }
 
-/// The names of all constants of a scene.
+/// Returns the names of all constants of a scene.
 fn constants(tokens: &[Token]) -> Vec<String> {
     let pairs = tokens.windows(2).filter(|pair| pair[0].is_word("const"));
     pairs
@@ -364,7 +364,7 @@ fn constants(tokens: &[Token]) -> Vec<String> {
         .collect()
 }
 
-/// Adds the precision that a number format means, unless the scene has its own.
+/// Adds the precision of a number format; reports it if the scene has its own.
 fn add_precision(body: &mut Body, precision: Entry) {
     let own = body.blocks.iter().find(|entry| entry.key == "precision");
     let Some(own) = own else {

@@ -1,4 +1,4 @@
-//! Constants and loops of the author's own.
+//! The author's constants and loops.
 
 use super::body::{Body, ENTRIES};
 use super::expression::value;
@@ -79,7 +79,7 @@ impl Body {
             .help(help);
     }
 
-    /// `for i in 0..4 { ... }`, from the token `at`; where it ends.
+    /// Reads `for i in 0..4 { ... }` from the token `at`, and returns its end.
     pub(super) fn repeat(&mut self, tokens: &[Token], at: usize) -> usize {
         let brace = |token: &Token| token.group(Delimiter::Brace).is_some();
         let end = tokens[at..].iter().position(|t| brace(t) || t.is_sign(','));
@@ -112,7 +112,7 @@ impl Body {
             .help("write `for i in 0..4 { ... }`");
     }
 
-    /// The values of a loop's variable.
+    /// Returns the values of a loop's variable.
     fn range(&mut self, header: &[Token], range: &[Token]) -> Option<Passes> {
         if let [list] = range
             && let Some(inner) = list.group(Delimiter::Bracket)
@@ -143,7 +143,7 @@ impl Body {
         Some(Passes::Counted(from, to + f64::from(u8::from(inclusive))))
     }
 
-    /// One end of a range, which must be a whole number.
+    /// Reads one end of a range, which must be a whole number.
     fn whole(&mut self, tokens: &[Token]) -> Option<f64> {
         let reader = &mut self.reader;
         let end = value(tokens, &reader.names, &reader.later, &mut reader.faults)?;
@@ -183,7 +183,7 @@ impl Body {
             self.entries(body, true);
             self.reader.names.keep(known);
             if self.reader.faults.count() > faults {
-                // The next pass would say the same.
+                // The next pass would report the same.
                 break;
             }
         }
@@ -192,7 +192,7 @@ impl Body {
 
 /// The values of a loop's variable.
 enum Passes {
-    /// From the first to before the second.
+    /// Numbers from the first up to the second, without it.
     Counted(f64, f64),
     Listed(Vec<f64>),
 }

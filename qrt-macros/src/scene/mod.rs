@@ -1,7 +1,7 @@
-//! `qrt!`: tokens to a checked scene, and back to what says it in Rust.
+//! `qrt!`: from tokens to a checked scene, and from there to Rust.
 //!
 //! The tokens become the same tree that YAML text becomes, with the tokens' numbers for places, and
-//! the one checker does the rest: what it says of a path in the tree is shown at the path's tokens.
+//! the one checker does the rest. A problem at a path in the tree is shown at the path's tokens.
 
 mod advice;
 mod body;
@@ -34,17 +34,17 @@ use qrt_core::syntax::{At, Problem, Step, Structure, What, codes};
 use qrt_core::valid::ValidScene;
 use std::path::Path as FilePath;
 
-/// What is said before the errors of a file.
+/// The words before the errors of a file.
 const REFUSED: &str = "this file is not a scene that qrt can take";
 
-/// A scene of a macro, and where its parts were written.
+/// A scene of a macro, and the places of its parts.
 #[derive(Debug)]
 pub(crate) struct Parsed {
     /// Attributes, visibility and name of the type that stands for it.
     pub(crate) header: Header,
-    /// The labels of its primitives, by their number in the scene; none for a scene of a file.
+    /// The labels of its primitives, by their number in the scene; empty for a scene of a file.
     pub(crate) primitives: Vec<Origin>,
-    /// The labels of its rays, by the number of bounces before each; none for a scene of a file.
+    /// The labels of its rays, by the number of bounces before each; empty for a scene of a file.
     pub(crate) rays: Vec<Origin>,
     source: Source,
 }
@@ -53,7 +53,7 @@ pub(crate) struct Parsed {
 enum Source {
     /// The tokens of the macro themselves.
     Tokens(Box<Written>),
-    /// A scene file, and what was read from it.
+    /// A scene file, and the scene that was read from it.
     File(Box<Loaded>),
     /// Nothing, since the scene could not be read.
     Nothing,
@@ -67,7 +67,7 @@ struct Written {
 }
 
 impl Parsed {
-    /// A scene of a file.
+    /// Creates a scene of a file.
     fn of_file(header: Header, loaded: Loaded) -> Self {
         let source = Source::File(Box::new(loaded));
         Self {
@@ -76,7 +76,7 @@ impl Parsed {
         }
     }
 
-    /// A scene of which nothing but the name could be read.
+    /// Creates a scene of which only the name could be read.
     fn nothing(header: Header) -> Self {
         Self {
             header,
@@ -102,7 +102,7 @@ impl Parsed {
         }
     }
 
-    /// Adds what the scene asks for in vain.
+    /// Adds the scene's warnings: requests that have no effect.
     pub(crate) fn warnings(&self, valid: &ValidScene, faults: &mut Faults) {
         match &self.source {
             Source::File(loaded) => {
@@ -146,7 +146,7 @@ impl Parsed {
         };
         let words = advice::words(&problem.what);
         let fault = faults.add(words.code, found.span, words.message);
-        // What is expected has been said.
+        // The message has stated the expected value already.
         let is_said = [codes::WRONG_TYPE, codes::WRONG_LENGTH, codes::MISSING_KEY];
         if !words.label.is_empty() && !is_said.contains(&words.code) {
             fault.note(words.label);
@@ -166,7 +166,8 @@ impl Parsed {
     }
 }
 
-/// The scene that `body` and `name` say, if it is one; everything that is wrong otherwise.
+/// Checks the scene that `body` and `name` describe. Returns it if it is valid, and reports all its
+/// errors otherwise.
 fn check(
     header: Header,
     mut body: Body,

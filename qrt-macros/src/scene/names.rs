@@ -6,16 +6,16 @@ use qrt_core::expr::{Variable, function_names};
 use qrt_core::syntax::tree::Span;
 use qrt_core::syntax::{codes, nearest};
 
-/// What a name of the author's own stands for.
+/// The meaning of an author's name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Meaning {
     /// The number that the name stands for.
     Number(f64),
-    /// A value that could not be read: nothing is said of what depends on it.
+    /// A value that could not be read. Nothing that depends on it is reported.
     Faulty,
 }
 
-/// The names that stand for numbers at some place of a scene.
+/// The names that stand for numbers at one place of a scene.
 #[derive(Debug, Default)]
 pub(crate) struct Names(Vec<Name>);
 
@@ -28,18 +28,18 @@ struct Name {
 }
 
 impl Names {
-    /// What `text` stands for, if it is a name.
+    /// Returns the meaning of `text`, if it is a name.
     pub(crate) fn value(&self, text: &str) -> Option<Meaning> {
         let found = self.0.iter().rev().find(|name| name.text == text);
         found.map(|name| name.meaning)
     }
 
-    /// The name that `text` was probably meant to be.
+    /// Returns the name that `text` was probably meant to be.
     pub(crate) fn nearest(&self, text: &str) -> Option<&str> {
         nearest(text, self.0.iter().map(|name| name.text.as_str()))
     }
 
-    /// How many names there are, to [`Names::keep`] later.
+    /// Number of names, for a later [`Names::keep`].
     pub(crate) fn count(&self) -> usize {
         self.0.len()
     }
@@ -49,7 +49,7 @@ impl Names {
         self.0.truncate(count);
     }
 
-    /// The loop variables and their values: `i = 3`.
+    /// Returns the loop variables and their values: `i = 3`.
     pub(crate) fn passes(&self) -> String {
         let variables = self.0.iter().filter(|name| name.is_variable);
         let shown = variables.filter_map(|name| match name.meaning {
@@ -62,7 +62,7 @@ impl Names {
         shown.collect::<Vec<_>>().join(", ")
     }
 
-    /// Adds a name for `value`, which is nothing where it is faulty. `_` is no name.
+    /// Adds a name for `value`, which is `None` if it is faulty. `_` is no name.
     pub(crate) fn define(
         &mut self,
         token: &Token,
@@ -103,7 +103,7 @@ impl Names {
         });
     }
 
-    /// Whether some of the names in `tokens` have faulty values.
+    /// True if any name in `tokens` has a faulty value.
     pub(crate) fn are_faulty(&self, tokens: &[Token]) -> bool {
         tokens.iter().any(|token| match &token.kind {
             Kind::Word(text) => self.value(text) == Some(Meaning::Faulty),
@@ -112,7 +112,7 @@ impl Names {
         })
     }
 
-    /// Reports the names in `tokens`, a number, that stand for nothing.
+    /// Reports the unknown names in `tokens`, which are a number.
     pub(crate) fn check(&self, tokens: &[Token], later: &[String], faults: &mut Faults) -> bool {
         let mut ok = true;
         for token in tokens {
@@ -151,7 +151,7 @@ impl Names {
     }
 }
 
-/// Another name than `text`, spelled as constants usually are.
+/// Returns a name that differs from `text`, spelled as constants usually are.
 fn other(text: &str) -> String {
     let upper = text.to_uppercase();
     if upper == text {

@@ -1,4 +1,4 @@
-//! Materials, primitives and rays: the entries of which a scene has many.
+//! Materials, primitives and rays: the entries that a scene has many of.
 
 use super::body::{Body, Origin};
 use super::tokens::{Token, join};
@@ -30,7 +30,7 @@ impl Body {
         self.reader.enter(&mut self.materials, new);
     }
 
-    /// `quad label: white { ... }`; label and material may be missing.
+    /// Reads `quad label: white { ... }`; label and material may be missing.
     pub(super) fn primitive(
         &mut self,
         kind: &'static str,
@@ -79,7 +79,7 @@ impl Body {
         self.geometry.push(node);
     }
 
-    /// The points of a quad or a triangle.
+    /// Reads the points of a quad or a triangle.
     fn points(&mut self, kind: &str, inner: &[Token], at: Span) -> Option<Node> {
         if let [key, colon, ..] = inner
             && key.word().is_some()
@@ -121,14 +121,14 @@ impl Body {
         };
         let (kind, pass) = ("depth", self.reader.names.passes());
         self.rays.push(Origin { kind, label, pass });
-        // Where the ray itself is meant, its whole entry is.
+        // The place of the ray itself is that of its whole entry.
         self.depths.push(Node {
             span: place,
             ..node
         });
     }
 
-    /// The label in front of `rest`, which must be new.
+    /// Reads the label in front of `rest`, which must be new.
     fn label<'t>(&mut self, kind: &str, rest: &'t [Token]) -> (Option<String>, &'t [Token]) {
         let Some((first, after)) = rest.split_first() else {
             return (None, rest);

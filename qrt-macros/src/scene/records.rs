@@ -8,7 +8,7 @@ use qrt_core::syntax::tree::{Entry, Node, Span, Value};
 use std::sync::Arc;
 
 impl Reader {
-    /// A map of keys; `place` is that of its braces.
+    /// Reads a map of keys; `place` is that of its braces.
     pub(crate) fn record(&mut self, name: &str, tokens: &[Token], place: Span) -> Node {
         let mut entries: Vec<Entry> = Vec::new();
         for part in fields(tokens, &mut self.faults) {
@@ -38,7 +38,7 @@ impl Reader {
         Node { span: place, value }
     }
 
-    /// `key: ...` as the key, its place and what follows the colon.
+    /// Splits `key: ...` into the key, its place and the tokens after the colon.
     fn key<'t>(&mut self, record: &str, part: &'t [Token]) -> Option<(&'t str, Span, &'t [Token])> {
         if let [first, colon, rest @ ..] = part
             && let Some(key) = first.word()
@@ -78,7 +78,7 @@ impl Reader {
                 (message, format!("write {example}"))
             }
         };
-        // What is wrong is in front of the value.
+        // The error is in front of the value.
         let before = part.iter().position(|token| token.is_sign(':'));
         let front = &part[..before.unwrap_or(part.len()).max(1)];
         let place = place_of(front).unwrap_or(place);
@@ -86,7 +86,7 @@ impl Reader {
         None
     }
 
-    /// Adds an entry, unless its key is there.
+    /// Adds an entry; reports a key that is already there.
     pub(crate) fn enter(&mut self, entries: &mut Vec<Entry>, new: Entry) {
         let Some(first) = entries.iter().find(|old| old.key == new.key) else {
             entries.push(new);
@@ -100,7 +100,7 @@ impl Reader {
     }
 }
 
-/// The entries of a record; where two stand together, the missing comma is reported.
+/// Returns the entries of a record; reports a missing comma between two of them.
 fn fields<'t>(tokens: &'t [Token], faults: &mut Faults) -> Vec<&'t [Token]> {
     let mut fields = Vec::new();
     let mut end = 0;
@@ -140,7 +140,7 @@ fn fields<'t>(tokens: &'t [Token], faults: &mut Faults) -> Vec<&'t [Token]> {
     fields
 }
 
-/// The parts between commas; those between the bars of a map separate nothing.
+/// Returns the parts between commas; commas between the bars of a map separate nothing.
 fn split_fields(tokens: &[Token]) -> Vec<&[Token]> {
     let mut parts = Vec::new();
     let mut start = 0;

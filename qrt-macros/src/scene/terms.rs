@@ -1,7 +1,7 @@
 //! Functions that scenes name: `value: fn my_term`.
 //!
 //! A macro sees its own tokens only. `#[reversible]` leaves a macro of the function's name, which
-//! appends the function's tokens to what it is given, and calls what it is told to:
+//! appends the function's tokens to its input, and calls the macro that its input names:
 //!
 //! ```text
 //! qrt! { ..fn f..fn g.. }  ->  f! { [qrt_with_terms] {..fn f..fn g..} {f} }
@@ -15,7 +15,7 @@ use proc_macro2::{Spacing, Span, TokenStream, TokenTree};
 use quote::quote;
 use std::collections::BTreeMap;
 
-/// A macro's input, and the functions that it names as far as they are known.
+/// A macro's input, and the functions that it names, as far as they are known.
 #[derive(Debug)]
 pub(crate) struct Asked {
     /// The tokens that the author has written.
@@ -23,11 +23,11 @@ pub(crate) struct Asked {
     functions: Vec<(TokenStream, TokenStream)>,
 }
 
-/// What a scene's terms are, by their names; none for one with errors.
+/// The expressions of a scene's terms, by name; `None` for a term with errors.
 pub(crate) type Terms = BTreeMap<String, Option<term::Channels>>;
 
 impl Asked {
-    /// What the author has written, and nothing else.
+    /// Creates the state of the author's input, without any function.
     pub(crate) fn new(input: TokenStream) -> Self {
         Self {
             input,
@@ -35,7 +35,7 @@ impl Asked {
         }
     }
 
-    /// What a function's macro hands on.
+    /// Reads the tokens that a function's macro passes on.
     pub(crate) fn resumed(tokens: TokenStream) -> Self {
         let mut groups = tokens.into_iter().filter_map(|token| match token {
             TokenTree::Group(group) => Some(group.stream()),
@@ -48,7 +48,7 @@ impl Asked {
         asked
     }
 
-    /// What asks for the next function that is not known yet.
+    /// Returns the request for the next function that is not known yet.
     pub(super) fn next(&self) -> Option<TokenStream> {
         let mut wanted = Vec::new();
         paths(self.input.clone(), &mut wanted);
@@ -65,7 +65,7 @@ impl Asked {
         })
     }
 
-    /// The mathematics of all functions, and the compiler's errors.
+    /// Returns the mathematics of all functions, and the compiler's errors.
     pub(super) fn terms(&self) -> (Terms, TokenStream) {
         let mut terms = Terms::new();
         let mut errors = TokenStream::new();
@@ -80,7 +80,7 @@ impl Asked {
     }
 }
 
-/// A path without spaces, as the scene's tokens spell it.
+/// Returns a path without spaces, as the scene's tokens spell it.
 fn name(path: &TokenStream) -> String {
     let text = path.to_string().replace("r#", "");
     text.chars().filter(|letter| *letter != ' ').collect()
@@ -108,7 +108,7 @@ fn paths(tokens: TokenStream, found: &mut Vec<TokenStream>) {
     }
 }
 
-/// How many tokens make the path that these begin with, up to the end of the value.
+/// Returns the number of tokens of the path that `tokens` begin with, up to the end of the value.
 fn path_length(tokens: &[TokenTree]) -> Option<usize> {
     let separated = |at: usize| {
         let signs = tokens.get(at..at + 2);

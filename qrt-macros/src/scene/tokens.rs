@@ -7,14 +7,14 @@ use qrt_core::syntax::tree;
 /// A token and its place.
 #[derive(Clone, Debug)]
 pub(crate) struct Token {
-    /// What the token is.
+    /// The kind of the token.
     pub(crate) kind: Kind,
     /// The number of the token's first span, and of its last: a group has two.
     pub(crate) first: usize,
     pub(crate) last: usize,
 }
 
-/// What a token is.
+/// The kind of a token.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Kind {
     /// A name or a keyword.
@@ -27,7 +27,7 @@ pub(crate) enum Kind {
     Text(String),
     /// Another literal, as written.
     Other(String),
-    /// What stands in brackets.
+    /// The tokens in brackets.
     Group(Delimiter, Vec<Token>),
 }
 
@@ -38,22 +38,22 @@ impl PartialEq for Token {
 }
 
 impl Token {
-    /// The place of the token in the input.
+    /// Returns the place of the token in the input.
     pub(crate) fn place(&self) -> tree::Span {
         place(self.first, self.last)
     }
 
-    /// Whether it is this word.
+    /// True if it is this word.
     pub(crate) fn is_word(&self, text: &str) -> bool {
         matches!(&self.kind, Kind::Word(word) if word == text)
     }
 
-    /// Whether it is this character of punctuation.
+    /// True if it is this character of punctuation.
     pub(crate) fn is_sign(&self, sign: char) -> bool {
         matches!(&self.kind, Kind::Sign(own, _) if *own == sign)
     }
 
-    /// The word, if the token is one.
+    /// Returns the word, if the token is one.
     pub(crate) fn word(&self) -> Option<&str> {
         match &self.kind {
             Kind::Word(word) => Some(word),
@@ -61,7 +61,7 @@ impl Token {
         }
     }
 
-    /// A name: a word, or a text in quotes.
+    /// Returns the name: a word, or a text in quotes.
     pub(crate) fn name(&self) -> Option<&str> {
         match &self.kind {
             Kind::Word(text) | Kind::Text(text) => Some(text),
@@ -69,7 +69,7 @@ impl Token {
         }
     }
 
-    /// What stands in these brackets.
+    /// Returns the tokens in these brackets.
     pub(crate) fn group(&self, brackets: Delimiter) -> Option<&[Token]> {
         match &self.kind {
             Kind::Group(own, tokens) if *own == brackets => Some(tokens),
@@ -77,7 +77,7 @@ impl Token {
         }
     }
 
-    /// The letters of a word or a sign.
+    /// Returns the letters of a word or a sign.
     pub(crate) fn text(&self) -> String {
         match &self.kind {
             Kind::Word(word) => word.clone(),
@@ -86,7 +86,7 @@ impl Token {
         }
     }
 
-    /// What the token is, for "expected a value, found ...".
+    /// Describes the token, for "expected a value, found ...".
     pub(crate) fn found(&self) -> String {
         match &self.kind {
             Kind::Word(text) | Kind::Other(text) => format!("`{text}`"),
@@ -100,13 +100,13 @@ impl Token {
     }
 }
 
-/// The place from the first of these tokens to the last.
+/// Returns the place from the first of these tokens to the last.
 pub(crate) fn place_of(tokens: &[Token]) -> Option<tree::Span> {
     let (first, last) = (tokens.first()?, tokens.last()?);
     Some(place(first.first, last.last))
 }
 
-/// The place from one token's number to another's.
+/// Returns the place from one token's number to another's.
 pub(crate) fn place(start: usize, end: usize) -> tree::Span {
     tree::Span {
         source: 0,
@@ -115,12 +115,12 @@ pub(crate) fn place(start: usize, end: usize) -> tree::Span {
     }
 }
 
-/// From the beginning of one place to the end of another.
+/// Returns the place from the beginning of one place to the end of another.
 pub(crate) fn join(from: tree::Span, to: tree::Span) -> tree::Span {
     place(from.start, to.end)
 }
 
-/// What the compiler knows of each token's place.
+/// The compiler's span of each token.
 #[derive(Debug, Default)]
 pub(crate) struct Table(Vec<Span>);
 
@@ -132,7 +132,7 @@ impl Table {
             if let TokenTree::Group(group) = &tree
                 && group.delimiter() == Delimiter::None
             {
-                // What another macro put in place of a variable: one token, or a whole expression.
+                // The value of another macro's variable: one token, or a whole expression.
                 let first = self.0.len();
                 let mut inner = self.read(group.stream());
                 if inner.len() == 1 {
@@ -184,14 +184,14 @@ impl Table {
         Token { kind, first, last }
     }
 
-    /// The spans of a place's first and last token.
+    /// Returns the spans of a place's first and last token.
     pub(crate) fn ends(&self, place: tree::Span) -> (Span, Span) {
         let span = |number: usize| self.0.get(number).copied().unwrap_or_else(Span::call_site);
         (span(place.start), span(place.end))
     }
 }
 
-/// The parts between commas, each with the place where it ends; the last may be empty.
+/// Returns the parts between commas, without an empty part after the last comma.
 pub(crate) fn between_commas(tokens: &[Token]) -> Vec<&[Token]> {
     let mut parts: Vec<_> = tokens.split(|token| token.is_sign(',')).collect();
     if parts.last().is_some_and(|last| last.is_empty()) {

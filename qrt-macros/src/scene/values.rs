@@ -1,4 +1,4 @@
-//! Values and records: what stands after a key, as nodes of the tree that YAML becomes too.
+//! Values and records: the tokens after a key, as nodes of the same tree that YAML becomes.
 
 use super::expression::{Expression, number};
 use super::fault::Faults;
@@ -10,24 +10,24 @@ use qrt_core::syntax::codes;
 use qrt_core::syntax::tree::{Entry, Node, Scalar, Span, Value};
 use std::sync::Arc;
 
-/// Reads values; keeps what later readers and reports need.
+/// A reader of values, with the state that later readers and reports need.
 #[derive(Debug, Default)]
 pub(crate) struct Reader {
-    /// All that has been found wrong so far.
+    /// All faults found so far.
     pub(crate) faults: Faults,
     /// The author's names that stand for numbers here.
     pub(crate) names: Names,
-    /// The names of all constants of the scene, also of those that are defined later.
+    /// The names of all constants of the scene, including those that are defined later.
     pub(crate) later: Vec<String>,
     /// The functions that stand for values, by name.
     pub(crate) terms: Terms,
     /// The expressions: a node of source `n` is number `n - 1`.
     pub(crate) expressions: Vec<Expression>,
-    /// Records in which something could not be read: what they lack may be that.
+    /// Records in which a key could not be read: a key that they lack may be that one.
     pub(crate) incomplete: Vec<Span>,
 }
 
-/// What kind of value a key has.
+/// The kind of value of a key.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Sort {
     /// Numbers, points and colours.
@@ -38,14 +38,14 @@ enum Sort {
     Text,
     /// An expression in the variables of a BSDF.
     Expression,
-    /// One such expression, or three: red, green and blue.
+    /// One expression in the variables of a BSDF, or three: red, green and blue.
     Channels,
     /// A map from the unit square to directions: `|u, v| (x, y, z)`.
     Map,
 }
 
 impl Sort {
-    /// The kind of value that `key` has in a record that is called `record`.
+    /// Returns the kind of value that `key` has in a record with the name `record`.
     fn of(record: &str, key: &str) -> Self {
         match (record, key) {
             ("bsdf", "map") => Self::Map,
@@ -62,24 +62,24 @@ impl Sort {
     }
 }
 
-/// A node of a text, as in quotes.
+/// Creates a node of a text, as in quotes.
 pub(crate) fn text(text: &str, span: Span) -> Node {
     scalar(text.to_owned(), true, span)
 }
 
-/// A node of a number or a word; with `quoted`, of a text.
+/// Creates a node of a number or a word; with `quoted`, of a text.
 pub(crate) fn scalar(text: String, quoted: bool, span: Span) -> Node {
     let value = Value::Scalar(Scalar { text, quoted });
     Node { span, value }
 }
 
-/// A node in place of what could not be read, which has been reported.
+/// Creates a node in place of a value that could not be read and has been reported.
 pub(crate) fn faulty(span: Span) -> Node {
     let value = Value::Unread;
     Node { span, value }
 }
 
-/// An entry of a map.
+/// Creates an entry of a map.
 pub(crate) fn entry(key: &str, key_span: Span, value: Node) -> Entry {
     Entry {
         key: key.to_owned(),
@@ -89,7 +89,7 @@ pub(crate) fn entry(key: &str, key_span: Span, value: Node) -> Entry {
 }
 
 impl Reader {
-    /// The value of `key`, which stands at `at`, in a record that is called `record`.
+    /// Reads the value of `key`, which stands at `at`, in a record with the name `record`.
     pub(crate) fn value(&mut self, record: &str, key: &str, at: Span, tokens: &[Token]) -> Node {
         let Some(place) = place_of(tokens) else {
             let message = format!("`{key}` has no value");
@@ -149,12 +149,12 @@ impl Reader {
         }
     }
 
-    /// The points of a primitive, whose braces stand at `place`.
+    /// Reads the points of a primitive, whose braces stand at `place`.
     pub(crate) fn points(&mut self, tokens: &[Token], place: Span) -> Node {
         self.list("vertices", between_commas(tokens), place, Self::plain)
     }
 
-    /// The elements of a list, each read by `read`.
+    /// Reads the elements of a list, each by `read`.
     fn list(
         &mut self,
         key: &str,
@@ -163,7 +163,7 @@ impl Reader {
         read: fn(&mut Self, &str, &[Token], Span) -> Node,
     ) -> Node {
         let mut nodes = Vec::with_capacity(items.len());
-        // An element that is not there is shown at the one before it.
+        // A missing element is shown at the one before it.
         let mut before = place;
         for item in items {
             let Some(here) = place_of(item) else {
@@ -242,9 +242,9 @@ impl Reader {
         scalar(text, false, Span { source, ..place })
     }
 
-    /// `fn my_term`, which stands for the expressions that the function computes.
+    /// Reads `fn my_term`, which stands for the expressions that the function computes.
     fn term(&mut self, path: &[Token], place: Span) -> Node {
-        // What another macro put in place of a variable.
+        // The value of another macro's variable.
         let path = match path {
             [only] => only.group(Delimiter::Parenthesis).unwrap_or(path),
             path => path,
@@ -292,7 +292,7 @@ impl Reader {
         }
     }
 
-    /// `|u, v| (x, y, z)`
+    /// Reads `|u, v| (x, y, z)`.
     fn map(&mut self, tokens: &[Token], place: Span) -> Node {
         if let [bar, u, comma, v, close, body] = tokens
             && bar.is_sign('|')
@@ -329,7 +329,8 @@ impl Reader {
     }
 }
 
-/// The elements of `(a, b)`, `(a,)` or `[...]`; `(a)` is no list but a number in parentheses.
+/// Returns the elements of `(a, b)`, `(a,)` or `[...]`; `(a)` is no list but a number in
+/// parentheses.
 fn list(token: &Token) -> Option<Vec<&[Token]>> {
     if let Some(inner) = token.group(Delimiter::Bracket) {
         return Some(between_commas(inner));

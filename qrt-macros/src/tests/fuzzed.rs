@@ -1,4 +1,4 @@
-//! The fuzzer's target of the macros, on its seeds and on changes of them that are the same each time.
+//! Tests of the fuzzer's target of the macros, on its seeds and on reproducible changes of them.
 
 use numbers::Numbers;
 use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
@@ -21,7 +21,7 @@ fn seeds() -> Vec<String> {
         .collect()
 }
 
-/// The tokens with some left out, said twice, or replaced by others.
+/// Returns the tokens with some left out, written twice, or replaced by others.
 fn changed(tokens: TokenStream, others: &[TokenTree], numbers: &mut Numbers) -> TokenStream {
     let mut changed = TokenStream::new();
     for token in tokens {

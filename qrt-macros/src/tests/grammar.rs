@@ -1,4 +1,4 @@
-//! What `qrt!` takes, and that nothing it is given makes it panic.
+//! Tests of the grammar of `qrt!`, and that no input makes it panic.
 
 use super::{code, read_text};
 use crate::scene::{Asked, Terms};
@@ -8,7 +8,7 @@ use std::path::Path;
 
 const CAMERA: &str = "camera: perspective { eye: (0, 1, 5), target: (0, 1, 0), vfov: 40 },";
 
-/// The scene of a camera and `rest`.
+/// Returns the scene of a camera and `rest`.
 fn scene(rest: &str) -> Scene {
     let text = format!("scene Room {{ {CAMERA} {rest} }}");
     let (scenes, faults) = read_text(&text, Path::new(""));
@@ -16,7 +16,7 @@ fn scene(rest: &str) -> Scene {
     scenes[0].1.as_ref().unwrap().scene().clone()
 }
 
-/// The codes of the errors in a camera and `rest`.
+/// Returns the codes of the errors in a camera and `rest`.
 fn codes(rest: &str) -> Vec<String> {
     let text = format!("scene Room {{ {CAMERA} {rest} }}");
     let (_, faults) = read_text(&text, Path::new(""));
@@ -128,7 +128,7 @@ fn one_macro_holds_several_scenes() {
 #[test]
 fn an_error_hides_no_other_and_draws_none_after_it() {
     assert_eq!(codes("film: 8 by 8"), ["QRT0705"]);
-    // What depends on a faulty constant is neither right nor wrong.
+    // Errors that depend on a faulty constant are not reported.
     assert_eq!(
         codes("const W: f64 = 2 * ; film: W x W, material m: dielectric { ior: W - 1 }"),
         ["QRT0400"]
@@ -137,7 +137,7 @@ fn an_error_hides_no_other_and_draws_none_after_it() {
         codes("const W: f64 = 8 +; film: W x W, material m: dielectric { ior: 0 }"),
         ["QRT0400", "QRT0201"]
     );
-    // A material that cannot be read is there nevertheless.
+    // A material that cannot be read counts as present.
     let rest = "film: 8x8, material m: , triangle: m { (0, 0, 0), (1, 0, 0), (0, 1, 0) },
                 triangle: n { (0, 0, 0), (1, 0, 0), (2, 0, 0) }";
     assert_eq!(codes(rest), ["QRT0705", "QRT0206", "QRT0302"]);
@@ -184,7 +184,7 @@ fn an_expansion_holds_the_scene_and_its_files() {
     ] {
         assert!(out.contains(part), "{part}: {out}");
     }
-    // With errors, the type is there, and the errors are.
+    // With errors, the expansion has the type, and the errors.
     let out = crate::scene::expand(
         Asked::new("scene Room { film: 0x8 }".parse().unwrap()),
         &root,
@@ -196,7 +196,7 @@ fn an_expansion_holds_the_scene_and_its_files() {
     }
 }
 
-/// All tokens of a stream, brackets apart, as texts that can be put together again.
+/// Collects all tokens of a stream, brackets separately, as texts that can be joined again.
 fn pieces(stream: TokenStream, out: &mut Vec<String>) {
     for tree in stream {
         let TokenTree::Group(group) = &tree else {

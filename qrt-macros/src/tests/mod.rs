@@ -1,4 +1,4 @@
-//! Scenes of `qrt!` beside those of YAML.
+//! Tests of scenes of `qrt!` against those of YAML.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::format_push_string)]
 
@@ -11,7 +11,7 @@ mod writer;
 use crate::scene::{Faults, Read, Table, Terms, read};
 use std::path::Path;
 
-/// What `text` says, relative to `root`, and the errors: code, message and all.
+/// Reads `text`, relative to `root`. Returns the scenes and the errors, with codes and messages.
 fn read_text(text: &str, root: &Path) -> (Vec<Read>, Vec<String>) {
     let stream = text
         .parse()
@@ -24,7 +24,7 @@ fn read_text(text: &str, root: &Path) -> (Vec<Read>, Vec<String>) {
     (scenes, texts.collect())
 }
 
-/// The code in an error's text.
+/// Returns the code in an error's text.
 fn code(text: &str) -> &str {
     let line = text.lines().next().unwrap_or_default();
     let (_, code) = line.rsplit_once('[').unwrap_or_default();

@@ -1,4 +1,4 @@
-//! Whatever YAML says, right or wrong, the macro says too.
+//! Tests that the macro accepts and reports the same as YAML, for right and for wrong scenes.
 
 use super::{code, read_text, writer};
 use proc_macro2::TokenStream;
@@ -8,7 +8,7 @@ use qrt_core::syntax::{Problems, Source, codes};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-/// The scenes of a folder of the workspace.
+/// Returns the scenes of a folder of the workspace.
 fn scenes(folder: &str) -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("..")
@@ -23,17 +23,17 @@ fn scenes(folder: &str) -> Vec<PathBuf> {
     scenes
 }
 
-/// The scene of a YAML file as the macro's text, if it has one.
+/// Returns the scene of a YAML file as the macro's text, if it has one.
 fn written(file: &Path) -> Option<String> {
     let source = Source::new("", std::fs::read_to_string(file).ok()?);
     let mut problems = Problems::default();
     let tree = yaml::read(&source, 0..source.text.len(), 0, &mut problems);
     let text = writer::scene(&problems.result(tree?).ok()?)?;
-    // Brackets that do not match are the compiler's business.
+    // The compiler reports brackets that do not match.
     text.parse::<TokenStream>().is_ok().then_some(text)
 }
 
-/// Spaces in expressions say nothing, and tokens lose them.
+/// Removes spaces in expressions, which have no meaning and which tokens lose.
 fn without_spaces(mut scene: Scene) -> Scene {
     for (_, material) in &mut scene.materials {
         if let Material::Bsdf(Bsdf {
@@ -73,9 +73,9 @@ fn every_scene_is_the_same_in_both_languages() {
     }
 }
 
-/// Faulty scenes whose fault is YAML's own, or that of the command line; those whose macro twin is
-/// no scene in form, which are the grammar's errors `QRT07..`; and those with a key or a material
-/// written twice, which YAML's tree does not keep.
+/// Faulty scenes without a twin: those whose fault is YAML's own, or the command line's; those
+/// whose macro twin is no scene in form, which are the grammar's errors `QRT07..`; and those with a
+/// key or a material written twice, which YAML's tree does not keep.
 const WITHOUT_TWIN: [&str; 43] = [
     "alias-bomb",
     "complex-key",
@@ -122,9 +122,9 @@ const WITHOUT_TWIN: [&str; 43] = [
     "unknown-key",
 ];
 
-/// Codes of the checker that these scenes do not show: what the grammar says itself (a variant has
-/// one kind, an expression something in it), and what only scenes built in Rust, files of 256 MiB,
-/// millions of faces and disagreements of the OBJ library get; warnings are no errors.
+/// Codes of the checker that these scenes do not reach. The grammar itself reports some (a variant
+/// has one kind, an expression is not empty). Others need scenes built in Rust, files of 256 MiB,
+/// millions of faces or disagreements of the OBJ library. Warnings are no errors.
 const ELSEWHERE: [&str; 12] = [
     codes::ONE_VARIANT,
     codes::DUPLICATE_NAME,
@@ -148,7 +148,7 @@ fn every_faulty_scene_gets_the_same_codes() {
     for file in scenes("tests/bad_scenes") {
         let name = file.file_stem().unwrap().to_string_lossy().into_owned();
         let text = String::from_utf8_lossy(&std::fs::read(&file).unwrap()).into_owned();
-        // An empty text in quotes is no value at all where there are none.
+        // An empty text in quotes is no value at all in the macro, which has no quotes there.
         let is_empty = ["expression-blank", "expression-empty"].contains(&name.as_str());
         let twin = written(&file).filter(|_| !text.contains("# --set") && !is_empty);
         let Some(text) = twin else {

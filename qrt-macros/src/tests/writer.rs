@@ -1,9 +1,9 @@
-//! A YAML scene written as `qrt!` would have it, as far as it has a form there.
+//! Writes a YAML scene as text of `qrt!`, as far as it has a form there.
 
 use qrt_core::syntax::tree::{Entry, Kind, Node, Scalar, Value};
 use std::sync::Arc;
 
-/// The scene as tokens' text; nothing where YAML says what no token can.
+/// Returns the scene as tokens' text. `None` if YAML states something that no token can.
 pub(super) fn scene(tree: &Node) -> Option<String> {
     let mut text = "scene Written {\n".to_owned();
     for entry in map(tree)? {
@@ -111,7 +111,7 @@ fn primitive(node: &Node) -> Option<String> {
     Some(format!("{key}{material} {body},\n"))
 }
 
-/// A map of a single key.
+/// Writes a map of a single key.
 fn variant(node: &Node) -> Option<String> {
     let [entry] = map(node)? else {
         return None;
@@ -168,11 +168,11 @@ fn scalar(key: &str, scalar: &Scalar) -> String {
     ];
     match scalar.kind() {
         Kind::Number(value) if value.is_nan() => "0 / 0".to_owned(),
-        // `.inf`, not a number that is too large to be written.
+        // `.inf`, not a number that is too large.
         Kind::Number(value) if value.is_infinite() && !scalar.has_digits() => {
             if value > 0.0 { "1 / 0" } else { "-1 / 0" }.to_owned()
         }
-        // To Rust, a number begins with a digit.
+        // In Rust, a number begins with a digit.
         Kind::Number(_) if text.starts_with('.') => format!("0{text}"),
         Kind::Number(_) => text.to_owned(),
         _ if words.contains(&key) && !scalar.quoted => text.replace('-', "_"),
@@ -180,7 +180,7 @@ fn scalar(key: &str, scalar: &Scalar) -> String {
     }
 }
 
-/// A name: a word where it is one, in quotes otherwise.
+/// Returns a name: as a word if it is one, otherwise in quotes.
 fn name(text: &str) -> String {
     if syn::parse_str::<syn::Ident>(text).is_ok() {
         text.to_owned()

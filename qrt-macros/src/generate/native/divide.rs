@@ -5,8 +5,9 @@ use super::number::Number;
 use super::range::Range;
 
 impl Coder<'_> {
-    /// `floor(a / b)` where `a < b 2^width`, 0 elsewhere, but `2^width - 1` where b is 0; and whether
-    /// it is. Of numbers that are not negative, each with the zeros below it.
+    /// Returns `floor(a / b)`, and whether `a < b 2^width`. The quotient is 0 where that does not
+    /// hold, but `2^width - 1` where b is 0. `a` and `b` are numbers that are not negative, each
+    /// with its number of zeros below it.
     pub(super) fn divided(
         &mut self,
         a: (Number, u32),
@@ -40,19 +41,19 @@ impl Coder<'_> {
         (self.choose(&all, &none, &value), fits)
     }
 
-    /// The same of `a 2^up` and b, where a, b and the quotient fit 24 bits and b is not 0.
+    /// Divides `a 2^up` by b, where a, b and the quotient fit 24 bits and b is not 0.
     ///
-    /// A quotient below 2^24, rounded to 24 bits, is not below the floor of the exact one, nor beyond
-    /// the next integer: both are such numbers themselves. So its own floor is the right one or one
-    /// more, which `a 2^up - q b` shows by its sign, of which lanes hold the lowest 32 bits: they are
-    /// enough, for it is between -b and b.
+    /// A quotient below 2^24, rounded to 24 bits, is neither below the floor of the exact quotient
+    /// nor beyond the next integer, since both are numbers of 24 bits. So its own floor q is the
+    /// right one or one more. The sign of `a 2^up - q b` decides which. Lanes hold its lowest 32
+    /// bits, which are enough, since it is between -b and b.
     fn single(&mut self, a: &Number, b: &Number, up: u32, width: u32) -> (Number, String) {
-        // a 2^up < b 2^width, of whichever is multiplied by a power of two that is left.
+        // a 2^up < b 2^width, with the smaller power of two cancelled.
         let fits = if up <= width {
             let high = self.right(a.clone(), width - up);
             self.less(&high, b)
         } else {
-            // Beyond 2^24, any power tells whether b is 0.
+            // Beyond 2^24, every power distinguishes only whether b is 0.
             let rest = (up - width).min(30);
             let round = Self::constant((1 << rest) - 1);
             let raised = self.added(b, &round, false, 64);

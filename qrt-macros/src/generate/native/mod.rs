@@ -1,8 +1,8 @@
-//! Compute as code for vectors of lanes: what the native machine runs.
+//! Compute as code for vectors of lanes, which the native machine runs.
 //!
-//! Each operation becomes the instructions that the numbers at hand need. What is known of them
-//! (widths, ranges, constants) is used here, where the code is written, so that the compiler gets
-//! nothing to decide.
+//! Each operation becomes the instructions that its numbers need. The known properties of the
+//! numbers (widths, ranges, constants) are used here, where the code is written, so that the
+//! compiler has nothing to decide.
 
 mod divide;
 mod number;
@@ -20,15 +20,16 @@ use range::Range;
 use std::collections::HashMap;
 use std::fmt::Write as _;
 
-/// What a register is in code.
+/// A register as a variable of the code.
 #[derive(Clone, Debug)]
 enum Variable {
     Truths(String),
     Number(Number),
 }
 
-/// Where there is code. Without optimisation it takes seconds to compile, and runs no sooner than the
-/// fixed machine; a crate's tests have it, so that they run what its users run.
+/// The `cfg` of native code. Without optimisation the code takes seconds to compile, and runs no
+/// faster than the fixed machine. A crate's tests have it, so that they run the code that its users
+/// run.
 const WRITTEN: &str = "#[cfg(any(not(debug_assertions), test))]";
 const LEFT_OUT: &str = "#[cfg(not(any(not(debug_assertions), test)))]";
 
@@ -51,7 +52,7 @@ pub(super) fn write(out: &mut String, oracle: &Oracle, names: &Names) {
     );
 }
 
-/// The tables, and the implementation that looks them up.
+/// Returns the tables, and the implementation that looks them up.
 fn code(oracle: &Oracle, names: &Names) -> String {
     let mut coder = Coder {
         program: &oracle.program,
@@ -75,7 +76,7 @@ fn code(oracle: &Oracle, names: &Names) -> String {
     for instruction in &oracle.program.instructions {
         let op = &oracle.program.ops[instruction.op as usize];
         let targets = op.targets();
-        // What is undone and computed again is the same.
+        // A register that is undone and computed again holds the same value.
         let known = |target| coder.variables.contains_key(target);
         if !instruction.inverse && !targets.iter().all(known) {
             coder.op(op);
@@ -96,7 +97,7 @@ fn code(oracle: &Oracle, names: &Names) -> String {
     let lines = coder.bindings.into_iter().map(Binding::line);
     let mut lines: Vec<Line> = lines.collect();
     let body = lines.len();
-    // What is used last of all.
+    // The outputs are used last of all.
     lines.push(Line {
         text: format!("{counts} {colours}"),
         ..Line::default()
@@ -121,7 +122,7 @@ fn code(oracle: &Oracle, names: &Names) -> String {
 struct Binding {
     name: String,
     value: String,
-    /// Whether a register gave it its name.
+    /// True if a register gave it its name.
     is_named: bool,
 }
 
@@ -162,7 +163,8 @@ impl Coder<'_> {
         &self.program.registers[id.index()]
     }
 
-    /// Calls the variable that was bound last by the register's name, unless it has a name.
+    /// Renames the variable that was bound last to the register's name, unless it has a name
+    /// already.
     fn rename(&mut self, id: RegisterId, variable: &mut String) {
         if let Some(last) = self.bindings.last_mut()
             && !last.is_named
@@ -174,7 +176,7 @@ impl Coder<'_> {
         }
     }
 
-    /// Says that the register holds the number's lowest bits.
+    /// Sets the register to the number's lowest bits.
     fn set(&mut self, id: RegisterId, number: Number) {
         let register = self.register(id);
         let (width, signed) = (register.width, signed(register.ty));
@@ -187,7 +189,8 @@ impl Coder<'_> {
         if let Some([low, high]) = proven {
             let narrow = number.range.narrow();
             let proven = number.range.intersection(Range::new(low, high));
-            // Its variable has lanes of one kind, whatever is known of it.
+            // The register's variable keeps its kind of lanes, even if its proven range is
+            // narrower.
             if proven.low <= proven.high && proven.narrow() == narrow {
                 number.range = proven;
             }
@@ -196,7 +199,7 @@ impl Coder<'_> {
         self.variables.insert(id, Variable::Number(number));
     }
 
-    /// Says that the register holds 1 where the truth holds.
+    /// Sets the register to 1 where the truth holds, and to 0 elsewhere.
     fn set_truths(&mut self, id: RegisterId, mut truths: String) {
         let register = self.register(id);
         if register.width == 1 && !signed(register.ty) {
@@ -208,14 +211,14 @@ impl Coder<'_> {
         self.set(id, digit);
     }
 
-    /// 1 where the truth holds, 0 elsewhere.
+    /// Returns 1 where the truth holds, 0 elsewhere.
     fn digit(&mut self, truths: &str) -> Number {
         let text = self.bind(&format!("v.ints(1).choose({truths}, v.ints(0))"));
         let range = Range::new(0, 1);
         Number { text, range }
     }
 
-    /// What a register holds. One that nothing computed is zero.
+    /// Returns the content of a register. A register that nothing computed is zero.
     fn content(&mut self, id: RegisterId) -> Number {
         match self.variables.get(&id).cloned() {
             Some(Variable::Number(number)) => number,
@@ -224,7 +227,7 @@ impl Coder<'_> {
         }
     }
 
-    /// A word's number, before zeros are put below it.
+    /// Returns a word's number, without the zeros below it.
     fn bits(&mut self, word: Word) -> Number {
         let all = self.content(word.register);
         let all = self.right(all, word.offset);
@@ -372,7 +375,7 @@ impl Coder<'_> {
                 targets,
                 ..
             } => self.table(address, columns, targets),
-            // Compute has none of them.
+            // Compute has no operations in place.
             Op::XorInto { .. } | Op::AddInto { .. } | Op::Swap { .. } | Op::Phase { .. } => {}
         }
     }

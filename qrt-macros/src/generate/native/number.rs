@@ -1,9 +1,9 @@
-//! Numbers: lanes as narrow as what is known of them allows.
+//! Numbers, in the narrowest lanes that their ranges allow.
 
 use super::Coder;
 use super::range::Range;
 
-/// A number in a variable: of 32 bits a lane if its range fits them, else of 64.
+/// A number in a variable: in lanes of 32 bits if its range fits them, else of 64.
 #[derive(Clone, Debug)]
 pub(super) struct Number {
     pub(super) text: String,
@@ -11,7 +11,7 @@ pub(super) struct Number {
 }
 
 impl Coder<'_> {
-    /// The same number in all lanes.
+    /// Returns the same number in all lanes.
     pub(super) fn constant(value: i64) -> Number {
         let range = Range::new(value, value);
         let lanes = if range.narrow() { "ints" } else { "longs" };
@@ -21,13 +21,13 @@ impl Coder<'_> {
         }
     }
 
-    /// Numbers of 32 bits a lane, which their range fits.
+    /// Binds numbers of 32 bits a lane, which their range fits.
     pub(super) fn of_ints(&mut self, range: Range, value: &str) -> Number {
         let text = self.bind(value);
         Number { text, range }
     }
 
-    /// Numbers of 64 bits a lane.
+    /// Binds numbers of 64 bits a lane, narrowed to 32 bits if their range fits.
     pub(super) fn of_longs(&mut self, range: Range, value: String) -> Number {
         let value = if range.narrow() {
             format!("v.narrow({value})")
@@ -38,7 +38,7 @@ impl Coder<'_> {
         Number { text, range }
     }
 
-    /// The variable of a number's lowest 32 bits, in lanes of 32 bits.
+    /// Returns the variable of a number's lowest 32 bits, in lanes of 32 bits.
     pub(super) fn ints(&mut self, a: &Number) -> String {
         if a.range.narrow() {
             a.text.clone()
@@ -55,7 +55,7 @@ impl Coder<'_> {
         }
     }
 
-    /// The number times `2^by`.
+    /// Returns the number times `2^by`.
     pub(super) fn left(&mut self, a: Number, by: u32) -> Number {
         if by == 0 {
             return a;
@@ -82,7 +82,7 @@ impl Coder<'_> {
         self.of_longs(range, format!("{}.right({by})", a.text))
     }
 
-    /// The lowest `width` bits, extended by zeros or copies of the top one.
+    /// Returns the lowest `width` bits, extended by zeros or copies of the top one.
     pub(super) fn cut(&mut self, a: Number, width: u32, signed: bool) -> Number {
         let range = Range::of(width, signed);
         if a.range.within(range) {
@@ -103,7 +103,7 @@ impl Coder<'_> {
         Number { text, range }
     }
 
-    /// Whether bit `index` of the number is set, as code for a truth per lane.
+    /// Returns code for a truth per lane: whether bit `index` of the number is set.
     pub(super) fn number_bit(&mut self, a: &Number, index: u32) -> String {
         let sign = a.range.right(index).within(Range::new(-1, 0));
         let narrow = a.range.narrow();
@@ -119,7 +119,7 @@ impl Coder<'_> {
         self.bind(&value)
     }
 
-    /// Two numbers in lanes of one kind: narrow ones if both are.
+    /// Returns two numbers in lanes of one kind: narrow ones if both are narrow.
     fn alike(&mut self, a: &Number, b: &Number) -> [String; 2] {
         if a.range.narrow() && b.range.narrow() {
             [a.text.clone(), b.text.clone()]
@@ -134,7 +134,7 @@ impl Coder<'_> {
         self.bind(&format!("{a}.less({b})"))
     }
 
-    /// a where `when` holds, b elsewhere.
+    /// Returns a where `when` holds, b elsewhere.
     pub(super) fn choose(&mut self, a: &Number, when: &str, b: &Number) -> Number {
         let range = a.range.union(b.range);
         let [a, b] = self.alike(a, b);
@@ -142,7 +142,7 @@ impl Coder<'_> {
         Number { text, range }
     }
 
-    /// `a + b` or `a - b`, or its lowest 32 bits if `bits`, what is wanted of it, is no more.
+    /// Returns `a + b` or `a - b`; only its lowest 32 bits if the caller needs at most 32 `bits`.
     pub(super) fn added(&mut self, a: &Number, b: &Number, subtract: bool, bits: u32) -> Number {
         let (range, operation) = if subtract {
             (a.range.sub(b.range), "sub")
@@ -157,13 +157,13 @@ impl Coder<'_> {
         self.of_longs(range, format!("{a}.{operation}({b})"))
     }
 
-    /// `floor(a b / 2^drop)`, or at least its lowest `bits` bits.
+    /// Returns `floor(a b / 2^drop)`, or at least its lowest `bits` bits.
     pub(super) fn product(&mut self, a: &Number, b: &Number, drop: u32, bits: u32) -> Number {
         let product = a.range.mul(b.range);
         let range = product.right(drop);
         if !a.range.narrow() || !b.range.narrow() {
             let (a, b) = (self.longs(a), self.longs(b));
-            // Where the lowest 64 bits hold all that is wanted, these do.
+            // If the lowest 64 bits hold all the bits needed, they are enough.
             let value = if drop + bits <= 64 {
                 format!("{a}.mul({b}).right({drop})")
             } else {
@@ -187,7 +187,7 @@ impl Coder<'_> {
         self.of_longs(range, format!("v.product({a}, {b}).right({drop})"))
     }
 
-    /// `floor(sqrt(a))` of a number that is not negative.
+    /// Returns `floor(sqrt(a))` of a number that is not negative.
     pub(super) fn root(&mut self, a: &Number) -> Number {
         let high = a.range.high.cast_unsigned();
         let bits = (64 - high.leading_zeros()).div_ceil(2).max(1);

@@ -1,4 +1,4 @@
-//! Between which numbers a value lies, so that what need not be cut, extended or widened isn't.
+//! Ranges of values. They show which values need not be cut, extended or widened.
 
 /// The least and the greatest number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -17,7 +17,7 @@ impl Range {
         Self { low, high }
     }
 
-    /// The range of what `width` bits hold, as 64 bits read them.
+    /// Returns the range of the numbers of `width` bits, as 64 bits read them.
     pub(super) fn of(width: u32, signed: bool) -> Self {
         if width >= 64 {
             return Self::ALL;
@@ -29,7 +29,7 @@ impl Range {
         Self::new(0, (u64::MAX >> (64 - width)).cast_signed())
     }
 
-    /// Whether 32 bits hold every number of the range.
+    /// True if 32 bits hold every number of the range.
     pub(super) fn narrow(self) -> bool {
         self.within(Self::INTS)
     }
@@ -63,7 +63,7 @@ impl Range {
         )
     }
 
-    /// Products of numbers that 32 bits hold each; of others nothing is said.
+    /// Returns the range of products of numbers that 32 bits hold each; `ALL` for other numbers.
     pub(super) fn mul(self, other: Self) -> Self {
         if !self.narrow() || !other.narrow() {
             return Self::ALL;
@@ -88,12 +88,12 @@ impl Range {
         Self::new(self.low >> by, self.high >> by)
     }
 
-    /// The range of the numbers that are in both.
+    /// Returns the range of the numbers that are in both.
     pub(super) fn intersection(self, other: Self) -> Self {
         Self::new(self.low.max(other.low), self.high.min(other.high))
     }
 
-    /// The range after lanes of 32 bits have cut its numbers.
+    /// Returns the range after lanes of 32 bits have cut its numbers.
     pub(super) fn cut(self) -> Self {
         if self.narrow() { self } else { Self::INTS }
     }

@@ -1,4 +1,4 @@
-//! What is looked up: tables, linear maps over GF(2), and the pixel's classical parameters.
+//! Look-ups: tables, linear maps over GF(2), and the pixel's classical parameters.
 
 use super::number::Number;
 use super::range::Range;
@@ -7,7 +7,7 @@ use qrt_circuit::{Bit, RegisterId, Word};
 use std::fmt::Write as _;
 
 impl Coder<'_> {
-    /// A classical parameter, as the register's type reads its lowest bits.
+    /// Returns a classical parameter, as the register's type reads its lowest bits.
     pub(super) fn classical(&mut self, parameter: u32, target: RegisterId) -> Number {
         let register = self.register(target);
         let (width, signed) = (register.width, signed(register.ty));
@@ -22,8 +22,8 @@ impl Coder<'_> {
         Number { text, range }
     }
 
-    /// The XOR of the columns whose place is a bit that is set in the source, and of a word of the
-    /// pixel.
+    /// Computes the XOR of the columns whose places are set bits of the source, and of a word of
+    /// the pixel.
     pub(super) fn parity(
         &mut self,
         source: RegisterId,
@@ -64,8 +64,8 @@ impl Coder<'_> {
         self.set(target, sum);
     }
 
-    /// The lowest 32 bits of the XOR of the columns whose place is a bit that is set: four columns
-    /// at a time, by a table of their sums.
+    /// Returns the lowest 32 bits of the XOR of the columns whose places are set bits of the
+    /// source: four columns at a time, by a table of their sums.
     fn image(&mut self, source: &Number, columns: &[u64]) -> String {
         let mut sum: Option<String> = None;
         for (digit, four) in columns.chunks(4).enumerate() {
@@ -98,7 +98,7 @@ impl Coder<'_> {
         }
     }
 
-    /// The number that the bits are the digits of.
+    /// Returns the number whose digits are the bits of `address`.
     fn index(&mut self, address: &[Bit]) -> String {
         if let Some(word) = neighbours(address) {
             let bits = self.bits(word);
@@ -113,7 +113,7 @@ impl Coder<'_> {
         index
     }
 
-    /// What a column holds there; 0 beyond its end.
+    /// Looks `index` up in a column; beyond the column's end, the entry is 0.
     fn look_up(&mut self, index: &str, bits: u32, column: &[i64], target: RegisterId) {
         let register = self.register(target);
         let (width, signed) = (register.width, signed(register.ty));
@@ -152,7 +152,7 @@ impl Coder<'_> {
     }
 }
 
-/// The word whose bits these are, if they stand side by side in one register.
+/// Returns the word of these bits, if they stand side by side in one register.
 fn neighbours(address: &[Bit]) -> Option<Word> {
     let first = address.first()?;
     let in_order = address.iter().enumerate().all(|(place, bit)| {

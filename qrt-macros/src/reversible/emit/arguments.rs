@@ -1,4 +1,4 @@
-//! Registers handed to calls, those of arrays borrowed first.
+//! Registers that calls receive. Those of arrays are borrowed first.
 
 use super::reference;
 use crate::reversible::ir::Register;
@@ -8,7 +8,7 @@ use quote::quote;
 use std::rc::Rc;
 use syn::Ident;
 
-/// Borrows registers of one array, all at once; and what they are called then.
+/// Borrows registers of one array, all at once. Returns the statement and the names of the borrows.
 pub(super) fn from_array(array: &Ident, registers: &[&Register]) -> (TokenStream, Vec<Ident>) {
     let names: Vec<Ident> = (0..registers.len())
         .map(|place| own(&format!("{array}{place}")))
@@ -24,7 +24,7 @@ pub(super) fn from_array(array: &Ident, registers: &[&Register]) -> (TokenStream
     (taken, names)
 }
 
-/// The arguments of a call, and what must be taken out of arrays before.
+/// Returns the arguments of a call, and the statements that borrow from arrays before it.
 pub(super) fn handed(arguments: &[(Rc<Register>, bool, Ident)]) -> (TokenStream, Vec<TokenStream>) {
     let mut taken = TokenStream::new();
     let mut borrowed: Vec<(&Register, Ident)> = Vec::new();

@@ -1,6 +1,6 @@
-//! Formats whose widths are computed from a routine's constants. No type of Rust's has such a width,
-//! but a constant of a type's own has: each of these formats is a type of the routine's, and a
-//! parameter may be of any type that turns out to be the same format.
+//! Formats whose widths are computed from a routine's constants. No type in Rust has a computed
+//! width, but a type can have a constant with a computed value. Each of these formats is a type of
+//! the routine's, and a parameter may be of any type that has the same format.
 
 use crate::reversible::ir::{Kind, Register, Routine, Signature, Statement, StatementKind as K};
 use proc_macro2::TokenStream;
@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use std::rc::Rc;
 use syn::Ident;
 
-/// The types of a routine's computed formats.
+/// Returns the types of a routine's computed formats.
 pub(super) fn declared(routine: &Routine) -> TokenStream {
     let mut registers: Vec<&Rc<Register>> = routine.signature.parameters.iter().collect();
     scratch(&routine.body, &mut registers);
@@ -44,7 +44,8 @@ fn one(name: &Ident, register: &Register, constants: &[Ident]) -> TokenStream {
     }
 }
 
-/// That the registers handed over have the computed formats of their parameters.
+/// Returns code that checks that the registers of a call have the computed formats of its
+/// parameters.
 pub(super) fn agree(signature: &Signature) -> TokenStream {
     let Signature {
         name: routine,

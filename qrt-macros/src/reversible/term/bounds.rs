@@ -1,13 +1,13 @@
-//! What registers can hold, and proofs that a number is always one of a format.
+//! Bounds of registers, and proofs that a number is always one of a format.
 
 use super::content::{Path, Value};
 use crate::reversible::ir::Format;
 use qrt_core::expr::{Domain, Expr, Interval, Node, Variable, VariableSet};
 
-/// The most parts of the domain that a proof looks at before it gives up.
+/// The most parts of the domain that a proof examines before it gives up.
 const PARTS: usize = 2048;
 
-/// The least and the greatest number of a format whose widths are known.
+/// Returns the least and the greatest number of a format whose widths are known.
 pub(super) fn of_format(format: &Format) -> Option<Interval> {
     let width = format.width.known()?;
     let unit = unit(format)?;
@@ -21,14 +21,14 @@ pub(super) fn of_format(format: &Format) -> Option<Interval> {
     Some(Interval { lo, hi })
 }
 
-/// The number that the lowest bit of a format stands for.
+/// Returns the number that the lowest bit of a format stands for.
 pub(super) fn unit(format: &Format) -> Option<f64> {
     let fraction = format.fraction.known()?;
     Some(2_f64.powi(-(fraction as i32)))
 }
 
-/// The domain where the comparisons of a path hold, as far as they bound a variable by a number;
-/// `None` if there is none.
+/// Returns the domain in which the comparisons of a path hold, as far as they bound a variable by a
+/// number. `None` if there is none.
 pub(super) fn narrowed(domain: &Domain, path: &Path) -> Option<Domain> {
     let mut domain = *domain;
     for (less, holds) in path {
@@ -52,7 +52,7 @@ pub(super) fn narrowed(domain: &Domain, path: &Path) -> Option<Domain> {
     Some(domain)
 }
 
-/// The variable that an expression is.
+/// Returns the variable, if an expression is a single variable.
 fn lone(expression: &Expr) -> Option<Variable> {
     match expression.nodes() {
         [Node::Variable(variable)] => Some(*variable),
@@ -60,7 +60,7 @@ fn lone(expression: &Expr) -> Option<Variable> {
     }
 }
 
-/// Whether a register's number, its rounding included, is always within `room` where `path` leads.
+/// True if a register's number, its rounding included, is always within `room` on `path`.
 pub(super) fn fits(value: &Value, room: Interval, domain: &Domain, path: &Path) -> bool {
     if within(value.run, room) {
         return true;
@@ -92,7 +92,7 @@ pub(super) fn within(range: Interval, room: Interval) -> bool {
     room.lo <= range.lo && range.hi <= room.hi
 }
 
-/// Whether the comparisons of a path can hold somewhere in a part of the domain.
+/// True if the comparisons of a path can hold somewhere in a part of the domain.
 fn possible(path: &Path, part: &Domain) -> bool {
     path.iter().all(|(less, holds)| {
         let [a, b] = [&less.0, &less.1].map(|e| e.range(part).unwrap_or(Interval::ALL));
@@ -100,7 +100,7 @@ fn possible(path: &Path, part: &Domain) -> bool {
     })
 }
 
-/// A part of the domain, cut in two across the longest of these variables' ranges.
+/// Cuts a part of the domain in two, across the longest of the ranges of `variables`.
 fn halves(part: &Domain, variables: VariableSet) -> Option<[Domain; 2]> {
     let length = |variable: &Variable| part.get(*variable).hi - part.get(*variable).lo;
     let longest = variables

@@ -1,6 +1,7 @@
-//! What a register holds: a sum of expressions, each where some comparisons hold.
+//! The content of a register: a sum of expressions, each under some comparisons.
 //!
-//! What is subtracted again leaves the sum, so that a scratch register that was uncomputed is 0.
+//! A subtraction removes an equal addition from the sum, so a scratch register that was uncomputed
+//! is 0.
 
 use qrt_core::expr::{Expr, Interval};
 
@@ -8,17 +9,17 @@ use qrt_core::expr::{Expr, Interval};
 #[derive(Clone, PartialEq)]
 pub(super) struct Less(pub(super) Expr, pub(super) Expr);
 
-/// Comparisons, and whether they hold: the branches that a statement stands in.
+/// Comparisons, and whether they hold: the branches around a statement.
 pub(super) type Path = Vec<(Less, bool)>;
 
-/// A number that is computed.
+/// A computed number.
 #[derive(Clone)]
 pub(super) struct Value {
     /// The number without any rounding, as an expression.
     pub(super) expr: Expr,
-    /// An interval of what rounding may have added to it.
+    /// An interval of the rounding error.
     pub(super) error: Interval,
-    /// An interval of what a machine's register may hold.
+    /// An interval of the numbers that a machine's register may hold.
     pub(super) run: Interval,
 }
 
@@ -32,7 +33,7 @@ impl Value {
     }
 }
 
-/// One of the numbers that were added.
+/// One of the added numbers.
 #[derive(Clone)]
 struct Addend {
     subtracted: bool,
@@ -40,12 +41,12 @@ struct Addend {
     value: Value,
 }
 
-/// What a register holds.
+/// The content of a register.
 #[derive(Clone, Default)]
 pub(super) struct Content(Vec<Addend>);
 
 impl Content {
-    /// The content of a register that was not zero before.
+    /// Creates the content of a register that holds `value` at the beginning.
     pub(super) fn of(value: Value) -> Self {
         let part = Addend {
             subtracted: false,
@@ -55,12 +56,12 @@ impl Content {
         Self(vec![part])
     }
 
-    /// How many numbers it is the sum of.
+    /// Number of addends.
     pub(super) fn parts(&self) -> usize {
         self.0.len()
     }
 
-    /// Adds a number, where `path` leads, or subtracts it.
+    /// Adds a number on `path`, or subtracts it.
     pub(super) fn add(&mut self, value: Value, subtracted: bool, path: &Path) {
         let taken_back = self.0.iter().rposition(|part| {
             part.subtracted != subtracted && part.path == *path && part.value.expr == value.expr
@@ -76,10 +77,10 @@ impl Content {
         });
     }
 
-    /// This content, and where `path` leads, `other` in its place.
+    /// Returns this content with `other` in its place on `path`.
     pub(super) fn replaced(&self, other: &Self, path: &Path) -> Self {
         let mut parts = other.within(path);
-        // Elsewhere: the first comparisons are as on the path, and the next is not.
+        // Off the path: the first comparisons are as on the path, and the next one is not.
         for (at, (less, holds)) in path.iter().enumerate() {
             let mut elsewhere = path[..at].to_vec();
             elsewhere.push((less.clone(), !holds));
@@ -88,7 +89,7 @@ impl Content {
         Self(merged(parts))
     }
 
-    /// The parts that are there where `path` leads, as parts that are there alone.
+    /// Returns the parts that exist on `path`, as parts that exist only there.
     fn within(&self, path: &Path) -> Vec<Addend> {
         let parts = self.0.iter().filter_map(|part| {
             let mut part = part.seen_from(path)?;
@@ -98,7 +99,7 @@ impl Content {
         parts.collect()
     }
 
-    /// The register's number, where `path` leads.
+    /// Returns the register's number on `path`.
     pub(super) fn value(&self, path: &Path) -> Value {
         let parts = self.0.iter().filter_map(|part| part.seen_from(path));
         sum(parts.collect())
@@ -106,7 +107,7 @@ impl Content {
 }
 
 impl Addend {
-    /// The part where `path` leads; `None` if it was not added there.
+    /// Returns the part on `path`; `None` if it was not added there.
     fn seen_from(&self, path: &Path) -> Option<Self> {
         let mut own = Path::new();
         for (less, holds) in &self.path {
@@ -122,7 +123,7 @@ impl Addend {
         })
     }
 
-    /// The part once its first comparison is known.
+    /// Returns the part once its first comparison is known.
     fn inner(&self) -> Self {
         Self {
             path: self.path[1..].to_vec(),
@@ -131,7 +132,7 @@ impl Addend {
     }
 }
 
-/// Parts that were added on both sides of a comparison become one.
+/// Merges the parts that were added on both sides of a comparison.
 fn merged(mut parts: Vec<Addend>) -> Vec<Addend> {
     let twin = |a: &Addend, b: &Addend| {
         let both = || a.path.iter().zip(&b.path);
@@ -158,11 +159,11 @@ fn merged(mut parts: Vec<Addend>) -> Vec<Addend> {
     parts
 }
 
-/// The sum of parts: those that one comparison decides about become one `if_less`.
+/// Returns the sum of parts. The parts that one comparison decides about become one `if_less`.
 fn sum(parts: Vec<Addend>) -> Value {
     let mut total: Option<Value> = None;
     let mut rest = parts;
-    // The first that is added, so that the sum does not begin with a minus.
+    // An added part comes first, so that the sum does not begin with a minus.
     if let Some(first) = rest.iter().position(|part| !part.subtracted) {
         rest[..=first].rotate_right(1);
     }
@@ -226,7 +227,7 @@ pub(super) fn added(a: &Value, b: &Value, subtracted: bool) -> Value {
     }
 }
 
-/// `then` where the comparison holds, `otherwise` elsewhere.
+/// Returns `then` where the comparison holds, `otherwise` elsewhere.
 fn choice(less: &Less, then: &Value, otherwise: &Value) -> Value {
     Value {
         expr: less.0.if_less(&less.1, &then.expr, &otherwise.expr),

@@ -1,4 +1,4 @@
-//! What a routine's statements mean: each register's number after each of them.
+//! The meaning of a routine's statements: each register's number after each statement.
 
 use super::bounds;
 use super::content::{Content, Path, Value};
@@ -15,13 +15,13 @@ use quote::ToTokens;
 use std::collections::{BTreeMap, BTreeSet};
 use syn::Ident;
 
-/// Statements that are read, those of every pass of a loop included.
+/// The most statements that are read, those of every pass of a loop included.
 const MAX_STEPS: usize = 2000;
 
-/// Numbers that are added to one register.
+/// The most numbers that are added to one register.
 const MAX_PARTS: usize = 200;
 
-/// Registers, and where in the routine they are.
+/// The registers at one place of the routine, and that place.
 pub(super) struct Meaning<'a> {
     pub(super) registers: BTreeMap<String, Content>,
     pub(super) domain: Domain,
@@ -31,15 +31,15 @@ pub(super) struct Meaning<'a> {
     pub(super) loops: Vec<(Ident, i64)>,
     name: Ident,
     steps: usize,
-    /// Whether something is too long, so that the rest would be, too.
+    /// True if an expression is too long, so that the rest would be too long, too.
     ended: bool,
     problems: &'a mut Problems,
-    /// Problems that have been reported, by what they say and where.
+    /// Problems that have been reported, by text and place.
     said: BTreeSet<String>,
 }
 
 impl<'a> Meaning<'a> {
-    /// A routine that has not begun: its outputs are 0.
+    /// Begins a routine: its outputs are 0.
     pub(super) fn new(signature: &Signature, problems: &'a mut Problems) -> Option<Self> {
         let domain = signature::domain(signature, problems)?;
         let parameters = signature.parameters.iter().map(|register| {
@@ -67,7 +67,7 @@ impl<'a> Meaning<'a> {
         })
     }
 
-    /// The outputs as the text of expressions, unless something is wrong.
+    /// Returns the outputs as the text of expressions, unless there are problems.
     pub(super) fn texts(self, outputs: &[Ident]) -> Option<Vec<String>> {
         if self.problems.count() > 0 {
             return None;
@@ -94,12 +94,12 @@ impl<'a> Meaning<'a> {
             if !self.step() {
                 return;
             }
-            // What was meaningless is skipped, so that the rest is read too.
+            // A statement without a meaning is skipped, so that the rest is read too.
             let _: Option<()> = self.statement(statement);
         }
     }
 
-    /// Counts a statement or a pass; false if there are too many, or one is too long.
+    /// Counts a statement or a pass. False if there are too many, or if an expression is too long.
     fn step(&mut self) -> bool {
         if self.ended {
             return false;
@@ -224,7 +224,7 @@ impl<'a> Meaning<'a> {
         self.check(register, &value, source)
     }
 
-    /// Checks that a register holds its number, whatever the variables are.
+    /// Checks that a register holds its number, for all values of the variables.
     fn check(&mut self, register: &Register, value: &Value, source: &TokenStream) -> Option<()> {
         if self.problems.count() > 0 {
             return None;
@@ -281,7 +281,7 @@ impl<'a> Meaning<'a> {
         Some(())
     }
 
-    /// Complains about what has no meaning for numbers.
+    /// Reports a statement that has no meaning for numbers.
     #[cfg_attr(test, track_caller)]
     pub(super) fn meaningless<T>(
         &mut self,
@@ -293,7 +293,7 @@ impl<'a> Meaning<'a> {
         None
     }
 
-    /// Adds a problem, unless another pass or branch has.
+    /// Adds a problem, unless another pass or branch has added it.
     #[cfg_attr(test, track_caller)]
     fn say(&mut self, code: &str, source: &TokenStream, message: &str, help: &str) {
         if self.said.insert(format!("{code} {source} {message}")) {
@@ -302,7 +302,7 @@ impl<'a> Meaning<'a> {
     }
 }
 
-/// A bound as it is shown.
+/// Formats a bound for a message.
 fn rounded(bound: f64) -> String {
     let text = format!("{bound:.6}");
     let text = text.trim_end_matches('0').trim_end_matches('.');

@@ -1,4 +1,4 @@
-//! What a routine's numbers and comparisons mean.
+//! The meaning of a routine's numbers and comparisons.
 
 use super::bounds;
 use super::content::{Content, Less, Path, Value, added, negative};
@@ -10,10 +10,10 @@ use proc_macro2::TokenStream;
 use qrt_core::expr::{Expr, Interval};
 
 impl Meaning<'_> {
-    /// The value of a number of an expression.
+    /// Returns the value of a number of an expression.
     pub(super) fn number(&mut self, number: &Number) -> Option<Value> {
         let fraction = self.known(&number.size.fraction)?;
-        // A number is its units times 2^-fraction, and so are those that it is made of.
+        // A number is its units times 2^-fraction, and so are its parts.
         let of_units = |inner: &Self, part: &Number| {
             let own = inner.known(&part.size.fraction)?;
             Some(own - fraction)
@@ -90,7 +90,7 @@ impl Meaning<'_> {
         }
     }
 
-    /// A register's number, as close as the branches around bound it.
+    /// Returns a register's number, with the tightest bounds that the branches around allow.
     fn word(&mut self, register: &Register) -> Option<Value> {
         let content = self.registers.get(&register.name.to_string())?;
         let value = content.value(&self.path);
@@ -105,7 +105,7 @@ impl Meaning<'_> {
         let domain = bounds::narrowed(&self.domain, &self.path)?;
         let exact = [a, b].map(|value| value.expr.range(&domain).unwrap_or(Interval::ALL));
         let crossed = exact[0].times(b.error).plus(exact[1].times(a.error));
-        // What is a product with itself is no less than 0.
+        // The product of a number with itself is not negative.
         let least = if a.expr == b.expr {
             0.0
         } else {
@@ -122,8 +122,8 @@ impl Meaning<'_> {
         })
     }
 
-    /// The branches in which a condition is `holds`, no two of them at once; none that the branches
-    /// around rule out.
+    /// Returns the branches in which a condition is `holds`. No two of them hold at once, and the
+    /// branches around rule out none of them.
     pub(super) fn paths(
         &mut self,
         bit: &Bit,
@@ -200,7 +200,7 @@ impl Meaning<'_> {
         self.meaningless(source, &message, help)
     }
 
-    /// The number, in the loops around.
+    /// Returns the number in the current passes of the loops around.
     pub(super) fn known(&self, number: &Linear) -> Option<i64> {
         let loops = self.loops.iter();
         let number = loops.fold(number.clone(), |number, (variable, pass)| {
@@ -210,7 +210,7 @@ impl Meaning<'_> {
     }
 }
 
-/// A number times `2^by`.
+/// Returns a number times `2^by`.
 fn scaled(value: Value, by: i64) -> Value {
     if by == 0 {
         return value;
@@ -230,7 +230,7 @@ fn scaled(value: Value, by: i64) -> Value {
     }
 }
 
-/// A number that a machine rounds down to so many fraction bits.
+/// Returns a number that a machine rounds down to `fraction` fraction bits.
 fn rounded(value: Value, fraction: i64) -> Value {
     let unit = 2_f64.powi(-(fraction as i32));
     let down = Interval { lo: -unit, hi: 0.0 };

@@ -1,12 +1,12 @@
-//! What `#[reversible]` writes beside a function that could be a BSDF's term.
+//! The code that `#[reversible]` writes beside a function that could be a BSDF's term.
 
 use proc_macro2::{Delimiter, Span, TokenStream, TokenTree};
 use qrt_core::expr::Variable;
 use quote::{format_ident, quote};
 use syn::{FnArg, Ident, ItemFn, Pat, Type, Visibility};
 
-/// A macro of the function's name, which hands the function's tokens to `qrt!`; nothing, if none of
-/// the function's parameters is a BSDF's variable.
+/// Returns a macro of the function's name, which passes the function's tokens to `qrt!`. Empty if
+/// none of the function's parameters is a BSDF's variable, or if the function stands in an `impl`.
 pub(crate) fn offer(item: &TokenStream) -> TokenStream {
     let Ok(function) = syn::parse2::<ItemFn>(item.clone()) else {
         return TokenStream::new();
@@ -41,9 +41,9 @@ pub(crate) fn offer(item: &TokenStream) -> TokenStream {
     }
 }
 
-/// Whether the function stands in an `impl`, where no macro can stand beside it, and where `qrt!` would
-/// not find it. An attribute does not see what is around its function; the file that it was written
-/// in does.
+/// True if the function stands in an `impl`. No macro can stand beside it there, and `qrt!` would
+/// not find one. An attribute does not see the code around its function, so this reads the
+/// function's file.
 fn stands_in_impl(function: &ItemFn) -> bool {
     let name = &function.sig.ident;
     let text = name
@@ -56,14 +56,14 @@ fn stands_in_impl(function: &ItemFn) -> bool {
     tokens.is_some_and(|tokens| an_impl_has(&begin, tokens, false))
 }
 
-/// Whether an `impl` within these tokens, or around them, has a function that begins so.
+/// True if an `impl` within these tokens, or around them, has a function that begins with `begin`.
 fn an_impl_has(begin: &str, tokens: TokenStream, within: bool) -> bool {
     let trees: Vec<TokenTree> = tokens.into_iter().collect();
     let begins = |three: &[TokenTree]| unspaced(&three.iter().cloned().collect()) == begin;
     if within && trees.windows(3).any(begins) {
         return true;
     }
-    // What stands before a block says whose block it is.
+    // The words before a block determine its kind.
     let mut header: Vec<String> = Vec::new();
     trees.into_iter().any(|tree| match tree {
         TokenTree::Group(group) if group.delimiter() == Delimiter::Brace => {
@@ -82,12 +82,12 @@ fn an_impl_has(begin: &str, tokens: TokenStream, within: bool) -> bool {
     })
 }
 
-/// Tokens as text without what is between them, which is written one way or another.
+/// Returns tokens as text without the spaces between them, which vary.
 fn unspaced(tokens: &TokenStream) -> String {
     tokens.to_string().split_whitespace().collect()
 }
 
-/// Whether a parameter is called like a variable, and is a number with a point that is only read.
+/// True if a parameter has the name of a variable, and is a number with a point that is only read.
 fn is_variable(input: &FnArg) -> bool {
     let FnArg::Typed(input) = input else {
         return false;
@@ -104,7 +104,7 @@ fn is_variable(input: &FnArg) -> bool {
         && format.path.segments.last().is_some_and(fixed)
 }
 
-/// The variable that has this name, if there is one.
+/// Returns the variable that has this name, if there is one.
 pub(super) fn variable(name: &Ident) -> Option<Variable> {
     let mut all = Variable::ALL.into_iter();
     all.find(|variable| name == variable.name())

@@ -1,4 +1,4 @@
-//! A term's signature: the BSDF's variables, and where its value goes.
+//! A term's signature: the BSDF's variables, and the registers of its value.
 
 use super::bounds;
 use super::offer::variable;
@@ -11,7 +11,7 @@ use qrt_core::syntax::{codes, nearest};
 use quote::ToTokens;
 use syn::Ident;
 
-/// The values that the variables have here.
+/// Returns the values that the variables have in this function.
 pub(super) fn domain(signature: &Signature, problems: &mut Problems) -> Option<Domain> {
     let mut domain = Domain::default();
     let before = problems.count();
@@ -64,7 +64,7 @@ fn unknown(name: &Ident, signature: &Signature, problems: &mut Problems) {
     problems.add(codes::TERM_SIGNATURE, name, &message, &help);
 }
 
-/// What a variable can be in a register, which must hold all of its values.
+/// Returns the range of a variable in a register, which must hold all of its values.
 fn held(variable: Variable, register: &Register, problems: &mut Problems) -> Option<Interval> {
     let all = Domain::default().get(variable);
     let room = bounds::of_format(&register.format)?;
@@ -84,7 +84,7 @@ fn held(variable: Variable, register: &Register, problems: &mut Problems) -> Opt
     None
 }
 
-/// A format that holds a variable.
+/// Returns a format that holds a variable.
 fn format_of(variable: Variable) -> &'static str {
     match variable {
         Variable::U | Variable::V => "UFixed<0, 14>",
@@ -93,7 +93,7 @@ fn format_of(variable: Variable) -> &'static str {
     }
 }
 
-/// The output for grey, or those for red, green and blue.
+/// Returns the output for grey, or those for red, green and blue.
 pub(super) fn outputs(signature: &Signature, problems: &mut Problems) -> Option<Vec<Ident>> {
     let parameters = signature.parameters.iter();
     let outputs: Vec<&Register> = parameters

@@ -3,14 +3,14 @@
 use super::channels;
 use crate::reversible::problem::Problems;
 
-/// The expressions of a function, or what is wrong with it.
+/// Returns the expressions of a function, or its problems.
 fn read(function: &str) -> Result<Vec<String>, Vec<String>> {
     let mut problems = Problems::default();
     let channels = channels(function.parse().unwrap(), &mut problems);
     channels.ok_or_else(|| problems.messages())
 }
 
-/// The expression of a function of `cos_i` and `cos_o` with these statements.
+/// Returns the expression of a function of `cos_i` and `cos_o` with these statements.
 fn body(statements: &str) -> String {
     let cosines = "cos_i: &UFixed<1, 14>, cos_o: &UFixed<1, 14>";
     let function = format!("fn f({cosines}, out: &mut Fixed<6, 14>) {{ {statements} }}");
@@ -67,7 +67,7 @@ fn branches_are_choices() {
         body("if cos_i < 0.5 || cos_o < 0.5 { out += 1; } else { out += cos_i; }"),
         "if_less(cos_i,0.5,1,if_less(cos_o,0.5,1,cos_i))"
     );
-    // What a branch rules out, or its numbers, is not written.
+    // Branches that other branches, or numbers, rule out are not written.
     assert_eq!(
         body("if cos_i < 0.5 { if cos_i < 0.5 { out += 1; } else { out += 2; } }"),
         "if_less(cos_i,0.5,1,0)"
@@ -86,7 +86,7 @@ fn loops_are_written_out() {
     );
 }
 
-/// The code of what is wrong with such statements.
+/// Returns the code of the problem of these statements.
 fn code(statements: &str) -> String {
     let message = body(statements);
     let code = message.find("[QRT").map_or(0, |at| at + 1);
@@ -126,7 +126,7 @@ fn what_may_overflow_is_refused() {
             "if cos_i > 0.5 { within! { t += cos_i - 0.5; } apply! { out += t; } }",
             true,
         ),
-        // Rounded down, the product may be less than a unit below.
+        // The product is rounded down, by less than a unit.
         (
             "within! { t += cos_i; t -= wrapping(cos_i * cos_o); } apply! { out += t; }",
             false,
@@ -135,7 +135,7 @@ fn what_may_overflow_is_refused() {
             "within! { t += 1.5; t -= wrapping(cos_i * cos_o); } apply! { out += t; }",
             true,
         ),
-        // Only in parts of the square is it seen.
+        // Only a proof on parts of the square shows it.
         (
             "within! { t += cos_i + 0.75; t -= wrapping(cos_i * cos_i); } apply! { out += t; }",
             true,

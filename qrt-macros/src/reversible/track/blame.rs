@@ -1,4 +1,4 @@
-//! Which statement is at fault for a register that holds what it should not.
+//! The statement that is at fault for a wrong content of a register.
 
 use crate::reversible::problem::Problems;
 use crate::reversible::scope::{begin, text};
@@ -12,9 +12,9 @@ use syn::Ident;
 /// A change of a register.
 pub(super) struct Change {
     pub(super) register: String,
-    /// What was done: equal for equal effects.
+    /// The change: equal for equal effects.
     pub(super) done: String,
-    /// What would undo it.
+    /// The change that would undo this one.
     pub(super) undone_by: String,
     pub(super) texts: Rc<Texts>,
     pub(super) source: TokenStream,
@@ -24,9 +24,9 @@ pub(super) struct Change {
 #[derive(Default)]
 pub(super) struct Log {
     changes: Vec<Change>,
-    /// What has been reported, of another pass of a loop.
+    /// The places that have been reported, which another pass of a loop does not report again.
     said: BTreeSet<String>,
-    /// Whether what is looked through now has been looked through before.
+    /// True while statements are looked through for a second time.
     pub(super) again: bool,
 }
 
@@ -39,7 +39,7 @@ impl Log {
         self.changes.push(change);
     }
 
-    /// The changes since `begin` that no later one undoes; of all are some undone, all.
+    /// Returns the changes since `begin` that no later one undoes; if all are undone, all changes.
     fn left(&self, begin: usize, registers: &[String]) -> Vec<&Change> {
         let all = self.changes[begin..].iter();
         let all: Vec<&Change> = all
@@ -58,8 +58,8 @@ impl Log {
         if left.is_empty() { all } else { left }
     }
 
-    /// Complains about a scratch register at its end, or an array of them, which have been there
-    /// since `begin`: all, and those that are dirty.
+    /// Reports a scratch register at its end, or an array of them, which exist since `begin`, if it
+    /// is dirty or unused. The names are those of all registers, and those of the dirty ones.
     pub(super) fn check(
         &mut self,
         begin: usize,
@@ -88,7 +88,7 @@ impl Log {
         }
     }
 
-    /// Complains about an `apply!` that has changed what its `within!` computed from or into.
+    /// Reports an `apply!` that has changed an operand or a result of its `within!`.
     pub(super) fn changed_in_apply(
         &mut self,
         begin: usize,
@@ -105,21 +105,21 @@ impl Log {
     }
 }
 
-/// Whether a place is at fault for the first time: a loop's passes say the same.
+/// True if a place is at fault for the first time: other passes of a loop report the same.
 fn first_time(said: &mut BTreeSet<String>, again: bool, source: &TokenStream) -> bool {
     !again && said.insert(format!("{:?} {source}", begin(source)))
 }
 
-/// A statement and its inverse as texts, whatever they read.
+/// A statement and its inverse as texts, independent of the values that they read.
 pub(super) type Texts = [String; 2];
 
-/// Complains about a scratch register that nothing is computed into.
+/// Reports a scratch register that nothing is computed into.
 pub(super) fn nothing_computed(name: &Ident, problems: &mut Problems) {
     let message = format!("nothing is computed into `{name}`");
     problems.add(codes::REV_UNUSED, name, &message, "remove it");
 }
 
-/// Complains about a scratch register that is not 0 at its end, after these changes of it.
+/// Reports a scratch register that is not 0 at its end, after these changes of it.
 pub(super) fn never_uncomputed(
     name: &Ident,
     left: &[(Texts, TokenStream)],
@@ -146,7 +146,7 @@ pub(super) fn never_uncomputed(
     problems.add(codes::REV_DIRTY, source, &message, &help);
 }
 
-/// Complains about a register that an `apply!` changes under its `within!`.
+/// Reports a register that an `apply!` changes under its `within!`.
 pub(super) fn within_changed(name: &str, source: &TokenStream, problems: &mut Problems) {
     let message = format!("`{name}` is what the `within!` before was computed from or into");
     let help = "change it before or after the two, so that what was computed can be undone";

@@ -1,17 +1,17 @@
-//! What a register holds: a sum of words, each of which is a list of bits.
+//! The content of a register: a sum of words, each of which is a list of bits.
 
 use super::polynomial::{Atoms, Bit};
 use std::collections::{BTreeMap, HashMap};
 
-/// `sum of factor * word`, modulo `2^width`. Updates by `^=` leave one word; those by `+=` add to
-/// the sum.
+/// `sum of factor * word`, modulo `2^width`. An update by `^=` leaves one word; an update by `+=`
+/// adds to the sum.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Content {
     width: usize,
     terms: BTreeMap<Vec<Bit>, u64>,
 }
 
-/// Sums whose bits something has read, by these bits.
+/// Sums whose bits have been read, by these bits.
 pub(super) type Sums = HashMap<Vec<Bit>, Content>;
 
 impl Content {
@@ -36,7 +36,7 @@ impl Content {
         u64::MAX >> (64 - self.width)
     }
 
-    /// Adds `factor * word`; the word is as wide as this register.
+    /// Adds `factor * word`; the word has the width of this register.
     pub(super) fn add(&mut self, word: &[Bit], factor: u64, sums: &Sums) {
         if let Some(sum) = sums.get(word) {
             for (word, own) in &sum.terms {
@@ -50,7 +50,7 @@ impl Content {
             self.add_term(one(self.width), units.wrapping_mul(factor));
             return;
         }
-        // Zeros below belong to the factor, so that 2 x is x twice.
+        // Zeros below belong to the factor, so that 2 x equals x added twice.
         let zeros = word.iter().take_while(|bit| bit.is_zero()).count();
         let mut word = word[zeros..].to_vec();
         word.resize(self.width, Bit::default());
@@ -64,7 +64,7 @@ impl Content {
         self.terms.retain(|_, factor| *factor != 0);
     }
 
-    /// The register's bits, the lowest first.
+    /// Returns the register's bits, the lowest first.
     pub(super) fn bits(&self, atoms: &mut Atoms, sums: &mut Sums) -> Vec<Bit> {
         let single = match self.terms.first_key_value() {
             None => return vec![Bit::default(); self.width],
@@ -89,7 +89,7 @@ impl Content {
         bits
     }
 
-    /// The same where an atom has this value.
+    /// Returns the content where an atom has this value.
     pub(super) fn with(&self, atom: u32, value: bool, sums: &Sums) -> Self {
         if !self.terms.keys().flatten().any(|bit| bit.mentions(atom)) {
             return self.clone();
@@ -102,7 +102,7 @@ impl Content {
         rest
     }
 
-    /// Adds what `end` is more than `start`, where the guard holds its value.
+    /// Adds `end` minus `start`, where the guard holds its value.
     pub(super) fn add_difference(
         &mut self,
         [start, end]: [&Self; 2],
@@ -127,7 +127,7 @@ impl Content {
     }
 }
 
-/// The word 1.
+/// Returns the word 1.
 fn one(width: usize) -> Vec<Bit> {
     let mut bits = vec![Bit::default(); width];
     bits[0] = Bit::constant(true);

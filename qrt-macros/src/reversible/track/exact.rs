@@ -1,8 +1,8 @@
-//! Routines of which all widths and bounds are known, bit by bit: each statement is run on
+//! Routines whose widths and bounds are all known, bit by bit: each statement is run on
 //! polynomials, loops pass by pass, branches where their condition holds and where it fails.
 //!
-//! What is the same by its polynomials is the same: a scratch register is uncomputed when it holds
-//! 0 again, whatever has led there.
+//! Contents with equal polynomials are equal: a scratch register is uncomputed when it holds 0
+//! again, by whichever statements.
 
 mod read;
 
@@ -20,13 +20,13 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::rc::Rc;
 use syn::{ExprPath, Ident};
 
-/// Bits that are changed, those of every pass of a loop included; beyond, loops are tracked whole.
+/// The most changed bits, those of every pass of a loop included; beyond, loops are tracked whole.
 const MOST_STEPS: usize = 20_000;
 
-/// One call of a function: which, what it read, and what it changed.
+/// A call of a function: its name, the words that it read, and those that it changed.
 type Called = (String, Vec<u32>, Vec<u32>);
 
-/// Why a routine cannot be run: something is not known, or there is too much of it.
+/// The reason why a routine cannot be run: a number is not known, or there are too many steps.
 pub(super) struct Unknown;
 
 type Known<T> = Result<T, Unknown>;
@@ -44,16 +44,16 @@ pub(super) struct Exact {
     pub(super) problems: Problems,
     /// Bits that the `within!`s around have read or changed.
     touched: Vec<BTreeSet<(String, usize)>>,
-    /// Registers that the branches around have changed otherwise than by adding.
+    /// Registers that the branches around have changed by other means than addition.
     rewritten: Vec<BTreeSet<String>>,
-    /// Updates as texts, by where they are in the routine.
+    /// Updates as texts, by their places in the routine.
     texts: HashMap<usize, Rc<Texts>>,
-    /// Contents of registers that calls have changed, before each.
+    /// The contents of changed registers before each call, by the call that would undo it.
     calls: HashMap<Called, Vec<Content>>,
 }
 
 impl Exact {
-    /// A routine that has not begun.
+    /// Begins a routine.
     pub(super) fn new(parameters: &[Rc<Register>]) -> Known<Self> {
         let mut exact = Self::default();
         for register in parameters {
@@ -67,7 +67,7 @@ impl Exact {
         Ok(exact)
     }
 
-    /// The names of a register, or of all of an array's.
+    /// Returns the name of a register, or the names of all of an array's.
     fn names(&self, register: &Register) -> Known<Vec<String>> {
         match (&register.array, &register.element) {
             (Some(array), None) => {
@@ -214,19 +214,20 @@ impl Exact {
         Ok(())
     }
 
-    /// An update and its inverse as texts; the same in all passes of the loops around.
+    /// Returns an update and its inverse as texts, which are the same in all passes of the loops
+    /// around.
     fn texts(&mut self, place: &Place, updates: [Update; 2], term: &Term) -> Rc<Texts> {
         let one = |update| K::Update(place.clone(), vec![(update, term.clone())]);
         let texts = || Rc::new(updates.map(|update| super::keys::key(&one(update))));
         if self.log.again {
-            // The statements are copies, of which nothing is reported.
+            // These statements are copies, which report nothing.
             return Rc::default();
         }
         let known = self.texts.entry(std::ptr::from_ref(term).addr());
         known.or_insert_with(texts).clone()
     }
 
-    /// Gives a register other bits.
+    /// Replaces the bits of a register.
     fn rewrite(&mut self, name: &str, bits: &[Poly]) {
         let content = Content::of(bits, &self.sums);
         self.replace(name, content);
@@ -384,7 +385,7 @@ impl Exact {
         }
         for name in changed {
             self.log.changed_in_apply(begin, &name, &mut self.problems);
-            // That is enough to be said.
+            // One report is enough: the register gets its old content back.
             self.replace(&name, computed[&name].clone());
         }
         let again = std::mem::replace(&mut self.log.again, true);

@@ -1,15 +1,15 @@
-//! Texts of statements that are equal where the statements do the same.
+//! Texts of statements: equal for statements with the same effect.
 
 use crate::reversible::dim::Linear;
 use crate::reversible::ir::{Bit, Statement, StatementKind as K, Term};
 use crate::reversible::scope::text;
 
-/// Equal for statements that do the same.
+/// Returns a text that is equal for statements with the same effect.
 pub(super) fn key(kind: &K) -> String {
     key_of(kind, true)
 }
 
-/// The same, of statements whose parts may have no order.
+/// Returns the text of [`key`]. Unless `ordered`, the parts of a statement have no order.
 pub(super) fn key_of(kind: &K, ordered: bool) -> String {
     let keys = |statements: &[Statement]| {
         let keys = statements.iter();

@@ -1,10 +1,10 @@
-//! Routines over constants: what their registers hold, without the numbers of their bits.
+//! Routines over constants: the contents of their registers, without the numbers of their bits.
 //!
 //! The content of some bits of a register is named by the list of changes that made it. A statement
-//! that is the inverse of one of them, and reads what that read, takes it off the list again, if all
-//! later ones change other bits, or add or exclude as it does itself. What is left at the end of a
-//! scratch register's scope has never been uncomputed. A branch and a loop are changes like others,
-//! undone as wholes.
+//! that is the inverse of one of them, and reads the same operands, removes that change from the
+//! list. All later changes must then change other bits, or be additions or exclusive ors as the
+//! statement itself is. A change that is left at the end of a scratch register's scope has never
+//! been uncomputed. A branch and a loop are changes like others, undone as wholes.
 
 use super::blame;
 use super::keys::{key, key_of};
@@ -15,7 +15,7 @@ use proc_macro2::TokenStream;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::rc::Rc;
 
-/// Changes that may be undone in any order have one class.
+/// The class of a change. Sums may be undone in any order, and so may exclusive ors.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Class {
     Sum,
@@ -38,7 +38,7 @@ impl RegisterBits {
         })
     }
 
-    /// Of an array, bits are counted through all of its registers.
+    /// Returns the bits of a place. The bits of an array are counted through all of its registers.
     fn of(Place { register, part }: &Place) -> Self {
         let bits = match (&register.element, register.format.width.known()) {
             (None, _) => part.clone(),
@@ -54,13 +54,13 @@ impl RegisterBits {
         }
     }
 
-    /// Whether the two may have a bit in common.
+    /// True if the two may have a bit in common.
     fn meets(&self, other: &Self, loops: &[Loop]) -> bool {
         let bits = self.bits.as_ref().zip(other.bits.as_ref());
         self.register == other.register && bits.is_none_or(|(a, b)| !apart(a, b, loops))
     }
 
-    /// The bits that this is in some pass of a loop.
+    /// Returns the bits that these are in any pass of a loop.
     fn in_passes(&self, around: &Loop) -> Self {
         let bits = self.bits.as_ref().map(|[first, width]| {
             let around = std::slice::from_ref(around);
@@ -86,7 +86,7 @@ impl RegisterBits {
 #[derive(Clone)]
 struct Change {
     part: RegisterBits,
-    /// What was done, and to what: equal for equal effects.
+    /// The change and its target: equal for equal effects.
     key: String,
     /// The key of the change that would undo this one.
     undone_by: String,
@@ -96,7 +96,7 @@ struct Change {
     source: TokenStream,
 }
 
-/// A number for each content that some bits can have.
+/// A number for each content of some bits.
 #[derive(Default)]
 struct Names(HashMap<String, u64>);
 
@@ -113,14 +113,14 @@ pub(super) struct Tracker<'a> {
     loops: Vec<Loop>,
 }
 
-/// Registers as they are in one block, by name.
+/// The registers of one block, by name.
 #[derive(Default)]
 struct Frame {
-    /// What they held at its begin.
+    /// Their contents at the beginning of the block.
     before: BTreeMap<String, u64>,
     changes: BTreeMap<String, Vec<Change>>,
     read: Vec<RegisterBits>,
-    /// What has been read or changed.
+    /// Bits that have been read or changed.
     touched: Vec<RegisterBits>,
     changed: BTreeSet<String>,
 }
@@ -143,7 +143,7 @@ impl Frame {
         }
     }
 
-    /// The changes that have not been undone, as parts: one a register.
+    /// Returns the parts whose changes have not been undone: one for each register.
     fn left(&self) -> Vec<RegisterBits> {
         let left = self.changes.values().filter_map(|changes| {
             let (first, others) = changes.split_first()?;
@@ -165,7 +165,7 @@ impl<'a> Tracker<'a> {
         }
     }
 
-    /// Looks through a routine's body.
+    /// Checks a routine's body.
     pub(super) fn body(&mut self, statements: &[Statement]) {
         self.block(statements, &mut Frame::default());
     }
@@ -176,7 +176,7 @@ impl<'a> Tracker<'a> {
         }
     }
 
-    /// A block within another, before its first statement.
+    /// Begins a block within another, before its first statement.
     fn begin(&mut self, frame: &Frame) -> Frame {
         let known = frame.before.keys().chain(frame.changes.keys());
         let contents = known.map(|register| {
@@ -202,7 +202,7 @@ impl<'a> Tracker<'a> {
         inside
     }
 
-    /// The name of what some bits hold.
+    /// Returns the name of the content of some bits.
     fn content(&mut self, part: &RegisterBits, frame: &Frame) -> u64 {
         let base = frame.before.get(&part.register).copied();
         let base = base.unwrap_or_else(|| self.names.of(format!("begin {}", part.register)));
@@ -222,7 +222,7 @@ impl<'a> Tracker<'a> {
         self.names.of(content)
     }
 
-    /// Takes note of a change of one or several registers.
+    /// Records a change of one or several registers.
     fn change(
         &mut self,
         [written, read]: [&[RegisterBits]; 2],
@@ -251,7 +251,7 @@ impl<'a> Tracker<'a> {
         if self.take_back(written, &key, class, frame) {
             return;
         }
-        // What several registers become depends on what all of them were.
+        // The new contents of several registers depend on the old contents of all of them.
         if written.len() > 1 {
             let were: Vec<u64> = written
                 .iter()
@@ -273,7 +273,7 @@ impl<'a> Tracker<'a> {
         }
     }
 
-    /// Takes a change off the list that this one undoes.
+    /// Removes the change that this one undoes from the list. False if there is none.
     fn take_back(
         &self,
         written: &[RegisterBits],
@@ -367,7 +367,7 @@ impl<'a> Tracker<'a> {
         }
     }
 
-    /// The effect of a statement that contains others: the changes that are left of these.
+    /// Records the effect of a statement that contains others: the changes of these that are left.
     fn compound(
         &mut self,
         statement: &Statement,
@@ -396,7 +396,7 @@ impl<'a> Tracker<'a> {
         let Some(first) = changes.next() else {
             return;
         };
-        // Where nothing reads what is changed, all is added in any order.
+        // If nothing reads a changed register, all changes are additions in any order.
         let one_class = first.class != Class::Other && changes.all(|c| c.class == first.class);
         let is_changed =
             |part: &RegisterBits| inside.iter().any(|f| f.changed.contains(&part.register));
@@ -460,7 +460,7 @@ impl<'a> Tracker<'a> {
 
     fn scratch(&mut self, register: &Register, body: &[Statement], frame: &mut Frame) {
         let name = register.name.to_string();
-        // A name of its own, also if another block has used it.
+        // Its content is zero, even if another block has used the name.
         let zero = format!("zero {name}: {}", register.type_text());
         frame.before.insert(name.clone(), self.names.of(zero));
         self.block(body, frame);
@@ -490,7 +490,7 @@ fn read(term: &Term) -> Vec<RegisterBits> {
     read
 }
 
-/// Whether a statement consists of updates alone.
+/// True if a statement consists of updates alone.
 fn adds(statement: &Statement) -> bool {
     match &statement.kind {
         K::Update(..) => true,

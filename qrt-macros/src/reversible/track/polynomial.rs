@@ -1,13 +1,13 @@
-//! What a bit holds, as a polynomial over GF(2).
+//! The content of a bit, as a polynomial over GF(2).
 //!
-//! Its variables, the *atoms*, are what parameters held at first and what operations made of that:
+//! Its variables, the *atoms*, are the initial bits of parameters and the results of operations:
 //! the bits of a product, the truth of a comparison. Two bits with equal polynomials are equal on
 //! every path; the bit that holds the polynomial 0 holds 0.
 
 use std::collections::{BTreeSet, HashMap};
 use std::rc::Rc;
 
-/// An exclusive or of products of atoms. The product of none is 1, the exclusive or of none 0.
+/// An exclusive or of products of atoms. The empty product is 1, the empty exclusive or 0.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(super) struct Bit(Rc<BTreeSet<Vec<u32>>>);
 
@@ -23,11 +23,11 @@ impl Bit {
         Self::sum([vec![atom]])
     }
 
-    /// The exclusive or of these products.
+    /// Returns the exclusive or of these products.
     fn sum(products: impl IntoIterator<Item = Vec<u32>>) -> Self {
         let mut sum = BTreeSet::new();
         for product in products {
-            // Twice is not at all.
+            // A product that occurs twice cancels.
             if let Some(product) = sum.replace(product) {
                 sum.remove(&product);
             }
@@ -79,12 +79,12 @@ impl Bit {
         Self::sum(products)
     }
 
-    /// Whether it depends on an atom.
+    /// True if it depends on an atom.
     pub(super) fn mentions(&self, atom: u32) -> bool {
         self.0.iter().any(|product| product.contains(&atom))
     }
 
-    /// The polynomial where an atom has this value.
+    /// Returns the polynomial where an atom has this value.
     pub(super) fn with(&self, atom: u32, value: bool) -> Self {
         if !self.mentions(atom) {
             return self.clone();
@@ -102,7 +102,7 @@ impl Bit {
         Self::sum(products)
     }
 
-    /// An atom and a value, which it has exactly where the polynomial is 1.
+    /// Returns an atom and a value: the atom has this value exactly where the polynomial is 1.
     pub(super) fn as_guard(&self, atoms: &mut Atoms) -> (u32, bool) {
         let inverted = self.0.contains(&Vec::new());
         let rest = if inverted { self.not() } else { self.clone() };
@@ -118,7 +118,7 @@ impl Bit {
     }
 }
 
-/// Numbers for atoms, and for words of bits: equal ones for what is equal.
+/// Numbers of atoms, and of words of bits: equal ones have equal numbers.
 #[derive(Default)]
 pub(super) struct Atoms {
     names: HashMap<String, u32>,
@@ -126,26 +126,26 @@ pub(super) struct Atoms {
 }
 
 impl Atoms {
-    /// The atom of this name.
+    /// Returns the atom of this name.
     pub(super) fn named(&mut self, name: &str) -> u32 {
         let next = self.names.len() as u32;
         *self.names.entry(name.to_owned()).or_insert(next)
     }
 
-    /// The number of a word: of bits, the lowest first.
+    /// Returns the number of a word, which is a list of bits, the lowest first.
     pub(super) fn word(&mut self, bits: &[Bit]) -> u32 {
         let next = self.words.len() as u32;
         *self.words.entry(bits.to_vec()).or_insert(next)
     }
 
-    /// A polynomial as one atom.
+    /// Returns a polynomial as one atom, or as its negation.
     fn of_bit(&mut self, bit: &Bit) -> Bit {
         let (atom, value) = bit.as_guard(self);
         let atom = Bit::atom(atom);
         if value { atom } else { atom.not() }
     }
 
-    /// So many bits of a word that is known by its name alone.
+    /// Returns `width` bits of a word that is known by its name alone.
     pub(super) fn bits(&mut self, name: &str, width: usize) -> Vec<Bit> {
         let mut bit = |place| Bit::atom(self.named(&format!("{name}[{place}]")));
         (0..width).map(&mut bit).collect()
@@ -156,7 +156,7 @@ impl Atoms {
 mod tests {
     use super::*;
 
-    /// The value of a polynomial whose atoms are the bits of `values`.
+    /// Returns the value of a polynomial whose atoms are the bits of `values`.
     fn value(bit: &Bit, values: u32) -> bool {
         let holds = |product: &&Vec<u32>| product.iter().all(|atom| values >> atom & 1 == 1);
         bit.0.iter().filter(holds).count() % 2 == 1

@@ -1,6 +1,6 @@
-//! No check of the macros can be taken away unnoticed: each place in the source that reports an
-//! error is reached by a program of `tests/ui`, and the errors that a program is told are those
-//! beside it, which the compiler must show.
+//! Tests that no check of the macros can be removed unnoticed. A program of `tests/ui` reaches each
+//! place in the source that reports an error. The errors of a program are those in the file beside
+//! it, which the compiler must show.
 
 mod program;
 mod source;
@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 /// A file below `src`, and a line of it.
 type Place = (String, usize);
 
-/// An error: where in the source it was reported, its code if it has one, and its words.
+/// An error: the place in the source that reported it, its code if it has one, and its words.
 struct Report {
     place: Place,
     code: String,
@@ -24,11 +24,11 @@ struct Report {
 }
 
 thread_local! {
-    /// Of this test alone: others run in threads of their own.
+    /// Reports of this test alone: other tests run in threads of their own.
     static REPORTS: RefCell<Vec<Report>> = const { RefCell::new(Vec::new()) };
 }
 
-/// Takes note of a report.
+/// Records a report.
 pub(crate) fn reached(place: &Location<'_>, code: &str, message: &str) {
     let (_, file) = place.file().rsplit_once("src/").unwrap();
     let report = Report {
@@ -39,7 +39,7 @@ pub(crate) fn reached(place: &Location<'_>, code: &str, message: &str) {
     REPORTS.with_borrow_mut(|reports| reports.push(report));
 }
 
-/// The Rust files of a folder, and of those within.
+/// Collects the Rust files of a folder, and of the folders within.
 fn rust_files(folder: &Path, found: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
@@ -75,7 +75,7 @@ fn every_check_is_failed_by_some_program() {
                 message,
             } = report;
             missed.remove(&place);
-            // Where a file is wrong, the codes stand in its own report.
+            // The codes of a faulty file are in its own report.
             let words = match code.as_str() {
                 "" => message,
                 code if shown.contains(&format!("error[{code}]")) => message,
@@ -89,7 +89,8 @@ fn every_check_is_failed_by_some_program() {
         let errors = shown
             .lines()
             .filter_map(|line| line.strip_prefix("error: "));
-        // Others are the compiler's own, among them those about warnings, which it is made to refuse.
+        // Other errors are the compiler's own, including those about warnings, which it is made to
+        // deny.
         let warns = |error: &str| error.starts_with("use of deprecated constant");
         let told = |error: &str| error.contains(" [QRT") || shown.contains("error[QRT");
         let own = |error: &&str| told(error) && !warns(error);

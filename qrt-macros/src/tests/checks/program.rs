@@ -7,7 +7,7 @@ use std::path::Path;
 
 /// A program of `tests/ui`, whose macros run in the order of the text.
 pub(super) struct Program<'a> {
-    /// Where the files are that it names.
+    /// The folder of the files that it names.
     pub(super) folder: &'a Path,
     /// The functions with `#[reversible]` so far, by their names.
     pub(super) functions: BTreeMap<String, TokenStream>,
@@ -32,7 +32,7 @@ impl Program<'_> {
         }
     }
 
-    /// An attribute in front of these tokens.
+    /// Runs an attribute in front of these tokens.
     fn attribute(&mut self, attribute: &Group, behind: &[TokenTree]) {
         let mut attribute = attribute.stream().into_iter();
         if attribute
@@ -58,7 +58,7 @@ impl Program<'_> {
         crate::reversible::expand(&arguments, item);
     }
 
-    /// Runs `qrt!`, and hands over the functions that it asks for: `f! { [..] .. }`.
+    /// Runs `qrt!`, and passes it the functions that it requests: `f! { [..] .. }`.
     fn scene(&self, asked: Asked) {
         let out = crate::scene::expand(asked, self.folder).into_iter();
         let out: Vec<TokenTree> = out.collect();

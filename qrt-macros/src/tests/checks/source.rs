@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-/// What stands before a function whose reports are its caller's.
+/// The attribute of a function whose reports count as its caller's.
 const HANDED_ON: &str = "# [ cfg_attr ( test , track_caller ) ]";
 
 /// The tokens of a file below `src`, brackets included, each with its line.
@@ -29,13 +29,13 @@ impl Source {
         self.tokens.get(at).map_or("", |(text, _)| text)
     }
 
-    /// The tokens behind the first `from`.
+    /// Returns the tokens from index `from` on.
     fn texts(&self, from: usize) -> impl Iterator<Item = &str> {
         self.tokens[from..].iter().map(|(text, _)| text.as_str())
     }
 
-    /// The functions whose reports are their callers': the name, where it stands, and where the
-    /// body ends.
+    /// Returns the functions whose reports count as their callers': the name, its index, and the
+    /// index of the body's end.
     fn reporters(&self) -> Vec<(&str, usize, usize)> {
         let mark: Vec<&str> = HANDED_ON.split(' ').collect();
         let marked = |at: &usize| self.texts(*at).take(mark.len()).eq(mark.iter().copied());
@@ -52,12 +52,12 @@ impl Source {
         reporters
     }
 
-    /// The calls of `reporters`, unless within such a function.
+    /// Returns the calls of `reporters`, unless within these functions.
     fn places(&self, reporters: &BTreeSet<String>) -> BTreeSet<Place> {
         let own = self.reporters();
         let calls = (2..self.tokens.len()).filter(|&at| {
             let of_all = match self.token(at) {
-                // Other things are added, too.
+                // Other types have a method `add`, too.
                 "add" => matches!(self.token(at - 2), "problems" | "faults"),
                 name => reporters.contains(name),
             };
@@ -89,7 +89,7 @@ fn flatten(stream: TokenStream, tokens: &mut Vec<(String, usize)>) {
     }
 }
 
-/// Every place in the source that reports.
+/// Returns every place in the source that reports.
 pub(super) fn places() -> BTreeSet<Place> {
     let mut places = BTreeSet::new();
     for part in ["scene", "reversible"] {

@@ -1,9 +1,9 @@
-//! Written code, evaluated for one path: what each method of the vectors means, on integers.
+//! Evaluation of written code for one path: the meaning of each method of the vectors, on integers.
 
 use std::collections::HashMap;
 use syn::{Expr, ExprMethodCall, File, ImplItem, Item, Lit, Pat, Stmt, UnOp};
 
-/// What an expression stands for.
+/// The value of an expression.
 #[derive(Clone, Debug)]
 enum Value {
     Truth(bool),
@@ -11,7 +11,7 @@ enum Value {
     Long(i64),
     /// A constant argument.
     Constant(i64),
-    /// A table, or what a block hands on.
+    /// A table, or the variables that a block returns.
     List(Vec<Value>),
     /// The instruction set.
     Vectors,
@@ -21,13 +21,13 @@ enum Value {
 
 use Value::{Constant, Int, List, Long, Truth, Vectors, Words};
 
-/// The code, and the path.
+/// The state of the code on one path.
 pub(super) struct Path<'a> {
     words: &'a [u64],
     variables: HashMap<String, Value>,
 }
 
-/// By channel the counts, then by channel the colours, of the path of this id.
+/// Returns the counts by channel, then the colours by channel, of the path of this `id`.
 pub(super) fn outputs(file: &File, words: &[u64], id: u64) -> Vec<i64> {
     let mut path = Path {
         words,
@@ -67,7 +67,7 @@ fn numbers(value: Value) -> Vec<i64> {
 }
 
 impl Path<'_> {
-    /// The value of the last expression.
+    /// Returns the value of the last expression.
     fn block(&mut self, statements: &[Stmt]) -> Value {
         let mut last = List(Vec::new());
         for statement in statements {
@@ -111,7 +111,7 @@ impl Path<'_> {
                 other => panic!("{other:?}"),
             },
             Expr::Unary(minus) if matches!(minus.op, UnOp::Neg(_)) => {
-                // The least number has no positive twin.
+                // The least integer has no positive counterpart.
                 if let Expr::Lit(literal) = &*minus.expr
                     && let Lit::Int(number) = &literal.lit
                 {
@@ -176,7 +176,7 @@ fn of_bits(value: i128, bits: u32) -> Value {
     }
 }
 
-/// The number, of lanes of as many bits.
+/// Returns the number, and the width of its lanes in bits.
 fn number(value: &Value) -> (i128, u32) {
     match value {
         Int(value) => ((*value).into(), 32),

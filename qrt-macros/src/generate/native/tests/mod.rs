@@ -1,4 +1,4 @@
-//! Code for programs of chance, evaluated, against their definition.
+//! Tests of the code of random programs: it is evaluated, and compared with their definition.
 
 #![allow(clippy::unwrap_used)]
 
@@ -13,7 +13,7 @@ use qrt_circuit::Contents;
 use qrt_core::oracle::{Channel, Options};
 use std::sync::OnceLock;
 
-/// Operations out of place.
+/// Number of out-of-place operations.
 const KINDS: u32 = 14;
 
 const SCENE: &str = "
@@ -26,7 +26,7 @@ sampling: { path_bits: BITS, depths: [{ bits: [1, 1] }] }
 comparator: { bits: 4 }
 ";
 
-/// The oracle of an id of so many bits, made once.
+/// Returns the oracle of an id of `id` bits, which is made once.
 fn dark(id: u32) -> &'static Oracle {
     static MADE: [OnceLock<Oracle>; 41] = [const { OnceLock::new() }; 41];
     MADE[id as usize].get_or_init(|| {
@@ -37,8 +37,8 @@ fn dark(id: u32) -> &'static Oracle {
     })
 }
 
-/// An oracle that computes `program`, whose first register is the id of as many bits, and hands
-/// over these six registers.
+/// Returns an oracle that computes `program`, whose first register is the id of `id` bits, and
+/// whose outputs are the six registers `read`.
 fn oracle(program: &Program, id: u32, read: [RegisterId; 6]) -> Oracle {
     let whole = |register: RegisterId| {
         let width = program.width(register);
@@ -60,7 +60,7 @@ fn oracle(program: &Program, id: u32, read: [RegisterId; 6]) -> Oracle {
     }
 }
 
-/// Evaluates the code of a program for some ids, and looks at six of its registers.
+/// Evaluates the code of a program for some ids, and checks six of its registers.
 fn check(mut maker: Maker, id: u32) {
     let dice = &mut maker.dice;
     let registers = maker.program.registers.len() as u32;

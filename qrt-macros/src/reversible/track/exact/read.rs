@@ -1,11 +1,11 @@
-//! What statements read, as polynomials.
+//! The operands of statements, as polynomials.
 
 use super::{Exact, Known, Poly, Unknown};
 use crate::reversible::dim::{Dim, Linear};
 use crate::reversible::ir::{Bit, Number, NumberKind, Register};
 
 impl Exact {
-    /// The number of all of a register's bits, as they are.
+    /// Returns the number of the word of all of a register's current bits.
     pub(super) fn number_of(&mut self, register: &str) -> u32 {
         let bits = self.bits(register);
         self.touch(register, 0..bits.len());
@@ -25,7 +25,7 @@ impl Exact {
         Ok(bits.into_iter().skip(first).take(width).collect())
     }
 
-    /// The lowest bits of a number.
+    /// Returns the lowest `width` bits of a number.
     pub(super) fn word(&mut self, number: &Number, width: usize) -> Known<Vec<Poly>> {
         let own = self.width(&number.size.width)?;
         let mut bits = match &number.kind {
@@ -66,7 +66,7 @@ impl Exact {
         Ok(bits)
     }
 
-    /// The name of what an operation computes.
+    /// Returns the name of the result of an operation.
     pub(super) fn computed(&mut self, kind: &NumberKind) -> Known<String> {
         Ok(match kind {
             NumberKind::Product(a, b) => {
@@ -90,7 +90,7 @@ impl Exact {
         })
     }
 
-    /// A number by name: equal for equal numbers.
+    /// Returns the name of a number: equal for equal numbers.
     pub(super) fn number(&mut self, number: &Number) -> Known<String> {
         let width = self.width(&number.size.width)?;
         let bits = self.word(number, width)?;
@@ -127,7 +127,7 @@ impl Exact {
         })
     }
 
-    /// The number, in the loops around.
+    /// Returns the number in the current passes of the loops around.
     pub(super) fn known(&self, number: &Linear) -> Known<i64> {
         let loops = self.loops.iter().rev();
         let number = loops.fold(number.clone(), |number, (variable, pass)| {
